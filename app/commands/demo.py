@@ -16,9 +16,12 @@ if TYPE_CHECKING:
 
 
 class SkillName(StrEnum):
-    """Skills of the scripted trainee."""
+    """Skills of the scripted trainee, as `simulation.skills` has them."""
 
     NOVICE = "novice"
+    BEGINNER = "beginner"
+    COMPETENT = "competent"
+    PROFICIENT = "proficient"
     EXPERT = "expert"
 
 

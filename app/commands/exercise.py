@@ -1,5 +1,6 @@
 """`acus exercise`: what exercises there are; begin, check, carry one to another computer."""
 
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -9,12 +10,14 @@ from app.commands import completion
 from app.commands.answer import Answer, Commands
 
 if TYPE_CHECKING:
+    from app.compose.trial import SkillOutcome
     from app.core.progress import Progress
     from app.exchange.acusx import PackageManifest, UnpackedExercise
     from app.exercises.schema import Exercise
     from app.imaging.volume import Volume
+    from app.session.risks import Risk
 
-app = Commands(help="Exercises: list, new, validate, schema, pack, unpack.")
+app = Commands(help="Exercises: list, new, validate, schema, pack, unpack, trial.")
 
 Name = Annotated[
     str,
@@ -242,6 +245,53 @@ def unpack(
     }
     there = " was there already" if found.known else " taken in"
     return Answer(facts, [f"{found.exercise.id}, version {found.exercise.version}{there}"])
+
+
+@app.command()
+def trial(
+    exercise: Name,
+    seeds: Annotated[int, typer.Option(min=1, help="Attempts of each skill.")] = 20,
+) -> Answer:
+    """Try an exercise: what five scripted skills score. In virtual time; nothing is recorded."""
+    from app.commands.calibrate_parts import with_progress
+    from app.compose.desktop import load_risks
+    from app.compose.trial import ordered_share, run_trial
+    from app.exercises.library import load_exercise
+
+    chosen = load_exercise(exercise)
+
+    def work(progress: "Progress") -> "tuple[SkillOutcome, ...]":
+        risks: tuple[Risk, ...] = ()
+        if any(part.risks for part in chosen.structures):
+            risks = load_risks(chosen, _volume(chosen, progress.part(0.0, 0.2)))
+        return run_trial(chosen, seeds, risks=risks, progress=progress.part(0.2, 1.0))
+
+    outcomes = with_progress(work)
+    rows: list[dict[str, Any]] = []
+    lines = [f"{'skill':<12} {'median':>6}  {'quartiles':>11}  {'passed':>6}  {'time':>5}"]
+    for one in outcomes:
+        low, middle, high = one.quartiles or (None, None, None)
+        rows.append(
+            {
+                "skill": one.skill,
+                "median": middle,
+                "lower_quartile": low,
+                "upper_quartile": high,
+                "share_passed": one.share_passed,
+                "without_score": one.void,
+                "duration_s": one.duration,
+                "scores": [total if isfinite(total) else None for total in one.totals],
+            }
+        )
+        score = "     –            –" if middle is None else f"{middle:6.1f}  {low:5.1f}{high:6.1f}"
+        lines.append(
+            f"{one.skill:<12} {score}  {100.0 * one.share_passed:4.0f} %  {one.duration:3.0f} s"
+            + (f"  {one.void} without a score" if one.void else "")
+        )
+    ordered = ordered_share(outcomes)
+    lines.append(f"neighbouring skills ordered right: {100.0 * ordered:.0f} %")
+    facts = {"id": chosen.id, "version": chosen.version, "seeds": seeds}
+    return Answer(facts | {"skills": rows, "ordered_share": ordered}, lines)
 
 
 def _line(name: str, field: str) -> str:

@@ -6,7 +6,8 @@ import pytest
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, unit
 from app.simulation.errors import SimulationError
-from app.simulation.trainee import EXPERT, NOVICE, STEP, ScriptPhase, trainee_stage, write_script
+from app.simulation.skills import EXPERT, NOVICE
+from app.simulation.trainee import STEP, ScriptPhase, trainee_stage, write_script
 
 AXIS = unit(np.array([0.3, 0.1, -0.9]))
 DEPTH = 0.08
@@ -156,7 +157,7 @@ def test_the_duration_is_that_of_the_rows() -> None:
 
 
 def test_what_cannot_be_played_is_refused_by_name() -> None:
-    with pytest.raises(SimulationError, match="there are novice, expert"):
+    with pytest.raises(SimulationError, match="are novice, beginner, competent, proficient, exp"):
         trainee_stage(AXIS, DEPTH, "master")
     with pytest.raises(SimulationError, match="must be above 0"):
         trainee_stage(AXIS, -0.01)

@@ -1,0 +1,173 @@
+"""Trials in virtual time: the tracker's model against the rendered one, and ordered skills."""
+
+import json
+
+import numpy as np
+import pytest
+
+from app.compose.trial import SampledTracker, SkillOutcome, attempt, ordered_share, trial_plan
+from app.core import paths
+from app.core.clock import VirtualClock
+from app.exercises.library import load_exercise
+from app.exercises.scene import device_of, placed_plan_of
+from app.simulation.skills import SKILLS
+from app.tracking.fix import FixStatus
+from app.tracking.optics.rig import load_rig
+from app.tracking.simulated.cameras import simulated_cameras
+from app.tracking.simulated.scene import MarkerScene
+from app.tracking.tracker import Tracker
+
+FULCRUM = np.array([0.0, 0.16056, 0.090])
+
+
+class _Moving:
+    """Needles that are pushed in at many tilts, each for a few pictures; the truth of a time."""
+
+    def __init__(self, rig, rows, pictures, speed=0.018):
+        random = np.random.default_rng(4)
+        self.times, self.depths, self.axes = [], [], []
+        for row in range(rows):
+            tilt, azimuth = np.deg2rad(random.uniform(0.0, 40.0)), random.uniform(0.0, 2.0 * np.pi)
+            axis = [np.sin(tilt) * np.cos(azimuth), np.sin(tilt) * np.sin(azimuth), -np.cos(tilt)]
+            start = random.uniform(-0.015, 0.1)
+            for k in range(pictures):
+                self.times.append(1.0 + (row * pictures + k) / rig.rate_hz)
+                self.depths.append(start + speed * k / rig.rate_hz)
+                self.axes.append(axis)
+        self.offset, self.depths = rig.needle.marker_offset, np.array(self.depths)
+
+    def _at(self, time):
+        return int(np.argmin(np.abs(np.array(self.times) - time)))
+
+    def depth(self, time):
+        return self.depths[self._at(time)]
+
+    def axis(self, time):
+        return np.array(self.axes[self._at(time)])
+
+    def scene(self, time):
+        tip = FULCRUM + self.depths[self._at(time)] * self.axis(time)
+        return MarkerScene.from_tip(tip, self.axis(time), self.offset)
+
+
+def _rendered(rig, needle):
+    clock = VirtualClock(needle.times[0])
+    cameras = simulated_cameras(rig, needle.scene, clock, 3)
+    tracker = Tracker(cameras, rig, clock, needle.axis, FULCRUM)
+    for camera in cameras:
+        camera.open()
+    return [tracker.process(*(camera.read() for camera in cameras)) for _ in needle.times]
+
+
+def _errors(fixes, needle):
+    """Depth error [m] of the fixes that count, and the share that counts."""
+    usable = np.array([fix.status is FixStatus.VALID for fix in fixes])
+    errors = np.array([fix.depth - needle.depth(fix.time) for fix in fixes])
+    return errors[usable], float(usable.mean())
+
+
+def test_the_sampled_tracker_measures_like_the_rendered_one():
+    rig = load_rig("wide")
+    needle = _Moving(rig, 14, 12)
+    sampled = SampledTracker(rig, FULCRUM, needle.scene, needle.axis, seed=2)
+    seen, share = _errors(_rendered(rig, needle), needle)
+    drawn, drawn_share = _errors([sampled.fix(time) for time in needle.times], needle)
+    assert share == pytest.approx(drawn_share, abs=0.05)
+    assert abs(seen.mean()) < 5e-6
+    assert abs(drawn.mean()) < 5e-6
+    # Standard deviations of so many errors agree within a third, and no tail is forgotten.
+    assert drawn.std() == pytest.approx(seen.std(), rel=0.34)
+    assert np.percentile(np.abs(drawn), 90) == pytest.approx(
+        np.percentile(np.abs(seen), 90), rel=0.4
+    )
+
+
+def test_fixes_come_at_the_rate_of_the_cameras_and_late():
+    rig = load_rig("wide")
+    needle = _Moving(rig, 1, 40)
+    sampled = SampledTracker(rig, FULCRUM, needle.scene, needle.axis)
+    assert sampled.due(5.0) == []  # nothing before it began
+    sampled.begin(1.0)
+    came = [(now, fix) for now in np.arange(1.0, 2.0, 0.001) for fix in sampled.due(now)]
+    assert len(came) == 30
+    ages = np.array([now - fix.time for now, fix in came])
+    assert (ages >= 0.005 - 1e-9).all()
+    assert (ages <= 0.0061).all()
+
+
+@pytest.mark.parametrize("hidden", [True, False])
+def test_what_the_rendered_cameras_do_not_see_is_no_fix(hidden):
+    rig = load_rig("wide")
+    needle = _Moving(rig, 1, 1)
+    gone = MarkerScene(np.array([0.0, 0.16056, 0.09]), np.array([0.0, 0.0, -1.0]), not hidden)
+    far = MarkerScene(np.array([0.0, 0.16056, 0.6]), np.array([0.0, 0.0, -1.0]))
+    sampled = SampledTracker(rig, FULCRUM, lambda _: gone if hidden else far, needle.axis)
+    assert sampled.fix(1.0).status is FixStatus.OUT_OF_VIEW
+
+
+@pytest.fixture(scope="module")
+def results():
+    exercise = load_exercise("first-insertion")
+    placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
+    return {skill: attempt(exercise, placed, skill, 1) for skill in SKILLS}
+
+
+def test_five_skills_are_scored_in_their_order(results):
+    assert list(results) == ["novice", "beginner", "competent", "proficient", "expert"]
+    totals = [result.score.total for result in results.values()]
+    angles = [abs(result.score.row("angle_error").value) for result in results.values()]
+    assert totals == sorted(totals)
+    assert angles == sorted(angles, reverse=True)
+    assert results["expert"].score.passed
+
+
+def test_the_depth_is_measured_as_in_a_real_attempt(results):
+    for result in results.values():
+        assert result.score.row("tracking_valid").value > 95.0
+
+
+def test_a_trial_leaves_nothing_behind_and_is_the_same_twice(results):
+    exercise = load_exercise("first-insertion")
+    placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
+    again = attempt(exercise, placed, "expert", 1)
+    assert again.score.total == results["expert"].score.total
+    np.testing.assert_array_equal(again.trajectory.tip, results["expert"].trajectory.tip)
+    assert again.record is None
+    assert not list(paths.sessions().glob("*"))
+
+
+def test_skills_stand_on_the_published_angles():
+    means = [np.rad2deg(np.mean(skill.final_error)) for skill in SKILLS.values()]
+    assert means[0] == pytest.approx(3.4)
+    assert means[3] == pytest.approx(1.3)
+    assert np.rad2deg(SKILLS["expert"].final_error[1]) == pytest.approx(1.3 - 0.9)
+    assert means == sorted(means, reverse=True)
+
+
+def test_the_share_of_ordered_pairs_counts_a_tie_as_half_and_no_score_as_least():
+    nothing = float("nan")
+    low = SkillOutcome("novice", (50.0, nothing), (False, False), 10.0)
+    high = SkillOutcome("expert", (50.0, 90.0), (False, True), 10.0)
+    assert ordered_share([low, high]) == pytest.approx((0.5 + 1 + 1 + 1) / 4)
+    assert (low.quartiles, low.void, high.share_passed) == ((50.0, 50.0, 50.0), 1, 0.5)
+    assert SkillOutcome("novice", (nothing,), (False,), 1.0).quartiles is None
+
+
+def test_the_command_prints_a_row_for_each_skill_and_the_same_as_json(monkeypatch):
+    from typer.testing import CliRunner
+
+    import app.compose.trial as trials
+    from app.commands import exercise as command
+
+    def quick(exercise, seeds, risks=(), progress=None):
+        one = SkillOutcome("novice", (40.0, 50.0, 60.0), (False, False, True), 24.0)
+        return one, SkillOutcome("expert", (90.0, 95.0, 99.0), (True, True, True), 12.0)
+
+    monkeypatch.setattr(trials, "run_trial", quick)
+    shown = CliRunner().invoke(command.app, ["trial", "first-insertion"])
+    assert shown.exit_code == 0, shown.output
+    assert "novice         50.0   45.0  55.0    33 %   24 s" in shown.output
+    told = CliRunner().invoke(command.app, ["trial", "first-insertion", "--seeds", "3", "--json"])
+    found = json.loads(told.stdout)["facts"]
+    assert [row["median"] for row in found["skills"]] == [50.0, 95.0]
+    assert found["ordered_share"] == 1.0
