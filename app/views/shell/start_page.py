@@ -10,6 +10,7 @@ from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
     QLabel,
+    QLineEdit,
     QListWidget,
     QListWidgetItem,
     QPushButton,
@@ -44,13 +45,23 @@ class StartPage(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.exercises, self.recents = QListWidget(self), QListWidget(self)
+        self.search, self.hint = QLineEdit(self), QLabel(self)
+        self.search.setPlaceholderText(tr("Search exercises"))
+        self.search.setAccessibleName(tr("Search exercises"))
+        self.search.setClearButtonEnabled(True)
+        self.hint.setWordWrap(True)
+        self.hint.setTextFormat(Qt.TextFormat.PlainText)
+        self.hint.setProperty("role", "dim")
         self.begin = QPushButton(tr("Begin exercise"), self)
         self.begin.setProperty("role", "primary")
         self.open = QPushButton(tr("Open CT folder…"), self)
         self.sessions = QPushButton(tr("Past sessions"), self)
         self.exercises.setWordWrap(True)
         self._lay_out()
+        self.setTabOrder(self.exercises, self.search)  # arrows and Enter choose from the start
         self.begin.clicked.connect(self._begin)
+        self.search.textChanged.connect(self._find)
+        self.search.returnPressed.connect(self._begin)
         self.exercises.itemActivated.connect(self._begin)
         self.open.clicked.connect(self.open_wanted)
         self.sessions.clicked.connect(self.sessions_wanted)
@@ -67,7 +78,7 @@ class StartPage(QWidget):
             item.setData(Qt.ItemDataRole.UserRole, exercise.id)
             self.exercises.addItem(item)
         self.exercises.setCurrentRow(0)
-        self.begin.setEnabled(bool(exercises))
+        self._find()
 
     def set_recents(self, paths: Sequence[Path]) -> None:
         """List CTs that were opened before."""
@@ -82,9 +93,29 @@ class StartPage(QWidget):
             hint.setFlags(Qt.ItemFlag.NoItemFlags)
             self.recents.addItem(hint)
 
+    def _find(self) -> None:
+        """Show the exercises whose title or description holds every word that is searched."""
+        words = self.search.text().casefold().split()
+        found: list[QListWidgetItem] = []
+        for row in range(self.exercises.count()):
+            item = self.exercises.item(row)
+            text = f"{item.text()} {item.toolTip()}".casefold()
+            item.setHidden(not all(word in text for word in words))
+            if not item.isHidden():
+                found.append(item)
+        if found and self.exercises.currentItem() not in found:
+            self.exercises.setCurrentItem(found[0])
+        self.begin.setEnabled(bool(found))
+        self.hint.setVisible(not found)
+        self.hint.setText(
+            tr("No exercise holds these words: clear the search to see all.")
+            if self.exercises.count()
+            else tr("No exercises found.")
+        )
+
     def _begin(self) -> None:
         item = self.exercises.currentItem()
-        if item is not None:
+        if item is not None and not item.isHidden():
             self.exercise_chosen.emit(item.data(Qt.ItemDataRole.UserRole))
 
     def _lay_out(self) -> None:
@@ -93,7 +124,9 @@ class StartPage(QWidget):
         what.setProperty("role", "dim")
         cards = QHBoxLayout()
         cards.setSpacing(2 * theme.MARGIN)
-        cards.addWidget(_card(tr("Exercises"), [self.exercises, self.begin]))
+        cards.addWidget(
+            _card(tr("Exercises"), [self.search, self.exercises, self.hint, self.begin])
+        )
         cards.addWidget(_card(tr("Your own CT"), [self.recents, self.open, self.sessions]))
         page = QVBoxLayout(self)
         page.setSpacing(theme.SPACING)
