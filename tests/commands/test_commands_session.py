@@ -77,6 +77,7 @@ def test_list_as_json_has_the_documented_keys(
             "calibration",
             "conditions",
             "note",
+            "signature",
         }
 
 
