@@ -208,12 +208,14 @@ def parse(document: Any, model: type[M], origin: str, text: str = "") -> M:
         problems = _problems(error, model)
         missing = [one.name for one in problems if one.missing]
         said = [f"required and missing: {', '.join(missing)}"] if missing else []
-        for one in problems:
-            if not one.missing:
-                line = line_of(text, one.field)
-                said.append(f"{one.name}: {one.text}" + (f" (line {line})" if line else ""))
-        if len(said) > MOST_PROBLEMS:
-            said[MOST_PROBLEMS:] = [f"and {len(said) - MOST_PROBLEMS} more like these"]
+        wrong = [one for one in problems if not one.missing]
+        room = MOST_PROBLEMS - len(said)
+        node = yaml.compose(text, Loader=_UniqueKeyLoader) if text else None
+        for one in wrong[:room]:
+            line = _line(node, one.field)
+            said.append(f"{one.name}: {one.text}" + (f" (line {line})" if line else ""))
+        if len(wrong) > room:
+            said.append(f"and {len(wrong) - room} more like these")
         raise ConfigurationError(f"{origin}: {'; '.join(said)}") from error
 
 
@@ -232,9 +234,11 @@ def line_of(text: str, field: Sequence[str | int]) -> int | None:
         text: the document.
         field: names of fields and places in lists; names that no mapping has are passed over.
     """
-    if not text or not field:
-        return None
-    node, line = yaml.compose(text, Loader=_UniqueKeyLoader), None
+    return _line(yaml.compose(text, Loader=_UniqueKeyLoader), field) if text else None
+
+
+def _line(node: yaml.Node | None, field: Sequence[str | int]) -> int | None:
+    line = None
     for part in field:
         if isinstance(node, yaml.MappingNode):
             for key, value in node.value:
