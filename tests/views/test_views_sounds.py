@@ -1,5 +1,9 @@
 """Sounds of an attempt: heard, seen, muted, remembered."""
 
+import os
+import signal
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -166,3 +170,28 @@ def test_the_mixer_plays_where_there_is_a_sound_card(monkeypatch):
     mixer.play(Cue(CueKind.BREACH), 0.0)
     mixer.close()
     mixer.close()
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_with_sounds_the_program_can_still_be_ended_by_a_signal(number):
+    pytest.importorskip("pygame")
+    code = (
+        "import os, sys, time\n"
+        "from app.views.sounds.feature import MixerSpeaker\n"
+        "speaker = MixerSpeaker()\n"
+        "os.kill(os.getpid(), int(sys.argv[1]))\n"
+        "time.sleep(5.0)\n"
+        "print('still here')\n"
+    )
+    environment = os.environ | {"SDL_AUDIODRIVER": "dummy"}
+    environment.pop("SDL_NO_SIGNAL_HANDLERS", None)
+    done = subprocess.run(
+        [sys.executable, "-c", code, str(int(number))],
+        capture_output=True,
+        text=True,
+        env=environment,
+        timeout=60,
+        check=False,
+    )
+    assert done.returncode != 0
+    assert "still here" not in done.stdout

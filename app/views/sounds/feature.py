@@ -229,6 +229,7 @@ class MixerSpeaker:
 
     def __init__(self) -> None:
         os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+        os.environ.setdefault("SDL_NO_SIGNAL_HANDLERS", "1")  # Ctrl+C and SIGTERM stay ours
         try:
             self._mixer: Any = importlib.import_module("pygame").mixer
         except ImportError as error:
