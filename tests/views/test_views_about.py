@@ -1,3 +1,4 @@
+import re
 import time
 from importlib.metadata import requires, version
 
@@ -48,7 +49,7 @@ def test_about_lists_every_library_with_version_and_licence(parent):
 def test_the_parts_are_all_that_the_program_requires_and_what_these_require():
     named = {part.name.lower().replace("_", "-") for part in parts()}
     needed = {
-        line.split(">")[0].split("=")[0].strip().lower().replace("_", "-")
+        re.split(r"[^\w.-]", line, maxsplit=1)[0].lower().replace("_", "-")
         for line in requires("acus")
         if "extra ==" not in line
     }
