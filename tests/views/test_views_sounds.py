@@ -176,10 +176,12 @@ def test_the_mixer_plays_where_there_is_a_sound_card(monkeypatch):
 def test_with_sounds_the_program_can_still_be_ended_by_a_signal(number):
     pytest.importorskip("pygame")
     code = (
-        "import os, sys, time\n"
+        "import os, signal, sys, time\n"
         "from app.views.sounds.feature import MixerSpeaker\n"
+        "number = int(sys.argv[1])\n"
+        "signal.signal(number, signal.SIG_DFL)\n"  # begun in the background it would be ignored
         "speaker = MixerSpeaker()\n"
-        "os.kill(os.getpid(), int(sys.argv[1]))\n"
+        "os.kill(os.getpid(), number)\n"
         "time.sleep(5.0)\n"
         "print('still here')\n"
     )
