@@ -33,12 +33,15 @@ WORKERS ?= $(shell expr $$(nproc) + 1)
 # A test of real time can miss its moment when the machine is busy with others: what fails is run
 # once more, and named at the end; what fails twice has failed.
 AGAIN := --reruns 1 --reruns-delay 2 -rR
+# A process of the tests that dies ends the run; with another in its place pytest-xdist would wait
+# for ever for the tests of the dead one's file.
+DEATHS := --max-worker-restart 0
 # Every process of the tests, and every program that one starts, reads what is compiled already.
 test: export PYTHONDONTWRITEBYTECODE =
 test: setup  ## the tests (no display and no network needed), a file at a time in each process
 	$(BIN)/python -m tools.compile_kernels
 	./tools/with-display $(BIN)/python -m pytest -q --numprocesses $(WORKERS) --dist loadfile \
-		--no-loadscope-reorder --durations 10 --durations-min 0.5 $(AGAIN) $(TEST)
+		--no-loadscope-reorder --durations 10 --durations-min 0.5 $(AGAIN) $(DEATHS) $(TEST)
 
 by-hand: setup  ## one insertion in the real window with mouse and keyboard, on an X server of its own
 	env -u DISPLAY ACUS_BY_HAND=1 ./tools/with-display $(BIN)/python -m pytest -q tests/display
