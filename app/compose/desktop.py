@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -201,10 +202,13 @@ class Desktop:
         risks = load_risks(setup.exercise, setup.volume, progress.part(0.0, 0.1))
         progress.report(0.1, "compiling the loop")
         seed = setup.exercise.seed if self._seed is None else self._seed
+        ct = setup.ct
+        if setup.volume is not None:  # by it the debrief knows the CT again
+            ct = replace(ct, digest=setup.volume.digest)
         trainer = TrainerSetup(
             setup.exercise,
             setup.placed,
-            setup.ct,
+            ct,
             self._skill,
             seed,
             self._sessions,

@@ -52,6 +52,19 @@ class Score:
         """Required metrics beyond their pass limit."""
         return tuple(row for row in self.rows if row.failed)
 
+    @property
+    def losses(self) -> tuple[tuple[float, Row], ...]:
+        """Points of 100 that each row lost, one at least, the most first; none if void."""
+        weight = sum(row.weight for row in self.rows)
+        if self.total is None or weight <= 0.0:
+            return ()
+        found = [
+            (100.0 * row.weight / weight * (1.0 - row.utility), row)
+            for row in self.rows
+            if row.utility is not None and row.weight > 0.0
+        ]
+        return tuple(sorted((one for one in found if one[0] >= 1.0), key=lambda one: -one[0]))
+
     def row(self, name: str) -> Row:
         """Return one row by the name of its metric.
 

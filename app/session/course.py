@@ -194,6 +194,28 @@ def why_not(course: Course, exercise: str, own: Sequence[Indexed], today: dateti
     return ""
 
 
+def holding(
+    known: Sequence[Course], person: Person | None, exercise: str, version: int, released: bool
+) -> Course | None:
+    """Return the course that holds a result back until its instructor releases it; None if none.
+
+    Args:
+        known: all courses.
+        person: whose result; None for somebody whom nobody knows, who takes no course.
+        exercise: id of what was attempted.
+        version: of it.
+        released: whether the instructor has released this attempt's result.
+    """
+    if person is None or released:
+        return None
+    for course in known:
+        for item in course.items:
+            same = (item.exercise, item.version) == (exercise, version)
+            if same and item.purpose is Purpose.ASSESSMENT and course.takes(person):
+                return course
+    return None
+
+
 def _of_item(attempts: Sequence[Indexed], item: CourseItem) -> list[Indexed]:
     """Return the attempts that use one up: begun in earnest, by a person, of this version."""
     return [

@@ -25,6 +25,7 @@ from app.session.control_scan import ControlScan
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.session.curves import Curves, at_rest, curves
 from app.session.errors import SessionError
+from app.session.motion import NeedleMotion, motion, needle_length
 from app.session.needle import FROM_CAMERAS
 from app.session.pad.geometry import PadScale, PathFrame, path_frame
 from app.session.pad.view import rings
@@ -175,6 +176,7 @@ class Review:
         conditions: what the score was made under; None where nothing is known.
         tip_radius: round the tip that holds the true one with 95 %, median [m]; None if not known.
         correction: the largest turn of the needle in the tissue; None if there was none.
+        motion: where the needle was in the patient; None where nothing can be replayed.
     """
 
     id: str
@@ -203,6 +205,7 @@ class Review:
     risks: tuple[RiskMark, ...] = ()
     conditions: Conditions | None = None
     correction: Correction | None = None
+    motion: NeedleMotion | None = None
 
     @property
     def rings(self) -> tuple[float, float]:
@@ -276,6 +279,7 @@ def review(recording: Recording) -> Review:
         ct=recording.ct,
         risks=risk_marks(recording.events),
         correction=correction(samples, measured, side_force(recording)),
+        motion=motion(samples, placed, needle_length(recording)) if len(samples.time) else None,
     )
 
 

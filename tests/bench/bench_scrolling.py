@@ -21,8 +21,7 @@ from app.imaging.series import Series
 from app.imaging.volume import Volume
 from app.imaging.window import WindowLevel
 from app.views.kit.theme import apply_theme
-from app.views.reading.layouts import SCENE
-from app.views.reading.workspace import ViewGrid
+from app.views.reading.layouts import SCENE, ViewGrid
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import MPR_PANES
 from app.views.slices.presets import default_window

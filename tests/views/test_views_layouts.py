@@ -9,11 +9,11 @@ from app.views.reading.layouts import (
     FOUR,
     LAYOUTS,
     SCENE,
+    ViewGrid,
     chosen,
     layout_title,
     possible,
 )
-from app.views.reading.workspace import ViewGrid
 
 ALL = sorted({pane for both in LAYOUTS.values() for layout in both for pane in layout.panes})
 EVERY = [layout for both in LAYOUTS.values() for layout in both]

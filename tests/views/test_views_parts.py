@@ -15,8 +15,7 @@ from app.views.kit import theme
 from app.views.kit.background import run_in_background
 from app.views.kit.progress_strip import ElidedLabel, ProgressStrip
 from app.views.kit.text import install_translation, tr
-from app.views.reading.layouts import BULLSEYE, CORONAL, FIVE, FOUR
-from app.views.reading.workspace import ViewGrid
+from app.views.reading.layouts import BULLSEYE, CORONAL, FIVE, FOUR, ViewGrid
 from app.views.series.browser import SeriesBrowser
 from app.views.shell.message_bar import MessageBar
 

@@ -21,7 +21,7 @@ from app.session.samples import Samples
 from app.views.debrief.curves import CurvesView, curves_of, peaks, value_range
 from app.views.debrief.page import DebriefPage, date_text
 from app.views.debrief.report import polylines, report_bytes, ticks, write_report
-from app.views.debrief.score_words import _lost, lessons, number, row_texts, verdict
+from app.views.debrief.score_words import lessons, number, row_texts, verdict
 from app.views.kit import theme
 
 
@@ -135,7 +135,7 @@ def test_the_buttons_hand_over_the_attempt_shown(page):
     page.report.click()
     page.export.click()
     assert got == [shown, shown]
-    assert {b.text() for b in page.findChildren(QPushButton)} >= {"Try again", "Sessions"}
+    assert {b.text() for b in page.findChildren(QPushButton)} >= {"Again", "Sessions"}
 
 
 def test_the_pointer_reads_every_curve_and_the_state(qt):
@@ -474,7 +474,7 @@ def test_what_cost_points_is_said_with_the_attempts_own_numbers(page):
 
 def test_points_of_100_that_are_told_are_those_that_are_missing():
     shown = review()
-    lost = sum(points for points, _ in _lost(shown.score))
+    lost = sum(points for points, _ in shown.score.losses)
     assert lost == pytest.approx(100.0 - shown.score.total, abs=len(shown.score.rows))
 
 

@@ -9,13 +9,14 @@ from typing import Final
 import numpy as np
 import pyqtgraph as pg
 from pyqtgraph.GraphicsScene.mouseEvents import MouseClickEvent
-from PySide6.QtCore import QPointF, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QObject, QPointF, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QPen
 from PySide6.QtWidgets import QGraphicsRectItem, QLabel, QVBoxLayout, QWidget
 
 from app.core.arrays import FloatArray
 from app.session.review import Review
 from app.session.timeline import Span, TimeMark
+from app.views.debrief.path_view import FORCE_COLOUR
 from app.views.exercise.felt import origin_word
 from app.views.exercise.steps import state_word
 from app.views.kit import theme
@@ -91,7 +92,7 @@ def _force_curve(review: Review) -> Curve:
     return Curve(
         tr("Force felt, {origin} [N]", origin=origin),
         review.curves.felt if force is None else np.abs(force),
-        "#f0e442",
+        FORCE_COLOUR,
         review.force_limit,
         tr("limit {n:g} N", n=review.force_limit),
         "N",
@@ -254,6 +255,18 @@ def cursor_of(plot: pg.PlotItem) -> pg.InfiniteLine:
     return cursor
 
 
+def now_of(plot: pg.PlotItem) -> pg.InfiniteLine:
+    """Return the line at the moment that is replayed, hidden."""
+    line = pg.InfiniteLine(0.0, angle=90, pen=pg.mkPen(theme.IMAGE_TEXT, width=2.0))
+    line.setZValue(10)
+    line.hide()
+    plot.addItem(line, ignoreBounds=True)
+    return line
+
+
+Line = tuple[FloatArray, FloatArray]
+"""Times [s] and values of a curve, shapes (n,)."""
+
 SHORT_S: Final = 2.0
 """Times of an attempt up to this are read out in milliseconds."""
 
@@ -261,14 +274,19 @@ SHORT_S: Final = 2.0
 class CurvesView(QWidget):
     """Four plots under each other with one time axis; the pointer reads all of them at once.
 
+    A click goes to that moment; a line through all plots stands where the replay does. A ghost's
+    curves are dotted.
+
     The plots are drawn one after the other, each in its own turn of the event loop: the page is
     there at once and a robot that is on does not miss the window's sign of life.
 
     Signals:
         drawn(): all plots show the attempt.
+        sought(float): a click on a curve: go to that time [s].
     """
 
     drawn = Signal()
+    sought = Signal(float)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -276,6 +294,10 @@ class CurvesView(QWidget):
         self._curves: tuple[Curve, ...] = ()
         self._plots: list[pg.PlotItem] = []
         self._cursors: list[pg.InfiniteLine] = []
+        self._nows: list[pg.InfiniteLine] = []
+        self._ghost: tuple[Line | None, ...] = ()
+        self._dotted: list[tuple[pg.PlotItem, pg.PlotDataItem]] = []
+        self._time: float | None = None
         self._turn = QTimer(self, interval=0)
         self._turn.timeout.connect(self._draw_next)
         self.readout = QLabel(self)
@@ -285,6 +307,7 @@ class CurvesView(QWidget):
         self.graphics.ci.layout.setSpacing(2)
         self.graphics.scene().sigMouseMoved.connect(self._hover)
         self.graphics.scene().sigMouseClicked.connect(self._clicked)
+        self.graphics.installEventFilter(self)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.addWidget(self.readout)
@@ -293,14 +316,15 @@ class CurvesView(QWidget):
     def show_review(self, review: Review) -> None:
         """Draw an attempt, from the next turn of the event loop on."""
         self._review, self._curves = review, curves_of(review)
-        self._cursors = []
+        self._cursors, self._nows, self._ghost, self._dotted = [], [], (), []
+        self._time = None
         if len(self._plots) != len(self._curves):  # the last one alone has a time axis
             self.graphics.clear()
             self._plots = []
         for plot in self._plots:
             plot.clear()
         self.readout.setText(
-            tr("Point at the curves to read them; the wheel zooms, a double click shows all.")
+            tr("Point to read, click to go there; the wheel zooms, a double click shows all.")
         )
         self._turn.start()
 
@@ -309,6 +333,7 @@ class CurvesView(QWidget):
         row, review = len(self._cursors), self._review
         if review is None or row >= len(self._curves):
             self._turn.stop()
+            self._draw_ghost()
             self.drawn.emit()
             return
         curve = self._curves[row]
@@ -318,6 +343,8 @@ class CurvesView(QWidget):
         shade(plot, review, curve, names=row == 0)
         draw(plot, review, curve, names=row == 0)
         self._cursors.append(cursor_of(plot))
+        self._nows.append(now_of(plot))
+        self._stand(self._nows[-1])
 
     def _new_plot(self, row: int, curve: Curve) -> pg.PlotItem:
         box = pg.ViewBox(enableMenu=False)  # the menus that nobody opens take most of the time
@@ -340,9 +367,51 @@ class CurvesView(QWidget):
         if self._review is not None and self._plots and len(self._review.curves.time):
             self._plots[0].setXRange(0.0, time_end(self._review.curves.time), padding=0.01)
 
+    def show_time(self, time: float) -> None:
+        """Stand at a moment [s], and read it while nobody points elsewhere."""
+        self._time = time
+        for line in self._nows:
+            self._stand(line)
+        if not any(cursor.isVisible() for cursor in self._cursors):
+            self.readout.setText(self.read_out(time))
+
+    def show_ghost(self, lines: tuple[Line | None, ...]) -> None:
+        """Draw dotted curves of another attempt into the plots, in their order; none if empty."""
+        self._ghost = lines
+        if not self._turn.isActive():
+            self._draw_ghost()
+
+    def _stand(self, line: pg.InfiniteLine) -> None:
+        if self._time is not None:
+            line.setPos(self._time)
+            line.show()
+
+    def _draw_ghost(self) -> None:
+        for plot, item in self._dotted:
+            plot.removeItem(item)
+        self._dotted = []
+        pen = pg.mkPen(theme.GHOST.colour, width=2, style=Qt.PenStyle.DotLine)
+        for plot, line in zip(self._plots, self._ghost, strict=False):
+            if line is not None:
+                item = pg.PlotDataItem(*peaks(*line), pen=pen, connect="finite")
+                plot.addItem(item, ignoreBounds=True)
+                self._dotted.append((plot, item))
+
     def _clicked(self, event: MouseClickEvent) -> None:
         if event.double():
             self.show_all()
+        elif event.button() is Qt.MouseButton.LeftButton and self._nows and self._review:
+            time = float(self._nows[0].getViewBox().mapSceneToView(event.scenePos()).x())
+            self.sought.emit(min(max(time, 0.0), time_end(self._review.curves.time)))
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Read the moment of the replay again when the pointer leaves."""
+        if event.type() == QEvent.Type.Leave:
+            for cursor in self._cursors:
+                cursor.hide()
+            if self._time is not None:
+                self.readout.setText(self.read_out(self._time))
+        return super().eventFilter(watched, event)
 
     def read_out(self, time: float) -> str:
         """Say all figures at a time [s]."""

@@ -4,37 +4,49 @@ scans.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar, Final
 
-from PySide6.QtCore import QObject, QStandardPaths, Signal, SignalInstance
+from PySide6.QtCore import QObject, QStandardPaths, QTimer, Signal, SignalInstance
 from PySide6.QtWidgets import QDialog, QFileDialog, QVBoxLayout, QWidget
 
 from app.core.files import write_atomically
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.exchange.csv_export import score_table, trajectory_table, write_csv
+from app.exercises.schema import Exercise
 from app.imaging.volume import Volume
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
 from app.session.control_scan import ControlScan
+from app.session.course import Course, courses, holding
 from app.session.errors import SessionError
+from app.session.motion import rivals
+from app.session.next_exercise import Proposal, propose
+from app.session.people import Person, Remarks
 from app.session.recording import open_recording
 from app.session.result import AttemptResult
 from app.session.review import Review, review, review_of_result
 from app.session.sidecar import fresh_summary
 from app.session.store import find
 from app.session.summary import Summary
-from app.views.debrief.page import DebriefPage
+from app.views.debrief.page import DebriefPage, date_text
+from app.views.debrief.replay import Ghost
 from app.views.debrief.report import report_bytes
 from app.views.debrief.sessions import SessionsPage
 from app.views.exercise.conductor import Conductor
 from app.views.exercise.scan_view import ScanView, caption
-from app.views.kit.background import Indicator, run_in_background
+from app.views.kit.access import ACCESS
+from app.views.kit.background import BackgroundTask, Indicator, run_in_background
 from app.views.kit.menu_entries import add_entries
+from app.views.kit.names import NAMES
 from app.views.kit.text import tr
 from app.views.shell.feature import Context, Feature
+
+if TYPE_CHECKING:
+    from app.session.index import Indexed
 
 AskPath = Callable[[QWidget, str, str, str], str]
 """Asks where to save: parent, title, suggested path, filter; an empty answer means no."""
@@ -60,14 +72,21 @@ class DebriefController(QObject):
         folder: Path,
         ask_path: AskPath | None = None,
         parent: QObject | None = None,
+        exercises: Callable[[], Sequence[Exercise]] = tuple,
+        indicator: Indicator | None = None,
     ) -> None:
         super().__init__(parent)
         self._page = page
         self._sessions = sessions
         self._folder = folder
         self._ask_path = ask_path or ask_path_in_dialog
+        self._exercises, self._indicator = exercises, indicator
+        self._reading: BackgroundTask | None = None
+        self._asked = self._asked_ghost = 0
+        self.exercise = ""
         page.report_requested.connect(self.save_report)
         page.export_requested.connect(self.export_one)
+        page.ghost_wanted.connect(self.show_ghost)
         sessions.open_requested.connect(lambda summary: self.open_session(summary.id))
         sessions.export_requested.connect(self.export_list)
         sessions.failed.connect(self.failed)
@@ -79,6 +98,30 @@ class DebriefController(QObject):
     def open_session(self, session_id: str) -> None:
         """Show a recorded session."""
         self._read(lambda: review(open_recording(find(self._folder, session_id))))
+
+    def show_ghost(self, key: object) -> None:
+        """Let the ideal path, another attempt or nothing stand beside the one that is shown."""
+        self._asked_ghost += 1
+        asked, own = self._asked_ghost, self._page.review
+        if key is None or own is None:
+            self._page.show_ghost(None)
+            return
+        if key == IDEAL:
+            self._page.show_ghost(Ghost(tr("ideal")))
+            return
+
+        def take(other: Review) -> None:
+            if asked == self._asked_ghost and self._page.review is own:
+                self._page.show_ghost(Ghost(points_text(other), other))
+
+        run_in_background(
+            self,
+            lambda _: review(open_recording(find(self._folder, str(key)))),
+            take,
+            self._fail,
+            title=tr("Reading the other attempt"),
+            indicator=self._indicator,
+        )
 
     def save_report(self, shown: Review) -> None:
         """Ask where, and write the report."""
@@ -101,11 +144,58 @@ class DebriefController(QObject):
 
     # --- inside -----------------------------------------------------------------------------------
     def _read(self, operation: Callable[[], Review]) -> None:
-        run_in_background(self, lambda _: operation(), self._show, self._fail)
+        """Read an attempt beside the window, and show it; a newer wish replaces one under way."""
+        if self._reading is not None and self._reading.is_running():
+            self._reading.drop()
+        manages = ACCESS.may_manage
 
-    def _show(self, shown: Review) -> None:
-        self._page.show_review(shown)
+        def read(progress: Progress) -> tuple[Review, str]:
+            progress.report(0.1, "")
+            found = operation()
+            progress.report(0.9, "")
+            return found, "" if manages else held_by(found)
+
+        self._reading = task = BackgroundTask(
+            self, read, lambda both: self._show(*both), self._fail
+        )
+        if self._indicator is not None:
+            self._indicator.show_task(task, tr("Reading the attempt"))
+        task.open()
+
+    def _show(self, shown: Review, held: str) -> None:
+        self._reading = None
+        self.exercise = shown.conditions.exercise if shown.conditions is not None else ""
+        if held:
+            self._page.show_held(
+                shown,
+                tr(
+                    "This attempt is an assessment of the course {course}. The instructor releases "
+                    "its result; until then neither score nor replay is shown here.",
+                    course=held,
+                ),
+            )
+        else:
+            self._page.show_review(shown)
         self.shown.emit()
+        self._look_around(shown, bool(held))
+
+    def _look_around(self, shown: Review, held: bool) -> None:
+        """Find beside the window what comes next, and what may stand beside the attempt."""
+        self._asked += 1
+        asked, exercises, may_see = self._asked, tuple(self._exercises()), ACCESS.may_see
+        manages, refusal = ACCESS.may_manage, ACCESS.refusal
+
+        def look(_: Progress) -> Around:
+            return around(self._folder, shown, held, exercises, manages, may_see, refusal)
+
+        def take(found: Around) -> None:
+            if asked != self._asked:
+                return  # another attempt by now
+            self._page.show_proposal(found.proposal)
+            if not held:
+                self._page.offer_ghosts(ghost_words(found.rivals, shown))
+
+        run_in_background(self, look, take, self._fail)
 
     def _ask(self, title: str, name: str, kind: str, suffix: str) -> Path | None:
         documents = QStandardPaths.StandardLocation.DocumentsLocation
@@ -148,6 +238,267 @@ class DebriefController(QObject):
 def ask_path_in_dialog(parent: QWidget, title: str, start: str, kind: str) -> str:
     """Ask with Qt's file dialog; it asks before it overwrites."""
     return QFileDialog.getSaveFileName(parent, title, start, kind)[0]
+
+
+IDEAL: Final = "ideal"
+"""Key of the ideal path among what may stand beside an attempt."""
+
+MOST_RIVALS: Final = 20
+
+
+@dataclass(frozen=True, slots=True)
+class Around:
+    """What the other attempts say of one.
+
+    Attributes:
+        proposal: what comes next.
+        rivals: what may stand beside it, each with whether it is of the same person.
+    """
+
+    proposal: Proposal
+    rivals: tuple[tuple[Indexed, bool], ...]
+
+
+def around(
+    folder: Path,
+    shown: Review,
+    held: bool,
+    exercises: Sequence[Exercise],
+    manages: bool,
+    may_see: Callable[[str], bool],
+    refusal: Callable[[str], str],
+) -> Around:
+    """Look at the other attempts in a folder: what comes next, and what may stand beside one.
+
+    Args:
+        folder: of the records.
+        shown: the attempt.
+        held: whether its result is not released.
+        exercises: that there are, easiest first.
+        manages: whether who is here may see every result.
+        may_see: whether attempts of whom a record names are open to who is here.
+        refusal: says why who is here may not begin an exercise; empty where he may.
+
+    Raises:
+        SessionError: if something cannot be read.
+    """
+    from app.session.index import Index  # SQLAlchemy: behind the window
+
+    index = Index(folder)
+    index.refresh()
+    attempts, (person, whose, courses_here, remarks) = index.attempts(), who_did(shown.student)
+
+    def same(student: str) -> bool:
+        if person is None:
+            return student == shown.student
+        return whose.get(student, "") == person.key
+
+    def is_open(one: Indexed) -> bool:
+        if manages:
+            return True
+        if not may_see(one.student):
+            return False
+        said = remarks.get(one.id)
+        released = said is not None and said.released
+        owner = person if same(one.student) else None
+        return holding(courses_here, owner, one.exercise, one.version, released) is None
+
+    under, own = shown.conditions, [one for one in attempts if same(one.student)]
+    done = under.exercise if under is not None else ""
+    course = next(
+        (
+            one
+            for one in courses_here
+            if person is not None
+            and one.takes(person)
+            and any(item.exercise == done for item in one.items)
+        ),
+        None,
+    )
+    seen = [one for one in own if is_open(one)]
+    score = None if held else shown.score
+    proposal = propose(done, score, seen, exercises, course, refusal, held)
+    found = () if held or under is None else rivals(attempts, shown.id, under, same, is_open)
+    return Around(proposal, tuple((one, same(one.student)) for one in found[:MOST_RIVALS]))
+
+
+Whose = tuple[Person | None, Mapping[str, str], Sequence[Course], Mapping[str, Remarks]]
+"""Who did an attempt, whose the others are, courses, and what the instructor said of attempts."""
+
+
+def who_did(recorded: str) -> Whose:
+    """Find who is meant by what a record names, and what holds for him; nobody where none is known.
+
+    Raises:
+        SessionError: if people or courses cannot be read.
+    """
+    from app.session.people import PEOPLE, People, people_folder
+
+    if not (people_folder() / PEOPLE).exists():
+        return None, {}, (), {}
+    people = People()
+    whose = people.keys()
+    key = whose.get(recorded, "")
+    person = next((one for one in people.everybody() if one.key == key), None) if key else None
+    return person, whose, courses()[0], people.remarks()
+
+
+def held_by(shown: Review) -> str:
+    """Return the title of the course that holds the result of an attempt; empty if none does.
+
+    Raises:
+        SessionError: if people or courses cannot be read.
+    """
+    person, _, known, remarks = who_did(shown.student)
+    under, said = shown.conditions, remarks.get(shown.id)
+    if under is None:
+        return ""
+    released = said is not None and said.released
+    course = holding(known, person, under.exercise, under.version, released)
+    return course.title if course is not None else ""
+
+
+def ghost_words(found: Sequence[tuple[Indexed, bool]], shown: Review) -> list[tuple[object, str]]:
+    """Name what may stand beside an attempt: the ideal path, the own best, the others."""
+    choices: list[tuple[object, str]] = []
+    if shown.motion is not None:
+        choices.append((IDEAL, tr("the ideal path")))
+    best = True
+    for one, own in found:
+        total, date = f"{one.total or 0.0:.0f}", date_text(one.started)
+        if own and best:
+            words, best = tr("own best: {total} ({date})", total=total, date=date), False
+        elif own:
+            words = tr("own: {total} ({date})", total=total, date=date)
+        else:
+            who = NAMES.shown(ACCESS.shown(one.student))
+            words = tr("{who}: {total} ({date})", who=who, total=total, date=date)
+        choices.append((one.id, words))
+    return choices
+
+
+def points_text(other: Review) -> str:
+    """Say which attempt a ghost is, in short."""
+    total = other.score.total if other.score is not None else None
+    return tr("ghost") if total is None else tr("ghost, {total:.0f} points", total=total)
+
+
+class AttemptCt(QObject):
+    """Finds the CT of the attempt that is shown: the open one if it is the same, else none.
+
+    It is known by the digest in the record, of older records by pseudonym and frame of reference.
+    """
+
+    def __init__(self, page: DebriefPage, context: Context, exercise: Callable[[], str]) -> None:
+        super().__init__(page)
+        self._page, self._context, self._exercise = page, context, exercise
+        self._task: BackgroundTask | None = None
+        self._come_back = False
+        page.views.open_wanted.connect(self.open)
+        context.conductor.patient_changed.connect(self._take_patient)
+        context.views.scene.surfaces_changed.connect(self._take_surfaces)
+        context.patients.given_up.connect(self._stay)
+        context.patients.failed.connect(lambda _: self._stay())
+
+    def find(self) -> None:
+        """Look whether the open CT is that of the attempt, beside the window."""
+        self._drop()
+        review, patient = self._page.review, self._context.conductor.patient
+        views = self._page.views
+        if review is None:
+            return
+        if patient is None:
+            views.show_missing(
+                tr("The CT of this attempt is not open: no slices, no 3D."), offer=True
+            )
+            return
+        views.show_missing(tr("Looking whether the open CT is that of the attempt…"), offer=False)
+        volume, facts = patient.volume, review.ct
+
+        def look(progress: Progress) -> Volume | None:
+            if facts.is_of(volume):
+                return volume
+            recipe, own = facts.recipe, volume.series.pseudonym
+            if recipe is None or recipe == volume.recipe or facts.pseudonym != own:
+                return None
+            with ONE_AT_A_TIME:  # compiled parts: beside the window
+                from app.imaging.resampling import read_again
+            again = read_again(volume.series, recipe, progress)
+            return again if facts.is_of(again) else None
+
+        self._task = run_in_background(
+            self,
+            look,
+            self._show,
+            self._fail,
+            lambda: self._show(None),
+            title=tr("Looking at the CT of the attempt"),
+            indicator=self._context.shell.progress,
+        )
+
+    def open(self) -> None:
+        """Open the CT of the attempt: where its exercise has it, else wherever the user says."""
+        patients = self._context.patients
+        wanted = self._exercise()
+        known = {one.id: one for one in self._context.services.exercises()}
+        self._come_back = True
+        ct = known[wanted].ct if wanted in known else None
+        if ct is not None and ct.phantom is not None:
+            patients.open_phantom(ct.phantom.seed)
+        elif ct is not None and ct.folder is not None:
+            patients.open_folder(ct.folder, ct.series, ct.remedy)
+        else:
+            patients.ask()
+
+    def forget(self) -> None:
+        """Let go of the patient who leaves."""
+        self._drop()
+        self._page.views.forget()
+        self._page.views.show_missing(
+            tr("The CT of this attempt is not open: no slices, no 3D."), offer=True
+        )
+
+    def close(self) -> None:
+        """End what runs; idempotent."""
+        self._drop()
+        self._page.views.close_views()
+
+    # --- inside -----------------------------------------------------------------------------------
+    def _show(self, volume: Volume | None) -> None:
+        self._task = None
+        views, review = self._page.views, self._page.review
+        if review is None:
+            return
+        if volume is None:
+            views.show_missing(
+                tr("The CT that is open is not the one of this attempt: no slices, no 3D."),
+                offer=True,
+            )
+            return
+        views.viewing.set_window(self._context.views.viewing.window)
+        views.show_ct(volume, self._context.views.scene.surfaces)
+
+    def _fail(self, error: Exception) -> None:
+        self._task = None
+        self._page.views.show_missing(str(error), offer=True)
+
+    def _take_patient(self) -> None:
+        if self._page.review is not None:
+            self.find()
+        if self._come_back:  # the workspace comes to the front with a patient
+            self._come_back = False
+            QTimer.singleShot(0, self, lambda: self._context.shell.show_page(self._page))
+
+    def _take_surfaces(self) -> None:
+        self._page.views.set_surfaces(self._context.views.scene.surfaces)
+
+    def _stay(self) -> None:
+        self._come_back = False
+
+    def _drop(self) -> None:
+        if self._task is not None and self._task.is_running():
+            self._task.drop()
+        self._task = None
 
 
 class ScanPictures(QObject):
@@ -218,12 +569,17 @@ class ScanPictures(QObject):
 class DebriefFeature(Feature):
     """Two pages: shown when an attempt ends, and from the menu.
 
+    Signals:
+        begin_wanted(str): begin this exercise: again, or as proposed.
+
     Attributes:
         page: the debrief.
         sessions: the list of past attempts.
+        ct: finds the CT of the attempt that is shown.
     """
 
     topic: ClassVar[str] = "debrief"
+    begin_wanted = Signal(str)
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
@@ -231,12 +587,22 @@ class DebriefFeature(Feature):
         self.page, self.sessions = DebriefPage(), SessionsPage(folder)
         for page in (self.page, self.sessions):
             shell.add_page(page)
-        self._controller = DebriefController(self.page, self.sessions, folder, parent=self)
+        self._controller = DebriefController(
+            self.page,
+            self.sessions,
+            folder,
+            parent=self,
+            exercises=context.services.exercises,
+            indicator=shell.progress,
+        )
+        self.ct = AttemptCt(self.page, context, lambda: self._controller.exercise)
         self.scan_pictures = ScanPictures(self.page, context.conductor, shell.progress)
         self._controller.failed.connect(lambda why: self.failed.emit(why))
         self._controller.saved.connect(lambda path: self.noted.emit(tr("Saved {name}", name=path)))
         self._controller.shown.connect(self.show)
-        self.page.retry_requested.connect(shell.show_workspace)
+        self._controller.shown.connect(self.ct.find)
+        self.page.retry_requested.connect(self.begin_again)
+        self.page.next_requested.connect(self.begin_wanted)
         self.page.sessions_requested.connect(self.show_sessions)
         self.sessions.closed.connect(shell.show_workspace)
         context.conductor.controller.finished.connect(self.show_result)
@@ -246,6 +612,23 @@ class DebriefFeature(Feature):
     def over(self) -> tuple[SignalInstance, ...]:
         """Return what ends a message of this feature."""
         return (self._controller.saved, self.context.shell.page_changed)
+
+    def forget(self) -> None:
+        """Let go of the patient who leaves; the attempt stays."""
+        self.ct.forget()
+
+    def close(self) -> None:
+        """End what runs; idempotent."""
+        self.ct.close()
+
+    def begin_again(self) -> None:
+        """Begin the exercise of the attempt once more; one that is not kept is still prepared."""
+        taken, wanted = self.context.conductor.exercise, self._controller.exercise
+        kept = {one.id for one in self.context.services.exercises()}
+        if not wanted or (wanted not in kept and taken is not None and taken.id == wanted):
+            self.context.shell.show_workspace()
+        else:
+            self.begin_wanted.emit(wanted)
 
     def suit_room(self) -> None:
         """Take other colours and sizes; names are hidden, or shown again."""

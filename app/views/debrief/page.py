@@ -1,13 +1,17 @@
-"""The debrief page: verdict, score, scans, the tip's track and the curves of one attempt."""
+"""The debrief page: verdict, score, scans, and the attempt replayed in all views and curves."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from datetime import datetime
+from typing import Final
 
 from PySide6.QtCore import Qt, Signal, SignalInstance
-from PySide6.QtGui import QColor
+from PySide6.QtGui import QColor, QHideEvent, QKeySequence, QShortcut
 from PySide6.QtWidgets import (
+    QAbstractButton,
     QAbstractItemView,
+    QComboBox,
     QHBoxLayout,
     QHeaderView,
     QLabel,
@@ -22,13 +26,25 @@ from PySide6.QtWidgets import (
 from app.imaging.scan_order import Seen
 from app.scoring.result import Score
 from app.session.control_scan import TEACHING_ESTIMATE, ControlScan
+from app.session.motion import Alignment
+from app.session.next_exercise import Proposal, ProposalReason
 from app.session.review import Review
 from app.views.debrief.curves import CurvesView
-from app.views.debrief.path_view import PathView
+from app.views.debrief.replay import (
+    LEAP_S,
+    STEP_S,
+    Ghost,
+    ReplayBar,
+    Replayer,
+    ReplayViews,
+    placed_ghost,
+)
 from app.views.debrief.score_words import (
     counting,
+    ending_words,
     facts_of,
     lessons,
+    proposal_words,
     risk_lines,
     row_texts,
     short_words,
@@ -172,45 +188,67 @@ def _cell(text: str, column: int) -> QTableWidgetItem:
     return item
 
 
-_LEFT = 500
-"""Width of what stands beside the curves [px]."""
+_LEFT, _VIEWS = 410, 500
+"""Width of what stands beside the views, and of the views [px]."""
+
+_AGAIN_LONGEST: Final = 34
+"""Characters of a title on a button."""
 
 
 class DebriefPage(QWidget):
-    """Shows one attempt; what its buttons do is up to whoever listens.
+    """Shows one attempt and replays it; what its buttons do is up to whoever listens.
 
     Signals:
         report_requested(Review), export_requested(Review): of the attempt shown.
-        retry_requested(), sessions_requested().
+        retry_requested(): the same exercise again.
+        next_requested(str): begin this exercise, which was proposed.
+        sessions_requested().
+        ghost_wanted(object): the key of another attempt that is to stand beside this one.
+
+    Attributes:
+        replayer: the clock of the replay.
+        views: slices, 3D and bull's-eye at its moment.
+        bar: plays and scrubs it.
     """
 
     report_requested = Signal(object)
     export_requested = Signal(object)
     retry_requested = Signal()
+    next_requested = Signal(str)
     sessions_requested = Signal()
+    ghost_wanted = Signal(object)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._review: Review | None = None
+        self._proposal: Proposal | None = None
+        self._ghost: Ghost | None = None
+        self._alignment = Alignment.TIME
         self._title, self._facts, self.conditions = QLabel(self), QLabel(self), QLabel(self)
         self._verdict, self._total, self._reason = QLabel(self), QLabel(self), QLabel(self)
         self._problems, self.risks = QLabel(self), QLabel(self)
-        self.lessons = QLabel(self)
+        self.ending, self.lessons, self.proposal = QLabel(self), QLabel(self), QLabel(self)
+        self.held = QLabel(self)
         self.table = ScoreTable(self)
         self.scans = ScanList(self)
-        self.path = PathView(self)
-        self.curves = CurvesView(self)
+        self.replayer = Replayer(self)
+        self.views, self.curves = ReplayViews(self), CurvesView(self)
+        self.bar = ReplayBar(self.replayer, self)
+        self.path = self.views.path
         self.report = QPushButton(tr("Save report (PDF)"), self)
         self.export = QPushButton(tr("Export CSV"), self)
-        self.retry = QPushButton(tr("Try again"), self)
+        self.retry = QPushButton(tr("Again"), self)
+        self.next = QPushButton(self)
         self.sessions = QPushButton(tr("Sessions"), self)
         self._style()
         self._lay_out()
         self._connect()
+        self.show_proposal(None)
 
     def show_review(self, review: Review) -> None:
-        """Show an attempt."""
-        self._review = review
+        """Show an attempt, standing where its needle ended."""
+        self._review, self._ghost = review, None
+        self._show_held("")
         self._title.setText(review.exercise)
         self._facts.setText(facts(review))
         self._show_conditions(review)
@@ -222,10 +260,46 @@ class DebriefPage(QWidget):
         said = lessons(review)
         self.lessons.setText("\n".join(said))
         self.lessons.setVisible(bool(said))
+        self.ending.setText(ending_words(review))
+        self.ending.setVisible(bool(self.ending.text()))
         self.table.show_score(review.score)
         self.scans.show_review(review)
-        self.path.show_review(review)
         self.curves.show_review(review)
+        self.show_proposal(None)
+        self._begin_replay(review)
+
+    def show_held(self, review: Review, words: str) -> None:
+        """Say only that there was an attempt, and who releases its result: nothing that tells it.
+
+        Args:
+            review: of the attempt; neither score nor course of it is shown.
+            words: who releases it.
+        """
+        self._review, self._ghost = None, None
+        self.replayer.begin(0.0, 0.0)
+        self._title.setText(review.exercise)
+        self._facts.setText(facts(review))
+        self.show_proposal(None)
+        self._show_held(words)
+
+    def show_proposal(self, proposal: Proposal | None) -> None:
+        """Say what comes next and why; None while nobody has looked."""
+        self._proposal = proposal
+        words = proposal_words(proposal) if proposal is not None else ""
+        self.proposal.setText(words)
+        self.proposal.setVisible(bool(words))
+        other = proposal is not None and bool(proposal.exercise) and proposal.reason not in SAME
+        self.next.setVisible(other)
+        if proposal is not None and other:
+            title = proposal.title
+            if len(title) > _AGAIN_LONGEST:
+                title = title[: _AGAIN_LONGEST - 1].rstrip() + "…"
+            self.next.setText(tr("Next: {title}", title=title))
+            self.next.setToolTip(words)
+        for button, primary in ((self.next, other), (self.retry, not other)):
+            button.setProperty("role", "primary" if primary else "")
+            button.style().unpolish(button)
+            button.style().polish(button)
 
     def _show_conditions(self, review: Review) -> None:
         """Say what the score was made under in one line, and all of it to whoever points there."""
@@ -248,8 +322,57 @@ class DebriefPage(QWidget):
 
     @property
     def review(self) -> Review | None:
-        """The attempt shown."""
+        """The attempt shown; None before one is, and while its result is held."""
         return self._review
+
+    # --- replay -----------------------------------------------------------------------------------
+    def _begin_replay(self, review: Review) -> None:
+        motion = review.motion
+        self.views.show_review(review)
+        self.bar.set_ghosts([])
+        self.bar.show_alignment(False)
+        if motion is None or not len(motion):
+            self.replayer.begin(0.0, 0.0)
+        else:
+            self.replayer.begin(motion.end, float(motion.time[motion.last]))
+        self.bar.begin()
+        self.bar.setVisible(self.replayer.end > 0.0)
+
+    def _show_time(self, time: float) -> None:
+        """Let every view and the curves stand at a moment [s]."""
+        review = self._review
+        if review is None or review.motion is None:
+            return
+        self.views.show_row(review.motion.row(time))
+        self.curves.show_time(time)
+
+    def _seek(self, time: float) -> None:
+        self.replayer.pause()
+        self.replayer.seek(time)
+
+    def offer_ghosts(self, choices: Sequence[tuple[object, str]]) -> None:
+        """Offer what may stand beside the needle: keys with their words."""
+        chosen = self.bar.ghost.currentData()
+        self.bar.set_ghosts(list(choices), chosen)
+
+    def show_ghost(self, ghost: Ghost | None) -> None:
+        """Let the ideal path, another attempt, or nothing stand beside this one."""
+        self._ghost = ghost
+        self.bar.show_alignment(ghost is not None and ghost.review is not None)
+        self._place_ghost()
+
+    def _align(self, by: str) -> None:
+        self._alignment = Alignment(by)
+        self._place_ghost()
+
+    def _place_ghost(self) -> None:
+        review, ghost = self._review, self._ghost
+        if review is None or review.motion is None:
+            return
+        placed = placed_ghost(review, ghost, self._alignment)
+        self.views.path.show_ghost(placed.track)
+        self.curves.show_ghost(placed.lines)
+        self.views.set_ghost(placed.needle, "" if ghost is None else ghost.title)
 
     def _style(self) -> None:
         self._title.setProperty("role", "title")
@@ -257,7 +380,7 @@ class DebriefPage(QWidget):
             label.setProperty("role", "dim")
         self._total.setStyleSheet(f"font-size: {theme.TITLE_PX}px; font-weight: 600;")
         self._problems.setStyleSheet(f"color: {theme.WARNING}; font-size: {theme.SMALL_PX}px;")
-        self.retry.setProperty("role", "primary")
+        self.proposal.setStyleSheet("font-weight: 600;")
         for label in (
             self._title,
             self._facts,
@@ -265,49 +388,127 @@ class DebriefPage(QWidget):
             self._reason,
             self._problems,
             self.risks,
+            self.ending,
             self.lessons,
+            self.proposal,
+            self.held,
         ):
             label.setTextFormat(Qt.TextFormat.PlainText)
             label.setWordWrap(True)
 
     def _lay_out(self) -> None:
+        page = QVBoxLayout(self)
+        page.setContentsMargins(theme.MARGIN, theme.MARGIN, theme.MARGIN, theme.MARGIN)
+        page.addWidget(self._head())
+        page.addWidget(self.held, 1)
+        page.addWidget(self._body(), 1)
+        page.addLayout(self._foot())
+
+    def _head(self) -> QWidget:
+        head = QWidget(self)
+        row = QHBoxLayout(head)
+        row.setContentsMargins(0, 0, 0, 0)
+        self._title.setWordWrap(False)
+        self._facts.setWordWrap(False)
+        row.addWidget(self._title)
+        row.addSpacing(theme.SPACING)
+        row.addWidget(self._facts, 1, Qt.AlignmentFlag.AlignRight)
+        return head
+
+    def _body(self) -> QWidget:
         left = QWidget(self)
         column = QVBoxLayout(left)
         column.setContentsMargins(0, 0, theme.SPACING, 0)
         headline = QHBoxLayout()
         headline.addWidget(self._verdict)
         headline.addWidget(self._total, 1, Qt.AlignmentFlag.AlignRight)
-        column.addWidget(self._title)
-        column.addWidget(self._facts)
-        column.addWidget(self.conditions)
         column.addLayout(headline)
-        for widget in (self._reason, self._problems, self.lessons):
+        column.addWidget(self.conditions)
+        for widget in (self._reason, self._problems, self.ending, self.lessons, self.proposal):
             column.addWidget(widget)
         column.addWidget(self.table, 3)
         column.addWidget(self.risks)
         column.addWidget(self.scans, 2)
-        column.addWidget(self.path, 4)
+        right = QWidget(self)
+        self._inner = QSplitter(Qt.Orientation.Horizontal, right)
+        self._inner.addWidget(self.views)
+        self._inner.addWidget(self.curves)
+        self._inner.setStretchFactor(0, 5)
+        self._inner.setStretchFactor(1, 4)
+        beside = QVBoxLayout(right)
+        beside.setContentsMargins(0, 0, 0, 0)
+        beside.addWidget(self._inner, 1)
+        beside.addWidget(self.bar)
         self._splitter = splitter = QSplitter(Qt.Orientation.Horizontal, self)
         splitter.addWidget(left)
-        splitter.addWidget(self.curves)
+        splitter.addWidget(right)
         splitter.setStretchFactor(1, 1)
         splitter.setSizes([_LEFT, 900])
+        self._inner.setSizes([_VIEWS, 400])
+        return splitter
+
+    def _foot(self) -> QHBoxLayout:
         buttons = QHBoxLayout()
         note = QLabel(disclaimer(), self)
         note.setProperty("role", "disclaimer")
+        note.setWordWrap(True)
         buttons.addWidget(note, 1)
-        for button in (self.sessions, self.export, self.report, self.retry):
+        for button in (self.sessions, self.export, self.report, self.retry, self.next):
             buttons.addWidget(button)
-        page = QVBoxLayout(self)
-        page.setContentsMargins(theme.MARGIN, theme.MARGIN, theme.MARGIN, theme.MARGIN)
-        page.addWidget(splitter, 1)
-        page.addLayout(buttons)
+        return buttons
+
+    def _show_held(self, words: str) -> None:
+        """Show nothing but these words, or everything where there are none."""
+        self.held.setText(words)
+        self.held.setVisible(bool(words))
+        self.held.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self._splitter.setVisible(not words)
+        for button in (self.report, self.export):
+            button.setVisible(not words)
 
     def _connect(self) -> None:
         self.report.clicked.connect(lambda: self._emit(self.report_requested))
         self.export.clicked.connect(lambda: self._emit(self.export_requested))
         self.retry.clicked.connect(self.retry_requested)
+        self.next.clicked.connect(self._go_on)
         self.sessions.clicked.connect(self.sessions_requested)
+        self.replayer.moved.connect(self._show_time)
+        self.curves.sought.connect(self._seek)
+        self.bar.laid.connect(self.views.lay_along_path)
+        self.bar.aligned.connect(self._align)
+        self.bar.ghost_wanted.connect(self.ghost_wanted)
+        near, far = STEP_S, LEAP_S
+        for keys, does in (
+            ("Left", lambda: self.replayer.step(-near)),
+            ("Right", lambda: self.replayer.step(near)),
+            ("Shift+Left", lambda: self.replayer.step(-far)),
+            ("Shift+Right", lambda: self.replayer.step(far)),
+            ("Home", lambda: self._seek(0.0)),
+            ("End", lambda: self._seek(self.replayer.end)),
+            ("Space", self._press_space),
+        ):
+            shortcut = QShortcut(QKeySequence(keys), self)
+            shortcut.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
+            shortcut.activated.connect(does)
+
+    def _press_space(self) -> None:
+        """Play or pause; on a button, or a choice, do what Space does there."""
+        within = self.focusWidget()
+        if isinstance(within, QAbstractButton):
+            within.click()
+        elif isinstance(within, QComboBox):
+            within.showPopup()
+        else:
+            self.replayer.toggle()
+
+    def _go_on(self) -> None:
+        if self._proposal is not None and self._proposal.exercise:
+            self.next_requested.emit(self._proposal.exercise)
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Stand still while nobody looks."""
+        super().hideEvent(event)
+        self.replayer.pause()
 
     def suit_room(self) -> None:
         """Write anew who it was, or hide it; take the present colours and size of the text."""
@@ -324,6 +525,10 @@ class DebriefPage(QWidget):
     def _emit(self, signal: SignalInstance) -> None:
         if self._review is not None:
             signal.emit(self._review)
+
+
+SAME: Final = (ProposalReason.AGAIN, ProposalReason.VOID, ProposalReason.DONE)
+"""Reasons to propose the same exercise once more: the button *Again* does it."""
 
 
 def facts(review: Review) -> str:

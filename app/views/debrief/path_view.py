@@ -4,14 +4,23 @@ from typing import Final
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
+from PySide6.QtGui import (
+    QColor,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPixmap,
+    QPolygonF,
+    QResizeEvent,
+)
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.core.arrays import FloatArray
+from app.planning.off_path import offset
 from app.session.pad.hand import HandLimits
-from app.session.pad.view import PadScene
+from app.session.pad.view import PadScene, PadView
 from app.session.review import Review
-from app.views.exercise.pad_canvas import PadArea, paint_background
+from app.views.exercise.pad_canvas import PadArea, paint_background, paint_needle
 from app.views.kit import theme
 from app.views.kit.text import tr
 
@@ -24,35 +33,152 @@ _MOST: Final = 6000
 
 
 class PathView(QWidget):
-    """Pad with the tip's track: a square where it began, a diamond where it ended."""
+    """Pad with the tip's track: a square where it began, a diamond where it ended.
+
+    While the attempt is replayed the needle is drawn where it was then, with the force that was
+    felt across it; a ghost's track is dotted.
+    """
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._review: Review | None = None
         self._track: FloatArray = np.empty((0, 2))
+        self._ghost: FloatArray = np.empty((0, 2))
+        self._now: tuple[PadView | None, FloatArray | None] = (None, None)
+        self._ground: QPixmap | None = None
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        self.setMinimumSize(200, 200)
+        self.setMinimumSize(160, 160)
         self.setToolTip(
             tr(
                 "Track of the tip, seen along the planned path; a square where it began, a diamond "
-                "where it ended"
+                "where it ended; the arrow is the force at the hand"
             )
         )
 
     def show_review(self, review: Review) -> None:
         """Draw an attempt."""
         self._review, self._track = review, thinned(review.track())
+        self._ghost, self._now = np.empty((0, 2)), (None, None)
+        self._draw_anew()
+
+    def show_ghost(self, track: FloatArray) -> None:
+        """Draw the track of another attempt too: places on the pad, shape (n, 2); none if empty."""
+        self._ghost = thinned(track)
+        self._draw_anew()
+
+    def show_row(self, row: int) -> None:
+        """Draw the needle where it was at a sample."""
+        self._now = (None, None) if self._review is None else moment(self._review, row)
         self.update()
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Draw everything anew."""
+        super().resizeEvent(event)
+        self._draw_anew()
+
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Draw pad and track."""
-        if self._review is None:
+        """Draw pad and tracks, which stay, then the moment."""
+        review = self._review
+        if review is None:
             return
+        area, ratio = self._area(), self.devicePixelRatioF()
+        if self._ground is None or self._ground.devicePixelRatio() != ratio:
+            self._ground = self._painted(review, area, ratio)
         painter = QPainter(self)
+        painter.drawPixmap(0, 0, self._ground)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        area = PadArea.inside(self.width(), self.height(), margin=28)
-        paint_background(painter, area, pad_scene(self._review))
-        paint_track(painter, area, self._track, theme.NEEDLE_TIP.colour, 1.8)
+        view, force = self._now
+        if view is not None:
+            scene = pad_scene(review)
+            paint_needle(painter, area, scene, view)
+            if force is not None:
+                _paint_force(painter, area, scene, view, force, review.force_limit)
+
+    def _area(self) -> PadArea:
+        return PadArea.inside(self.width(), self.height(), margin=28)
+
+    def _draw_anew(self) -> None:
+        self._ground = None
+        self.update()
+
+    def _painted(self, review: Review, area: PadArea, ratio: float) -> QPixmap:
+        picture = QPixmap(round(self.width() * ratio), round(self.height() * ratio))
+        picture.setDevicePixelRatio(ratio)
+        picture.fill(QColor(theme.IMAGE_GROUND))
+        with QPainter(picture) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            paint_background(painter, area, pad_scene(review))
+            paint_track(
+                painter, area, self._ghost, theme.GHOST.colour, 1.5, line=Qt.PenStyle.DotLine
+            )
+            paint_track(painter, area, self._track, theme.NEEDLE_TIP.colour, 1.8)
+        return picture
+
+
+def moment(review: Review, row: int) -> tuple[PadView | None, FloatArray | None]:
+    """Return what the pad shows of a sample: needle, and force at the hand [N], shape (3,).
+
+    None where nothing measured the needle then, or nothing could push.
+    """
+    motion, placed = review.motion, review.placed
+    if motion is None or not len(motion) or not motion.measured[row]:
+        return None, None
+    tip, axis, target = motion.tip[row], motion.axis[row], motion.target[row]
+    if not (np.isfinite(tip).all() and np.isfinite(axis).all()):
+        return None, None
+    if not np.isfinite(target).all():
+        target = placed.p_target
+    away = offset(tip, axis, placed, target)
+    hub = tip - motion.length * axis - target
+    felt = motion.felt[row]
+    force = felt if review.renders and np.isfinite(felt).all() else None
+    view = PadView(
+        direction=axis,
+        offset=away,
+        hub_across=hub - (hub @ away.path) * away.path,
+        p_target=placed.p_target,
+        depth=float(motion.depth[row]),
+        measured=True,
+        force=0.0 if force is None else float(np.linalg.norm(force)),
+        force_limit=review.force_limit,
+    )
+    return view, force
+
+
+_ARROW: Final = 0.45
+"""Length of the arrow of the largest force, in radii of the pad."""
+
+_LEAST_N: Final = 0.05
+"""Below this force there is no arrow [N]."""
+
+
+def _paint_force(
+    painter: QPainter,
+    area: PadArea,
+    scene: PadScene,
+    view: PadView,
+    force: FloatArray,
+    limit: float,
+) -> None:
+    """Arrow of the force across the path from the hub, and how large it is."""
+    across = np.array([force @ scene.frame.right, -(force @ scene.frame.up)])
+    size = float(np.hypot(*across))
+    if size < _LEAST_N:
+        return
+    start = area.point(view.place(scene, view.hub_across))
+    step = across / max(limit, size) * _ARROW * area.radius
+    end = start + QPointF(float(step[0]), float(step[1]))
+    side = QPointF(-float(across[1]), float(across[0])) * (4.0 / size)
+    back = QPointF(float(across[0]), float(across[1])) * (8.0 / size)
+    painter.setPen(QPen(QColor(FORCE_COLOUR), 2.0))
+    painter.setBrush(QColor(FORCE_COLOUR))
+    painter.drawLine(start, end)
+    painter.drawPolygon(QPolygonF([end, end - back + side, end - back - side]))
+    painter.drawText(end + QPointF(6.0, -4.0), tr("{force:.1f} N", force=size))
+
+
+FORCE_COLOUR: Final = "#f0e442"
+"""Of the force: its curve and its arrow."""
 
 
 def thinned(places: FloatArray) -> FloatArray:
@@ -102,6 +228,7 @@ def paint_track(
     width: float,
     mark: float = 8.0,
     ground: str = theme.IMAGE_GROUND,
+    line: Qt.PenStyle = Qt.PenStyle.SolidLine,
 ) -> None:
     """Draw a track of pad places, shape (n, 2); gaps where there is no number.
 
@@ -113,19 +240,21 @@ def paint_track(
         width: of the line.
         mark: half the diagonal of the end's diamond.
         ground: colour inside the square at the beginning.
+        line: how the line is drawn; only a solid one's end is filled.
     """
     known = np.asarray(np.isfinite(places).all(axis=1))
     if not known.any():
         return
-    painter.setPen(QPen(QColor(colour), width))
+    painter.setPen(QPen(QColor(colour), width, line))
     painter.setBrush(Qt.BrushStyle.NoBrush)
     breaks = np.flatnonzero(np.diff(known.astype(np.int8))) + 1
     for part in np.split(np.arange(len(places)), breaks):
         if known[part[0]]:
             painter.drawPolyline(QPolygonF([area.point(places[i]) for i in part]))
     first, last = area.point(places[known][0]), area.point(places[known][-1])
+    painter.setPen(QPen(QColor(colour), width))
     painter.setBrush(QColor(ground))
     painter.drawRect(QRectF(first.x() - mark / 2, first.y() - mark / 2, mark, mark))
-    painter.setBrush(QColor(colour))
+    painter.setBrush(QColor(colour if line is Qt.PenStyle.SolidLine else ground))
     corners = ((0, -1), (1, 0), (0, 1), (-1, 0))
     painter.drawPolygon(QPolygonF([last + QPointF(mark * x, mark * y) for x, y in corners]))

@@ -11,6 +11,7 @@ from app.scoring.result import Score
 from app.scoring.risks import RiskMark
 from app.scoring.rows import Row
 from app.scoring.tolerance import Band
+from app.session.next_exercise import Proposal, ProposalReason
 from app.session.review import Review
 from app.views.exercise.readouts import clock_text
 from app.views.kit import theme
@@ -224,6 +225,44 @@ def row_texts(row: Row, score: Score) -> RowTexts:
     )
 
 
+def ending_words(review: Review) -> str:
+    """Say where the needle ended, seen from the target; empty where nobody measured it."""
+    motion = review.motion
+    away = motion.ending() if motion is not None else None
+    if away is None:
+        return ""
+    aside = review.placed.T_world_patient.rotation.T @ away.across / MILLIMETRE
+    names = (
+        (tr("to the left"), tr("to the right")),
+        (tr("towards the back"), tr("towards the front")),
+        (tr("towards the head"), tr("towards the feet")),
+    )
+    sides = [
+        (abs(value), side[0] if value > 0.0 else side[1])
+        for value, side in sorted(zip(aside, names, strict=True), key=lambda one: -abs(one[0]))
+        if abs(value) >= LEAST_ASIDE_MM
+    ]
+    parts = [tr("{mm:.1f} mm {side}", mm=size, side=side) for size, side in sides]
+    where = f" ({', '.join(parts)})" if len(parts) > 1 else f" {sides[0][1]}" if sides else ""
+    deep = -away.remaining / MILLIMETRE
+    along = (
+        tr("at its depth")
+        if abs(deep) < LEAST_ASIDE_MM
+        else tr("{mm:.1f} mm too deep", mm=deep)
+        if deep > 0.0
+        else tr("{mm:.1f} mm short of it", mm=-deep)
+    )
+    return tr(
+        "The needle ended {mm:.1f} mm beside the target{where}, and {along}.",
+        mm=away.lateral / MILLIMETRE,
+        where=where,
+        along=along,
+    )
+
+
+LEAST_ASIDE_MM = 0.3
+"""Less than this towards a side is not told [mm]: a camera knows no better."""
+
 STEERED = frozenset({"lateral_error", "angle_error", "path_ratio", "tip_error"})
 """Metrics that a turn in the depth spoils."""
 
@@ -239,7 +278,7 @@ def lessons(review: Review) -> tuple[str, ...]:
     score = review.score
     if score is None or score.total is None:
         return ()
-    lost = sorted(_lost(score), key=lambda one: -one[0])
+    lost = score.losses
     said = [_loss(points, row) for points, row in lost[:MOST_LESSONS]]
     turn = review.correction
     if turn is not None and any(row.name in STEERED for _, row in lost):
@@ -258,17 +297,6 @@ def lessons(review: Review) -> tuple[str, ...]:
     return tuple(said) or (tr("Nothing cost points."),)
 
 
-def _lost(score: Score) -> list[tuple[float, Row]]:
-    """Points of 100 that each row lost, where it is one or more."""
-    weight = sum(row.weight for row in score.rows)
-    found = [
-        (100.0 * row.weight / weight * (1.0 - row.utility), row)
-        for row in score.rows
-        if row.utility is not None and row.weight > 0.0
-    ]
-    return [one for one in found if one[0] >= 1.0]
-
-
 def _loss(points: float, row: Row) -> str:
     expert = row.tolerance.knots[0] if row.tolerance else 0.0
     more = row.tolerance is not None and row.tolerance.knots[0] > row.tolerance.knots[2]
@@ -280,6 +308,44 @@ def _loss(points: float, row: Row) -> str:
     value = "–" if row.value is None else with_unit(row.value, row.unit)
     limit = with_unit(expert, row.unit)
     return text.format(label=row.label, value=value, points=points, expert=limit)
+
+
+def proposal_words(proposal: Proposal) -> str:
+    """Say in one or two sentences what comes next, and why."""
+    cost = (
+        tr(
+            " {metric} cost most: {points:.0f} points.",
+            metric=proposal.metric,
+            points=proposal.points,
+        )
+        if proposal.metric
+        else ""
+    )
+    next_one = tr("Next: {title}.", title=proposal.title)
+    words = {
+        ProposalReason.COURSE: next_one
+        + tr(" It follows in the course {course}.", course=proposal.course),
+        ProposalReason.LEVEL: next_one
+        + tr(" This one is passed; it is of level {level}.", level=proposal.level),
+        ProposalReason.WEAKNESS: next_one
+        + tr(
+            " This one is passed; {metric} cost most here ({points:.0f} points), and counts there.",
+            metric=proposal.metric,
+            points=proposal.points,
+        ),
+        ProposalReason.AGAIN: tr("The same again: it is not passed yet.") + cost,
+        ProposalReason.EASIER: next_one
+        + tr(
+            " {n} attempts in a row did not pass; this one is of level {level}.",
+            n=proposal.tries,
+            level=proposal.level,
+        )
+        + cost,
+        ProposalReason.VOID: tr("The same again: this attempt was not judged."),
+        ProposalReason.DONE: tr("All exercises that are open to you are passed.") + cost,
+        ProposalReason.CLOSED: "",
+    }
+    return words[proposal.reason]
 
 
 def number(value: float) -> str:

@@ -43,6 +43,7 @@ class Symbol(StrEnum):
     RING = "ring"
     DISC = "disc"
     DIAMOND = "diamond"
+    SQUARE = "square"
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,6 +91,8 @@ NEEDLE_TIP = Mark("#35d6ed", symbol=Symbol.DIAMOND, width=2.0)
 PATH = Mark("#8fc7ff", dash=(6.0, 3.0), width=1.5)
 ENTRY = Mark("#56b4e9", symbol=Symbol.RING, width=2.5)
 TARGET = Mark("#e58fc2", symbol=Symbol.DISC, width=2.5)
+GHOST = Mark("#ffffff", dash=(1.0, 2.0), width=2.5)
+GHOST_TIP = Mark("#ffffff", symbol=Symbol.SQUARE, width=2.0)
 ROBOT = Mark("#9aa7b4")
 SKIN = Mark("#d8b59c")
 BONE = Mark("#efe7d3")

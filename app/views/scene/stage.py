@@ -13,6 +13,7 @@ from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 
+from app.core.arrays import FloatArray
 from app.core.confidence import principal_axes
 from app.core.errors import AcusError
 from app.core.transform import RigidTransform
@@ -43,6 +44,10 @@ LINK_RADIUS_MM, FULCRUM_RADIUS_MM = 4.0, 7.0
 NEEDLE_RADIUS_MM, PATH_RADIUS_MM, POINT_RADIUS_MM, BEAD_RADIUS_MM = 1.2, 0.7, 3.0, 1.1
 NEEDLE_PX, PATH_PX, POINT_PX, BEAD_PX, RING_PX = 4.0, 2.0, 9.0, 4.5, 1.6
 """Widths that needle, path and points never fall below on the screen, however small the zoom."""
+
+GHOST_RADIUS_MM, GHOST_PX = 0.9, 3.0
+DASH_MM, DASHES = 5.0, 14
+"""The ghost of another needle is dashed, that many times from its tip on."""
 
 BEADS_MM, MOST_BEADS = 10.0, 30
 """Beads on the path stand so far apart: one counts the depth along it."""
@@ -100,6 +105,7 @@ class Stage:
         self._needle = [self._new_piece()]
         self._tip = Ball(scene, theme.NEEDLE_TIP, 2 * NEEDLE_RADIUS_MM, 1.5 * NEEDLE_PX, over)
         self._error = Ball(scene, theme.NEEDLE_TIP, 1.0, opacity=0.35)
+        self._ghost: list[Rod] = []
         self._path = Rod(scene, theme.PATH, PATH_RADIUS_MM, PATH_PX, over)
         self._beads: list[Ball] = []
         self._entry = Ball(scene, theme.ENTRY, POINT_RADIUS_MM, POINT_PX, over)
@@ -239,6 +245,7 @@ class Stage:
             *self._needle,
             self._tip,
             self._error,
+            *self._ghost,
             self._path,
             *self._beads,
             self._entry,
@@ -302,6 +309,16 @@ class Stage:
         else:
             axes = scale * principal_axes(error.covariance_mm2 + SMALLEST_MM**2 * np.eye(3))
             self._error.put(error.centre_mm, axes)
+
+    def set_ghost(self, ghost: NeedleOverlay | None) -> None:
+        """Show another needle beside the own one, dashed; None shows none."""
+        dashes = [] if ghost is None else dashed(ghost.points_mm, DASH_MM, DASHES)
+        while len(self._ghost) < len(dashes):
+            rod = Rod(self._renderer, theme.GHOST, GHOST_RADIUS_MM, GHOST_PX, self._over)
+            rod.show(self._display)
+            self._ghost.append(rod)
+        for number, rod in enumerate(self._ghost):
+            rod.span(*(dashes[number] if number < len(dashes) else (None, None)))
 
     def set_robot(self, robot: RobotShape | None, T_patient_world: RigidTransform) -> None:
         """Show the links and the ball; world metres are brought into the patient."""
@@ -371,6 +388,24 @@ class Stage:
             self._cut_plane.SetOrigin(*frame.origin_mm)
             self._cut_plane.SetNormal(*(-side * frame.normal))
             self._cut_section.step_back(side * frame.normal)
+
+
+def dashed(points_mm: FloatArray, dash_mm: float, most: int) -> list[tuple[FloatArray, FloatArray]]:
+    """Return the ends of dashes along a line of corners, from its last point on.
+
+    Args:
+        points_mm: corners, shape (n, 3).
+        dash_mm: length of a dash, and of the gap after it [mm].
+        most: dashes at most.
+    """
+    corners = points_mm[::-1]
+    along = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(corners, axis=0), axis=1))))
+    starts = np.arange(0.0, min(float(along[-1]), 2.0 * dash_mm * most), 2.0 * dash_mm)[:most]
+    places = [
+        np.column_stack([np.interp(at, along, corners[:, k]) for k in range(3)])
+        for at in (starts, np.minimum(starts + dash_mm, along[-1]))
+    ]
+    return list(zip(*places, strict=True))
 
 
 def _off_screen_window() -> vtkRenderWindow:

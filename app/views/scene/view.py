@@ -88,14 +88,17 @@ class SceneView(QWidget):
         clicked(object, object): a click that did not turn: point and direction [mm, LPS] of the
             line of sight.
         display_changed(): something else is shown, or otherwise.
+        surfaces_changed(): other surfaces are there, or none.
 
     Attributes:
         commands: what the view does by itself, by the key that asks for it.
+        surfaces: skin, bone and organs as they are shown; None while there are none.
     """
 
     maximise_wanted = Signal()
     clicked = Signal(object, object)
     display_changed = Signal()
+    surfaces_changed = Signal()
 
     def __init__(self, renderer: SceneRenderer, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -107,6 +110,7 @@ class SceneView(QWidget):
         self._body: FloatArray = _box(np.zeros((1, 3)))
         self._robot: FloatArray | None = None
         self.note = self.off = ""
+        self.surfaces: Surfaces | None = None
         self.legend: tuple[Entry, ...] = ()
         self._organs: tuple[str, ...] = ()
         self._enlargement = Enlargement()
@@ -164,9 +168,10 @@ class SceneView(QWidget):
         corners = volume.lps_mm(np.array([(0, 0, 0), volume.size]) - 0.5)
         self._body, self._robot = _box(corners), None
         self._feed.change("surfaces", lambda stage: stage.set_surfaces(None))
-        self._before, self._organs = [], ()
+        self.surfaces, self._before, self._organs = None, [], ()
         self._fit_home()
         self.set_orbit(self._home)
+        self.surfaces_changed.emit()
 
     def set_patient(self, patient: Patient | None) -> None:
         """Take slices and volume from this patient; None forgets it."""
@@ -219,6 +224,8 @@ class SceneView(QWidget):
         if surfaces is not None and len(surfaces.skin.points):
             self._body = _box(surfaces.skin.points.astype(np.float64))
             self._fit_home()
+        self.surfaces = surfaces
+        self.surfaces_changed.emit()
 
     def set_structures(
         self, shown: tuple[tuple[Colour, Mesh], ...], legend: tuple[Entry, ...] = ()
@@ -250,6 +257,10 @@ class SceneView(QWidget):
         self._needle = needle
         scale = self._enlargement.follow(needle.error if needle is not None else None)
         self._feed.change("needle", lambda stage: stage.set_needle(needle, scale))
+
+    def set_ghost(self, ghost: NeedleOverlay | None) -> None:
+        """Show another needle beside the own one, dashed; None shows none."""
+        self._feed.change("ghost", lambda stage: stage.set_ghost(ghost))
 
     def set_robot(self, robot: RobotShape | None, T_patient_world: RigidTransform) -> None:
         """Show the robot, placed under the patient."""

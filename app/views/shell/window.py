@@ -354,6 +354,7 @@ class MainWindow(QMainWindow):
         start.exercise_chosen.connect(self.begin_exercise)
         start.open_wanted.connect(open_ct.ask)
         start.recent_chosen.connect(open_ct.open_folder)
+        self.feature(DebriefFeature).begin_wanted.connect(self.begin_exercise)
         start.sessions_wanted.connect(lambda: self.feature(DebriefFeature).show_sessions())
 
     def _forget_patient(self) -> None:

@@ -175,6 +175,8 @@ def _draw_symbol(painter: QPainter, mark: Mark, fill: bool) -> None:
         d = 0.7 * r
         corners = [QPointF(0, -d), QPointF(d, 0), QPointF(0, d), QPointF(-d, 0)]
         painter.drawPolygon(corners)
+    elif mark.symbol is Symbol.SQUARE:
+        painter.drawRect(QRectF(-0.6 * r, -0.6 * r, 1.2 * r, 1.2 * r))
 
 
 @lru_cache(maxsize=512)

@@ -49,8 +49,14 @@ def fading(distance_mm: float, half_mm: float) -> float:
 class SegmentLayer:
     """A segment in space: solid in the slab, outside dashed and the fainter the farther off."""
 
-    def __init__(self, drawing: Drawing, mark: Mark, z: float) -> None:
-        self._solid, self._broken = Ink.of(mark), Ink.of(mark, dash=(4.0, 3.0))
+    def __init__(
+        self,
+        drawing: Drawing,
+        mark: Mark,
+        z: float,
+        broken: tuple[float, ...] = (4.0, 3.0),
+    ) -> None:
+        self._solid, self._broken = Ink.of(mark), Ink.of(mark, dash=broken)
         self._items = [SegmentItem(z) for _ in range(3)]
         for item in self._items:
             drawing.add(item)
@@ -113,18 +119,31 @@ class PlanLayer:
 
 
 class NeedleLayer:
-    """Shaft and tip of the live needle.
+    """Shaft and tip of the live needle, or of a ghost beside it.
+
+    Args:
+        drawing: of the pane.
+        shaft, tip: how they are drawn.
+        z: what lies over what.
 
     Attributes:
         shown: the needle that was placed last; None for none.
         tip: its mark; its label is left out where there is no room beside those of the plan.
+        title: what its tip is called; empty for the live needle.
     """
 
-    def __init__(self, drawing: Drawing) -> None:
-        self._drawing = drawing
-        self._shaft = [SegmentLayer(drawing, theme.NEEDLE, 3)]
-        self._doubtful = SegmentLayer(drawing, Mark(theme.IMAGE_DIM, width=2.0), 3)
-        self.tip = MarkItem(theme.NEEDLE_TIP, 5, optional=True)
+    def __init__(
+        self,
+        drawing: Drawing,
+        shaft: Mark = theme.NEEDLE,
+        tip: Mark = theme.NEEDLE_TIP,
+        z: float = 3.0,
+    ) -> None:
+        self._drawing, self._mark, self._z, self.title = drawing, shaft, z, ""
+        self._broken = shaft.dash or (4.0, 3.0)  # a ghost stays dotted
+        self._shaft = [SegmentLayer(drawing, shaft, z, self._broken)]
+        self._doubtful = SegmentLayer(drawing, Mark(theme.IMAGE_DIM, width=2.0), z)
+        self.tip = MarkItem(tip, z + 2.0, optional=True)
         self.tip.setVisible(False)
         self.shown: NeedleOverlay | None = None
         drawing.add(self.tip)
@@ -144,7 +163,7 @@ class NeedleLayer:
                 part.place(start, end, plane.half_slab_mm)
         else:
             self._doubtful.place(corners[0], tip, plane.half_slab_mm)
-        place_mark(self.tip, tip, "" if needle.valid else tr("not tracked"), plane)
+        place_mark(self.tip, tip, self.title if needle.valid else tr("not tracked"), plane)
 
     def hide(self) -> None:
         """Show nothing."""
@@ -158,7 +177,7 @@ class NeedleLayer:
     def _reserve(self, parts: int) -> None:
         """Have as many pieces as a bent shaft needs."""
         while len(self._shaft) < parts:
-            self._shaft.append(SegmentLayer(self._drawing, theme.NEEDLE, 3))
+            self._shaft.append(SegmentLayer(self._drawing, self._mark, self._z, self._broken))
 
 
 class Labels:

@@ -223,6 +223,12 @@ class Viewing(QObject):
             choices = PRESETS if volume.unit == "HU" else presets(volume)
             self.set_window(next(iter(choices.values())))
 
+    def forget(self) -> None:
+        """Show nothing: its patient leaves."""
+        self.volume = self.slicer = self.needle = self._next_needle = None
+        self._planes, self.draft, self.target_now_mm = Planes(), DraftPlan(), None
+        self.volume_changed.emit()
+
     def set_cursor(self, lps_mm: ArrayLike) -> None:
         """Move the crosshair to an LPS point [mm], kept inside the volume."""
         if self.volume is None:

@@ -1,0 +1,154 @@
+"""Which exercise comes next after an attempt, and why.
+
+Pure: from what the attempt came to, what the student did before, the exercises that there are, and
+the course if there is one. Nothing is proposed that rests on a result which the student may not
+know yet, and nothing that he may not begin.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Final
+
+from app.exercises.schema import Exercise
+from app.scoring.result import Score
+from app.session.course import Course
+from app.session.index import Indexed
+
+TRIES: Final = 3
+"""After so many attempts in a row that did not pass an easier exercise is proposed."""
+
+
+class ProposalReason(StrEnum):
+    """Why an exercise is proposed."""
+
+    COURSE = "course"  # the next one of the course
+    LEVEL = "level"  # passed: the easiest that is not passed yet
+    WEAKNESS = "weakness"  # likewise, and it trains what cost most
+    AGAIN = "again"  # not passed: the same once more
+    EASIER = "easier"  # not passed several times
+    VOID = "void"  # nothing was judged: the same once more
+    DONE = "done"  # everything is passed: where most is to be gained
+    CLOSED = "closed"  # none may be begun, or none can be named yet
+
+
+@dataclass(frozen=True, slots=True)
+class Proposal:
+    """What comes next.
+
+    Attributes:
+        exercise: id; empty where nothing is proposed.
+        title: as it is written.
+        reason: why.
+        metric: label of what cost most points; empty where nothing did or nobody may know it.
+        points: what it cost, of 100.
+        course: title of the course that it follows; empty without one.
+        level: of the proposed exercise.
+        tries: attempts in a row that did not pass.
+    """
+
+    exercise: str
+    title: str
+    reason: ProposalReason
+    metric: str = ""
+    points: float = 0.0
+    course: str = ""
+    level: int = 0
+    tries: int = 0
+
+
+def propose(
+    done: str,
+    score: Score | None,
+    before: Sequence[Indexed],
+    exercises: Sequence[Exercise],
+    course: Course | None = None,
+    refused: Callable[[str], str] = lambda _: "",
+    held: bool = False,
+) -> Proposal:
+    """Propose what comes next.
+
+    Args:
+        done: id of the exercise that was attempted.
+        score: of the attempt; None where nothing was judged, and where `held`.
+        before: the student's attempts, this one among them, oldest first.
+        exercises: that there are, easiest first.
+        course: that the exercise was attempted in; None without one.
+        refused: says why an exercise may not be begun now; empty where it may.
+        held: whether the result is not released: nothing is told of it, not even by the proposal.
+    """
+    by_id = {one.id: one for one in exercises}
+    lost = score.losses if score is not None and not held else ()
+    name, label, points = (lost[0][1].name, lost[0][1].label, lost[0][0]) if lost else ("", "", 0.0)
+    same = by_id.get(done)
+    in_course = [item.exercise for item in course.items] if course is not None else []
+    title = course.title if course is not None else ""
+
+    def proposal(one: Exercise, why: ProposalReason, tries: int = 0) -> Proposal:
+        return Proposal(one.id, one.title, why, label, points, title, one.level, tries)
+
+    def again(why: ProposalReason, tries: int = 0) -> Proposal:
+        if same is None or refused(done):
+            return Proposal("", "", ProposalReason.CLOSED, label, points, title)
+        return proposal(same, why, tries)
+
+    if held:
+        if course is not None and not course.ordered and done in in_course:
+            after = in_course[in_course.index(done) + 1 :]
+            for one in after:
+                if one in by_id and not refused(one):
+                    return proposal(by_id[one], ProposalReason.COURSE)
+        return Proposal("", "", ProposalReason.CLOSED, course=title)
+    if score is None or score.total is None:
+        return again(ProposalReason.VOID)
+    passed = _passed(before) | ({done} if score.passed else set())
+    if not score.passed:
+        tries = _in_a_row(done, before)
+        easier = [one for one in exercises if same is not None and one.level < same.level]
+        easier = [one for one in easier if not refused(one.id) and _fits(one, in_course)]
+        if tries >= TRIES and easier:
+            return proposal(_best_for(easier, name)[0], ProposalReason.EASIER, tries)
+        return again(ProposalReason.AGAIN, tries)
+    if done in in_course:
+        for one in in_course[in_course.index(done) + 1 :] + in_course[: in_course.index(done)]:
+            if one in by_id and one not in passed and not refused(one):
+                return proposal(by_id[one], ProposalReason.COURSE)
+        return again(ProposalReason.DONE)
+    left = [one for one in exercises if one.id not in passed and not refused(one.id)]
+    if not left:
+        return again(ProposalReason.DONE)
+    level = same.level if same is not None else 0
+    above = [one for one in left if one.level >= level] or left
+    lowest = [one for one in above if one.level == above[0].level]
+    found, trains = _best_for(lowest, name)
+    return proposal(found, ProposalReason.WEAKNESS if trains else ProposalReason.LEVEL)
+
+
+def _fits(one: Exercise, in_course: Sequence[str]) -> bool:
+    return not in_course or one.id in in_course
+
+
+def _passed(before: Sequence[Indexed]) -> set[str]:
+    """Exercises that a person passed, in any version."""
+    return {one.exercise for one in before if one.passed and one.verdict != "altered"}
+
+
+def _in_a_row(exercise: str, before: Sequence[Indexed]) -> int:
+    """How many of the newest attempts at an exercise did not pass, one after the other."""
+    count = 0
+    for one in reversed([one for one in before if one.exercise == exercise]):
+        if one.passed:
+            break
+        count += one.passed is False
+    return max(1, count)
+
+
+def _best_for(some: Sequence[Exercise], metric: str) -> tuple[Exercise, bool]:
+    """Return the first exercise that judges a metric, or the first one; and whether it does."""
+    if metric:
+        for one in some:
+            if metric in one.tolerances and one.tolerances[metric].weight > 0.0:
+                return one, True
+    return some[0], False

@@ -1,0 +1,152 @@
+"""What comes next after an attempt, and why: only what is true, known to the student, and open."""
+
+import json
+
+import pytest
+
+from app.exercises.guidance import Purpose
+from app.exercises.library import library
+from app.scoring.conditions import Conditions, DeviceKind
+from app.scoring.result import judge
+from app.scoring.rows import Row, ScoreRules
+from app.scoring.tolerance import Tolerance
+from app.session.course import Course, CourseItem, holding
+from app.session.index import Indexed
+from app.session.next_exercise import TRIES, ProposalReason, propose
+from app.session.people import Person
+
+SEVEN = (
+    "first-insertion",
+    "thick-tissue",
+    "breathing-liver",
+    "past-the-vessel",
+    "plan-it-yourself",
+    "against-repulsion",
+    "scans-only",
+)
+EXERCISES = tuple(one for one in library() if one.id in SEVEN)
+ADA = Person("p-0123456789ab", "ada", ("A",))
+
+
+def score(angle: float, lateral: float = 0.5):
+    """A score of two metrics, each of which is expert below 1, and fails above 3."""
+    limits = Tolerance.model_validate({"expert": 1, "good": 2, "pass": 3, "required": True})
+    rows = (
+        Row("angle_error", "Angle error", "°", angle, "", limits),
+        Row("lateral_error", "Off the path", "mm", lateral, "", limits),
+    )
+    return judge(rows, ScoreRules())
+
+
+def done(exercise, passed, verdict="unsigned"):
+    known = Conditions(exercise, 1, kind=DeviceKind.SIMULATED, scoring_version=2)
+    total = 90.0 if passed else 40.0
+    return Indexed(
+        f"{exercise}-{passed}", "2026-11-20T10:00:00+00:00", "ada", exercise, 1, "ended", 30.0,
+        total, passed, verdict, True, json.dumps(known.document()), "{}",
+    )  # fmt: skip
+
+
+def level(name):
+    return next(one.level for one in EXERCISES if one.id == name)
+
+
+def test_what_was_not_passed_is_proposed_again_with_the_metric_that_cost_most():
+    found = propose("first-insertion", score(5.0), [done("first-insertion", False)], EXERCISES)
+    assert (found.exercise, found.reason) == ("first-insertion", ProposalReason.AGAIN)
+    assert found.metric == "Angle error"
+    assert found.points == pytest.approx(50.0 * (1.0 - 0.2), abs=10.0)
+
+
+def test_after_an_exercise_that_was_passed_the_easiest_one_that_is_not_passed_yet_follows():
+    before = [done("first-insertion", True)]
+    found = propose("first-insertion", score(0.5), before, EXERCISES)
+    assert found.reason is ProposalReason.LEVEL
+    assert found.level == min(one.level for one in EXERCISES if one.id != "first-insertion")
+    further = [*before, done(found.exercise, True)]
+    after = propose("first-insertion", score(0.5), further, EXERCISES)
+    assert after.exercise not in ("first-insertion", found.exercise)
+
+
+def test_of_equally_hard_ones_the_one_that_judges_what_cost_most_is_proposed():
+    before = [done(one.id, True) for one in EXERCISES if one.level < 4]
+    found = propose("breathing-liver", score(2.5), before, EXERCISES)
+    chosen = next(one for one in EXERCISES if one.id == found.exercise)
+    assert found.reason is ProposalReason.WEAKNESS
+    assert chosen.tolerances["angle_error"].weight > 0.0
+
+
+def test_after_several_attempts_that_did_not_pass_an_easier_one_is_proposed():
+    before = [done("breathing-liver", False)] * TRIES
+    found = propose("breathing-liver", score(5.0), before, EXERCISES)
+    assert found.reason is ProposalReason.EASIER
+    assert level(found.exercise) < level("breathing-liver")
+    assert found.tries == TRIES
+    passed_between = [before[0], done("breathing-liver", True), before[0]]
+    found = propose("breathing-liver", score(5.0), passed_between, EXERCISES)
+    assert found.reason is ProposalReason.AGAIN
+
+
+def test_a_void_attempt_is_proposed_again_without_a_word_on_what_cost_points():
+    found = propose("first-insertion", None, [], EXERCISES)
+    assert (found.reason, found.metric) == (ProposalReason.VOID, "")
+
+
+def course(*names, ordered=False, purpose=Purpose.PRACTICE):
+    items = tuple(CourseItem(exercise=name, purpose=purpose) for name in names)
+    return Course(id="autumn", title="Autumn", ordered=ordered, groups=("A",), items=items)
+
+
+def test_in_a_course_the_next_one_of_the_course_follows_then_what_was_skipped():
+    names = ("thick-tissue", "scans-only", "first-insertion")
+    found = propose("scans-only", score(0.5), [], EXERCISES, course(*names))
+    assert (found.exercise, found.reason) == ("first-insertion", ProposalReason.COURSE)
+    assert found.course == "Autumn"
+    before = [done("first-insertion", True)]
+    found = propose("scans-only", score(0.5), before, EXERCISES, course(*names))
+    assert found.exercise == "thick-tissue"
+    before.append(done("thick-tissue", True))
+    found = propose("scans-only", score(0.5), before, EXERCISES, course(*names))
+    assert found.reason is ProposalReason.DONE
+
+
+def test_what_may_not_be_begun_is_not_proposed():
+    def refused(name):
+        return "it opens tomorrow" if name in ("thick-tissue", "scans-only") else ""
+
+    names = ("first-insertion", "thick-tissue", "past-the-vessel")
+    found = propose("first-insertion", score(0.5), [], EXERCISES, course(*names), refused)
+    assert found.exercise == "past-the-vessel"
+    found = propose("scans-only", score(9.0), [], EXERCISES, None, refused)
+    assert (found.exercise, found.reason) == ("", ProposalReason.CLOSED)
+
+
+def test_a_result_that_is_held_is_told_by_no_proposal():
+    names = ("first-insertion", "thick-tissue")
+    open_course = course(*names, purpose=Purpose.ASSESSMENT)
+    found = propose("first-insertion", score(9.0), [], EXERCISES, open_course, held=True)
+    same = propose("first-insertion", score(0.5), [], EXERCISES, open_course, held=True)
+    assert found == same
+    assert (found.exercise, found.metric, found.points) == ("thick-tissue", "", 0.0)
+    strict = course(*names, ordered=True, purpose=Purpose.ASSESSMENT)
+    found = propose("first-insertion", score(0.5), [], EXERCISES, strict, held=True)
+    assert found.reason is ProposalReason.CLOSED
+    assert propose("first-insertion", None, [], EXERCISES, held=True).exercise == ""
+
+
+def test_attempts_that_were_altered_pass_nothing():
+    before = [done("thick-tissue", True, verdict="altered"), done("first-insertion", True)]
+    found = propose("first-insertion", score(0.5), before, EXERCISES)
+    assert found.exercise == "thick-tissue"
+
+
+def test_a_result_is_held_for_who_takes_an_assessment_until_it_is_released_and_for_nobody_else():
+    assessed = course("first-insertion", purpose=Purpose.ASSESSMENT)
+    practised = course("first-insertion")
+    assert holding([practised, assessed], ADA, "first-insertion", 1, released=False) is assessed
+    assert holding([assessed], ADA, "first-insertion", 1, released=True) is None
+    assert holding([assessed], ADA, "first-insertion", 2, released=False) is None
+    assert holding([assessed], ADA, "thick-tissue", 1, released=False) is None
+    assert holding([assessed], None, "first-insertion", 1, released=False) is None
+    other = Person("p-ba9876543210", "ben", ("B",))
+    assert holding([assessed], other, "first-insertion", 1, released=False) is None
