@@ -1,3 +1,5 @@
+import os
+import subprocess
 import sys
 import threading
 import time
@@ -216,3 +218,46 @@ def test_the_chooser_offers_what_would_help(application, volume):
     card.buttons[0][0].click()
     assert chosen == [(uneven, Remedy.RESAMPLE)]
     browser.deleteLater()
+
+
+LAST_REFERENCE = """
+import time
+from PySide6.QtCore import QCoreApplication, QEvent, QObject
+from app.views.kit.background import run_in_background
+
+application = QCoreApplication([])
+
+
+class Owner(QObject):
+    def begin(self):
+        run_in_background(self, lambda _: None, self.end, self.end)
+
+    def end(self, _):
+        print("delivered", flush=True)
+
+
+for _ in range(20):
+    owner = Owner()
+    owner.begin()
+    del owner
+    end = time.monotonic() + 0.2
+    while time.monotonic() < end:
+        QCoreApplication.processEvents()
+        time.sleep(0.01)
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+print("alive")
+"""
+
+
+def test_work_whose_callback_holds_the_last_reference_to_its_owner_ends_both_once():
+    # freed memory is overwritten at once: what is destroyed twice shows
+    environment = os.environ | {"MALLOC_PERTURB_": "165"}
+    done = subprocess.run(
+        [sys.executable, "-c", LAST_REFERENCE],
+        capture_output=True,
+        text=True,
+        env=environment,
+        timeout=60,
+        check=False,
+    )
+    assert (done.returncode, done.stdout.split()[-1:]) == (0, ["alive"]), done.stderr

@@ -31,6 +31,15 @@ class Indicator(Protocol):
         ...
 
 
+_Callbacks = tuple[
+    Callable[[Any], object], Callable[[Exception], object], Callable[[], object] | None
+]
+
+
+def _nothing(_: object) -> None:
+    """Call of a task that has delivered."""
+
+
 class BackgroundTask(QObject):
     """One piece of work in its thread; lives on, and reports to, the window's thread.
 
@@ -51,7 +60,7 @@ class BackgroundTask(QObject):
         on_cancel: Callable[[], object] | None = None,
     ) -> None:
         super().__init__(parent)
-        self._callbacks = (on_success, on_error, on_cancel)
+        self._callbacks: _Callbacks = (on_success, on_error, on_cancel)
         self._box = _Outcome(operation)
         self._reported: tuple[float, str] | None = None
         self._is_running = False
@@ -103,6 +112,9 @@ class BackgroundTask(QObject):
 
     def _deliver(self) -> None:
         on_success, on_error, on_cancel = self._callbacks
+        # A callback may hold the last reference to the parent. Let go of together with this
+        # object it would have the parent destroy this object once more, in its own destructor.
+        self._callbacks = (_nothing, _nothing, None)
         error = self._box.error
         try:
             if error is None:
