@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import shutil
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -13,6 +14,7 @@ from app.core.progress import Progress
 from app.device.errors import LoopError
 from app.exercises.errors import ExerciseError
 from app.exercises.library import library
+from app.exercises.portrait import Portrait, find_portrait
 from app.exercises.schema import Exercise
 from app.imaging.volume import Volume
 from app.planning.placement import PlacedPlan
@@ -83,6 +85,9 @@ HEAVY_MODULES: Final = (
 )
 """What no start page needs and every exercise does, in the order in which an exercise needs it."""
 
+DEMONSTRATOR: Final = "expert"
+"""Skill of the scripted hand that shows an exercise."""
+
 _PATIENCE: Final = 120.0
 _LOOK: Final = 0.02
 
@@ -126,6 +131,12 @@ class Desktop:
     def sessions(self) -> Path:
         """Folder of the recorded attempts."""
         return self._sessions
+
+    def portrait(
+        self, exercise: Exercise, volume: Volume | None, progress: Progress
+    ) -> Portrait | None:
+        """Return a picture of an exercise's patient; called beside the window, may take seconds."""
+        return find_portrait(exercise, volume, progress)
 
     def prepare(self, progress: Progress) -> tuple[str, ...]:
         """Load what an exercise needs; called beside the window as soon as it is painted.
@@ -199,20 +210,24 @@ class Desktop:
             from app.compose.desktop import load_risks
             from app.compose.pen import pen_settings
             from app.compose.trainer import TrainerSetup, build_rig
+            from app.core.temporary import temporary_folder
         risks = load_risks(setup.exercise, setup.volume, progress.part(0.0, 0.1))
         progress.report(0.1, "compiling the loop")
         seed = setup.exercise.seed if self._seed is None else self._seed
         ct = setup.ct
         if setup.volume is not None:  # by it the debrief knows the CT again
             ct = replace(ct, digest=setup.volume.digest)
+        shows = setup.demonstrates
+        skill = DEMONSTRATOR if shows else self._skill
+        kept = temporary_folder("demonstration") if shows else self._sessions
         trainer = TrainerSetup(
             setup.exercise,
             setup.placed,
             ct,
-            self._skill,
+            skill,
             seed,
-            self._sessions,
-            held_arming=setup.robot.held_arming and self._skill is None,
+            kept,
+            held_arming=setup.robot.held_arming and skill is None,
             port=setup.robot.port or None,
             cameras=setup.cameras,
             pen=pen_settings(setup.robot.pen) if setup.robot.pen else None,
@@ -225,7 +240,7 @@ class Desktop:
         except BaseException:
             rig.close()
             raise
-        return DesktopRun(rig)
+        return DesktopRun(rig, kept if shows else None)
 
 
 def _wait_until_alive(rig: Rig, progress: Progress) -> None:
@@ -280,10 +295,15 @@ def _learner(
 
 
 class DesktopRun:
-    """A trainer that runs for the window (`views.services.OpenRun`)."""
+    """A trainer that runs for the window (`views.services.OpenRun`).
 
-    def __init__(self, rig: Rig) -> None:
-        self._rig = rig
+    Args:
+        rig: what was built.
+        passing: folder of records that go with the run: of a demonstration; None keeps them.
+    """
+
+    def __init__(self, rig: Rig, passing: Path | None = None) -> None:
+        self._rig, self._passing = rig, passing
 
     @property
     def run(self) -> ExerciseRun:
@@ -315,6 +335,7 @@ class DesktopRun:
             held_arming=self._rig.trainer.held_arming,
             guidance=setup.exercise.guidance,
             shown=Shown.of_exercise(setup.exercise),
+            demonstrates=self._passing is not None,
         )
 
     def place(self, placed: PlacedPlan) -> ExerciseRun:
@@ -325,3 +346,5 @@ class DesktopRun:
     def close(self) -> None:
         """End everything at zero force; idempotent."""
         self._rig.close()
+        if self._passing is not None:
+            shutil.rmtree(self._passing, ignore_errors=True)

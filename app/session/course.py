@@ -182,12 +182,12 @@ def why_not(course: Course, exercise: str, own: Sequence[Indexed], today: dateti
         return f"it opens on {item.opens}"
     if item.closes and today > item.closes:
         return f"it closed on {item.closes}"
-    done = _of_item(own, item)
+    done = attempts_used(own, item)
     if item.attempts is not None and len(done) >= item.attempts:
         return f"all {item.attempts} attempts are used"
     if course.ordered and place > 0:
         before = course.items[place - 1]
-        tries = _of_item(own, before)
+        tries = attempts_used(own, before)
         used = before.attempts is not None and len(tries) >= before.attempts
         if not used and not any(one.passed for one in tries):
             return f"first pass {before.exercise}"
@@ -216,8 +216,8 @@ def holding(
     return None
 
 
-def _of_item(attempts: Sequence[Indexed], item: CourseItem) -> list[Indexed]:
-    """Return the attempts that use one up: begun in earnest, by a person, of this version."""
+def attempts_used(attempts: Sequence[Indexed], item: CourseItem) -> list[Indexed]:
+    """Return a student's attempts that use one up: begun by a person, of this version."""
     return [
         one
         for one in attempts

@@ -115,6 +115,8 @@ def user(tmp_path: Path, sessions: Path) -> Iterator[User]:
 def test_open_place_insert_end_debrief_by_hand(user: User, sessions: Path) -> None:
     user.wait(lambda seen: seen["page"] == "StartPage", "start page", 60)
     user.click(user.see()["begin"])
+    user.wait(lambda seen: seen["page"] == "BriefingPage", "briefing", 10)
+    user.key("l")  # looks around before the attempt
     user.wait(lambda seen: seen["page"] == "WorkspacePage", "patient", 120)
     user.wait(lambda seen: seen["start"], "robot and cameras", 400)
 
@@ -169,6 +171,8 @@ def test_an_assessment_by_control_scans_alone_by_hand(user: User, sessions: Path
     user.keep_picture("1-start")
     user.click(user.see()["exercises"]["scans-only"])
     user.click(user.see()["begin"])
+    user.wait(lambda seen: seen["page"] == "BriefingPage", "briefing", 10)
+    user.key("l")  # looks around before the attempt
     user.wait(lambda seen: seen["page"] == "WorkspacePage", "patient", 120)
     user.click(user.see()["exercise_tab"])
     seen = user.wait(

@@ -69,7 +69,7 @@ class FakeOpen:
         self.run = ExerciseRun(
             FakeTrainer(setup.placed), setup.placed, device_of(setup.exercise), interactive=True,
             held_arming=setup.robot.held_arming, port=setup.robot.port,
-            shown=Shown.of_exercise(setup.exercise),
+            shown=Shown.of_exercise(setup.exercise), demonstrates=setup.demonstrates,
         )  # fmt: skip
         self.run.trainer.dial = setup.exercise.assistance
 
@@ -199,6 +199,9 @@ class FakeServices:
 
     def sessions(self):
         return self.folder
+
+    def portrait(self, exercise, volume, progress):
+        return None
 
     def prepare(self, progress):
         self.prepared.set()

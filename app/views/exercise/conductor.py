@@ -124,6 +124,8 @@ class Conductor(QObject):
         exercise_taken(str): identifier of the exercise that is being prepared.
         views_changed(): other views are on, or may be switched.
         exercises_changed(): there are others to choose from.
+        exercise_wanted(str): somebody wants to begin an exercise, by its identifier.
+        start_wanted(): somebody wants to choose another exercise, on the start page.
 
     Attributes:
         controller: serves the attempt.
@@ -140,6 +142,8 @@ class Conductor(QObject):
     exercise_taken = Signal(str)
     views_changed = Signal()
     exercises_changed = Signal()
+    exercise_wanted = Signal(str)
+    start_wanted = Signal()
 
     def __init__(
         self,
@@ -157,6 +161,7 @@ class Conductor(QObject):
         self.patient: Patient | None = None
         self.exercise: Exercise | None = None
         self._robot, self._released, self._leaving = RobotChoice(), False, False
+        self._demonstrates = False
         self._cameras: CameraSettings | None = None
         self._profile: DeviceProfile | None = None
         self._surfaces = SurfaceExtraction(workspace.scene, self)
@@ -218,6 +223,7 @@ class Conductor(QObject):
         """End the run on the patient, and forget everything that was known of it; idempotent."""
         if self.patient is None:
             return
+        self._demonstrates = False
         self._leaving = True  # no run may be wanted for a plan that is about to go
         try:
             self.runs.abort(tr("another patient was opened"))
@@ -323,6 +329,12 @@ class Conductor(QObject):
             self._cameras = cameras
             self._show_plan()
 
+    def set_demonstrating(self, on: bool) -> None:
+        """Give the needle to the scripted expert, on a simulated robot, or take it back."""
+        if on != self._demonstrates:
+            self._demonstrates = on
+            self._show_plan()
+
     def let_go(self) -> None:
         """End the run, so that somebody else can have the robot; the plan stays."""
         self._released = True
@@ -397,10 +409,10 @@ class Conductor(QObject):
             return  # a run that is open stays with its plan until there is a better one
         if self.exercise is None or self.patient is None:
             return
-        ct = CtFacts.of_volume(self.patient.volume)
-        self.runs.want(
-            RunSetup(self.exercise, placed, ct, self._robot, self._cameras, self.patient.volume)
-        )
+        shows, volume = self._demonstrates, self.patient.volume
+        robot, cameras = (RobotChoice(), None) if shows else (self._robot, self._cameras)
+        ct = CtFacts.of_volume(volume)
+        self.runs.want(RunSetup(self.exercise, placed, ct, robot, cameras, volume, shows))
 
     def _click_in_scene(self, point: FloatArray, direction: FloatArray) -> None:
         """Take a click on the skin in 3D as the entry, if one is being placed."""

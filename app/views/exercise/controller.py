@@ -175,11 +175,13 @@ class ExerciseController(QObject):
         beginning(): an attempt is about to begin; everything is to be as the exercise has it.
         began(str): session id of an attempt that began.
         finished(AttemptResult): an attempt ended or was aborted, once each.
+        demonstrated(): what a scripted expert showed is over; it was nobody's attempt.
         failed(str): something that the user asked for did not work, in one line.
         worked(): something that the user asked for did.
 
     Attributes:
         refusal: says why who is here may not begin this exercise; empty if nothing speaks against.
+        intercepted: asked when somebody wants to begin: whether something else comes first.
     """
 
     needle_moved = Signal(object)
@@ -189,6 +191,7 @@ class ExerciseController(QObject):
     beginning = Signal()
     began = Signal(str)
     finished = Signal(object)
+    demonstrated = Signal()
     failed = Signal(str)
     worked = Signal()
 
@@ -203,6 +206,7 @@ class ExerciseController(QObject):
         self._ending = False
         self._beat, self._unreadable, self._waiting = 0.0, "", ""
         self.refusal: Callable[[], str] = str
+        self.intercepted: Callable[[], bool] = bool
         self._display = ExerciseDisplay(views)
         self._timer = QTimer(self, interval=PERIOD_MS, timerType=Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self.poll)
@@ -248,6 +252,11 @@ class ExerciseController(QObject):
     def run(self) -> ExerciseRun | None:
         """The run being served."""
         return self._run
+
+    @property
+    def is_running(self) -> bool:
+        """Whether an attempt runs, of a student or a demonstration."""
+        return self._run is not None and self._run.trainer.snapshot().state in RUNNING
 
     @property
     def rates(self) -> tuple[float, float]:
@@ -302,7 +311,10 @@ class ExerciseController(QObject):
         result = run.trainer.result
         if result is not None and result is not self._seen and not self._ending:
             self._seen = result
-            self.finished.emit(result)
+            if run.demonstrates:
+                self.demonstrated.emit()
+            else:
+                self.finished.emit(result)
 
     # --- what the user asks for -------------------------------------------------------------------
     def begin(self, student: str) -> None:
@@ -310,9 +322,11 @@ class ExerciseController(QObject):
         run = self._run
         if run is None:
             return
-        refused = self._waiting or self.refusal()
+        refused = self._waiting or ("" if run.demonstrates else self.refusal())
         if refused:
             self._fail(refused)
+            return
+        if not run.demonstrates and self.intercepted():
             return
         self.beginning.emit()
         self._views.messages.clear()

@@ -11,6 +11,7 @@ from app.exercises.guidance import StartingDial, starting_dial
 from app.exercises.parts import OwnPlan
 from app.exercises.schema import Exercise
 from app.planning.patient import Patient
+from app.views.exercise.beginning import Beginning
 from app.views.kit.background import run_in_background
 from app.views.kit.text import tr
 from app.views.shell.feature import Context, Feature
@@ -21,6 +22,7 @@ class ExerciseFeature(Feature):
 
     Attributes:
         exercises: all there are, by identifier, easiest first.
+        beginning: leads from the wish to begin one to its attempt.
     """
 
     def __init__(self, context: Context) -> None:
@@ -42,6 +44,7 @@ class ExerciseFeature(Feature):
         self._conductor.exercise_taken.connect(self._take_fading)
         self._conductor.controller.finished.connect(lambda _: self._follow_fading())
         self._panel.student.editingFinished.connect(self._follow_fading)
+        self.beginning = Beginning(context, self._begin, lambda: self.exercises, self)
         self._patients.failed.connect(lambda _: self.give_up())
         self._patients.given_up.connect(self.give_up)
 
@@ -156,7 +159,12 @@ class ExerciseFeature(Feature):
     def give_up(self) -> None:
         """Stay with the present exercise: the patient of the one that was chosen did not come."""
         self._waiting = None
+        self.beginning.give_up()
         self.show_taken()
+
+    def forget(self) -> None:
+        """End a demonstration: another patient is coming."""
+        self.beginning.forget()
 
     def show_taken(self) -> None:
         """Let the list stand at the exercise that is taken."""

@@ -50,6 +50,7 @@ class ExerciseRun:
         held_arming: whether the forces are armed only while key, pedal or button is held.
         guidance: control scans as the exercise has them.
         shown: what may be told of the needle.
+        demonstrates: whether a scripted expert shows the exercise: it is nobody's attempt.
     """
 
     trainer: Trainer
@@ -70,6 +71,7 @@ class ExerciseRun:
     held_arming: bool = False
     guidance: GuidancePart = field(default_factory=GuidancePart)
     shown: Shown = field(default_factory=Shown)
+    demonstrates: bool = False
 
     @property
     def is_real(self) -> bool:

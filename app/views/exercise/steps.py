@@ -211,7 +211,10 @@ class NextStepLine(QLabel):
         if self._steps is None or self._run is None or self._snapshot is None:
             return
         step = self._steps.of(self._snapshot, self._run.shown.live)
-        words = step_words(step, self._run.interactive)
+        shows = self._run.demonstrates
+        words = step_words(step, self._run.interactive or shows)
+        if shows and step.kind is StepKind.START:
+            words = tr("The demonstration begins")
         if words != self.text():
             self.setText(words)
             self.setToolTip(words)

@@ -28,6 +28,7 @@ from app.session.review import review_of_result
 from app.session.snapshot import Snapshot
 from app.views.debrief.feature import DebriefFeature
 from app.views.debrief.report import write_report
+from app.views.exercise.beginning import TRAINEE_DONE
 from app.views.exercise.feature import ExerciseFeature
 from app.views.shell.window import MainWindow
 from app.views.slices.canvas import SliceCanvas
@@ -96,8 +97,6 @@ SETTLE_S: Final = 1.5
 
 FRESH_S: Final = 0.1
 """Pictures on the way wait until the cameras' last fix is no older [s]: drawing disturbs them."""
-
-TRAINEE_DONE: Final = 9.0
 
 
 class DemonstrationError(AcusError):

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from app.core.progress import Progress
+from app.exercises.portrait import Portrait
 from app.exercises.schema import Exercise
 from app.imaging.volume import Volume
 from app.mechanisms.profile import DeviceProfile
@@ -64,6 +65,7 @@ class RunSetup:
         robot: which robot.
         cameras: real ones; None for simulated ones.
         volume: the CT itself, for the exercise's structures.
+        demonstrates: whether a scripted expert shows the exercise: nothing is kept of it.
     """
 
     exercise: Exercise
@@ -72,11 +74,14 @@ class RunSetup:
     robot: RobotChoice = RobotChoice()
     cameras: CameraSettings | None = None
     volume: Volume | None = None
+    demonstrates: bool = False
 
     def same_run(self, other: RunSetup) -> bool:
         """Whether a run of the other setup only has to take this plan."""
-        mine = (self.exercise, self.ct, self.robot, self.cameras)
-        return mine == (other.exercise, other.ct, other.robot, other.cameras)
+        return self._fixed() == other._fixed()
+
+    def _fixed(self) -> tuple[object, ...]:
+        return self.exercise, self.ct, self.robot, self.cameras, self.demonstrates
 
 
 class OpenRun(Protocol):
@@ -127,6 +132,21 @@ class Services(Protocol):
 
     def sessions(self) -> Path:
         """Folder of the recorded attempts."""
+        ...
+
+    def portrait(
+        self, exercise: Exercise, volume: Volume | None, progress: Progress
+    ) -> Portrait | None:
+        """Return a picture of an exercise's patient; called beside the window, may take seconds.
+
+        Args:
+            exercise: whose patient.
+            volume: his CT, where it is open; else what is kept, or his CT is read.
+            progress: may cancel.
+
+        Returns:
+            None where the patient's CT cannot be read.
+        """
         ...
 
     def prepare(self, progress: Progress) -> tuple[str, ...]:

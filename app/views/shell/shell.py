@@ -118,6 +118,11 @@ class Shell:
         """Bring a page that was added to the front."""
         self._pages.setCurrentWidget(page)
 
+    @property
+    def is_working(self) -> bool:
+        """Whether the panes are shown, and no other page."""
+        return self._pages.currentWidget() is self._workspace
+
     def show_workspace(self) -> None:
         """Go to the panes."""
         self._pages.setCurrentWidget(self._workspace)

@@ -247,7 +247,8 @@ class MainWindow(QMainWindow):
         self.context.shell.show_workspace()
 
     def begin_exercise(self, identifier: str) -> None:
-        """Take an exercise and open its patient, unless it is shown already."""
+        """Take an exercise and open its patient, unless it is shown already; without a briefing."""
+        self.feature(ExerciseFeature).beginning.trust(identifier)
         self.feature(ExerciseFeature).begin(identifier)
 
     def show_patient(self, patient: Patient) -> None:
@@ -351,7 +352,8 @@ class MainWindow(QMainWindow):
         self.projector.changed.connect(self._suit_room)
         start.set_exercises(self.services.exercises())
         conductor.exercises_changed.connect(lambda: start.set_exercises(self.services.exercises()))
-        start.exercise_chosen.connect(self.begin_exercise)
+        start.exercise_chosen.connect(conductor.exercise_wanted)
+        conductor.start_wanted.connect(self.show_start)
         start.open_wanted.connect(open_ct.ask)
         start.recent_chosen.connect(open_ct.open_folder)
         self.feature(DebriefFeature).begin_wanted.connect(self.begin_exercise)

@@ -1,0 +1,416 @@
+"""The briefing: what an exercise is about, what counts, helps and is locked, on one page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QFont, QImage, QKeyEvent, QPainter, QPaintEvent
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QFrame,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.exercises.guidance import FadingKind, GuidanceMode, Purpose
+from app.exercises.locks import Lock
+from app.exercises.parts import OwnPlan, ViewName
+from app.exercises.portrait import Portrait
+from app.exercises.schema import Exercise
+from app.scoring.metrics import available
+from app.scoring.tolerance import Tolerance
+from app.views.kit import theme
+from app.views.kit.parts import button, label
+from app.views.kit.text import tr
+from app.views.reading.lock_words import view_title
+from app.views.shell.shortcuts import disclaimer_label
+
+HARDEST = 9
+
+
+# --- words ------------------------------------------------------------------------------------
+def level_words(level: int) -> str:
+    """Say a level in words, for those who do not see the discs."""
+    return tr("level {n} of {most}", n=level, most=HARDEST)
+
+
+def kind_words(exercise: Exercise) -> str:
+    """Say in a line what kind of exercise it is."""
+    kind = tr("Assessment") if exercise.purpose is Purpose.ASSESSMENT else tr("Practice")
+    return "  ·  ".join((kind, level_words(exercise.level)))
+
+
+def scored_words(exercise: Exercise) -> list[str]:
+    """Say what is scored with its limits, what weighs most first; then what passes."""
+    known = available()
+    counting = [
+        (name, limits)
+        for name, limits in exercise.tolerances.items()
+        if (limits.weight > 0.0 or limits.required) and name in known
+    ]
+    counting.sort(key=lambda one: -one[1].weight)
+    said = [_limit_words(known[name].title, known[name].unit, limits) for name, limits in counting]
+    for part in exercise.structures:
+        for name, limit in part.risks.items():
+            said.append(tr("{name}: stay {mm:g} mm away", name=name, mm=limit))
+    said.append(tr("{mark:g} of 100 points pass.", mark=exercise.rules.pass_mark))
+    return said
+
+
+def _limit_words(title: str, unit: str, limits: Tolerance) -> str:
+    words = (
+        tr("{title}: best from {best}, passes from {passes}")
+        if limits.higher_is_better
+        else tr("{title}: best up to {best}, passes up to {passes}")
+    ).format(
+        title=title,
+        best=_value(limits.expert, unit),
+        passes=_value(limits.pass_, unit),
+    )
+    return words + (tr("; must be kept") if limits.required else "")
+
+
+def _value(value: float, unit: str) -> str:
+    if unit == "s" and value >= 100.0:
+        minutes, seconds = divmod(round(value), 60)
+        return tr("{m}:{s:02d} min", m=minutes, s=seconds)
+    gap = "" if unit in ("°", "") else " "
+    return f"{value:g}{gap}{unit}"
+
+
+def locked_words(exercise: Exercise) -> list[str]:
+    """Say what the student cannot change."""
+    names = {
+        Lock.ASSISTANCE: tr("the robot's help"),
+        Lock.VIEWS: tr("what is shown"),
+        Lock.READING: tr("window, slab and layout"),
+        Lock.HAND: tr("what moves the hand"),
+    }
+    locked = [words for lock, words in names.items() if lock in exercise.locked]
+    if not locked:
+        return [tr("Nothing: you may change help, views and layout.")]
+    words = ", ".join(locked)
+    return [tr("Stays as it is: {what}.", what=words)]
+
+
+def aid_words(exercise: Exercise) -> list[str]:
+    """Say what helps: the robot, and what is seen of the needle."""
+    share = exercise.assistance
+    if exercise.fading is not None:
+        robot = (
+            tr("The robot helps less from attempt to attempt.")
+            if exercise.fading.kind is FadingKind.SCHEDULE
+            else tr("The robot helps less the better you do.")
+        )
+        if exercise.fading.probe_every:
+            robot += " " + tr(
+                "Every {n}th attempt is without any help.", n=exercise.fading.probe_every
+            )
+    elif share > 0.0:
+        robot = tr("The robot guides with {share:.0f} %.", share=100.0 * share)
+    elif share < 0.0:
+        robot = tr("The robot pushes off the path with {share:.0f} %.", share=-100.0 * share)
+    else:
+        robot = tr("The robot does not help.")
+    said = [robot]
+    if exercise.guidance_mode is GuidanceMode.CONTROL_CT:
+        said.append(
+            tr("The needle is seen on control scans alone (S): {n} slices of {mm:g} mm.").format(
+                n=exercise.guidance.slices, mm=exercise.guidance.slice_mm
+            )
+        )
+    shown = [view_title(view) for view in ViewName if view in exercise.shown_views]
+    if shown:
+        said.append(tr("Shown: {views}.", views=", ".join(shown)))
+    return said
+
+
+@dataclass(frozen=True, slots=True)
+class AttemptsLeft:
+    """How many attempts somebody has.
+
+    Attributes:
+        allowed: by the course; None for any number.
+        used: of them; None where nobody is signed in.
+        course: title of the course that says so; empty without one.
+        refusal: why none may be begun now; empty if nothing speaks against it.
+    """
+
+    allowed: int | None = None
+    used: int | None = None
+    course: str = ""
+    refusal: str = ""
+
+    def words(self) -> str:
+        """Say it."""
+        if self.allowed is None:
+            said = tr("Any number of attempts.")
+        elif self.used is None:
+            said = tr("{n} attempts are allowed.", n=self.allowed)
+        else:
+            left = max(0, self.allowed - self.used)
+            said = tr("{left} of {n} attempts are left.", left=left, n=self.allowed)
+        if self.course:
+            said += " " + tr("Course: {title}.", title=self.course)
+        if self.refusal:
+            said += "\n" + tr("Not now: {why}.", why=self.refusal)
+        return said
+
+
+# --- pictures ---------------------------------------------------------------------------------
+def portrait_image(portrait: Portrait, name: str) -> QImage:
+    """Return a slice of a portrait as a picture of its own memory."""
+    grey = portrait.slices[name]
+    height, width = grey.shape
+    made = QImage(grey.tobytes(), width, height, width, QImage.Format.Format_Grayscale8)
+    return made.copy()
+
+
+def paint_portrait(painter: QPainter, box: QRectF, portrait: Portrait, name: str) -> QRectF:
+    """Draw a slice with the plan on it into a box, as large as it fits; return where it stands."""
+    image = portrait_image(portrait, name)
+    scale = min(box.width() / image.width(), box.height() / image.height())
+    size = QSize(round(scale * image.width()), round(scale * image.height()))
+    at = QRectF(0.0, 0.0, size.width(), size.height())
+    at.moveCenter(box.center())
+    painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter.drawImage(at, image)
+
+    def place(point: tuple[float, ...]) -> QPointF:
+        x, y = portrait.place(name, point)
+        return QPointF(at.left() + x * at.width(), at.top() + y * at.height())
+
+    target, radius = place(portrait.target_mm), max(2.5, 0.014 * at.width())
+    if portrait.entry_mm is not None:
+        entry = place(portrait.entry_mm)
+        painter.setPen(theme.PATH.pen(max(1.2, 0.35 * radius)))
+        painter.drawLine(entry, target)
+        painter.setPen(theme.ENTRY.pen(max(1.2, 0.35 * radius)))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.drawEllipse(entry, radius, radius)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(theme.TARGET.qcolor())
+    painter.drawEllipse(target, radius, radius)
+    return at
+
+
+class PortraitView(QWidget):
+    """One slice of a patient, with the plan, named below."""
+
+    def __init__(self, name: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.name = name
+        self._portrait: Portrait | None = None
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setMinimumSize(120, 110)
+
+    @property
+    def title(self) -> str:
+        """Name of the slice for people."""
+        return {
+            "axial": tr("Axial"),
+            "coronal": tr("Coronal"),
+            "sagittal": tr("Sagittal"),
+        }[self.name]
+
+    def show_portrait(self, portrait: Portrait | None) -> None:
+        """Show another patient; None says that the picture is being made."""
+        self._portrait = portrait
+        known = tr("being made") if portrait is None else tr("with the plan")
+        self.setAccessibleName(f"{self.title}: {known}")
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw."""
+        painter, box = QPainter(self), QRectF(self.rect())
+        painter.fillRect(box, QColor(theme.IMAGE_BACKGROUND))
+        if self._portrait is not None:
+            paint_portrait(painter, box.adjusted(4, 4, -4, -4), self._portrait, self.name)
+        font = QFont(painter.font())
+        font.setPixelSize(theme.px(theme.SMALL_PX))
+        painter.setFont(font)
+        painter.setPen(QColor(theme.IMAGE_DIM))
+        words = self.title if self._portrait is not None else tr("The picture is being made …")
+        corner = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
+        painter.drawText(box.adjusted(8, 5, -8, -5), corner, words)
+
+
+# --- page -------------------------------------------------------------------------------------
+WORDS_WIDTH = 470
+
+
+class BriefingPage(QWidget):
+    """What is to be done, before it begins. Enter begins, D shows, L looks around, Esc goes back.
+
+    Signals:
+        begin_wanted(), show_wanted(), look_wanted(), back_wanted().
+    """
+
+    begin_wanted = Signal()
+    show_wanted = Signal()
+    look_wanted = Signal()
+    back_wanted = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.title, self.kind = label("", "title"), label("", "dim")
+        self.description = label()
+        self.scored, self.locked, self.aids, self.attempts = (label() for _ in range(4))
+        self.views = tuple(PortraitView(name, self) for name in ("axial", "coronal", "sagittal"))
+        self.begin = _key_button(tr("Begin (Enter)"), "primary")
+        self.show_me = _key_button(tr("Show me (D)"))
+        self.look = _key_button(tr("Look around first (L)"))
+        self.back = _key_button(tr("Back (Esc)"))
+        self.skip = QCheckBox(tr("Do not show this again for this exercise"), self)
+        self.why_not = label("", "dim")
+        self.begin.setToolTip(tr("The attempt starts as soon as robot and cameras are there"))
+        self.show_me.setToolTip(tr("A scripted expert does the exercise; nothing is recorded"))
+        self.look.setToolTip(tr("Study the CT without the clock; F5 starts the attempt"))
+        self._lay_out()
+        self._connect()
+
+    def show_exercise(self, exercise: Exercise, portrait: Portrait | None) -> None:
+        """Show what an exercise says."""
+        self.title.setText(exercise.title)
+        self.kind.setText(kind_words(exercise))
+        self.description.setText(exercise.description or tr("Insert the needle to the target."))
+        self.scored.setText(_lines(scored_words(exercise)))
+        self.locked.setText(_lines(locked_words(exercise)))
+        self.aids.setText(_lines(aid_words(exercise)))
+        self.show_portrait(portrait)
+        self.set_allowance(AttemptsLeft())
+        self.skip.setChecked(False)
+        self.skip.setVisible(exercise.purpose is Purpose.PRACTICE)
+        own = isinstance(exercise.plan, OwnPlan)
+        self.begin.setText(tr("Begin to plan (Enter)") if own else tr("Begin (Enter)"))
+        self.look.setVisible(not own)
+        self.show_me.setEnabled(not own)
+        self.why_not.setText(
+            tr("You choose the entry here, so there is nothing to show before you have.")
+            if own
+            else ""
+        )
+        self.why_not.setVisible(own)
+        self.begin.setFocus()
+
+    def show_portrait(self, portrait: Portrait | None) -> None:
+        """Show the patient; None while the picture is being made."""
+        for view in self.views:
+            view.show_portrait(portrait)
+
+    def set_allowance(self, allowance: AttemptsLeft) -> None:
+        """Say how many attempts there are."""
+        self.attempts.setText(allowance.words())
+        self.begin.setEnabled(not allowance.refusal)
+
+    # --- inside -------------------------------------------------------------------------------
+    def _lay_out(self) -> None:
+        words = QWidget()
+        column = QVBoxLayout(words)
+        column.setContentsMargins(0, 0, theme.SPACING, 0)
+        column.setSpacing(theme.SPACING // 2)
+        column.addWidget(self.description)
+        for heading, part in (
+            (tr("What is scored"), self.scored),
+            (tr("What helps"), self.aids),
+            (tr("What is locked"), self.locked),
+            (tr("Attempts"), self.attempts),
+        ):
+            named = QLabel(heading)
+            named.setProperty("role", "heading")
+            column.addSpacing(theme.SPACING)
+            column.addWidget(named)
+            column.addWidget(part)
+        column.addStretch(1)
+        area = QScrollArea()
+        area.setFrameShape(QFrame.Shape.NoFrame)
+        area.setWidgetResizable(True)
+        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        area.setWidget(words)
+        area.setFixedWidth(theme.px(WORDS_WIDTH))
+        pictures = QGridLayout()
+        pictures.setSpacing(3)
+        axial, coronal, sagittal = self.views
+        pictures.addWidget(axial, 0, 0, 1, 2)
+        pictures.addWidget(coronal, 1, 0)
+        pictures.addWidget(sagittal, 1, 1)
+        for row in (0, 1):
+            pictures.setRowStretch(row, 1)
+        middle = QHBoxLayout()
+        middle.setSpacing(2 * theme.MARGIN)
+        middle.addLayout(pictures, 1)
+        middle.addWidget(area)
+        buttons = QHBoxLayout()
+        buttons.setSpacing(theme.SPACING)
+        for widget in (self.back, self.skip):
+            buttons.addWidget(widget)
+        buttons.addStretch(1)
+        for widget in (self.show_me, self.look, self.begin):
+            buttons.addWidget(widget)
+        self.begin.setMinimumWidth(theme.px(170))
+        page = QVBoxLayout(self)
+        page.setContentsMargins(2 * theme.MARGIN, theme.MARGIN, 2 * theme.MARGIN, 0)
+        page.setSpacing(theme.SPACING)
+        page.addWidget(self.title)
+        page.addWidget(self.kind)
+        page.addLayout(middle, 1)
+        page.addWidget(self.why_not, 0, Qt.AlignmentFlag.AlignRight)
+        page.addLayout(buttons)
+        page.addWidget(disclaimer_label(self))
+
+    def _connect(self) -> None:
+        key = Qt.Key
+        self._keys = {
+            key.Key_Return: self.begin,
+            key.Key_Enter: self.begin,
+            key.Key_F5: self.begin,
+            key.Key_D: self.show_me,
+            key.Key_L: self.look,
+            key.Key_Escape: self.back,
+        }
+        self.begin.clicked.connect(self.begin_wanted)
+        self.show_me.clicked.connect(self.show_wanted)
+        self.look.clicked.connect(self.look_wanted)
+        self.back.clicked.connect(self.back_wanted)
+
+    def event(self, event: QEvent) -> bool:
+        """Keep the page's keys from menus that use the same ones."""
+        override = event.type() == QEvent.Type.ShortcutOverride
+        if override and isinstance(event, QKeyEvent) and self._pressed(event) is not None:
+            event.accept()
+            return True
+        return super().event(event)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Press the button of a key."""
+        pressed = self._pressed(event)
+        if pressed is None:
+            super().keyPressEvent(event)
+        elif not event.isAutoRepeat():
+            pressed.click()
+
+    def _pressed(self, event: QKeyEvent) -> QPushButton | None:
+        keypad = Qt.KeyboardModifier.KeypadModifier
+        plain = event.modifiers() in (Qt.KeyboardModifier.NoModifier, keypad)
+        found = self._keys.get(Qt.Key(event.key())) if plain else None
+        return found if found is not None and found.isVisible() else None
+
+
+def _key_button(text: str, role: str = "") -> QPushButton:
+    made = button(text, role)
+    made.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+    return made
+
+
+def _lines(said: Sequence[str]) -> str:
+    return "\n".join(f"•  {line}" for line in said) if len(said) > 1 else "".join(said)

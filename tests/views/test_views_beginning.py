@@ -1,0 +1,228 @@
+"""From the wish to begin an exercise to its attempt, through the whole window."""
+
+import pytest
+
+pytest.importorskip("PySide6")
+
+from dataclasses import replace
+
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+
+from app.core import state_vector as sv
+from app.exercises.library import load_exercise
+from app.planning.plan import Plan
+from app.session.machine import State
+from app.views.exercise.beginning import LINGER_S, TRAINEE_DONE, BeginWish
+from app.views.exercise.briefing import aid_words, locked_words, scored_words
+from app.views.exercise.feature import ExerciseFeature
+
+PHANTOM = Plan((-70.0, -109.0, 180.0), (-70.0, -20.0, 180.0), "phantom")
+
+
+@pytest.fixture
+def beginning(window, patient, monkeypatch, settle):
+    """What leads to the attempt; every phantom comes at once, as the tests' own patient."""
+    window.resize(1366, 768)
+    window.show()
+    window.activateWindow()
+    settle(window.isActiveWindow)
+
+    def opened(seed=1):
+        window.show_patient(replace(patient, phantom_seed=seed))
+
+    monkeypatch.setattr(window.open_ct, "open_phantom", opened)
+    plan = Plan((5.0, -18.0, 140.0), (5.0, 5.0, 140.0), "phantom")
+    monkeypatch.setattr("app.exercises.scene.plan_of", lambda _: plan)
+    return window.feature(ExerciseFeature).beginning
+
+
+def state(window):
+    """State of the attempt, None without a run."""
+    run = window.conductor.controller.run
+    return None if run is None else run.trainer.state
+
+
+def press(window, key, modifier=Qt.KeyboardModifier.NoModifier):
+    """Press a key on the page that is shown."""
+    QTest.keyClick(window.pages.currentWidget(), key, modifier)
+
+
+def choose(window, name):
+    """Stand on an exercise of the start page and press Enter."""
+    page = window.start_page
+    for row in range(page.exercises.count()):
+        if page.exercises.item(row).data(Qt.ItemDataRole.UserRole) == name:
+            page.exercises.setCurrentRow(row)
+    page.begin.click()
+
+
+def test_begin_on_the_start_page_shows_the_briefing_and_enter_begins_the_attempt(
+    window, beginning, settle
+):
+    choose(window, "first-insertion")
+    assert window.pages.currentWidget() is beginning.page
+    assert beginning.page.title.text() == "First insertion"
+    assert "Off the path" in beginning.page.scored.text()
+    assert window.conductor.patient is None  # nothing is opened for one who only reads
+    press(window, Qt.Key.Key_Return)
+    assert settle(lambda: state(window) is State.ALIGNING)
+    assert window.pages.currentWidget() is window.workspace
+    assert window.workspace.has_bullseye
+    assert beginning.wish is BeginWish.NOTHING
+
+
+def test_enter_pressed_twice_begins_one_attempt(window, beginning, settle, services):
+    choose(window, "first-insertion")
+    press(window, Qt.Key.Key_Return)
+    QTest.keyClick(beginning.page, Qt.Key.Key_Return)
+    beginning.begin()
+    assert settle(lambda: state(window) is State.ALIGNING)
+    assert len(services.opened) == 1
+
+
+def test_back_returns_to_the_start_page_and_nothing_begins_later(window, beginning, settle):
+    choose(window, "first-insertion")
+    press(window, Qt.Key.Key_Escape)
+    assert window.pages.currentWidget() is window.start_page
+    settle(lambda: False, 0.4)
+    assert window.conductor.patient is None
+
+
+def test_looking_around_first_starts_nothing_until_f5_which_asks_nothing_more(
+    window, beginning, settle
+):
+    choose(window, "first-insertion")
+    press(window, Qt.Key.Key_L)
+    assert settle(lambda: window.workspace.exercise_panel.buttons.start.isEnabled())
+    settle(lambda: False, 0.4)
+    assert state(window) is State.READY
+    press(window, Qt.Key.Key_F5)
+    assert settle(lambda: state(window) is State.ALIGNING)
+
+
+def test_f5_on_an_exercise_taken_from_the_list_shows_its_briefing_first(window, beginning, settle):
+    window.feature(ExerciseFeature).begin("first-insertion")
+    assert settle(lambda: window.workspace.exercise_panel.buttons.start.isEnabled())
+    press(window, Qt.Key.Key_F5)
+    assert window.pages.currentWidget() is beginning.page
+    assert state(window) is State.READY
+    press(window, Qt.Key.Key_Escape)
+    assert window.pages.currentWidget() is window.workspace  # where one came from
+    press(window, Qt.Key.Key_F5)
+    press(window, Qt.Key.Key_F5)
+    assert settle(lambda: state(window) is State.ALIGNING)
+
+
+def test_do_not_show_again_holds_for_that_exercise_and_never_for_an_assessment(
+    window, beginning, settle
+):
+    choose(window, "first-insertion")
+    beginning.page.skip.setChecked(True)
+    press(window, Qt.Key.Key_L)
+    assert settle(lambda: window.pages.currentWidget() is window.workspace)
+    window.show_start()
+    choose(window, "thick-tissue")
+    assert window.pages.currentWidget() is beginning.page
+    press(window, Qt.Key.Key_Escape)
+    choose(window, "first-insertion")
+    assert window.pages.currentWidget() is window.workspace
+    window.conductor.controller.abort()
+    window.show_start()
+    settle(lambda: not window.editor.locked)
+    beginning.exercise = load_exercise("scans-only")
+    beginning.page.show_exercise(beginning.exercise, None)
+    assert beginning.page.skip.isHidden()
+    window.settings.setValue("briefing/skip/scans-only", "true")
+    assert not beginning._is_known(beginning.exercise)
+
+
+def test_an_exercise_that_the_student_plans_leads_to_the_plan(window, beginning, settle):
+    choose(window, "plan-it-yourself")
+    assert not beginning.page.show_me.isEnabled()
+    assert "plan" in beginning.page.begin.text()
+    press(window, Qt.Key.Key_Return)
+    assert settle(lambda: window.pages.currentWidget() is window.workspace)
+    assert settle(lambda: beginning.wish is BeginWish.NOTHING)
+    assert state(window) is None
+
+
+def test_a_demonstration_runs_apart_ends_by_itself_and_leaves_no_attempt(
+    window, beginning, settle, services
+):
+    finished = []
+    window.conductor.controller.finished.connect(finished.append)
+    choose(window, "first-insertion")
+    press(window, Qt.Key.Key_D)
+    assert settle(lambda: state(window) is State.ALIGNING)
+    assert services.opened[-1].setup.demonstrates
+    assert beginning.bar.isVisible()
+    run = window.conductor.controller.run
+    trainer, shown = run.trainer, run.trainer.snapshot
+
+    def done():
+        seen = shown()
+        seen.device.row[sv.TRAINEE_PHASE] = TRAINEE_DONE
+        return seen
+
+    def end():
+        trainer.state, trainer.result = State.ENDED, object()
+
+    trainer.snapshot, trainer.end = done, end
+    assert settle(lambda: window.pages.currentWidget() is beginning.page, LINGER_S + 10.0)
+    assert settle(lambda: window.runs.run is not None and not window.runs.run.demonstrates)
+    assert not finished
+    assert not beginning.bar.isVisible()
+    press(window, Qt.Key.Key_Return)
+    assert settle(lambda: state(window) is State.ALIGNING)
+    assert not window.conductor.controller.run.demonstrates
+
+
+def test_a_demonstration_can_be_stopped_at_any_time(window, beginning, settle, services):
+    choose(window, "first-insertion")
+    press(window, Qt.Key.Key_D)
+    assert settle(lambda: state(window) is State.ALIGNING)
+    trainer = window.conductor.controller.run.trainer
+
+    def abort(reason=""):
+        trainer.state, trainer.result = State.ABORTED, object()
+
+    trainer.abort = abort
+    press(window, Qt.Key.Key_Escape)
+    assert window.pages.currentWidget() is beginning.page
+    press(window, Qt.Key.Key_Return)  # at once, while the expert is still being stopped
+    assert settle(lambda: state(window) is State.ALIGNING)
+    assert not window.conductor.controller.run.demonstrates
+
+
+def test_another_patient_ends_a_demonstration(window, beginning, settle, patient):
+    choose(window, "first-insertion")
+    press(window, Qt.Key.Key_D)
+    assert settle(lambda: state(window) is State.ALIGNING)
+    window.show_patient(patient)
+    settle(lambda: False, 0.3)
+    assert not beginning.is_showing
+    assert not beginning.bar.isVisible()
+
+
+def test_somebody_who_goes_elsewhere_meanwhile_finds_no_attempt_begun(window, beginning, settle):
+    choose(window, "first-insertion")
+    window.services.refuses = "the robot is away"
+    press(window, Qt.Key.Key_Return)
+    assert settle(lambda: beginning.wish is BeginWish.NOTHING)
+    window.services.refuses = ""
+    window.show_workspace()
+    settle(lambda: False, 0.3)
+    assert state(window) in (None, State.READY)
+
+
+def test_the_words_say_what_counts_what_helps_and_what_is_locked():
+    first, scans = load_exercise("first-insertion"), load_exercise("scans-only")
+    assert scored_words(first)[0] == (
+        "Off the path: best up to 2 mm, passes up to 5 mm; must be kept"
+    )
+    assert scored_words(first)[-1] == "60 of 100 points pass."
+    assert aid_words(first)[0] == "The robot guides with 70 %."
+    assert locked_words(first) == ["Nothing: you may change help, views and layout."]
+    assert "control scans alone" in " ".join(aid_words(scans))
+    assert "what moves the hand" in locked_words(scans)[0]
