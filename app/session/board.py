@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import datetime
 from collections import Counter, defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
@@ -18,11 +18,13 @@ from typing import Any, Final
 from pydantic import ValidationError
 
 from app.core.progress import Progress
+from app.exercises.schema import Exercise
 from app.scoring.conditions import comparison_groups
-from app.session.course import Course, CourseItem
+from app.session.course import Course, CourseItem, courses, holding
 from app.session.index import Index, Indexed
-from app.session.people import People, Person, Remarks
+from app.session.people import PEOPLE, People, Person, Remarks, people_folder
 from app.session.signature import Signed
+from app.session.store import records
 
 MEDIAN_OF: Final = 5
 """The moving median of a curve is over so many attempts."""
@@ -207,6 +209,88 @@ def every_item(attempts: Sequence[Indexed]) -> list[CourseItem]:
         except ValidationError:
             continue  # a record with an id that no exercise can have
     return found
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """How far somebody has come in an exercise.
+
+    Attributes:
+        attempts: how many count.
+        best: points; None where there are none, or none that may be told.
+        passed: whether one passes that may be told.
+    """
+
+    attempts: int = 0
+    best: float | None = None
+    passed: bool = False
+
+
+def standings(
+    folder: Path,
+    exercises: Sequence[Exercise],
+    student: Person | None,
+    may_see: Callable[[str], bool] = lambda _: True,
+) -> dict[str, Standing]:
+    """Return how far a student has come, or everybody at this station, by id of the exercise.
+
+    Attempts at other versions do not count, nor what never counts on the board. A result that the
+    instructor has not released is an attempt and nothing more.
+
+    Args:
+        folder: of the records; one without any gives nothing, and nothing is written there.
+        exercises: that there are.
+        student: whose attempts; None for those of everybody.
+        may_see: without a student: whether attempts of whom a record names are open.
+
+    Raises:
+        SessionError: if something cannot be read.
+    """
+    if not any(True for _ in records(folder)):
+        return {}
+    index, people = Index(folder), People()
+    index.refresh()
+    there = (people_folder() / PEOPLE).exists()
+    whose, remarks = (people.keys(), people.remarks()) if there else ({}, {})
+    known = {one.key: one for one in people.everybody()} if there else {}
+    taken, (some_courses, _) = {one.id: one for one in exercises}, courses()
+    found: dict[str, Standing] = {}
+    for one in index.attempts():
+        exercise, owner = taken.get(one.exercise), whose.get(one.student, "")
+        mine = owner == student.key if student is not None else may_see(one.student)
+        if exercise is None or not mine:
+            continue
+        item, said = CourseItem(exercise=exercise.id, version=exercise.version), remarks.get(one.id)
+        if _why_not_counted(one, item, said):
+            continue
+        released = said is not None and said.released
+        held = holding(some_courses, known.get(owner), one.exercise, one.version, released)
+        before = found.get(one.exercise, Standing())
+        totals = [total for total in (before.best, one.total) if total is not None]
+        found[one.exercise] = Standing(
+            before.attempts + 1,
+            before.best if held else max(totals, default=None),
+            before.passed or (bool(one.passed) and not held),
+        )
+    return found
+
+
+def comes_next(
+    found: Mapping[str, Standing], exercises: Sequence[Exercise], student: Person | None
+) -> str:
+    """Return the first exercise that is not passed yet: of a student's course, else of all.
+
+    Args:
+        found: how far he has come.
+        exercises: that there are, easiest first.
+        student: who; None for everybody.
+    """
+    order = [one.id for one in exercises]
+    for course in courses()[0] if student is not None else ():
+        if student is not None and course.takes(student):
+            order = [item.exercise for item in course.items if item.exercise in order]
+            break
+    return next((name for name in order if not found.get(name, Standing()).passed), "")
 
 
 def _why_not_counted(one: Indexed, item: CourseItem, said: Remarks | None) -> str:

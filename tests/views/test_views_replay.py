@@ -276,7 +276,7 @@ def test_the_ct_is_opened_as_the_exercise_has_it_and_the_debrief_comes_back(
 
 def test_what_comes_next_is_said_and_begun_by_its_button(shown, window):
     begun = []
-    window.feature(DebriefFeature).begin_wanted.disconnect(window.begin_exercise)
+    window.feature(DebriefFeature).begin_wanted.disconnect()
     window.feature(DebriefFeature).begin_wanted.connect(begun.append)
     shown.show_proposal(
         Proposal("thick-tissue", "Thick tissue", ProposalReason.LEVEL, level=2, metric="")

@@ -146,6 +146,16 @@ class Beginning(QObject):
         else:
             self._show_page(exercise)
 
+    def go_on(self, identifier: str) -> None:
+        """Begin again what was briefed already, at once; else show the briefing."""
+        exercise = self._exercises().get(identifier)
+        if exercise is None or self._briefed != _key(exercise):
+            self.brief(identifier)
+            return
+        self._end_wish()
+        self.exercise, self._was_working = exercise, True
+        self.begin()
+
     def trust(self, identifier: str) -> None:
         """Let an exercise be begun without its briefing: somebody else has told what it says."""
         exercise = self._exercises().get(identifier)
@@ -270,7 +280,8 @@ class Beginning(QObject):
         exercise = self.exercise
         if exercise is None:
             return
-        if self.page.skip.isChecked() and exercise.purpose is Purpose.PRACTICE:
+        skips = self.page.isVisible() and self.page.skip.isChecked()
+        if skips and exercise.purpose is Purpose.PRACTICE:
             self._shell.settings.setValue(_skip(exercise), "true")
         self._briefed = _key(exercise)
         self._asked += 1  # pictures that are still being made come too late

@@ -26,6 +26,10 @@ class Runs(QObject):
         failed(object): the error that kept one from running.
         starting(bool): one is being built, or no more.
         unusable(str): which of the user's own files cannot be used, and why.
+        prepared(): what an exercise needs is loaded, or cannot be.
+
+    Attributes:
+        is_prepared: whether it is.
     """
 
     ready = Signal(object)
@@ -34,10 +38,12 @@ class Runs(QObject):
     failed = Signal(object)
     starting = Signal(bool)
     unusable = Signal(str)
+    prepared = Signal()
 
     def __init__(self, services: Services, indicator: Indicator, parent: QObject) -> None:
         super().__init__(parent)
         self._services, self._indicator = services, indicator
+        self.is_prepared = False
         self._open: OpenRun | None = None
         self._setup: RunSetup | None = None
         self._task: BackgroundTask | None = None
@@ -63,9 +69,10 @@ class Runs(QObject):
             self.unusable.emit("; ".join(unusable))
 
     def _prepared(self, error: Exception | None) -> None:
-        self._preparation = None
+        self._preparation, self.is_prepared = None, True
         if error is not None:
             self.failed.emit(error)
+        self.prepared.emit()
 
     def want(self, setup: RunSetup | None) -> None:
         """Have a trainer for this setup; None wants none."""

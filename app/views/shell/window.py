@@ -49,7 +49,7 @@ from app.views.shell.services import Services
 from app.views.shell.settings import Recents, open_settings
 from app.views.shell.shell import Shell
 from app.views.shell.shortcuts import ShortcutSheet
-from app.views.shell.start_page import StartPage
+from app.views.shell.start_page import StartFacts, StartPage
 from app.views.shell.view_menu import ViewMenu
 from app.views.structures.book import StructureBook
 
@@ -194,6 +194,7 @@ class MainWindow(QMainWindow):
         self.open_ct = OpenCt(Recents(self.settings, "recent/cts"), self.progress, self)
         self.undo = UndoOrder((self.editor, self.editors.measures, self.editors.structures), self)
         self.projector, self.start_page = Projector(self), StartPage(self.pages)
+        self.start_facts = StartFacts(self.start_page, services, self)
         for page in (self.start_page, self.workspace):
             self.pages.addWidget(page)
         shell = Shell(
@@ -241,6 +242,8 @@ class MainWindow(QMainWindow):
         """Go to the start page."""
         self.start_page.set_recents(self.open_ct.recents.paths())
         self.pages.setCurrentWidget(self.start_page)
+        if self.isVisible():  # nothing is read before the window stands
+            self.start_facts.refresh()
 
     def show_workspace(self) -> None:
         """Go to the panes."""
@@ -354,10 +357,20 @@ class MainWindow(QMainWindow):
         conductor.exercises_changed.connect(lambda: start.set_exercises(self.services.exercises()))
         start.exercise_chosen.connect(conductor.exercise_wanted)
         conductor.start_wanted.connect(self.show_start)
+        self.pages.currentChanged.connect(lambda _: self._let_picture())
+        open_ct.reading.connect(lambda _: self._let_picture())
+        self.runs.prepared.connect(self._let_picture)
         start.open_wanted.connect(open_ct.ask)
         start.recent_chosen.connect(open_ct.open_folder)
-        self.feature(DebriefFeature).begin_wanted.connect(self.begin_exercise)
+        self.feature(DebriefFeature).begin_wanted.connect(
+            self.feature(ExerciseFeature).beginning.go_on
+        )
         start.sessions_wanted.connect(lambda: self.feature(DebriefFeature).show_sessions())
+
+    def _let_picture(self) -> None:
+        """Let missing pictures of patients be made while nobody waits for anything else."""
+        idle = self.pages.currentWidget() is self.start_page and not self.open_ct.is_reading
+        self.start_facts.let_picture(idle and self.runs.is_prepared)
 
     def _forget_patient(self) -> None:
         """Empty everything of the patient. Settings, records and the exercise stay."""
@@ -380,6 +393,7 @@ class MainWindow(QMainWindow):
         """Begin to load what an exercise needs, behind the window."""
         super().showEvent(event)
         QTimer.singleShot(PAINTED_MS, self.runs.prepare)
+        QTimer.singleShot(PAINTED_MS, self.start_facts.begin)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Accept a folder or a file from it."""
@@ -400,6 +414,7 @@ class MainWindow(QMainWindow):
         self.remembered.remember()
         for feature in self.features:
             feature.close()
+        self.start_facts.close()
         self.equipment.close()
         self.conductor.close()
         event.accept()
