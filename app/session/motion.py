@@ -188,10 +188,10 @@ def rows_beside(own: NeedleMotion, other: NeedleMotion, by: Alignment) -> Rows:
     """Return for each sample of an attempt the sample of another one that belongs beside it.
 
     By time both begin together. By depth it is the moment at which the other needle first came as
-    deep; outside the body it is the moment before it went in.
+    deep: in the body only, as outside it nothing is deeper.
 
     Returns:
-        Shape (n,); -1 where the other attempt was over, or never came as deep.
+        Shape (n,); -1 where the other attempt was over, or never came as deep, or by depth outside.
     """
     if not len(own) or not len(other):
         return np.full(len(own), -1, dtype=np.intp)
@@ -205,7 +205,7 @@ def rows_beside(own: NeedleMotion, other: NeedleMotion, by: Alignment) -> Rows:
     deepest = np.maximum.accumulate(np.where(usable, other.depth, -np.inf))
     wanted = np.where(own.measured, own.depth, np.nan)
     rows = np.searchsorted(deepest, np.nan_to_num(wanted, nan=np.inf)).astype(np.intp)
-    rows[(rows >= len(other)) | ~own.measured] = -1
+    rows[(rows >= len(other)) | ~own.measured | ~(wanted >= 0.0)] = -1
     return rows
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from app.core.arrays import FloatArray
 from app.core.events import Event
 
-LONGEST_SIGN: Final = 36
+LONGEST_SIGN: Final = 24
 """Characters of an event that stand on a plot."""
 
 

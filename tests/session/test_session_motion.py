@@ -123,10 +123,10 @@ def test_by_depth_the_other_needle_is_where_it_first_came_as_deep_and_nowhere_be
     own = moved([-0.01, 0.01, 0.02, 0.05, 0.02])
     other = moved([-0.01, 0.0, 0.02, 0.01, 0.03, 0.04])
     rows = rows_beside(own, other, Alignment.DEPTH)
-    assert rows.tolist() == [0, 2, 2, -1, 2]
+    assert rows.tolist() == [-1, 2, 2, -1, 2]
     values = beside(np.arange(6.0), rows)
-    assert values[:3].tolist() == [0.0, 2.0, 2.0]
-    assert np.isnan(values[3])
+    assert values[1:3].tolist() == [2.0, 2.0]
+    assert np.isnan(values[[0, 3]]).all()
 
 
 def test_an_attempt_without_samples_can_be_asked_and_stands_beside_nothing():

@@ -1,11 +1,12 @@
 """The debrief replays an attempt: slices, 3D, bull's-eye and curves stand at one moment."""
 
 from dataclasses import replace
+from time import thread_time
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtCore import QCoreApplication, QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
 from views_exercise_attempts import review
 
@@ -115,7 +116,7 @@ def test_slider_arrows_home_end_and_a_click_on_a_curve_move_every_view_together(
     assert shown.replayer.time == pytest.approx(8.0)
     for line in shown.curves._nows:
         assert line.value() == pytest.approx(8.0)
-    assert "8.0 s" in shown.curves.readout.text()
+    assert "8.0\u00a0s" in shown.curves.readout.text()
     shown.views.viewing._go_on()
     at_eight = shown.review.motion.row(8.0)
     assert needle_of(shown).tip_mm == pytest.approx(shown.review.motion.needle(at_eight).tip_mm)
@@ -327,3 +328,20 @@ def test_beside_an_attempt_stand_the_ideal_path_and_comparable_ones_by_their_poi
     assert got == [IDEAL]
     assert shown.curves._ghost[0] is None
     assert window.feature(DebriefFeature).page._ghost.title == "ideal"
+
+
+def test_a_click_into_an_attempt_of_three_minutes_does_not_hold_the_window(shown, settle):
+    volume = shown.views.viewing.volume
+    long = attempted(volume, seconds=180.0)
+    shown.show_review(long)
+    shown.views.show_ct(volume, None)
+    shown.show_ghost(Ghost("ghost", attempted(volume, side=0.001, seconds=180.0)))
+    assert settle(lambda: shown.views.is_settled)
+    spent = []
+    for time in np.linspace(0.0, 179.0, 25):
+        begin = thread_time()
+        shown.replayer.seek(float(time))
+        QCoreApplication.processEvents()
+        spent.append(thread_time() - begin)
+        settle()
+    assert sorted(spent)[-3] < 0.1

@@ -11,7 +11,7 @@ import pyqtgraph as pg
 from pyqtgraph.GraphicsScene.mouseEvents import MouseClickEvent
 from PySide6.QtCore import QEvent, QObject, QPointF, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QPen
-from PySide6.QtWidgets import QGraphicsRectItem, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGraphicsRectItem, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from app.core.arrays import FloatArray
 from app.session.review import Review
@@ -183,7 +183,7 @@ def draw(plot: pg.PlotItem, review: Review, curve: Curve, names: bool) -> None:
     """
     if curve.line is not None:
         pen = pg.mkPen(theme.TARGET.colour, width=1.5, style=Qt.PenStyle.DashLine)
-        place = 0.5 if names else 0.99
+        place = 0.72 if names else 0.99
         options = {"position": place, "color": theme.TARGET.colour, "anchors": [(1, 1), (1, 1)]}
         line = pg.InfiniteLine(
             curve.line, angle=0, pen=pen, label=curve.line_name, labelOpts=options
@@ -267,6 +267,9 @@ def now_of(plot: pg.PlotItem) -> pg.InfiniteLine:
 Line = tuple[FloatArray, FloatArray]
 """Times [s] and values of a curve, shapes (n,)."""
 
+_BETWEEN: Final = "   ·   "
+"""Between two figures that are read out."""
+
 SHORT_S: Final = 2.0
 """Times of an attempt up to this are read out in milliseconds."""
 
@@ -302,6 +305,9 @@ class CurvesView(QWidget):
         self._turn.timeout.connect(self._draw_next)
         self.readout = QLabel(self)
         self.readout.setProperty("role", "dim")
+        self.readout.setWordWrap(True)
+        self.readout.setMinimumHeight(2 * self.readout.fontMetrics().lineSpacing())
+        self.readout.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
         self.graphics = pg.GraphicsLayoutWidget(self)
         self.graphics.setBackground(theme.IMAGE_GROUND)
         self.graphics.ci.layout.setSpacing(2)
@@ -373,7 +379,7 @@ class CurvesView(QWidget):
         for line in self._nows:
             self._stand(line)
         if not any(cursor.isVisible() for cursor in self._cursors):
-            self.readout.setText(self.read_out(time))
+            self._read_at(time)
 
     def show_ghost(self, lines: tuple[Line | None, ...]) -> None:
         """Draw dotted curves of another attempt into the plots, in their order; none if empty."""
@@ -410,7 +416,7 @@ class CurvesView(QWidget):
             for cursor in self._cursors:
                 cursor.hide()
             if self._time is not None:
-                self.readout.setText(self.read_out(self._time))
+                self._read_at(self._time)
         return super().eventFilter(watched, event)
 
     def read_out(self, time: float) -> str:
@@ -425,7 +431,7 @@ class CurvesView(QWidget):
             value = curve.values[i]
             text = f"{value:.1f} {curve.unit}" if np.isfinite(value) else "–"
             parts.append(f"{curve.name} {text}")
-        return "   ·   ".join(part for part in parts if part)
+        return _BETWEEN.join(part for part in parts if part)
 
     def _hover(self, at: QPointF) -> None:
         if not self._cursors:
@@ -434,7 +440,12 @@ class CurvesView(QWidget):
         for cursor in self._cursors:
             cursor.setPos(time)
             cursor.show()
-        self.readout.setText(self.read_out(time))
+        self._read_at(time)
+
+    def _read_at(self, time: float) -> None:
+        """Write all figures at a time [s]; a line breaks between two of them only."""
+        parts = self.read_out(time).split(_BETWEEN)
+        self.readout.setText(" · ".join(part.replace(" ", "\u00a0") for part in parts))
 
 
 def _state_at(spans: tuple[Span, ...], time: float) -> str:

@@ -7,7 +7,7 @@ from datetime import datetime
 from typing import Final
 
 from PySide6.QtCore import Qt, Signal, SignalInstance
-from PySide6.QtGui import QColor, QHideEvent, QKeySequence, QShortcut
+from PySide6.QtGui import QColor, QHideEvent, QKeySequence, QResizeEvent, QShortcut
 from PySide6.QtWidgets import (
     QAbstractButton,
     QAbstractItemView,
@@ -163,7 +163,7 @@ class ScoreTable(QTableWidget):
         """Fill the table; None empties it."""
         self.setRowCount(0)
         self.verticalHeader().setDefaultSectionSize(theme.px(_ROW_HEIGHT))
-        self.setColumnHidden(_WEIGHT, theme.scale() > 1.0)  # the points say it too
+        self._leave_out()
         if score is None:
             return
         for row in (*counting(score), *shown_only(score)):
@@ -179,6 +179,19 @@ class ScoreTable(QTableWidget):
                 item.setToolTip(texts.help)
                 self.setItem(index, column, item)
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Leave the names of the metrics room."""
+        super().resizeEvent(event)
+        self._leave_out()
+
+    def _leave_out(self) -> None:
+        """Leave the weight out where there is no room: the points say it too."""
+        self.setColumnHidden(_WEIGHT, theme.scale() > 1.0 or self.width() < _ROOMY)
+
+
+_ROOMY = 480
+"""Width from which all columns of the score have room [px]."""
+
 
 def _cell(text: str, column: int) -> QTableWidgetItem:
     """Cell aligned as its column: words to the left, numbers to the right."""
@@ -188,7 +201,7 @@ def _cell(text: str, column: int) -> QTableWidgetItem:
     return item
 
 
-_LEFT, _VIEWS = 410, 500
+_LEFT, _VIEWS = 440, 520
 """Width of what stands beside the views, and of the views [px]."""
 
 _AGAIN_LONGEST: Final = 34

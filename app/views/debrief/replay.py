@@ -456,6 +456,15 @@ class ReplayViews(QWidget):
         """Whether the CT of the attempt is shown."""
         return self.grid.shown is FOUR_VIEWS
 
+    @property
+    def is_settled(self) -> bool:
+        """Whether everything that there is has been drawn."""
+        if not self.has_ct:
+            return self.open.isVisibleTo(self)
+        drawn = all(pane.canvas.is_settled for pane in self.panes)
+        seen = self.scene is None or (not self.scene.picture().isNull() and self.scene.is_settled)
+        return drawn and seen
+
     def show_review(self, review: Review | None) -> None:
         """Take another attempt; its CT comes by itself."""
         self._review, self._row = review, 0
@@ -566,7 +575,7 @@ class ReplayViews(QWidget):
         """Return the 3D view; it is made when it is needed first."""
         if self.scene is None:
             self.scene = SceneView(SceneRenderer(), self)
-            self.scene.set_display(Display(xray=True))
+            self.scene.set_display(Display(xray=True, organs=False))
             self.scene.maximise_wanted.connect(lambda: self.grid.toggle(self._scene_place))
             self._scene_place.addWidget(self.scene)
             self.scene.installEventFilter(self)

@@ -248,7 +248,7 @@ class Demonstration(QObject):
         return self._then("scoring", self._debrief_is_shown)
 
     def _debrief_is_shown(self) -> bool:
-        if self._result is None or not self._drawn:
+        if self._result is None or not (self._drawn and self._debrief.page.views.is_settled):
             return False
         self._pictures.take("5-debrief")
         self._debrief.show_sessions()
