@@ -202,7 +202,7 @@ def test_the_ideal_path_stands_beside_the_needle_as_deep_as_it_dotted_with_anoth
     assert not own._mark.dash
     assert drawn.tip._mark.symbol is not own.tip._mark.symbol
     assert drawn.title == "ideal"
-    assert not shown.bar.by.isEnabled()
+    assert not shown.bar.by.isVisibleTo(shown)
     assert [line is None for line in shown.curves._ghost] == [True, False, False]
 
 
@@ -210,7 +210,7 @@ def test_another_attempt_stands_beside_it_at_the_same_time_or_at_the_same_depth(
     volume = shown.views.viewing.volume
     other = attempted(volume, side=0.001, seconds=10.0)
     shown.show_ghost(Ghost("ghost, 91 points", other))
-    assert shown.bar.by.isEnabled()
+    assert shown.bar.by.isVisibleTo(shown)
     layer, own = shown.views.ghosts[0], shown.review.motion
     shown.replayer.seek(8.0)
     assert layer._needle.tip_mm == pytest.approx(

@@ -108,10 +108,12 @@ class PathView(QWidget):
         with QPainter(picture) as painter:
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
             paint_background(painter, area, pad_scene(review))
+            dots = Qt.PenStyle.DotLine
             paint_track(
-                painter, area, self._ghost, theme.GHOST.colour, 1.5, line=Qt.PenStyle.DotLine
+                painter, area, self._ghost, theme.GHOST.colour, 1.5, line=dots, filled=False
             )
-            paint_track(painter, area, self._track, theme.NEEDLE_TIP.colour, 1.8)
+            filled = review.motion is None
+            paint_track(painter, area, self._track, theme.NEEDLE_TIP.colour, 1.8, filled=filled)
         return picture
 
 
@@ -229,6 +231,7 @@ def paint_track(
     mark: float = 8.0,
     ground: str = theme.IMAGE_GROUND,
     line: Qt.PenStyle = Qt.PenStyle.SolidLine,
+    filled: bool = True,
 ) -> None:
     """Draw a track of pad places, shape (n, 2); gaps where there is no number.
 
@@ -240,7 +243,8 @@ def paint_track(
         width: of the line.
         mark: half the diagonal of the end's diamond.
         ground: colour inside the square at the beginning.
-        line: how the line is drawn; only a solid one's end is filled.
+        line: how the line is drawn.
+        filled: whether the diamond at the end is; a needle that is replayed has one itself.
     """
     known = np.asarray(np.isfinite(places).all(axis=1))
     if not known.any():
@@ -255,6 +259,6 @@ def paint_track(
     painter.setPen(QPen(QColor(colour), width))
     painter.setBrush(QColor(ground))
     painter.drawRect(QRectF(first.x() - mark / 2, first.y() - mark / 2, mark, mark))
-    painter.setBrush(QColor(colour if line is Qt.PenStyle.SolidLine else ground))
+    painter.setBrush(QColor(colour if filled else ground))
     corners = ((0, -1), (1, 0), (0, 1), (-1, 0))
     painter.drawPolygon(QPolygonF([last + QPointF(mark * x, mark * y) for x, y in corners]))

@@ -233,13 +233,8 @@ class ReplayBar(QWidget):
         self.ghost.blockSignals(False)
 
     def show_alignment(self, possible: bool) -> None:
-        """Let one choose by what a ghost is aligned, where there is a choice."""
-        self.by.setEnabled(possible)
-        self.by.setToolTip(
-            tr("By what the two attempts are brought together")
-            if possible
-            else tr("The ideal path has no time of its own: it is as deep as the needle.")
-        )
+        """Let one choose by what a ghost is aligned; the ideal path has no time of its own."""
+        self.by.setVisible(possible)
 
     # --- inside -----------------------------------------------------------------------------------
     def _prepare(self) -> None:
@@ -256,6 +251,7 @@ class ReplayBar(QWidget):
         self.ghost.setToolTip(
             tr("What stands beside the needle: dotted in slices and curves, dashed in 3D")
         )
+        self.by.setToolTip(tr("By what the two attempts are brought together"))
         self.ghost.setSizeAdjustPolicy(
             QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         )
@@ -321,7 +317,7 @@ class ReplayBar(QWidget):
 
     def _show_state(self) -> None:
         playing = self._replayer.is_playing
-        self.play.setText(tr("⏸ Pause") if playing else tr("▶ Play"))
+        self.play.setText(tr("❚❚ Pause") if playing else tr("▶ Play"))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
