@@ -5,7 +5,7 @@ from __future__ import annotations
 import datetime
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, Final
 
@@ -19,7 +19,7 @@ from app.exercises.guidance import Purpose
 from app.exercises.library import library
 from app.session.errors import SessionError
 from app.session.index import Indexed
-from app.session.people import Person, people_folder
+from app.session.people import PEOPLE, People, Person, people_folder
 
 NAME: Final = r"^[a-z0-9]+(-[a-z0-9]+)*$"
 """A course's id is also its file's name."""
@@ -214,6 +214,30 @@ def holding(
             if same and item.purpose is Purpose.ASSESSMENT and course.takes(person):
                 return course
     return None
+
+
+def held_back(attempts: Iterable[tuple[str, str, str, int]]) -> dict[str, str]:
+    """Return which results are held back here, by id of the attempt: the title of the course.
+
+    Args:
+        attempts: id, whom the record names, id of the exercise and its version.
+
+    Raises:
+        SessionError: if people or courses cannot be read.
+    """
+    if not (people_folder() / PEOPLE).exists():
+        return {}
+    people, (known, _) = People(), courses()
+    whose, remarks = people.keys(), people.remarks()
+    persons = {person.key: person for person in people.everybody()}
+    found = {}
+    for name, student, exercise, version in attempts:
+        said, person = remarks.get(name), persons.get(whose.get(student, ""))
+        released = said is not None and said.released
+        course = holding(known, person, exercise, version, released)
+        if course is not None:
+            found[name] = course.title
+    return found
 
 
 def attempts_used(attempts: Sequence[Indexed], item: CourseItem) -> list[Indexed]:

@@ -11,16 +11,25 @@ from PySide6.QtTest import QTest
 from views_exercise_attempts import review
 
 from app.core.bend import Bend
+from app.exercises.guidance import Purpose
 from app.planning.placement import PlacedPlan, Placement
 from app.planning.plan import Plan
+from app.scoring.conditions import Conditions
+from app.session.course import Course, CourseItem, held_back
 from app.session.ct_facts import CtFacts
 from app.session.curves import at_rest, curves
 from app.session.motion import motion
 from app.session.next_exercise import Proposal, ProposalReason
+from app.session.people import People
+from app.session.roster import RosterLine
 from app.session.samples import Samples
+from app.session.summary import Summary
 from app.session.timeline import spans
 from app.views.debrief.feature import IDEAL, DebriefFeature
 from app.views.debrief.replay import Ghost
+from app.views.debrief.sessions import SCORE, SORT_ROLE
+from app.views.kit.access import ACCESS
+from app.views.people.feature import PeopleFeature
 from app.views.slices.needle_source import Along
 
 FULCRUM = (0.0, 0.16056, 0.090)
@@ -345,3 +354,64 @@ def test_a_click_into_an_attempt_of_three_minutes_does_not_hold_the_window(shown
         spent.append(thread_time() - begin)
         settle()
     assert sorted(spent)[-3] < 0.1
+
+
+@pytest.fixture
+def assessed(window):
+    """Ada takes an assessment whose results the instructor releases; a password is set."""
+    people = People()
+    people.set_instructor("correct horse")
+    ada, _ = people.add(RosterLine("Ada", groups=("A",)))
+    item = CourseItem(exercise="first-insertion", purpose=Purpose.ASSESSMENT)
+    Course(id="autumn", title="Autumn", groups=("A",), items=(item,)).save()
+    yield ada
+    window.feature(PeopleFeature).close()
+
+
+def test_the_list_tells_a_student_no_result_that_is_held_and_the_instructor_every_one(
+    window, assessed, settle
+):
+    sessions = window.feature(DebriefFeature).sessions
+    score = {"total": 87.0, "passed": True, "void_reason": "", "rows": []}
+    under = Conditions("first-insertion", 1)
+    mine = Summary("a", "2026-11-20T10:00:00+00:00", assessed.key, "first-insertion",
+                   state="ended", score=score, conditions=under)  # fmt: skip
+    practice = replace(mine, id="b", exercise_id="thick-tissue",
+                       conditions=Conditions("thick-tissue", 1))  # fmt: skip
+    ACCESS.sign_in(assessed)
+    window.feature(PeopleFeature).look()
+    assert settle(lambda: ACCESS.guarded and assessed.key in ACCESS._known.keys)
+    asked = ((one.id, one.student, one.exercise_id, 1) for one in (mine, practice))
+    sessions._take([mine, practice], held_back(asked))
+    cells = {sessions.model.index(row, SCORE).data(Qt.ItemDataRole.DisplayRole) for row in (0, 1)}
+    assert cells == {"held", "✔ 87"}
+    assert sessions.model.index(0, SCORE).data(SORT_ROLE) == -1.0
+    assert "Autumn" in sessions.model.index(0, SCORE).data(Qt.ItemDataRole.ToolTipRole)
+    ACCESS.sign_in(None, instructor=True)
+    assert sessions.model.index(0, SCORE).data(Qt.ItemDataRole.DisplayRole) == "✔ 87"
+    People().remark("a", released=True)
+    assert held_back([("a", assessed.key, "first-insertion", 1)]) == {}
+
+
+def test_whoever_signs_in_sees_of_the_attempt_on_the_page_what_he_may(
+    window, patient, assessed, settle
+):
+    window.show_patient(patient)
+    feature = window.feature(DebriefFeature)
+    page = feature.page
+    ACCESS.sign_in(assessed)
+    window.feature(PeopleFeature).look()
+    assert settle(lambda: ACCESS.guarded and assessed.key in ACCESS._known.keys)
+    mine = attempted(
+        patient.volume, student=assessed.key, conditions=Conditions("first-insertion", 1)
+    )
+    feature._controller._show(mine, "Autumn")
+    assert page.review is None
+    ACCESS.sign_in(None, instructor=True)
+    assert settle(lambda: page.review is mine)
+    ACCESS.sign_in(assessed)
+    assert settle(lambda: page.review is None)
+    assert "Autumn" in page.held.text()
+    ACCESS.sign_in(None)
+    assert settle(lambda: "another one's" in page.held.text())
+    assert not page.table.isVisibleTo(page)

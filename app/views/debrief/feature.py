@@ -21,7 +21,7 @@ from app.imaging.volume import Volume
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
 from app.session.control_scan import ControlScan
-from app.session.course import Course, courses, holding
+from app.session.course import Course, courses, held_back, holding
 from app.session.errors import SessionError
 from app.session.motion import rivals
 from app.session.next_exercise import Proposal, propose
@@ -57,11 +57,13 @@ class DebriefController(QObject):
 
     Signals:
         shown(): the debrief page shows an attempt; bring it to the front.
+        replayed(): it can be replayed; its CT is to be found.
         saved(str): a file was written there.
         failed(str): something did not work, in one line.
     """
 
     shown = Signal()
+    replayed = Signal()
     saved = Signal(str)
     failed = Signal(str)
 
@@ -82,6 +84,7 @@ class DebriefController(QObject):
         self._ask_path = ask_path or ask_path_in_dialog
         self._exercises, self._indicator = exercises, indicator
         self._reading: BackgroundTask | None = None
+        self._shown: Review | None = None
         self._asked = self._asked_ghost = 0
         self.exercise = ""
         page.report_requested.connect(self.save_report)
@@ -162,9 +165,34 @@ class DebriefController(QObject):
             self._indicator.show_task(task, tr("Reading the attempt"))
         task.open()
 
+    def follow_access(self) -> None:
+        """Somebody else is here: show the attempt only as far as he may see it."""
+        shown = self._shown
+        if shown is None:
+            return
+        if not ACCESS.may_see(shown.student):
+            self._asked += 1
+            self._page.show_held(
+                shown,
+                tr("This attempt is another one's: sign in as who made it, or as the instructor."),
+            )
+            return
+        manages = ACCESS.may_manage
+
+        def take(held: str) -> None:
+            if self._shown is shown and ACCESS.may_see(shown.student):
+                self._put(shown, held)
+
+        run_in_background(self, lambda _: "" if manages else held_by(shown), take, self._fail)
+
     def _show(self, shown: Review, held: str) -> None:
-        self._reading = None
+        self._reading, self._shown = None, shown
         self.exercise = shown.conditions.exercise if shown.conditions is not None else ""
+        self._put(shown, held)
+        self.shown.emit()
+
+    def _put(self, shown: Review, held: str) -> None:
+        """Put an attempt on the page, or say who releases its result."""
         if held:
             self._page.show_held(
                 shown,
@@ -174,9 +202,9 @@ class DebriefController(QObject):
                     course=held,
                 ),
             )
-        else:
+        elif self._page.review is not shown:
             self._page.show_review(shown)
-        self.shown.emit()
+            self.replayed.emit()
         self._look_around(shown, bool(held))
 
     def _look_around(self, shown: Review, held: bool) -> None:
@@ -349,13 +377,10 @@ def held_by(shown: Review) -> str:
     Raises:
         SessionError: if people or courses cannot be read.
     """
-    person, _, known, remarks = who_did(shown.student)
-    under, said = shown.conditions, remarks.get(shown.id)
+    under = shown.conditions
     if under is None:
         return ""
-    released = said is not None and said.released
-    course = holding(known, person, under.exercise, under.version, released)
-    return course.title if course is not None else ""
+    return held_back([(shown.id, shown.student, under.exercise, under.version)]).get(shown.id, "")
 
 
 def ghost_words(found: Sequence[tuple[Indexed, bool]], shown: Review) -> list[tuple[object, str]]:
@@ -600,7 +625,8 @@ class DebriefFeature(Feature):
         self._controller.failed.connect(lambda why: self.failed.emit(why))
         self._controller.saved.connect(lambda path: self.noted.emit(tr("Saved {name}", name=path)))
         self._controller.shown.connect(self.show)
-        self._controller.shown.connect(self.ct.find)
+        self._controller.replayed.connect(self.ct.find)
+        ACCESS.changed.connect(self._controller.follow_access)
         self.page.retry_requested.connect(self.begin_again)
         self.page.next_requested.connect(self.begin_wanted)
         self.page.sessions_requested.connect(self.show_sessions)

@@ -1,6 +1,6 @@
 """The sessions page: what was recorded, as a table to sort, open, export, delete and bring back."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
@@ -28,6 +28,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.core.errors import AcusError
+from app.session.course import held_back
 from app.session.store import delete, list_sessions, restore
 from app.session.summary import BROKEN, Summary
 from app.views.debrief.page import date_text
@@ -65,11 +66,14 @@ class SessionsModel(QAbstractTableModel):
     def __init__(self) -> None:
         super().__init__()
         self._summaries: tuple[Summary, ...] = ()
+        self._held: Mapping[str, str] = {}
 
-    def set_summaries(self, summaries: Sequence[Summary]) -> None:
-        """Replace all rows."""
+    def set_summaries(
+        self, summaries: Sequence[Summary], held: Mapping[str, str] | None = None
+    ) -> None:
+        """Replace all rows; of those that are `held` by a course no score is shown."""
         self.beginResetModel()
-        self._summaries = tuple(summaries)
+        self._summaries, self._held = tuple(summaries), held or {}
         self.endResetModel()
 
     def rowCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008
@@ -103,6 +107,17 @@ class SessionsModel(QAbstractTableModel):
     def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         """Text, colour, alignment, sort key or the summary itself."""
         summary, column = self._summaries[index.row()], index.column()
+        if column == SCORE and summary.id in self._held:
+            course = self._held[summary.id]
+            told: dict[int, Any] = {
+                Qt.ItemDataRole.DisplayRole: tr("held"),
+                SORT_ROLE: -1.0,
+                Qt.ItemDataRole.ToolTipRole: tr(
+                    "The instructor releases this result of the course {course}.", course=course
+                ),
+            }
+            if role in told:
+                return told[role]
         if role == Qt.ItemDataRole.DisplayRole:
             return cell_text(summary, column)
         if role == SORT_ROLE:
@@ -186,6 +201,21 @@ def sort_key(summary: Summary, column: int) -> str | float:
     return cell_text(summary, column).casefold()
 
 
+def listed(folder: Path) -> tuple[list[Summary], dict[str, str]]:
+    """Return the records of a folder, and the courses that hold a result back, by its id.
+
+    Raises:
+        SessionError: if something cannot be read.
+    """
+    found = list_sessions(folder)
+    asked = (
+        (one.id, one.student, one.exercise_id, one.conditions.version)
+        for one in found
+        if one.conditions is not None
+    )
+    return found, held_back(asked)
+
+
 class SessionsPage(QWidget):
     """A sortable, filterable list of the records in one folder.
 
@@ -206,6 +236,7 @@ class SessionsPage(QWidget):
         self._folder = folder
         self._deleted: list[str] = []
         self._read: tuple[Summary, ...] = ()
+        self._held: Mapping[str, str] = {}
         self.model = SessionsModel()
         self.proxy = QSortFilterProxyModel(self)
         self.proxy.setSourceModel(self.model)
@@ -229,13 +260,18 @@ class SessionsPage(QWidget):
     def refresh(self) -> None:
         """Read the folder again, beside the window."""
         run_in_background(
-            self, lambda _: list_sessions(self._folder), self.show_summaries, self._fail
+            self, lambda _: listed(self._folder), lambda both: self._take(*both), self._fail
         )
+
+    def _take(self, summaries: Sequence[Summary], held: Mapping[str, str]) -> None:
+        self._held = held
+        self.show_summaries(summaries)
 
     def show_summaries(self, summaries: Sequence[Summary]) -> None:
         """Show these sessions: those that who is here may see."""
         self._read = tuple(summaries)
-        self.model.set_summaries([one for one in summaries if ACCESS.may_see(one.student)])
+        held = {} if ACCESS.may_manage else self._held
+        self.model.set_summaries([one for one in summaries if ACCESS.may_see(one.student)], held)
         self._fit_columns()
         self._enable()
 
