@@ -13,6 +13,7 @@ from app.core import state_vector as sv
 from app.exercises.library import load_exercise
 from app.planning.plan import Plan
 from app.session.machine import State
+from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.beginning import LINGER_S, TRAINEE_DONE, BeginWish
 from app.views.exercise.briefing import aid_words, locked_words, scored_words
 from app.views.exercise.feature import ExerciseFeature
@@ -226,3 +227,35 @@ def test_the_words_say_what_counts_what_helps_and_what_is_locked():
     assert locked_words(first) == ["Nothing: you may change help, views and layout."]
     assert "control scans alone" in " ".join(aid_words(scans))
     assert "what moves the hand" in locked_words(scans)[0]
+
+
+def test_enter_pressed_once_too_often_does_not_end_the_attempt(window, beginning, settle):
+    ended = []
+    window.workspace.exercise_panel.buttons.end_requested.connect(lambda: ended.append(1))
+    choose(window, "first-insertion")
+    press(window, Qt.Key.Key_Return)
+    assert settle(lambda: state(window) is State.ALIGNING)
+    settle()
+    press(window, Qt.Key.Key_Return)
+    assert not ended
+    assert state(window) is State.ALIGNING
+
+
+def test_again_from_the_debrief_begins_at_once_and_another_exercise_is_briefed(
+    window, beginning, settle
+):
+    choose(window, "first-insertion")
+    press(window, Qt.Key.Key_Return)
+    assert settle(lambda: state(window) is State.ALIGNING)
+    window.conductor.controller.run.trainer.state = State.ENDED
+    debrief = window.feature(DebriefFeature)
+    debrief.show()
+    settle(lambda: not window.editor.locked)
+    debrief.begin_wanted.emit("first-insertion")
+    assert settle(lambda: state(window) is State.ALIGNING)
+    assert window.pages.currentWidget() is window.workspace
+    window.conductor.controller.run.trainer.state = State.ENDED
+    settle(lambda: not window.editor.locked)
+    debrief.begin_wanted.emit("thick-tissue")
+    assert window.pages.currentWidget() is beginning.page
+    assert beginning.page.title.text() == "Thick tissue"

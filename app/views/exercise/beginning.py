@@ -13,8 +13,8 @@ from enum import Enum, auto
 from pathlib import Path
 from typing import Final
 
-from PySide6.QtCore import QObject, Qt, QTimer
-from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt, QTimer
+from PySide6.QtGui import QKeyEvent, QKeySequence, QShortcut
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QWidget
 
 from app.core import state_vector as sv
@@ -41,6 +41,9 @@ PERIOD_MS: Final = 100
 
 LINGER_S: Final = 2.5
 """So long the needle is seen at the target before a demonstration ends [s]."""
+
+GUARD_MS: Final = 1200
+"""So long after an attempt began from the briefing Enter does not end it."""
 
 SCAN_AT: Final = (0.45, 1.0)
 """Where control scans guide, the expert takes one at these shares of the way in."""
@@ -83,6 +86,34 @@ class DemonstrationBar(QFrame):
         self.raise_()
 
 
+class EnterGuard(QObject):
+    """Keeps an Enter that is pressed twice from ending the attempt that the first one began."""
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self._timer = QTimer(self, interval=GUARD_MS, singleShot=True)
+        self._timer.timeout.connect(self._let_go)
+
+    def hold(self) -> None:
+        """Swallow Enter for a moment."""
+        application = QCoreApplication.instance()
+        if application is not None:
+            application.installEventFilter(self)
+            self._timer.start()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Swallow Enter, as a key and as a shortcut."""
+        if isinstance(event, QKeyEvent) and event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            event.accept()
+            return True
+        return False
+
+    def _let_go(self) -> None:
+        application = QCoreApplication.instance()
+        if application is not None:
+            application.removeEventFilter(self)
+
+
 class Beginning(QObject):
     """Leads from the wish to the attempt.
 
@@ -114,6 +145,7 @@ class Beginning(QObject):
         self._briefed: tuple[str, int] | None = None
         self._asked, self._waited, self._scans = 0, 0.0, 0
         self._untaken = self._arrived = self._was_working = False
+        self._guard = EnterGuard(self)
         self._timer = QTimer(self, interval=PERIOD_MS)
         self._timer.timeout.connect(self._poll)
         self._shell.add_page(self.page)
@@ -362,6 +394,7 @@ class Beginning(QObject):
         if run is not None and not run.demonstrates and start.isEnabled():
             self._end_wish()
             start.click()
+            self._guard.hold()
 
     def _show(self) -> None:
         self._escape.setEnabled(True)

@@ -245,7 +245,7 @@ class PortraitView(QWidget):
 
 
 # --- page -------------------------------------------------------------------------------------
-WORDS_WIDTH = 470
+WORDS_WIDTH = 500
 
 
 class BriefingPage(QWidget):

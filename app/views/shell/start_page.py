@@ -52,8 +52,8 @@ if TYPE_CHECKING:
     from app.views.shell.services import Services
 
 OWN_WIDTH: Final = 330
-ROW: Final = 60
-PICTURE: Final = 78
+ROW: Final = 68
+PICTURE: Final = 88
 COLUMNS: Final = (("level", 92), ("done", 84), ("best", 62))
 """Columns at the right of a row, with their width."""
 
@@ -163,12 +163,14 @@ class StartPage(QWidget):
         open_wanted(): a CT folder shall be asked for.
         recent_chosen(object): path of a CT that was opened before.
         sessions_wanted(): past attempts.
+        tour_wanted(bool): whether the tour that is offered shall begin, or not be offered again.
     """
 
     exercise_chosen = Signal(str)
     open_wanted = Signal()
     recent_chosen = Signal(object)
     sessions_wanted = Signal()
+    tour_wanted = Signal(bool)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -192,7 +194,13 @@ class StartPage(QWidget):
         self.exercises.setVerticalScrollMode(QListWidget.ScrollMode.ScrollPerPixel)
         self.exercises.setUniformItemSizes(True)
         self.exercises.setAccessibleName(tr("Exercises"))
+        self.offer = QWidget(self)
+        self.tour = QPushButton(tr("Three-minute tour"), self.offer)
+        self.no_tour = QPushButton(tr("Not now"), self.offer)
+        self.offer.hide()
         self._lay_out()
+        self.tour.clicked.connect(lambda: self._answer(True))
+        self.no_tour.clicked.connect(lambda: self._answer(False))
         self.setTabOrder(self.exercises, self.search)  # arrows and Enter choose from the start
         self.begin.clicked.connect(self._begin)
         self.search.textChanged.connect(self._find)
@@ -257,7 +265,15 @@ class StartPage(QWidget):
             hint.setFlags(Qt.ItemFlag.NoItemFlags)
             self.recents.addItem(hint)
 
+    def offer_tour(self, offered: bool) -> None:
+        """Offer the tour, beside everything else, or no more."""
+        self.offer.setVisible(offered)
+
     # --- inside -------------------------------------------------------------------------------
+    def _answer(self, wanted: bool) -> None:
+        self.offer_tour(False)
+        self.tour_wanted.emit(wanted)
+
     def _items(self) -> list[QListWidgetItem]:
         return [self.exercises.item(row) for row in range(self.exercises.count())]
 
@@ -316,6 +332,12 @@ class StartPage(QWidget):
         for widget in (title, what):
             head.addWidget(widget, 0, Qt.AlignmentFlag.AlignBottom)
         head.addStretch(1)
+        first = QHBoxLayout(self.offer)
+        first.setContentsMargins(0, 0, 0, 0)
+        first.addWidget(QLabel(tr("First time here?"), self.offer))
+        first.addWidget(self.tour)
+        first.addWidget(self.no_tour)
+        head.addWidget(self.offer, 0, Qt.AlignmentFlag.AlignBottom)
         row = QHBoxLayout()
         row.setSpacing(2 * theme.MARGIN)
         row.addWidget(
@@ -358,8 +380,9 @@ class ColumnTitles(QWidget):
             title = QLabel(titles[name], self)
             title.setProperty("role", "dim")
             title.setFixedWidth(theme.px(width))
-            if name != "level":
-                title.setAlignment(Qt.AlignmentFlag.AlignRight)
+            side = Qt.AlignmentFlag.AlignLeft if name == "level" else Qt.AlignmentFlag.AlignRight
+            title.setAlignment(side | Qt.AlignmentFlag.AlignVCenter)
+            title.setContentsMargins(0, 0, 0, 0)
             row.addWidget(title)
 
 

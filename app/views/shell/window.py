@@ -50,6 +50,7 @@ from app.views.shell.settings import Recents, open_settings
 from app.views.shell.shell import Shell
 from app.views.shell.shortcuts import ShortcutSheet
 from app.views.shell.start_page import StartFacts, StartPage
+from app.views.shell.tour import TourFeature
 from app.views.shell.view_menu import ViewMenu
 from app.views.structures.book import StructureBook
 
@@ -360,6 +361,9 @@ class MainWindow(QMainWindow):
         self.pages.currentChanged.connect(lambda _: self._let_picture())
         open_ct.reading.connect(lambda _: self._let_picture())
         self.runs.prepared.connect(self._let_picture)
+        tour = self.feature(TourFeature)
+        start.offer_tour(tour.is_wanted)
+        start.tour_wanted.connect(lambda yes: tour.begin() if yes else tour.decline())
         start.open_wanted.connect(open_ct.ask)
         start.recent_chosen.connect(open_ct.open_folder)
         self.feature(DebriefFeature).begin_wanted.connect(
