@@ -10,7 +10,6 @@ from PySide6.QtTest import QTest
 from app.views.debrief.page import DebriefPage
 from app.views.reading.workspace import WorkspacePage
 from app.views.shell.start_page import StartPage
-from app.views.shell.tour import TourFeature
 
 
 @pytest.fixture
@@ -20,7 +19,7 @@ def tour(window, settle):
     window.show()
     window.activateWindow()
     settle(window.isActiveWindow)
-    return window.feature(TourFeature)
+    return window.tour
 
 
 def test_the_first_start_offers_the_tour_beside_everything_else(window, tour):

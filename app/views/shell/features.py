@@ -19,7 +19,6 @@ from app.views.robot.feature import RobotFeature
 from app.views.scene.feature import SceneFeature
 from app.views.series.feature import SeriesFeature
 from app.views.shell.feature import Feature
-from app.views.shell.tour import TourFeature
 from app.views.sounds.feature import SoundsFeature
 from app.views.structures.feature import StructuresFeature
 
@@ -40,6 +39,5 @@ FEATURES: Final[tuple[type[Feature], ...]] = (
     SoundsFeature,
     DebriefFeature,
     PeopleFeature,
-    TourFeature,
 )
 """A dropped file is offered to them from the last to the first."""

@@ -8,22 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar, Final, TypeVar
+from typing import Final
 
 from PySide6.QtCore import QEvent, QObject, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPainterPath, QPaintEvent, QPen
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QStackedWidget, QVBoxLayout, QWidget
 
-from app.views.debrief.page import DebriefPage
 from app.views.kit import theme
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.parts import button, label
 from app.views.kit.text import tr
 from app.views.reading.workspace import WorkspacePage
-from app.views.shell.feature import Context, Feature
+from app.views.shell.feature import Context
 from app.views.shell.start_page import StartPage
-
-W = TypeVar("W", bound=QWidget)
 
 SEEN: Final = "tour/seen"
 WIDTH: Final = 400
@@ -162,7 +159,7 @@ class TourVeil(QWidget):
             self.left.emit()
 
 
-class TourFeature(Feature):
+class Tour(QObject):
     """The tour, in the menu Help and on the start page.
 
     Attributes:
@@ -170,10 +167,12 @@ class TourFeature(Feature):
         number: of the stop that is pointed at; None while there is no tour.
     """
 
-    topic: ClassVar[str] = "tour"
-
-    def __init__(self, context: Context) -> None:
-        super().__init__(context)
+    def __init__(
+        self, context: Context, start: StartPage, workspace: WorkspacePage, debrief: QWidget
+    ) -> None:
+        super().__init__(context.shell.dialog_parent)
+        self.context = context
+        self._start, self._workspace, self._debrief = start, workspace, debrief
         self._window, self._settings = context.shell.dialog_parent, context.shell.settings
         self.veil = TourVeil(self._window)
         self.number: int | None = None
@@ -201,7 +200,7 @@ class TourFeature(Feature):
             self.context.shell.messages.show_error(tr("An attempt is running: end it first."))
             return
         self.decline()
-        self._page, self._had_pad = self._current(), self._workspace().has_bullseye
+        self._page, self._had_pad = self._current(), self._workspace.has_bullseye
         self._stops = self._all()
         self._go(0)
 
@@ -216,7 +215,7 @@ class TourFeature(Feature):
             return
         self.number = None
         self.veil.hide()
-        self._workspace().show_bullseye(self._had_pad)
+        self._workspace.show_bullseye(self._had_pad)
         if self._page is not None:
             self.context.shell.show_page(self._page)
             self._page.setFocus()
@@ -237,7 +236,7 @@ class TourFeature(Feature):
             self.end()
             return
         self.number = number
-        stop, workspace = self._stops[number], self._workspace()
+        stop, workspace = self._stops[number], self._workspace
         self.context.shell.show_page(stop.page)
         if stop.page is workspace and not workspace.has_bullseye:
             workspace.show_bullseye(True)
@@ -252,12 +251,6 @@ class TourFeature(Feature):
                 inner.activate()
         self.veil.point_at(stop, self.number, len(self._stops))
 
-    def _find(self, kind: type[W]) -> W:
-        return next(iter(self._window.findChildren(kind)))
-
-    def _workspace(self) -> WorkspacePage:
-        return self._find(WorkspacePage)
-
     def _follow(self, _: int) -> None:
         """Leave where the window went elsewhere: a patient came, or a result."""
         if self.number is not None and self._stops[self.number].page is not self._current():
@@ -265,11 +258,12 @@ class TourFeature(Feature):
             self.end()
 
     def _current(self) -> QWidget | None:
-        return self._find(QStackedWidget).currentWidget()
+        pages = self._start.parentWidget()
+        return pages.currentWidget() if isinstance(pages, QStackedWidget) else None
 
     def _all(self) -> tuple[TourStop, ...]:
         """Every stop, in the order of an attempt."""
-        work, start, debrief = self._workspace(), self._find(StartPage), self._find(DebriefPage)
+        work, start, debrief = self._workspace, self._start, self._debrief
         return (
             TourStop(
                 tr("The patient"),

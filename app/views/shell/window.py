@@ -50,7 +50,7 @@ from app.views.shell.settings import Recents, open_settings
 from app.views.shell.shell import Shell
 from app.views.shell.shortcuts import ShortcutSheet
 from app.views.shell.start_page import StartFacts, StartPage
-from app.views.shell.tour import TourFeature
+from app.views.shell.tour import Tour
 from app.views.shell.view_menu import ViewMenu
 from app.views.structures.book import StructureBook
 
@@ -361,7 +361,8 @@ class MainWindow(QMainWindow):
         self.pages.currentChanged.connect(lambda _: self._let_picture())
         open_ct.reading.connect(lambda _: self._let_picture())
         self.runs.prepared.connect(self._let_picture)
-        tour = self.feature(TourFeature)
+        debrief = self.feature(DebriefFeature).page
+        self.tour = tour = Tour(self.context, start, self.workspace, debrief)
         start.offer_tour(tour.is_wanted)
         start.tour_wanted.connect(lambda yes: tour.begin() if yes else tour.decline())
         start.open_wanted.connect(open_ct.ask)
@@ -418,6 +419,7 @@ class MainWindow(QMainWindow):
         self.remembered.remember()
         for feature in self.features:
             feature.close()
+        self.tour.close()
         self.start_facts.close()
         self.equipment.close()
         self.conductor.close()
