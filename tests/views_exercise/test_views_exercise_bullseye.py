@@ -188,7 +188,7 @@ def test_the_words_name_the_plane_the_angle_and_the_side(pad):
     text = pad._in_plane.text() + pad._out_of_plane.text()
     assert "°" in text
     assert "plane" in text
-    assert "mm to go" in pad._remaining.text()
+    assert "push" in pad._remaining.text()
     assert "off the path" in pad._lateral.text()
     assert "CT angles: in plane" in pad._angles.text()
 

@@ -1,18 +1,33 @@
 """Mouse, pen tablet and gamepad as sources of the simulated hand."""
 
 import builtins
+from dataclasses import replace
 from math import degrees, inf, nan, pi, radians
 from types import MappingProxyType, SimpleNamespace
 
+import numpy as np
 import pytest
-from PySide6.QtCore import QEvent, QPointF, Qt
-from PySide6.QtGui import QInputDevice, QPointingDevice, QPointingDeviceUniqueId, QTabletEvent
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtGui import (
+    QFocusEvent,
+    QInputDevice,
+    QKeyEvent,
+    QPointingDevice,
+    QPointingDeviceUniqueId,
+    QTabletEvent,
+    QWheelEvent,
+)
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from views_exercise_fakes import FakeTrainer, run, snapshot
 
+from app.session.pad.geometry import path_frame
+from app.session.pad.hand import HandPose
+from app.session.snapshot import NextStep, StepKind
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.hands import chooser
 from app.views.exercise.hands import source as gamepad_module
+from app.views.exercise.hands.feed import HELD, LONGEST, SOFT, SPEED, feed_speed
 from app.views.exercise.hands.source import (
     DEAD_ZONE,
     FASTEST,
@@ -28,6 +43,7 @@ from app.views.exercise.hands.source import (
     pressed_speed,
 )
 from app.views.exercise.readings import pad_view
+from app.views.exercise.steps import step_words
 
 LEFT, RIGHT = Qt.MouseButton.LeftButton, Qt.MouseButton.RightButton
 NONE = Qt.MouseButton.NoButton
@@ -366,3 +382,281 @@ def test_without_a_simulated_hand_nothing_listens(qt):
     assert widget.source.source is None
     assert not widget.source.box.isEnabled()
     widget.deleteLater()
+
+
+# --- held to push and pull ----------------------------------------------------------------------
+PUSH, PULL = Qt.Key.Key_PageDown, Qt.Key.Key_PageUp
+
+
+@pytest.fixture
+def held(pad, monkeypatch):
+    """Hold for so many seconds of a clock that the test turns."""
+    time = [100.0]
+    feed = pad.pad.feed
+    monkeypatch.setattr(feed, "_clock", lambda: time[0])
+    feed._timer.timeout.disconnect()
+
+    def hold(seconds):
+        for _ in range(round(seconds / 0.02)):
+            time[0] += 0.02
+            if feed._timer.isActive():
+                feed.step()
+
+    pad.pad.setFocus()
+    return SimpleNamespace(hold=hold, bullseye=pad, pad=pad.pad, feed=feed)
+
+
+def test_an_insertion_to_the_target_takes_a_few_holds(held):
+    target = held.bullseye._scene.target_depth
+    held.pad.advanced.emit(-0.02 - held.bullseye.hand.depth)
+    holds = 0
+    while target - held.bullseye.hand.depth > 0.001:
+        QTest.keyPress(held.pad, PUSH)
+        away = target - held.bullseye.hand.depth
+        held.hold(min(2.5, away / SPEED + 0.3))
+        QTest.keyRelease(held.pad, PUSH)
+        holds += 1
+        assert held.bullseye.hand.depth < target + 0.001
+    assert holds <= 6  # it was a hundred notches of the wheel
+
+
+def test_holding_starts_softly_and_is_never_faster_than_a_hand(held):
+    from app.simulation.hand_motion import FASTEST_ALONG
+
+    assert SPEED < FASTEST_ALONG
+    assert feed_speed(HELD) == feed_speed(0.0) == 0.0
+    times = np.linspace(0.0, 3.0, 3001)
+    speeds = np.array([feed_speed(time) for time in times])
+    assert speeds.max() == SPEED
+    assert np.abs(np.diff(speeds)).max() < 2.0 * SPEED / SOFT * 1e-3
+    start = held.bullseye.hand.depth
+    QTest.keyPress(held.pad, PUSH)
+    held.hold(HELD)
+    assert held.bullseye.hand.depth - start == pytest.approx(0.001)  # a short press is a step
+    held.hold(HELD + SOFT)
+    before = held.bullseye.hand.depth
+    held.hold(1.0)
+    assert held.bullseye.hand.depth - before == pytest.approx(SPEED, rel=1e-6)
+    QTest.keyRelease(held.pad, PUSH)
+
+
+def test_shift_makes_what_is_held_finer_also_on_the_way(held):
+    QTest.keyPress(held.pad, PULL)
+    held.hold(2.0)
+    before = held.bullseye.hand.depth
+    QTest.keyPress(held.pad, Qt.Key.Key_Shift)
+    held.hold(1.0)
+    assert before - held.bullseye.hand.depth == pytest.approx(0.2 * SPEED, rel=1e-6)
+    QTest.keyRelease(held.pad, Qt.Key.Key_Shift)
+    before = held.bullseye.hand.depth
+    held.hold(0.5)
+    assert before - held.bullseye.hand.depth == pytest.approx(0.5 * SPEED, rel=1e-6)
+    QTest.keyRelease(held.pad, PULL)
+
+
+@pytest.mark.parametrize(("button", "sign"), [(RIGHT, 1), (Qt.MouseButton.MiddleButton, -1)])
+def test_a_mouse_button_held_in_the_pad_feeds_and_its_release_ends_that(held, button, sign):
+    before = held.bullseye.hand.depth
+    QTest.mousePress(held.pad, button)
+    held.hold(1.0)
+    QTest.mouseRelease(held.pad, button)
+    moved = sign * (held.bullseye.hand.depth - before)
+    assert moved > 0.005
+    held.hold(1.0)
+    assert sign * (held.bullseye.hand.depth - before) == moved
+
+
+def test_the_buttons_beside_the_depth_feed_while_the_mouse_holds_them(held):
+    for button, sign in ((held.bullseye._push, 1), (held.bullseye._pull, -1)):
+        before = held.bullseye.hand.depth
+        QTest.mousePress(button, LEFT)
+        held.hold(1.0)
+        QTest.mouseRelease(button, LEFT)
+        moved = held.bullseye.hand.depth - before
+        assert sign * moved > 0.005
+        held.hold(1.0)
+        assert held.bullseye.hand.depth - before == moved
+
+
+@pytest.mark.parametrize("what", ["focus", "window", "hidden", "patient", "controller"])
+def test_what_is_held_is_let_go_and_moves_again_only_when_pressed_anew(held, what):
+    QTest.keyPress(held.pad, PUSH)
+    held.hold(0.5)
+    scene = held.bullseye._scene
+    {
+        "focus": lambda: QApplication.sendEvent(held.pad, QFocusEvent(QEvent.Type.FocusOut)),
+        "window": lambda: QApplication.sendEvent(held.pad, QEvent(QEvent.Type.WindowDeactivate)),
+        "hidden": lambda: QApplication.sendEvent(held.pad, QEvent(QEvent.Type.Hide)),
+        "patient": lambda: held.bullseye.set_scene(scene, interactive=True),
+        "controller": held.bullseye.let_go,
+    }[what]()
+    held.bullseye.show_view(pad_view(snapshot(), 0.2, 5.0))
+    before = held.bullseye.hand.depth
+    held.hold(0.5)
+    again = QKeyEvent(QEvent.Type.KeyPress, PUSH, Qt.KeyboardModifier.NoModifier, "", True)
+    QApplication.sendEvent(held.pad, again)  # the system repeats a key that is still down
+    held.hold(0.5)
+    assert held.bullseye.hand.depth == before
+    QTest.keyRelease(held.pad, PUSH)
+    QTest.keyPress(held.pad, PUSH)
+    assert held.bullseye.hand.depth > before
+    QTest.keyRelease(held.pad, PUSH)
+
+
+def test_a_dialog_ends_what_is_held(held, monkeypatch):
+    QTest.keyPress(held.pad, PUSH)
+    held.hold(0.5)
+    monkeypatch.setattr(QApplication, "activeModalWidget", staticmethod(lambda: held.pad))
+    before = held.bullseye.hand.depth
+    held.hold(0.5)
+    assert held.bullseye.hand.depth == before
+    assert not held.feed.is_held
+    QTest.keyRelease(held.pad, PUSH)
+
+
+def test_the_last_to_press_has_the_needle_and_the_others_release_ends_nothing(held):
+    QTest.keyPress(held.pad, PUSH)
+    held.hold(0.6)
+    QTest.keyPress(held.pad, PULL)
+    before = held.bullseye.hand.depth
+    QTest.keyRelease(held.pad, PUSH)
+    held.hold(1.0)
+    assert held.bullseye.hand.depth < before - 0.003
+    QTest.keyRelease(held.pad, PULL)
+    assert not held.feed.is_held
+
+
+def test_a_window_that_stood_still_makes_no_leap_when_it_goes_on(held):
+    QTest.keyPress(held.pad, PUSH)
+    held.hold(2.0)
+    before = held.bullseye.hand.depth
+    held.feed._last -= 3.0
+    held.hold(0.02)
+    assert held.bullseye.hand.depth - before <= SPEED * LONGEST + 1e-12
+    QTest.keyRelease(held.pad, PUSH)
+
+
+def test_a_stick_that_is_held_while_the_attempt_pauses_waits_until_it_was_let_go(gamepad):
+    gamepad.pads.sticks = Sticks(0.0, 0.0, 1.0)
+    gamepad.step()
+    gamepad.bullseye.let_go()
+    before = gamepad.bullseye.hand.depth
+    for _ in range(10):
+        gamepad.step()
+    assert gamepad.bullseye.hand.depth == before
+    gamepad.pads.sticks = Sticks(0.0, 0.0, 0.0)
+    gamepad.step()
+    gamepad.pads.sticks = Sticks(0.0, 0.0, 1.0)
+    gamepad.step()
+    assert gamepad.bullseye.hand.depth > before
+
+
+def test_a_wheel_that_the_system_turns_round_for_pages_still_pushes_away_from_the_user(pad):
+    before = pad.hand.depth
+    for delta, turned in ((120, False), (-120, True)):
+        event = QWheelEvent(
+            QPointF(20, 20), QPointF(20, 20), QPoint(), QPoint(0, delta), NONE,
+            Qt.KeyboardModifier.NoModifier, Qt.ScrollPhase.NoScrollPhase, turned,
+        )  # fmt: skip
+        pad.pad.wheelEvent(event)
+    assert pad.hand.depth - before == pytest.approx(0.002)
+
+
+# --- which end goes where the hand goes ---------------------------------------------------------
+PLACES = {
+    "supine": (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0),
+    "prone": (-1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0),
+    "left down": (0.0, -1.0, 0.0, 0.0, 0.0, 1.0, -1.0, 0.0, 0.0),
+    "right down": (0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0),
+}
+"""Rotation from patient to world, row by row, of each way to lie on the table."""
+
+
+def drawn(bullseye):
+    """Where the wanted needle's tip and its hub are drawn on the pad, right and up [px]."""
+    scene, hand = bullseye._scene, bullseye.hand
+    depth = scene.target_depth
+    along = [depth * hand.direction, -depth * hand.direction]
+    area = bullseye.pad.area
+    seen = []
+    for point in along:
+        across = point - scene.frame.axis * float(point @ scene.frame.axis)
+        at = area.point(scene.scale.place_of_offset([across @ scene.frame.right,
+                                                     across @ scene.frame.up]))  # fmt: skip
+        seen.append(np.array([at.x(), -at.y()]))
+    return seen
+
+
+@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("hub", [False, True])
+@pytest.mark.parametrize("way", [(60, 0), (-60, 0), (0, 60), (0, -60)])
+def test_a_drag_takes_the_end_that_was_chosen_where_the_mouse_goes_however_the_patient_lies(
+    qt, pad, place, hub, way
+):
+    rotation = np.array(PLACES[place]).reshape(3, 3)
+    frame = path_frame((0.1, 0.05, -1.0), rotation)
+    pad.set_scene(replace(pad._scene, frame=frame), interactive=True)
+    pad.take_hand(HandPose(frame.axis, 0.0, True))
+    pad.show_view(replace(pad_view(snapshot(), 0.2, 5.0), direction=frame.axis))
+    pad.source.set_moves_hub(hub)
+    middle = pad.pad.rect().center()
+    before = drawn(pad)
+    QTest.mousePress(pad.pad, LEFT, pos=middle)
+    QTest.mouseMove(pad.pad, middle + QPoint(way[0], -way[1]))
+    QTest.mouseRelease(pad.pad, LEFT, pos=middle + QPoint(way[0], -way[1]))
+    tip, end = (after - was for after, was in zip(drawn(pad), before, strict=True))
+    moved, other = (end, tip) if hub else (tip, end)
+    size = float(np.hypot(*way))
+    assert float(moved @ way) / size > 20.0
+    assert abs(float(moved @ [way[1], way[0]])) / size < 2.0
+    assert float(other @ way) < 0.0
+
+
+@pytest.mark.parametrize("hub", [False, True])
+def test_arrow_keys_stick_and_pen_follow_the_same_choice_as_the_mouse(gamepad, hub):
+    bullseye, sign = gamepad.bullseye, -1.0 if hub else 1.0
+    bullseye.source.set_moves_hub(hub)
+    before = tilts(bullseye)
+    gamepad.pads.sticks = Sticks(1.0, 0.5, 0.0)
+    gamepad.step()
+    assert np.all(sign * (tilts(bullseye) - before) > 0.0)
+    bullseye.source.set_source("mouse")
+    for key, axis, way in ((Qt.Key.Key_Right, 0, 1.0), (Qt.Key.Key_Up, 1, 1.0),
+                           (Qt.Key.Key_Left, 0, -1.0), (Qt.Key.Key_Down, 1, -1.0)):  # fmt: skip
+        before = tilts(bullseye)
+        QTest.keyClick(bullseye.pad, key)
+        assert sign * way * (tilts(bullseye) - before)[axis] == pytest.approx(radians(0.2))
+
+
+@pytest.mark.parametrize("hub", [False, True])
+def test_a_pen_without_tilt_follows_the_choice_and_one_that_leans_is_the_needle(tablet, hub):
+    tablet.bullseye.source.set_moves_hub(hub)
+    flat = pen(tilts=False)
+    before = tilts(tablet.bullseye)
+    tablet.send(DOWN, button=LEFT, using=flat)
+    tablet.send(MOVE, at=(130, 100), using=flat)
+    tablet.send(UP, button=LEFT, buttons=NONE, using=flat)
+    assert (tilts(tablet.bullseye)[0] > before[0]) is not hub
+    before = tilts(tablet.bullseye)
+    tablet.send(DOWN, button=LEFT)
+    tablet.send(MOVE, (3.0, 0.0))
+    assert tilts(tablet.bullseye)[0] < before[0]
+
+
+def test_the_orders_name_the_end_that_the_hand_moves(pad):
+    pad._home()
+    pad.source.set_moves_hub(False)
+    first = pad._in_plane.text() + pad._out_of_plane.text()
+    pad.source.set_moves_hub(True)
+    second = pad._in_plane.text() + pad._out_of_plane.text()
+    assert "tilt the tip" in first
+    assert "tilt the hub" in second
+    assert "hub" not in first
+    assert "tip" not in second
+
+
+def test_an_order_for_the_tip_is_the_opposite_of_the_one_for_the_hub():
+    step = NextStep(StepKind.TILT, 0.05, "IL", 0.0)
+    assert step_words(step, True) == "Tilt the hub 3° towards the feet and the patient's left"
+    words = step_words(step, True, tip=True)
+    assert words == "Tilt the tip 3° towards the head and the patient's right"

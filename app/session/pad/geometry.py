@@ -12,7 +12,7 @@ itself, where an azimuth would not exist, and one-to-one up to θ = π.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import asin, asinh, atan2, cos, degrees, hypot, pi, sin, sinh, sqrt, tan
+from math import asinh, atan2, cos, degrees, hypot, pi, sin, sinh, sqrt, tan
 from typing import Final
 
 import numpy as np
@@ -62,9 +62,9 @@ class PathFrame:
             return np.array([0.0 if along > 0.0 else pi, 0.0])
         return np.array([a, b]) * (atan2(sideways, along) / sideways)
 
-    def ct_angles(self, direction: ArrayLike) -> tuple[float, float]:
+    def ct_angles(self, direction: ArrayLike, near: float = 0.0) -> tuple[float, float]:
         """Angles of a needle direction in world against the CT's axial slices [°]: `ct_angles`."""
-        return ct_angles(self.R_world_patient.T @ unit(direction, "needle direction"))
+        return ct_angles(self.R_world_patient.T @ unit(direction, "needle direction"), near)
 
     def direction(self, tilts: ArrayLike) -> FloatArray:
         """Needle direction of two tilts [rad], (2,) -> unit (3,): the inverse of `tilts`."""
@@ -102,23 +102,30 @@ def path_frame(axis_world: ArrayLike, R_world_patient: ArrayLike) -> PathFrame:
     return PathFrame(frozen(axis), frozen(right), frozen(up), edges, axial, rotation)
 
 
-def ct_angles(direction_lps: ArrayLike) -> tuple[float, float]:
+def ct_angles(direction_lps: ArrayLike, near: float = 0.0) -> tuple[float, float]:
     """In-plane and out-of-plane angle [°] of a needle, as one sets them at a CT.
 
     In-plane is the angle in the axial slice from the patient's left-right line, atan2(dy, dx)
-    folded to ±90°, since a needle and its opposite lie on one line there; out-of-plane is
-    asin(dz / |d|), positive towards the head. The definitions are those of NeedlePath (3D Slicer).
+    folded to ±90° about `near`, since a needle and its opposite lie on one line there; out-of-plane
+    is atan2(dz, |(dx, dy)|), positive towards the head. The definitions are those of NeedlePath (3D
+    Slicer).
+
+    A needle that swings through ±90° reads on without a jump where `near` is the angle of its path:
+    the fold is then where it would lie across that path. Along the body, where no line is left in
+    the axial slice, the angle in it is `near`.
+
+    Args:
+        direction_lps: of the needle in the patient, shape (3,).
+        near: middle of the range of the in-plane angle [°].
 
     Raises:
         NumericalError: if the direction is not finite or has no length.
     """
     x, y, z = unit(direction_lps, "needle direction").tolist()
-    in_plane = degrees(atan2(y, x)) if hypot(x, y) > 1e-12 else 0.0
-    if in_plane > 90.0:
-        in_plane -= 180.0
-    elif in_plane <= -90.0:
-        in_plane += 180.0
-    return in_plane, degrees(asin(max(-1.0, min(1.0, z))))
+    across = hypot(x, y)
+    turn = degrees(atan2(y, x)) - near if across > 1e-12 else 0.0
+    in_plane = near + 90.0 - (90.0 - turn) % 180.0
+    return in_plane, degrees(atan2(z, across))
 
 
 def direction_letters(direction_lps: ArrayLike) -> str:

@@ -16,13 +16,22 @@ from PySide6.QtGui import (
     QPolygonF,
     QResizeEvent,
 )
-from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QSizePolicy,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
 
 from app.planning.off_path import Offset
 from app.session.pad.geometry import PathFrame
 from app.session.pad.hand import HandPose, PadHand
 from app.session.pad.view import PadScene, PadView
 from app.views.exercise.hands.chooser import HandChooser
+from app.views.exercise.hands.feed import FeedButton
 from app.views.exercise.hands.source import HandChange
 from app.views.exercise.pad_canvas import PadCanvas
 from app.views.kit import theme
@@ -42,12 +51,14 @@ class DepthBar(QWidget):
         self._hand: float | None = None
         self._measured = True
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
-        self.setMinimumSize(150, 160)
         self.setAccessibleName(tr("Depth bar"))
 
     def sizeHint(self) -> QSize:
-        """Preferred size."""
-        return QSize(150, 300)
+        """Preferred size: the bar with the longest of its labels."""
+        font = QFont(self.font())
+        font.setPixelSize(theme.SMALL_PX)
+        label = tr("Target {mm:.0f}", mm=1000)
+        return QSize(24 + _COLUMN + QFontMetrics(font).horizontalAdvance(label), 300)
 
     def set_scene(self, scene: PadScene | None) -> None:
         """Take a new path; None clears the bar."""
@@ -166,35 +177,45 @@ def towards(letters: str) -> str:
     return f"{words[letters[0]]} ({letters})"
 
 
-def corrections(frame: PathFrame, needle_tilts: ArrayLike, short: bool = False) -> tuple[str, str]:
-    """How to turn the tip onto the path: in the plane of the slice, and out of it.
+def corrections(
+    frame: PathFrame, needle_tilts: ArrayLike, short: bool = False, hub: bool = False
+) -> tuple[str, str]:
+    """How to turn the needle onto the path: in the plane of the slice, and out of it.
 
     Args:
         frame: axes of the pad.
         needle_tilts: the needle's tilts against the path [rad], shape (2,).
         short: with the letters of a direction only.
+        hub: whether it is said where the hub goes, not the tip.
     """
     right, up = np.degrees(np.asarray(needle_tilts, dtype=np.float64)).tolist()
+    if hub:
+        right, up = -right, -up
     left_letters, right_letters, top, bottom = frame.letters
     first, second = (
         (tr("In plane"), tr("Out of plane")) if frame.axial else (tr("Sideways"), tr("Up / down"))
     )
     return (
-        _correction(first, -right, right_letters, left_letters, short),
-        _correction(second, -up, top, bottom, short),
+        _correction(first, -right, right_letters, left_letters, short, hub),
+        _correction(second, -up, top, bottom, short, hub),
     )
 
 
-def _correction(name: str, angle_deg: float, positive: str, negative: str, short: bool) -> str:
+def _correction(
+    name: str, angle_deg: float, positive: str, negative: str, short: bool, hub: bool
+) -> str:
     if abs(angle_deg) < STRAIGHT_DEG:
         return tr("{name}: ✔ on path", name=name)
     letters = positive if angle_deg > 0.0 else negative
     if short:
         return tr("{name}: {angle:.1f}° to {to}", name=name, angle=abs(angle_deg), to=letters)
     where = towards(letters)
-    return tr(
-        "{name}: tip {angle:.1f}° towards {where}", name=name, angle=abs(angle_deg), where=where
+    words = (
+        tr("{name}: tilt the hub {angle:.1f}° towards {where}")
+        if hub
+        else tr("{name}: tilt the tip {angle:.1f}° towards {where}")
     )
+    return words.format(name=name, angle=abs(angle_deg), where=where)
 
 
 def lateral(frame: PathFrame, offset: Offset, short: bool = False) -> str:
@@ -220,28 +241,45 @@ def lateral(frame: PathFrame, offset: Offset, short: bool = False) -> str:
     return tr("off the path: {length:.1f} mm  ({sides})", length=length, sides=sides)
 
 
-def ct_words(frame: PathFrame, direction: ArrayLike) -> str:
-    """Angles of the needle against the axial slices, and those of the path."""
-    needle, path = frame.ct_angles(direction), frame.ct_angles(frame.axis)
+STEEPEST_DEG: Final = 85.0
+"""Out of plane by more than this [°], a needle has no angle in the axial slice."""
+
+
+def ct_words(frame: PathFrame, direction: ArrayLike, rest: PathFrame | None = None) -> str:
+    """Angles of the needle against the axial slices, and those of the path.
+
+    Args:
+        frame: of the path to the target as it is now.
+        direction: of the needle, in world, shape (3,).
+        rest: of the path to the target at rest: its angle is the one that the others are read by,
+            so that none of them jumps.
+    """
+    near, _ = (rest or frame).ct_angles((rest or frame).axis)
+    path = frame.ct_angles(frame.axis, near)
+    needle = frame.ct_angles(direction, path[0])
     return tr(
-        "CT angles: in plane {a:+.1f}° (path {b:+.1f}°)\nout of plane {c:+.1f}° (path {d:+.1f}°)",
-        a=needle[0],
-        b=path[0],
+        "CT angles: in plane {a} (path {b})\nout of plane {c:+.1f}° (path {d:+.1f}°)",
+        a=_in_plane(*needle),
+        b=_in_plane(*path),
         c=needle[1],
         d=path[1],
     )
 
 
+def _in_plane(angle_deg: float, out_of_plane_deg: float) -> str:
+    return "–" if abs(out_of_plane_deg) > STEEPEST_DEG else f"{angle_deg:+.1f}°"
+
+
 def remaining(offset: Offset, across: float, along: float) -> str:
-    """Millimetres to the target, or beyond it; at it only within both tolerances [m]."""
+    """Say how far to push or pull; at the target only within both tolerances [m]."""
     gap_mm = 1e3 * offset.remaining
     if offset.arrived(across, along):
-        return tr("✔ at target ({gap:+.1f} mm)", gap=-gap_mm)
+        return tr("✔ at target: hold ({gap:+.1f} mm)", gap=-gap_mm)
     if abs(offset.remaining) <= along:
         return tr("beside the target")
     if gap_mm > 0.0:
-        return tr("{gap:.1f} mm to go", gap=gap_mm)
-    return tr("▲ {gap:.1f} mm too deep", gap=-gap_mm)
+        return tr("▼ push {gap:.1f} mm", gap=gap_mm)
+    return tr("▲ too deep: pull {gap:.1f} mm", gap=-gap_mm)
 
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -254,9 +292,8 @@ INTENT_MS: Final = 10
 """Shortest time between two hand intents: 100 Hz."""
 
 
-WIDE: Final = 42
 TALL: Final = 29
-"""Width and height, in heights of the small letters, from which every word has its place."""
+"""Height, in heights of the small letters, from which every word has its place."""
 
 USUAL_PAD: Final = 180
 SMALL_PAD: Final = 150
@@ -270,9 +307,38 @@ QWIDGETSIZE_MAX: Final = 16777215
 """Qt's own constant for no limit, which PySide does not export."""
 
 
+TURNS: Final = 3
+DISTANCES: Final = 2
+"""Shares of the width that the words on turns and those on distances have."""
+
+
+_GAP: Final = 4
+"""Between the rows of pad, words and hand [px]."""
+
+
+def marks_words() -> str:
+    """Say what the pad's marks mean."""
+    return tr(
+        "● target, rings: tolerance  ·  ◆ tip  ·  □ hub  ·  ✕ where the needle is heading: "
+        "bring it onto ●  ·  ○ your hand, its spring pulls the needle"
+    )
+
+
+def _legend_button(parent: QWidget) -> QToolButton:
+    button = QToolButton(parent)
+    button.setText("?")
+    button.setCheckable(True)
+    button.setChecked(True)
+    button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+    button.setAccessibleName(tr("Legend"))
+    button.setStyleSheet("padding: 1px 6px;")
+    return button
+
+
 class Brevity(IntEnum):
     """How much is said beside the pad, and in what letters: as much as there is room for."""
 
+    LEGEND = auto()
     FULL = auto()
     WITHOUT_ANGLES = auto()
     SMALL = auto()
@@ -294,7 +360,7 @@ class Bullseye(QWidget):
         self._scene: PadScene | None = None
         self._view: PadView | None = None
         self._hand: PadHand | None = None
-        self._interactive = self._depth_only = self._hides_needle = False
+        self._interactive = self._depth_only = self._hides_needle = self._held_at_hub = False
         self.pad = PadCanvas(self)
         self.depth_bar = DepthBar(self)
         self._remaining = _label(theme.FONT_PX + 6)
@@ -311,6 +377,11 @@ class Bullseye(QWidget):
             self._angles,
         )
         self.source = HandChooser(self.pad, self)
+        self._pull = FeedButton(self.pad.feed, False, self)
+        self._push = FeedButton(self.pad.feed, True, self)
+        self._marks = _label(theme.SMALL_PX, theme.TEXT_DIM)
+        self._marks.setText(marks_words())
+        self.legend = _legend_button(self)
         self._brevity = Brevity.FULL
         self._intent = QTimer(self, interval=INTENT_MS, singleShot=True)
         self._intent.timeout.connect(self._emit_hand)
@@ -328,22 +399,36 @@ class Bullseye(QWidget):
         self._fit_words()
 
     def _fit_words(self) -> None:
-        """Say as much as there is room for: in full, without the angles, smaller, or in short."""
+        """Say as much as there is room for: in full, without the legend, without the angles,
+        smaller, or in short.
+        """
         for brevity in Brevity:
+            if brevity is Brevity.LEGEND and not self.legend.isChecked():
+                continue
+            self._show_legend(brevity is Brevity.LEGEND)
             self._take_brevity(brevity)
             if self._needed_height() <= self.height():
                 break
-        if not self._hides_needle:
-            self.source.set_brief(self.width() < WIDE * theme.SMALL_PX)
         if self._scene is not None and self._view is not None:
             self._write(self._scene, self._view)
+
+    def _show_legend(self, shown: bool) -> None:
+        """Write what the marks mean and how the hand moves, or keep it in the button's tooltip."""
+        self._marks.setVisible(shown and not self._hides_needle)
+        self.source.set_wordy(shown)
+        self.legend.setToolTip(
+            tr("Legend, shown or hidden") + f"\n\n{marks_words()}\n\n{self.source.words}"
+        )
 
     def _take_brevity(self, brevity: Brevity) -> None:
         """Take fonts, and reserve the lines that the longest words take in them."""
         self._brevity = brevity
         small, short = brevity >= Brevity.SMALL, brevity >= Brevity.SHORT
-        beside = self.depth_bar.sizeHint().width()
-        across = max(self.width() - beside - 3 * theme.SPACING, 1)
+        width = max(self.width() - 3 * theme.SPACING, 2)
+        across, beside = (
+            width * TURNS // (TURNS + DISTANCES),
+            width * DISTANCES // (TURNS + DISTANCES),
+        )
         turn = theme.SMALL_PX if small else theme.FONT_PX + 1
         distance = theme.FONT_PX if small else theme.FONT_PX + 6
         for label, pixels, longest, room in (
@@ -362,27 +447,25 @@ class Bullseye(QWidget):
             metrics = QFontMetrics(font)
             lines = -(-longest * metrics.averageCharWidth() // room)
             label.setMinimumHeight(min(lines, 3) * metrics.lineSpacing())
-        tall = self.height() >= TALL * theme.SMALL_PX and brevity is Brevity.FULL
+        tall = self.height() >= TALL * theme.SMALL_PX and brevity <= Brevity.FULL
         self._angles.setVisible(not self._hides_needle and tall)
         pad = SMALLEST_PAD if short else SMALL_PAD if brevity >= Brevity.SMALL_PAD else USUAL_PAD
         self.pad.setMinimumSize(pad, pad)
-        self.depth_bar.setMinimumHeight(pad - 20)
+        buttons = 0 if self._push.isHidden() else 2 * (self._push.sizeHint().height() + 2)
+        self.depth_bar.setMinimumHeight(pad - 20 - buttons)
 
     def _needed_height(self) -> int:
-        """Height that pad, words and chooser take [px]."""
-        turns = (self._in_plane, self._out_of_plane)
-        left = sum(label.minimumHeight() for label in turns) + 2
-        if not self._angles.isHidden():
-            left += 2 + self._angles.heightForWidth(self._angles.width())
-        beside = (self._remaining, self._lateral, self._source)
-        right = sum(label.minimumHeight() for label in beside) + 2 * theme.SPACING
-        words = 0 if self._hides_needle else max(left, right)
-        around = 4 * theme.SPACING
-        return self.pad.minimumHeight() + words + self.source.minimumSizeHint().height() + around
+        """Height that pad, words and chooser take [px], with the longest words."""
+        self._grid.invalidate()
+        return self._grid.minimumHeightForWidth(self.width())
 
     # --- what the controller calls ----------------------------------------------------------------
     def set_scene(
-        self, scene: PadScene | None, interactive: bool, depth_only: bool = False
+        self,
+        scene: PadScene | None,
+        interactive: bool,
+        depth_only: bool = False,
+        held_at_hub: bool = False,
     ) -> None:
         """Take a new path.
 
@@ -391,15 +474,20 @@ class Bullseye(QWidget):
             interactive: whether there is a simulated hand to move.
             depth_only: whether it moves the depth alone, because a person holds a real robot's
                 needle and simulated cameras cannot see how deep it is.
+            held_at_hub: whether a person holds the needle itself: orders are then for its hub.
         """
         self._scene, self._view, self._hand = scene, None, None
         self._interactive, self._depth_only = interactive, depth_only
+        self._held_at_hub = held_at_hub
         self._intent.stop()
         self.pad.set_scene(scene)
         self.depth_bar.set_scene(scene)
         self.source.set_interactive(interactive, depth_only)
+        for button in (self._pull, self._push):
+            button.setVisible(interactive)
         for label in self._words:
             label.clear()
+        self._fit_words()
 
     def hide_needle(self, hidden: bool, beside_scan: bool = True) -> None:
         """Show nothing of needle, hand and path from the next scene on; the hand still moves.
@@ -431,6 +519,11 @@ class Bullseye(QWidget):
             self._hand = PadHand(self._scene.frame, self._scene.scale, self._scene.limits, pose)
             self._intent.start()
 
+    def let_go(self) -> None:
+        """Move the hand no further with what is held now; pressed anew it moves again."""
+        self.pad.let_go()
+        self.source.let_go()
+
     @property
     def hand(self) -> HandPose | None:
         """Where the simulated hand wants the needle; None without one."""
@@ -448,11 +541,12 @@ class Bullseye(QWidget):
         frame, short = view.frame(scene), self._brevity >= Brevity.SHORT
         tilts = frame.tilts(view.direction)
         turns = (self._in_plane, self._out_of_plane)
-        whole, said = corrections(frame, tilts), corrections(frame, tilts, short)
+        hub = self.source.moves_hub or self._held_at_hub
+        whole, said = corrections(frame, tilts, hub=hub), corrections(frame, tilts, short, hub)
         for label, text, words in zip(turns, said, whole, strict=True):
             label.setText(text)
             label.setToolTip(words if short else "")
-        self._angles.setText(ct_words(frame, view.direction))
+        self._angles.setText(ct_words(frame, view.direction, scene.frame))
         distance = remaining(view.offset, scene.rings[0], scene.depth_tolerance)
         # A guess is never said as if it were known.
         self._remaining.setText(distance if view.measured else "–")
@@ -468,6 +562,8 @@ class Bullseye(QWidget):
     def _connect_source(self) -> None:
         self.source.moved.connect(self._move)
         self.source.homed.connect(self._home)
+        self.source.turned.connect(self._fit_words)
+        self.legend.toggled.connect(self._fit_words)
 
     def _home(self) -> None:
         view = self._view
@@ -497,20 +593,32 @@ class Bullseye(QWidget):
         words.setSpacing(2)
         for label in (self._in_plane, self._out_of_plane, self._angles):
             words.addWidget(label)
-        grid = QGridLayout(self)
-        grid.setContentsMargins(theme.SPACING, theme.SPACING, theme.SPACING, theme.SPACING)
-        grid.addWidget(self.pad, 0, 0)
-        grid.addWidget(self.depth_bar, 0, 1)
-        grid.addLayout(words, 1, 0)
         side = QVBoxLayout()
-        side.addWidget(self._remaining)
-        side.addWidget(self._lateral)
-        side.addWidget(self._source)
-        grid.addLayout(side, 1, 1)
-        grid.addWidget(self.source, 2, 0, 1, 2)
+        side.setSpacing(2)
+        for label in (self._remaining, self._lateral, self._source):
+            side.addWidget(label)
+        said = QHBoxLayout()
+        said.addLayout(words, TURNS)
+        said.addLayout(side, DISTANCES)
+        depth = QVBoxLayout()
+        depth.setSpacing(2)
+        depth.addWidget(self._pull)
+        depth.addWidget(self.depth_bar, 1)
+        depth.addWidget(self._push)
+        hand = QHBoxLayout()
+        hand.addWidget(self.source, 1)
+        hand.addWidget(self.legend, 0, Qt.AlignmentFlag.AlignBottom)
+        self._grid = grid = QGridLayout(self)
+        grid.setSizeConstraint(QGridLayout.SizeConstraint.SetNoConstraint)  # words give way
+        grid.setContentsMargins(theme.SPACING, theme.SPACING, theme.SPACING, theme.SPACING)
+        grid.setVerticalSpacing(_GAP)
+        grid.addWidget(self.pad, 0, 0)
+        grid.addLayout(depth, 0, 1)
+        grid.addLayout(said, 1, 0, 1, 2)
+        grid.addWidget(self._marks, 2, 0, 1, 2)
+        grid.addLayout(hand, 3, 0, 1, 2)
         grid.setRowStretch(0, 1)
         grid.setColumnStretch(0, 1)
-        grid.setColumnStretch(1, 1)
 
 
 def _label(pixels: int, colour: str = "") -> QLabel:

@@ -63,19 +63,20 @@ class ExerciseDisplay:
         self._views = views
         self._status_time = self._figures_time = -1.0
         self._figured: tuple[object, ...] = ()
+        self._going: State | None = None
         self.rates = (0.0, 0.0)
         self.extra_items: list[Callable[[Snapshot], tuple[StatusItem, ...]]] = []
         self._rates = LoopRates()
 
     def begin(self) -> None:
         """Begin with another trainer."""
-        self._rates, self._figured = LoopRates(), ()
+        self._rates, self._figured, self._going = LoopRates(), (), None
 
     def show_run(self, run: ExerciseRun) -> None:
         """Draw what stays the same during an attempt; nothing of the needle where scans guide."""
         live, shows = run.shown.live, run.shown.shows
         self._views.bullseye.hide_needle(not shows(ViewName.BULLSEYE), beside_scan=not live)
-        self._views.bullseye.set_scene(run.scene(), run.interactive, run.is_real)
+        self._views.bullseye.set_scene(run.scene(), run.interactive, run.is_real, run.held_at_hub)
         self._views.panel.set_forceful(run.forceful)
         self._views.panel.set_guidance(None if live else run.guidance, run.placed.plan)
         self._views.panel.set_offsets(shows(ViewName.BULLSEYE))
@@ -100,6 +101,7 @@ class ExerciseDisplay:
             now: time of the poll [s].
             late: since the poll before [s].
         """
+        self._follow(snapshot.state)
         limit = force_limit(snapshot, run.profile.limits.hand_force)
         self._show_panel(snapshot, limit, not run.shown.live, now)
         self._show_pad(run, snapshot, limit)
@@ -110,6 +112,16 @@ class ExerciseDisplay:
             items = status_items(snapshot, rate, missing, late)
             extra = (item for more in self.extra_items for item in more(snapshot))
             self._views.status.show_items((*extra, *items))
+
+    def _follow(self, state: State) -> None:
+        """Let the hand go where the attempt begins, pauses or ends: what was held was for before.
+
+        What is held while the needle is aligned, inserted and held still goes on.
+        """
+        going = State.INSERTING if state in (State.ALIGNING, State.HOLDING) else state
+        if going is not self._going:
+            self._going = going
+            self._views.bullseye.let_go()
 
     def _show_panel(self, snapshot: Snapshot, limit: float, hidden: bool, now: float) -> None:
         views = self._views

@@ -9,9 +9,10 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike
-from PySide6.QtCore import QPointF, QRectF, QSize, QSizeF, Qt, Signal
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, QSizeF, Qt, Signal
 from PySide6.QtGui import (
     QColor,
+    QFocusEvent,
     QFont,
     QKeyEvent,
     QMouseEvent,
@@ -24,6 +25,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.session.pad.view import PadScene, PadView
+from app.views.exercise.hands.feed import DEPTH_STEP, FINE_DEPTH_STEP, GONE, Feed
 from app.views.kit import theme
 from app.views.kit.text import tr
 
@@ -37,6 +39,9 @@ RING_POINTS: Final = 48
 
 SMALLEST_PX: Final = 10
 """Smallest letters within the rim."""
+
+_BESIDE: Final = 7
+"""From the rim to the letters beside it [px]."""
 
 _LEAD: Final = radians(0.15)
 """Below this angle between hand and needle no spring is drawn [rad]."""
@@ -272,7 +277,7 @@ def is_inside(box: QRectF, area: PadArea) -> bool:
 def _letters(painter: QPainter, area: PadArea, letters: Sequence[str]) -> None:
     painter.setFont(_font(painter, theme.FONT_PX + 3, bold=True))
     painter.setPen(QColor(theme.TEXT))
-    reach = area.radius + 14
+    reach = area.radius + 0.5 * theme.FONT_PX + _BESIDE
     for text, (x, y) in zip(letters, ((-1, 0), (1, 0), (0, -1), (0, 1)), strict=True):
         centre = area.centre + QPointF(reach * x, reach * y)
         box = QRectF(centre.x() - 24, centre.y() - 12, 48, 24)
@@ -308,8 +313,6 @@ def _font(painter: QPainter, pixels: int, bold: bool = False) -> QFont:
 
 TILT_STEP: Final = radians(0.2)
 FINE_TILT_STEP: Final = radians(0.05)
-DEPTH_STEP: Final = 0.001
-FINE_DEPTH_STEP: Final = 0.0002
 NOTCH: Final = 120
 """One notch of a mouse wheel in the unit of Qt, an eighth of a degree."""
 _ARROWS: Final = {
@@ -318,6 +321,13 @@ _ARROWS: Final = {
     Qt.Key.Key_Up: (0.0, 1.0),
     Qt.Key.Key_Down: (0.0, -1.0),
 }
+_FEEDING: Final[dict[Qt.Key | Qt.MouseButton, bool]] = {
+    Qt.Key.Key_PageDown: True,
+    Qt.Key.Key_PageUp: False,
+    Qt.MouseButton.RightButton: True,
+    Qt.MouseButton.MiddleButton: False,
+}
+"""Keys and buttons that feed while they are held, and whether they feed inwards."""
 
 
 class PadCanvas(QWidget):
@@ -328,6 +338,9 @@ class PadCanvas(QWidget):
         tilted(right, up): key step [rad].
         advanced(step): depth step [m], positive inwards.
         homed(): the hand shall go to where the needle is.
+
+    Attributes:
+        feed: what is held to push or pull.
     """
 
     dragged = Signal(float, float)
@@ -343,6 +356,8 @@ class PadCanvas(QWidget):
         self._last: QPointF | None = None
         self._wheel = 0
         self._hides_needle = False
+        self.feed = Feed(self)
+        self.feed.advanced.connect(self.advanced)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMinimumSize(180, 180)
@@ -355,6 +370,7 @@ class PadCanvas(QWidget):
     def set_scene(self, scene: PadScene | None) -> None:
         """Take a new path; None clears the pad."""
         self.setToolTip("")  # of what was shown before
+        self.let_go()
         self._scene, self._view, self._hand = scene, None, None
         self.update()
 
@@ -371,7 +387,8 @@ class PadCanvas(QWidget):
     @property
     def area(self) -> PadArea:
         """Where the pad lies now."""
-        return PadArea.inside(self.width(), self.height(), margin=30)
+        margin = theme.FONT_PX + 3 + _BESIDE
+        return PadArea.inside(self.width(), self.height(), margin)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw background, needle, hand."""
@@ -393,11 +410,30 @@ class PadCanvas(QWidget):
             if self._hand is not None:
                 paint_hand(painter, self.area, self._scene, self._view, self._hand)
 
+    def let_go(self) -> None:
+        """End a drag and what is held to push or pull; idempotent."""
+        self.feed.let_go()
+        self._last = None
+        self.unsetCursor()
+
+    def event(self, event: QEvent) -> bool:
+        """Let go where no release of key or mouse will come."""
+        if event.type() in GONE:
+            self.let_go()
+        return super().event(event)
+
+    def focusOutEvent(self, event: QFocusEvent) -> None:
+        """Let go: the keys are somebody else's now."""
+        self.let_go()
+        super().focusOutEvent(event)
+
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        """Start a drag."""
+        """Start a drag, or begin to push or pull."""
         if event.button() == Qt.MouseButton.LeftButton:
             self._last = event.position()
             self.setCursor(Qt.CursorShape.ClosedHandCursor)
+        elif event.button() in _FEEDING:
+            self.feed.press(event.button(), _FEEDING[event.button()], _is_fine(event.modifiers()))
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Report the step since the last event."""
@@ -411,12 +447,17 @@ class PadCanvas(QWidget):
         if event.button() == Qt.MouseButton.LeftButton:
             self._last = None
             self.unsetCursor()
+        self.feed.release(event.button())
 
     def wheelEvent(self, event: QWheelEvent) -> None:
-        """Depth: a notch towards the user pulls, away from the user pushes the needle in."""
+        """Depth: a notch towards the user pulls, away from the user pushes the needle in.
+
+        So it is also where the system turns the wheel round for pages: a needle is no page.
+        """
         delta = event.angleDelta()
         # Some platforms turn Shift+wheel into a horizontal wheel.
-        self._wheel += delta.y() or delta.x()
+        away = delta.y() or delta.x()
+        self._wheel += -away if event.inverted() else away
         notches = int(self._wheel / NOTCH)
         self._wheel -= notches * NOTCH
         if notches:
@@ -425,21 +466,35 @@ class PadCanvas(QWidget):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Arrows tilt, Page keys move along the needle, Home lets the hand go to the needle."""
-        key, shift = Qt.Key(event.key()), event.modifiers()
+        key, fine = Qt.Key(event.key()), _is_fine(event.modifiers())
         if key in _ARROWS:
-            fine = shift & Qt.KeyboardModifier.ShiftModifier
             step = FINE_TILT_STEP if fine else TILT_STEP
             self.tilted.emit(step * _ARROWS[key][0], step * _ARROWS[key][1])
-        elif key == Qt.Key.Key_PageDown:
-            self.advanced.emit(_depth_step(shift))
-        elif key == Qt.Key.Key_PageUp:
-            self.advanced.emit(-_depth_step(shift))
+        elif key == Qt.Key.Key_Shift:
+            self.feed.set_fine(True)
+        elif key in _FEEDING:
+            if not event.isAutoRepeat():  # what is held goes on by itself, or was let go by others
+                self.feed.press(key, _FEEDING[key], fine)
         elif key == Qt.Key.Key_Home:
             self.homed.emit()
         else:
             super().keyPressEvent(event)
 
+    def keyReleaseEvent(self, event: QKeyEvent) -> None:
+        """Stop what the key held."""
+        key = Qt.Key(event.key())
+        if key == Qt.Key.Key_Shift:
+            self.feed.set_fine(False)
+        elif key in _FEEDING:
+            if not event.isAutoRepeat():
+                self.feed.release(key)
+        else:
+            super().keyReleaseEvent(event)
+
+
+def _is_fine(modifiers: Qt.KeyboardModifier) -> bool:
+    return bool(modifiers & Qt.KeyboardModifier.ShiftModifier)
+
 
 def _depth_step(modifiers: Qt.KeyboardModifier) -> float:
-    fine = modifiers & Qt.KeyboardModifier.ShiftModifier
-    return FINE_DEPTH_STEP if fine else DEPTH_STEP
+    return FINE_DEPTH_STEP if _is_fine(modifiers) else DEPTH_STEP

@@ -141,25 +141,33 @@ def side_word(letter: str) -> str:
     }[letter]
 
 
-def step_words(step: NextStep, by_mouse: bool) -> str:
+OTHER_SIDE: Final = str.maketrans("LRAPSI", "RLPAIS")
+
+
+def step_words(step: NextStep, by_mouse: bool, tip: bool = False) -> str:
     """Say what is to be done next, as an order.
 
     Args:
         step: what.
         by_mouse: whether mouse or keys move the needle.
+        tip: whether it is said where the tip goes, as the hand of mouse or keys does, not the hub.
     """
     mm = step.distance / MILLIMETRE
     inwards = tr(" (wheel away from you)") if by_mouse else ""
     outwards = tr(" (wheel towards you)") if by_mouse else ""
-    sides = tr(" and ").join(side_word(letter) for letter in step.towards)
+    towards = step.towards.translate(OTHER_SIDE) if tip else step.towards
+    sides = tr(" and ").join(side_word(letter) for letter in towards)
+    tilt = (
+        tr("Tilt the tip {angle:.0f}° towards {sides}")
+        if tip
+        else tr("Tilt the hub {angle:.0f}° towards {sides}")
+    )
     return {
         StepKind.START: tr("Press F5 to start the attempt"),
         StepKind.WITHDRAW: tr("Pull the needle out of the skin"),
         StepKind.SEE: tr("Let both cameras see the marker"),
         StepKind.SCAN: tr("Push by the scans: S takes one, Enter ends the attempt"),
-        StepKind.TILT: tr("Tilt the hub {angle:.0f}° towards {sides}").format(
-            angle=max(1.0, degrees(step.angle)), sides=sides
-        ),
+        StepKind.TILT: tilt.format(angle=max(1.0, degrees(step.angle)), sides=sides),
         StepKind.INSERT: tr("Push the needle in{how}", how=inwards),
         StepKind.FEEL: tr("Push slowly{how}: the cameras do not see the depth", how=inwards),
         StepKind.DEEPER: tr("Push {mm:.0f} mm deeper{how}").format(mm=max(1.0, mm), how=inwards),
@@ -177,6 +185,7 @@ class NextStepLine(QLabel):
         self._steps: NextSteps | None = None
         self._run: ExerciseRun | None = None
         self._snapshot: Snapshot | None = None
+        self._moves_hub = False
         self._written = Unhurried(self._write, self)
         self.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.setTextFormat(Qt.TextFormat.PlainText)
@@ -199,6 +208,11 @@ class NextStepLine(QLabel):
         self._snapshot = snapshot
         self._written.ask()
 
+    def set_moves_hub(self, hub: bool) -> None:
+        """Say where the hub goes, or the tip, where mouse or keys move the needle."""
+        self._moves_hub = hub
+        self._written.ask()
+
     def suit_room(self) -> None:
         """Take another size of text or other colours."""
         ground, ink = theme.now(theme.ACCENT), theme.now(theme.BACKGROUND)
@@ -212,7 +226,8 @@ class NextStepLine(QLabel):
             return
         step = self._steps.of(self._snapshot, self._run.shown.live)
         shows = self._run.demonstrates
-        words = step_words(step, self._run.interactive or shows)
+        tip = not (self._run.held_at_hub or self._moves_hub)
+        words = step_words(step, self._run.interactive or shows, tip)
         if shows and step.kind is StepKind.START:
             words = tr("The demonstration begins")
         if words != self.text():

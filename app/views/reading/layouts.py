@@ -69,11 +69,11 @@ FOUR = Layout(
 FIVE = Layout(
     LayoutName.FOUR,
     (
-        (AXIAL, (0, 0, 5, 4)),
-        (SAGITTAL, (0, 4, 5, 4)),
-        (CORONAL, (0, 8, 5, 4)),
-        (SCENE, (5, 0, 6, 4)),
-        (BULLSEYE, (5, 4, 6, 8)),
+        (AXIAL, (0, 0, 1, 3)),
+        (SAGITTAL, (0, 3, 1, 3)),
+        (CORONAL, (1, 0, 1, 3)),
+        (SCENE, (1, 3, 1, 3)),
+        (BULLSEYE, (0, 6, 2, 6)),
     ),
 )
 ONE_AND_THREE = Layout(
@@ -88,10 +88,10 @@ ONE_AND_THREE = Layout(
 ONE_AND_BULLSEYE = Layout(
     LayoutName.ONE_AND_THREE,
     (
-        (AXIAL, (0, 0, 12, 6)),
-        (SAGITTAL, (0, 6, 5, 3)),
-        (CORONAL, (0, 9, 5, 3)),
-        (BULLSEYE, (5, 6, 7, 6)),
+        (AXIAL, (0, 0, 7, 6)),
+        (SAGITTAL, (7, 0, 5, 3)),
+        (CORONAL, (7, 3, 5, 3)),
+        (BULLSEYE, (0, 6, 12, 6)),
     ),
 )
 SIX = Layout(
@@ -110,9 +110,9 @@ NEEDLE = Layout(LayoutName.NEEDLE, ((IN_PLANE, (0, 0, 1, 6)), (PROBE, (0, 6, 1, 
 NEEDLE_AND_BULLSEYE = Layout(
     LayoutName.NEEDLE,
     (
-        (IN_PLANE, (0, 0, 12, 6)),
-        (PROBE, (0, 6, 5, 6)),
-        (BULLSEYE, (5, 6, 7, 6)),
+        (IN_PLANE, (0, 0, 7, 6)),
+        (PROBE, (7, 0, 5, 6)),
+        (BULLSEYE, (0, 6, 12, 6)),
     ),
 )
 

@@ -145,6 +145,8 @@ class WorkspacePage(QWidget):
         self.messages = MessageList(self)
         self.status = StatusStrip(self)
         self.next_step = NextStepLine(self)
+        hand = self.bullseye.source
+        hand.turned.connect(lambda: self.next_step.set_moves_hub(hand.moves_hub))
         self.side = SidePanel(self)
         self.side.setFixedWidth(SIDE_WIDTH)
         self.setFocusProxy(self.panes[0].canvas)

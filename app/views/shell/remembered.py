@@ -107,6 +107,8 @@ class Remembered:
             "reversed": viewing.level_reversed,
             "left_handed": self._workspace.is_left_handed,
             "traces": viewing.shows_traces,
+            "moves_hub": self._workspace.bullseye.source.moves_hub,
+            "legend": self._workspace.bullseye.legend.isChecked(),
             "light": projector.is_light,
             "large": projector.is_large,
             "kept": {name: [w.width, w.level] for name, w in viewing.greys.kept.items()},
@@ -118,6 +120,8 @@ class Remembered:
         viewing.set_scheme(SCHEMES[state["scheme"]])
         viewing.set_shows_traces(bool(state.get("traces", True)))
         workspace.set_left_handed(bool(state["left_handed"]))
+        workspace.bullseye.source.set_moves_hub(bool(state.get("moves_hub", False)))
+        workspace.bullseye.legend.setChecked(bool(state.get("legend", True)))
         for name, (width, level) in state["kept"].items():
             viewing.greys.keep(str(name), WindowLevel(float(width), float(level)))
         self._projector.set(light=bool(state["light"]), large=bool(state["large"]))

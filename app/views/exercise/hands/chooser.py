@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Final
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QBoxLayout, QComboBox, QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QBoxLayout, QComboBox, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from app.core.errors import AcusError
 from app.session.pad.hand import GAINS
@@ -17,6 +17,10 @@ SOURCES: Final[dict[str, Callable[[PadCanvas], HandSource]]] = {
     source.name: source for source in (MouseHand, TabletHand, GamepadHand)
 }
 """Name in settings and records -> how it is made."""
+
+
+NARROWEST: Final = 64
+"""Least width of a choice [px]: its words are cut before the pad has no room."""
 
 
 def source_title(name: str) -> str:
@@ -32,8 +36,8 @@ def source_help(name: str) -> str:
     """Say in one line how a source moves the hand."""
     return {
         "mouse": tr(
-            "Drag: tilt  ·  wheel or Page keys: depth 1 mm  ·  arrows: 0.2°  ·  "
-            "Shift: finer  ·  Home: hand to needle"
+            "Drag or arrows: tilt  ·  wheel away from you, Page Down, right button: push; "
+            "hold: go on  ·  Shift: finer  ·  Home: hand to needle"
         ),
         "tablet": tr(
             "Hold the pen like the needle, its point on the pad: lean it to tilt  ·  press: "
@@ -62,22 +66,25 @@ class HandChooser(QWidget):
     Signals:
         moved(HandChange), homed(): of the source that is open.
         chosen(str): the user chose this source, by name.
+        turned(): the user chose whether tip or hub goes where the hand goes.
         refused(str): why a source cannot be used.
     """
 
     moved = Signal(object)
     homed = Signal()
     chosen = Signal(str)
+    turned = Signal()
     refused = Signal(str)
 
     def __init__(self, pad: PadCanvas, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._pad = pad
         self._source: HandSource | None = None
-        self._interactive = self._depth_only = self._busy = False
+        self._interactive = self._depth_only = self._busy = self._compact = False
         self._why, self._own = "", ("mouse", "normal")
         self._note = ""
         self.box, self.gain, self._help = _source_box(), _gain_box(), QLabel(self)
+        self.sense = _sense_box()
         self._help.setWordWrap(True)
         # Its words keep three lines: the pad keeps its size whatever is chosen.
         self._help.setFixedHeight(4 * theme.SMALL_PX)
@@ -85,13 +92,20 @@ class HandChooser(QWidget):
         self._help.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         self._title = title = QLabel(tr("Hand"), self)
         title.setProperty("role", "dim")
-        self._row = row = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self._help, 1)
-        for widget in (title, self.box, self.gain):
-            row.addWidget(widget)
+        self._row = row = QBoxLayout(QBoxLayout.Direction.LeftToRight)
+        row.addWidget(title)
+        for widget in (self.box, self.gain, self.sense):
+            widget.setMinimumWidth(NARROWEST)
+            row.addWidget(widget, 1)
+        self._column = column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(2)
+        column.addWidget(self._help)
+        column.addLayout(row)
+        self._wordy = True
         self.box.activated.connect(self._choose)
         self.gain.currentIndexChanged.connect(self._pass_gain)
+        self.sense.currentIndexChanged.connect(self._pass_sense)
         self.set_interactive(False)
 
     @property
@@ -103,6 +117,20 @@ class HandChooser(QWidget):
     def source(self) -> HandSource | None:
         """Source that is open; None without a simulated hand."""
         return self._source
+
+    @property
+    def moves_hub(self) -> bool:
+        """Whether the hub goes where the hand goes, and so the tip the other way."""
+        return bool(self.sense.currentData())
+
+    def set_moves_hub(self, hub: bool) -> None:
+        """Let the hub go where the hand goes, or the tip."""
+        self.sense.setCurrentIndex(self.sense.findData(hub))
+
+    def let_go(self) -> None:
+        """Move no further with what is held now."""
+        if self._source is not None:
+            self._source.let_go()
 
     def set_source(self, name: str) -> None:
         """Choose a source by name, as if the user had; an unknown one is the mouse. Where an
@@ -149,12 +177,25 @@ class HandChooser(QWidget):
         """Leave only the two choices, one below the other; their help says how the hand moves."""
         ways = QBoxLayout.Direction
         self._row.setDirection(ways.TopToBottom if compact else ways.LeftToRight)
-        for label in (self._title, self._help):
-            label.setVisible(not compact)
+        self._title.setVisible(not compact)
+        self._compact = compact
+        self._show_help()
 
-    def set_brief(self, brief: bool) -> None:
-        """Leave out how the hand moves: the choices' own help says it too."""
-        self._help.setVisible(not brief)
+    def set_wordy(self, wordy: bool) -> None:
+        """Say how the hand moves, or only what the user must know now."""
+        self._wordy = wordy
+        self._show_help()
+
+    @property
+    def words(self) -> str:
+        """How the hand moves; empty without one."""
+        return self._words() if self._interactive else ""
+
+    def _show_help(self) -> None:
+        said = self._interactive and (self._wordy or bool(self._note))
+        self._help.setVisible(said and not self._compact)
+        self._column.invalidate()  # at once: who holds this asks for its height
+        self.updateGeometry()
 
     def set_locked(self, locked: bool) -> None:
         """Keep the source while an attempt runs: it is recorded with it."""
@@ -164,6 +205,7 @@ class HandChooser(QWidget):
     def _enable(self) -> None:
         usable = self._interactive and not self._depth_only and not self._why
         self.gain.setEnabled(usable)
+        self.sense.setEnabled(self._interactive and not self._depth_only)
         self.box.setEnabled(usable and not self._busy)
         self.gain.setToolTip(self._why or gain_help())
         self.box.setToolTip(self._why or self._words())
@@ -188,6 +230,7 @@ class HandChooser(QWidget):
     def _open(self, name: str) -> None:
         source = SOURCES[name](self._pad)
         source.gain = GAINS[self.gain.currentData()]
+        source.sense = -1.0 if self.moves_hub else 1.0
         source.moved.connect(self.moved)
         source.homed.connect(self.homed)
         source.noted.connect(self._show_note)
@@ -202,6 +245,11 @@ class HandChooser(QWidget):
         if self._source is not None:
             self._source.gain = GAINS[self.gain.currentData()]
 
+    def _pass_sense(self) -> None:
+        if self._source is not None:
+            self._source.sense = -1.0 if self.moves_hub else 1.0
+        self.turned.emit()
+
     def suit_text(self) -> None:
         """Take another size of the text."""
         self._help.setFixedHeight(4 * theme.SMALL_PX)
@@ -212,8 +260,8 @@ class HandChooser(QWidget):
         colour = theme.WARNING if note else theme.TEXT_DIM
         self._help.setStyleSheet(f"font-size: {theme.SMALL_PX}px; color: {colour};")
         text = f"▲ {note}" if note else self._words()
-        roomy = bool(note) or theme.scale() <= 1.0  # large words would be cut: they are the tip too
-        self._help.setText(text if self._interactive and roomy else "")
+        self._help.setText(text if self._interactive else "")
+        self._show_help()
         self.box.setToolTip(self._why or self._words())
 
     def _words(self) -> str:
@@ -226,6 +274,22 @@ def _source_box() -> QComboBox:
         box.addItem(source_title(name), name)
     box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
     box.setAccessibleName(tr("Hand"))
+    return box
+
+
+def _sense_box() -> QComboBox:
+    box = QComboBox()
+    box.addItem(tr("moves the tip"), False)
+    box.addItem(tr("moves the hub"), True)
+    box.setToolTip(
+        tr(
+            "Which end goes where mouse, keys or stick go, as the bull's-eye shows it. The tip: to "
+            "the right is to the right. The hub: as the real needle turns about the skin, hub to "
+            "the right brings the tip to the left."
+        )
+    )
+    box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+    box.setAccessibleName(tr("The hand moves"))
     return box
 
 

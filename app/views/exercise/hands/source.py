@@ -2,9 +2,12 @@
 
 Drag and arrows tilt, wheel and Page keys push and pull. A pen is held like the needle: it tilts the
 needle, and its pressure pushes it in. The pen is the needle and the tablet the skin: leaning the
-pen's end to the right brings the hub to the right and so turns the tip to the left. Nothing moves
-while the pen only hovers, and putting it down makes no jump: the hand follows the change of tilt
-since then.
+pen's end to the right brings the hub to the right and so turns the tip to the left, as its own tip
+does. Nothing moves while the pen only hovers, and putting it down makes no jump: the hand follows
+the change of tilt since then.
+
+Whether tip or hub goes where the hand goes is the user's choice (`HandSource.sense`); a pen that
+leans shows both at once, and is followed as it is.
 
 Of a gamepad the left stick tilts the needle and the right one moves it along. Gamepads are read
 through pygame-ce, which is the extra `gamepad`, loaded only when one is chosen.
@@ -19,6 +22,7 @@ from typing import Any, ClassVar, Final, Protocol
 
 from PySide6.QtCore import QEvent, QObject, QPointF, Qt, QTimer, Signal
 from PySide6.QtGui import QInputDevice, QTabletEvent
+from PySide6.QtWidgets import QApplication
 
 from app.core.errors import AcusError
 from app.session.pad.hand import PadHand
@@ -32,6 +36,8 @@ class HandSource(QObject):
     Attributes:
         name: as it is recorded with every attempt.
         gain: hand movement per movement of the source, as the user chose it.
+        sense: 1 where the needle's tip goes as the source does, seen on the pad; -1 where its hub
+            does, and so the tip the other way: as a needle turns about the skin.
 
     Signals:
         moved(HandChange): the user moved the hand.
@@ -48,7 +54,7 @@ class HandSource(QObject):
     def __init__(self, pad: PadCanvas) -> None:
         super().__init__(pad)
         self.pad = pad
-        self.gain = 0.5
+        self.gain, self.sense = 0.5, 1.0
 
     def open(self) -> None:
         """Begin to listen.
@@ -61,6 +67,9 @@ class HandSource(QObject):
     def close(self) -> None:
         """Stop listening; idempotent. The hand stays where it is."""
         raise NotImplementedError
+
+    def let_go(self) -> None:
+        """Move no further with what is held now: it counts again once it was let go."""
 
 
 DEAD_ZONE: Final = 0.15
@@ -132,7 +141,7 @@ class GamepadHand(HandSource):
     def __init__(self, pad: PadCanvas, pads: Pads | None = None) -> None:
         super().__init__(pad)
         self._pads = pads
-        self._home = False
+        self._home = self._spent = False
         self._present: bool | None = None
         self._timer = QTimer(self, interval=STEP_MS)
         self._timer.timeout.connect(self.step)
@@ -147,18 +156,29 @@ class GamepadHand(HandSource):
             self._pads = PygamePads()
         self._pads.open()
         self._present = None
+        if not self._timer.isActive():
+            self.pad.advanced.connect(self._advance)
         self._timer.start()
         self.step()
 
     def close(self) -> None:
         """Stop looking."""
+        if self._timer.isActive():
+            self.pad.advanced.disconnect(self._advance)
         self._timer.stop()
         if self._pads is not None:
             self._pads.close()
         self.noted.emit("")
 
+    def let_go(self) -> None:
+        """Wait until the sticks rest."""
+        self._spent = True
+
+    def _advance(self, step: float) -> None:
+        self.moved.emit(lambda hand: hand.advance(step))
+
     def step(self) -> None:
-        """Move by one step of time as the sticks stand."""
+        """Move by one step of time as the sticks stand; not behind a dialog."""
         sticks = None if self._pads is None else self._pads.read()
         if (sticks is not None) is not self._present:
             self._present = sticks is not None
@@ -169,8 +189,13 @@ class GamepadHand(HandSource):
         time = 1e-3 * STEP_MS
         right, up = deflection(sticks.right, sticks.up)
         along, _ = deflection(sticks.along)
+        self._spent = (self._spent or QApplication.activeModalWidget() is not None) and bool(
+            right or up or along
+        )
+        if self._spent:
+            right = up = along = 0.0
         if right or up:
-            turn = self.gain * FASTEST_TILT * time
+            turn = self.sense * self.gain * FASTEST_TILT * time
             self.moved.emit(lambda hand: hand.tilt(turn * right, turn * up))
         if along:
             self.moved.emit(lambda hand: hand.advance(FASTEST_DEPTH * time * along))
@@ -286,11 +311,12 @@ class MouseHand(HandSource):
             self.pad.homed.disconnect(self.homed)
 
     def _drag(self, right: float, up: float) -> None:
-        step = (self.gain * right, self.gain * up)
-        self.moved.emit(lambda hand: hand.drag(step))
+        gain = self.sense * self.gain
+        self.moved.emit(lambda hand: hand.drag((gain * right, gain * up)))
 
     def _tilt(self, right: float, up: float) -> None:
-        self.moved.emit(lambda hand: hand.tilt(right, up))
+        sense = self.sense
+        self.moved.emit(lambda hand: hand.tilt(sense * right, sense * up))
 
     def _advance(self, step: float) -> None:
         self.moved.emit(lambda hand: hand.advance(step))
@@ -370,6 +396,10 @@ class TabletHand(HandSource):
             self._lift()
         return False
 
+    def let_go(self) -> None:
+        """Count the pen as lifted."""
+        self._lift()
+
     def step(self) -> None:
         """Move along the needle for one step of time, as the pen is pressed."""
         if self._speed != 0.0:
@@ -394,7 +424,7 @@ class TabletHand(HandSource):
             right, up = -self.gain * radians(leaned.x()), self.gain * radians(leaned.y())
             self.moved.emit(lambda hand: hand.tilt(right, up))
         else:
-            share = self.gain / self.pad.area.radius
+            share = self.sense * self.gain / self.pad.area.radius
             step = (share * went.x(), -share * went.y())
             self.moved.emit(lambda hand: hand.drag(step))
 
