@@ -12,6 +12,7 @@ from views_exercise_attempts import review
 
 from app.core.bend import Bend
 from app.exercises.guidance import Purpose
+from app.imaging.structures.structure import Structure, StructureKind, StructureSet
 from app.planning.placement import PlacedPlan, Placement
 from app.planning.plan import Plan
 from app.scoring.conditions import Conditions
@@ -186,7 +187,7 @@ def test_it_plays_at_the_speed_that_was_chosen_and_stands_still_at_the_end(shown
 def test_a_needle_that_tissue_bent_is_drawn_bent(shown, settle):
     volume = shown.views.viewing.volume
     shown.show_review(attempted(volume, bent=True))
-    shown.views.show_ct(volume, None)
+    shown.views.show_ct(volume)
     assert settle(lambda: len(needle_of(shown).points_mm) > 2)
 
 
@@ -343,7 +344,7 @@ def test_a_click_into_an_attempt_of_three_minutes_does_not_hold_the_window(shown
     volume = shown.views.viewing.volume
     long = attempted(volume, seconds=180.0)
     shown.show_review(long)
-    shown.views.show_ct(volume, None)
+    shown.views.show_ct(volume)
     shown.show_ghost(Ghost("ghost", attempted(volume, side=0.001, seconds=180.0)))
     assert settle(lambda: shown.views.is_settled)
     spent = []
@@ -415,3 +416,35 @@ def test_whoever_signs_in_sees_of_the_attempt_on_the_page_what_he_may(
     ACCESS.sign_in(None)
     assert settle(lambda: "another one's" in page.held.text())
     assert not page.table.isVisibleTo(page)
+
+
+def test_structures_that_the_patient_has_are_drawn_in_the_replay_too(shown, window, settle):
+    volume = window.conductor.patient.volume
+    voxels = np.ones((8, 6, 10), dtype=bool)
+    place, colour = (20, 30, 16), (200, 40, 40)
+    vessel = Structure("vessel", StructureKind.VESSEL, colour, voxels, place, volume.affine_mm)
+    window.editors.structures.add(StructureSet((vessel,)))
+    assert settle(lambda: window.workspace.scene.structures != ())
+    assert settle(lambda: len(shown.views.scene.structures) == 1)
+    assert shown.views.scene.legend[0][1].endswith("vessel")
+
+
+def test_a_target_that_breathing_moves_is_shown_where_it_was(shown):
+    volume, placed = shown.views.viewing.volume, shown.review.placed
+    breathing = attempted(volume)
+    away = np.tile(placed.p_target, (len(breathing.motion), 1))
+    away[:, 1] += 0.006 * np.sin(breathing.motion.time)
+    moving = replace(breathing, motion=replace(breathing.motion, target=away))
+    shown.show_review(moving)
+    shown.views.show_ct(volume)
+    row = moving.motion.row(4.7)
+    shown.replayer.seek(4.7)
+    assert shown.views.viewing.target_now_mm == pytest.approx(moving.motion.target_mm(row), abs=0.1)
+    assert np.abs(shown.views.viewing.target_now_mm - PLAN.target_mm).max() > 5.0
+
+
+def test_a_scan_in_the_list_leads_to_the_moment_it_was_taken(shown):
+    scan = SimpleNamespace(time=shown.review.origin + 7.0)
+    shown._review = replace(shown.review, control_scans=(scan,))
+    shown.scans.cellClicked.emit(0, 0)
+    assert shown.replayer.time == pytest.approx(7.0)

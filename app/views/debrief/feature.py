@@ -44,6 +44,7 @@ from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.text import tr
 from app.views.shell.feature import Context, Feature
+from app.views.structures.layer import draw_in
 
 if TYPE_CHECKING:
     from app.session.index import Indexed
@@ -197,8 +198,8 @@ class DebriefController(QObject):
             self._page.show_held(
                 shown,
                 tr(
-                    "This attempt is an assessment of the course {course}. The instructor releases "
-                    "its result; until then neither score nor replay is shown here.",
+                    "This attempt is an assessment (course: {course}). The instructor releases its "
+                    "result; until then neither score nor replay is shown here.",
                     course=held,
                 ),
             )
@@ -421,6 +422,8 @@ class AttemptCt(QObject):
         self._come_back = False
         page.views.open_wanted.connect(self.open)
         context.conductor.patient_changed.connect(self._take_patient)
+        for pane in page.views.panes:
+            draw_in(pane.canvas, context.editors.structures)
         context.views.scene.surfaces_changed.connect(self._take_surfaces)
         context.patients.given_up.connect(self._stay)
         context.patients.failed.connect(lambda _: self._stay())
@@ -501,7 +504,8 @@ class AttemptCt(QObject):
             )
             return
         views.viewing.set_window(self._context.views.viewing.window)
-        views.show_ct(volume, self._context.views.scene.surfaces)
+        views.show_ct(volume)
+        views.show_surfaces_of(self._context.views.scene)
 
     def _fail(self, error: Exception) -> None:
         self._task = None
@@ -515,7 +519,7 @@ class AttemptCt(QObject):
             QTimer.singleShot(0, self, lambda: self._context.shell.show_page(self._page))
 
     def _take_surfaces(self) -> None:
-        self._page.views.set_surfaces(self._context.views.scene.surfaces)
+        self._page.views.show_surfaces_of(self._context.views.scene)
 
     def _stay(self) -> None:
         self._come_back = False
@@ -662,8 +666,9 @@ class DebriefFeature(Feature):
         self.page.suit_room()
 
     def show(self) -> None:
-        """Go to the attempt that the debrief shows."""
+        """Go to the attempt that the debrief shows; the keyboard replays it."""
         self.context.shell.show_page(self.page)
+        self.page.bar.slider.setFocus()
 
     def show_sessions(self) -> None:
         """Go to the past attempts."""

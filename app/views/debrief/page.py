@@ -363,6 +363,11 @@ class DebriefPage(QWidget):
         self.replayer.pause()
         self.replayer.seek(time)
 
+    def _seek_scan(self, row: int) -> None:
+        """Go to the moment at which a scan was taken."""
+        if self._review is not None:
+            self._seek(self._review.control_scans[row].time - self._review.origin)
+
     def offer_ghosts(self, choices: Sequence[tuple[object, str]]) -> None:
         """Offer what may stand beside the needle: keys with their words."""
         chosen = self.bar.ghost.currentData()
@@ -487,6 +492,7 @@ class DebriefPage(QWidget):
         self.sessions.clicked.connect(self.sessions_requested)
         self.replayer.moved.connect(self._show_time)
         self.curves.sought.connect(self._seek)
+        self.scans.cellClicked.connect(lambda row, _: self._seek_scan(row))
         self.bar.laid.connect(self.views.lay_along_path)
         self.bar.aligned.connect(self._align)
         self.bar.ghost_wanted.connect(self.ghost_wanted)
@@ -526,6 +532,7 @@ class DebriefPage(QWidget):
     def suit_room(self) -> None:
         """Write anew who it was, or hide it; take the present colours and size of the text."""
         self._share_width()
+        self.views.suit_room()
         if self._review is not None:
             self._facts.setText(facts(self._review))
             self._show_words(self._review)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from time import monotonic
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
@@ -52,9 +52,6 @@ from app.views.slices.panes import PaneId
 from app.views.slices.plane import SlicePlane
 from app.views.slices.presets import default_window
 from app.views.slices.viewing import Viewing
-
-if TYPE_CHECKING:
-    from app.views.scene.surfaces import Surfaces
 
 TICK_MS: Final = 33
 """The replay moves on this often."""
@@ -468,7 +465,7 @@ class ReplayViews(QWidget):
         if review is not None:
             self.path.show_review(review)
 
-    def show_ct(self, volume: Volume, surfaces: Surfaces | None) -> None:
+    def show_ct(self, volume: Volume) -> None:
         """Show the CT that the attempt was made on, with its plan."""
         review = self._review
         if review is None:
@@ -477,7 +474,6 @@ class ReplayViews(QWidget):
             self.viewing.set_volume(volume)
         scene = self._own_scene()
         scene.set_volume(volume)
-        scene.set_surfaces(surfaces)
         draft = DraftPlan.of(review.placed.plan)
         radii = tuple(ring / MILLIMETRE for ring in review.rings)
         self.viewing.set_needle(None)
@@ -529,15 +525,27 @@ class ReplayViews(QWidget):
         if self.motion is not None:
             self.show_row(self._row)
 
-    def set_surfaces(self, surfaces: Surfaces | None) -> None:
-        """Show the patient's surfaces in 3D, which come later than the CT."""
+    def show_surfaces_of(self, other: SceneView) -> None:
+        """Show surfaces and structures as another 3D view of the patient has them by now."""
         if self.scene is not None and self.has_ct:
-            self.scene.set_surfaces(surfaces)
+            if self.scene.surfaces is not other.surfaces:
+                self.scene.set_surfaces(other.surfaces)
+            self.scene.set_structures(other.structures, other.legend)
+        for pane in self.panes:
+            pane.canvas.refresh()
 
     def lay_along_path(self, path: bool) -> None:
         """Lay the slices along the planned path, or along the needle."""
         (self.planes.show_path if path else self.planes.follow_needle)()
         self._fit()
+
+    def suit_room(self) -> None:
+        """Write everything in the present size of the text."""
+        self.viewing.plan_changed.emit()  # names of marks are as large as the text
+        self.viewing.needle_changed.emit()
+        self._show_words()
+        for pane in self.panes:
+            pane.canvas.rewrite()
 
     def forget(self) -> None:
         """Let go of the CT: its patient leaves."""
@@ -546,6 +554,7 @@ class ReplayViews(QWidget):
             self.scene.set_needle(None)
             self.scene.set_ghost(None)
             self.scene.set_surfaces(None)
+            self.scene.set_structures(())
             self.scene.set_plan(DraftPlan())
 
     def close_views(self) -> None:

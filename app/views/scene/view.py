@@ -88,11 +88,12 @@ class SceneView(QWidget):
         clicked(object, object): a click that did not turn: point and direction [mm, LPS] of the
             line of sight.
         display_changed(): something else is shown, or otherwise.
-        surfaces_changed(): other surfaces are there, or none.
+        surfaces_changed(): other surfaces are there, or none, or other structures.
 
     Attributes:
         commands: what the view does by itself, by the key that asks for it.
         surfaces: skin, bone and organs as they are shown; None while there are none.
+        structures: those that are shown, each in its colour.
     """
 
     maximise_wanted = Signal()
@@ -111,6 +112,7 @@ class SceneView(QWidget):
         self._robot: FloatArray | None = None
         self.note = self.off = ""
         self.surfaces: Surfaces | None = None
+        self.structures: tuple[tuple[Colour, Mesh], ...] = ()
         self.legend: tuple[Entry, ...] = ()
         self._organs: tuple[str, ...] = ()
         self._enlargement = Enlargement()
@@ -232,8 +234,9 @@ class SceneView(QWidget):
     ) -> None:
         """Show structures as surfaces, each in its colour, and say which is which."""
         self._feed.change("structures", lambda stage: stage.set_structures(shown))
-        self.legend = legend
+        self.structures, self.legend = shown, legend
         self.update()
+        self.surfaces_changed.emit()
 
     def set_entry_map(self, shown: EntryMap | None) -> None:
         """Show scored entries on the skin, or none."""
