@@ -165,7 +165,13 @@ def pinned_problems(course: Course) -> list[str]:
     return found
 
 
-def why_not(course: Course, exercise: str, own: Sequence[Indexed], today: datetime.date) -> str:
+def why_not(
+    course: Course,
+    exercise: str,
+    own: Sequence[Indexed],
+    today: datetime.date,
+    titles: Mapping[str, str] | None = None,
+) -> str:
     """Say why a student may not begin an exercise of a course; empty if he may.
 
     Args:
@@ -173,10 +179,13 @@ def why_not(course: Course, exercise: str, own: Sequence[Indexed], today: dateti
         exercise: id.
         own: his attempts.
         today: by the station's calendar.
+        titles: of exercises, as people read them; where one is missing its id stands.
     """
+    titled = titles or {}
     place = next((n for n, item in enumerate(course.items) if item.exercise == exercise), None)
     if place is None:
-        return f"{exercise} is no exercise of the course {course.title}"
+        named = titled.get(exercise, exercise)
+        return f"{named} is no exercise of the course {course.title}"
     item = course.items[place]
     if item.opens and today < item.opens:
         return f"it opens on {item.opens}"
@@ -190,7 +199,7 @@ def why_not(course: Course, exercise: str, own: Sequence[Indexed], today: dateti
         tries = attempts_used(own, before)
         used = before.attempts is not None and len(tries) >= before.attempts
         if not used and not any(one.passed for one in tries):
-            return f"first pass {before.exercise}"
+            return f"first pass {titled.get(before.exercise, before.exercise)}"
     return ""
 
 

@@ -10,8 +10,9 @@ import pytest
 
 from app.core.errors import ConfigurationError
 from app.exercises.guidance import Purpose
+from app.exercises.library import load_exercise
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
-from app.session.board import every_item, progress_board
+from app.session.board import Standing, comes_next, every_item, progress_board, standings
 from app.session.course import (
     Course,
     CourseError,
@@ -24,7 +25,7 @@ from app.session.course import (
     why_not,
 )
 from app.session.index import Indexed
-from app.session.people import Person, Remarks
+from app.session.people import PEOPLE, Person, Remarks, people_folder
 
 NOW = datetime(2026, 11, 20, 12, tzinfo=UTC)
 ADA, BOB = Person("p-a", "Ada", ("A",)), Person("p-b", "Bob", ("B",))
@@ -203,3 +204,87 @@ def test_who_takes_a_course() -> None:
     assert COURSE.takes(ADA)
     assert not COURSE.takes(BOB)
     assert Course(id="c", title="C").takes(BOB)
+
+
+@pytest.fixture
+def station(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Any:
+    """Ada, Bob, attempts that a test lists, and courses that it writes."""
+    attempts: list[Indexed] = []
+
+    class There:
+        def __init__(self, *_: Any) -> None: ...
+        def refresh(self) -> None: ...
+        def attempts(self) -> list[Indexed]:
+            return attempts
+
+        def keys(self) -> dict[str, str]:
+            return WHOSE
+
+        def remarks(self) -> dict[str, Remarks]:
+            return {"released": Remarks(released=True), "void": Remarks(void="slipped")}
+
+        def everybody(self) -> list[Person]:
+            return [ADA, BOB]
+
+    monkeypatch.setenv("ACUS_DATA", str(tmp_path))
+    people_folder().mkdir(parents=True)
+    (people_folder() / PEOPLE).touch()
+    monkeypatch.setattr("app.session.board.Index", There)
+    monkeypatch.setattr("app.session.board.People", There)
+    monkeypatch.setattr("app.session.board.records", lambda _: attempts)
+    return attempts
+
+
+EXERCISES = tuple(
+    load_exercise("first-insertion").model_copy(update={"id": name, "title": name.title()})
+    for name in ("liver", "lung")
+)
+
+
+def stood(student: Person | None, may_see: Any = lambda _: True) -> dict[str, Standing]:
+    exercises = [one.model_copy(update={"version": 1}) for one in EXERCISES]
+    return standings(Path("somewhere"), exercises, student, may_see)
+
+
+def test_how_far_a_student_has_come_is_told_by_what_counts_alone(station: list[Indexed]) -> None:
+    station += [
+        attempt("a", "p-a", 50),
+        attempt("b", "old ada", 80),
+        attempt("c", "p-b", 99),
+        attempt("d", "p-a", 100, scripted="expert"),
+        attempt("e", "p-a", 97, version=2),
+        attempt("void", "p-a", 98),
+        attempt("f", "p-a", 96, verdict="altered"),
+        attempt("g", "p-a", None),
+    ]
+    assert stood(ADA) == {"lung": Standing(2, 80, True)}
+    assert stood(None)["lung"] == Standing(3, 99, True)  # everybody at this station
+    assert stood(None, lambda student: student == "p-a")["lung"] == Standing(1, 50)
+    assert comes_next(stood(ADA), EXERCISES, ADA) == "liver"
+    assert comes_next({"liver": Standing(1, 90, True)}, EXERCISES, None) == "lung"
+    both = {name: Standing(1, 90, True) for name in ("liver", "lung")}
+    assert comes_next(both, EXERCISES, None) == ""
+
+
+def test_a_result_that_is_not_released_is_an_attempt_and_nothing_more(
+    station: list[Indexed],
+) -> None:
+    item = CourseItem(exercise="lung", purpose=Purpose.ASSESSMENT)
+    Course(id="exam", title="Exam", items=(item,)).save()
+    station.append(attempt("held", "p-a", 90))
+    assert stood(ADA) == {"lung": Standing(1)}
+    assert comes_next(stood(ADA), EXERCISES, ADA) == "lung"  # that of the course
+    station.append(attempt("released", "p-a", 70))
+    assert stood(ADA) == {"lung": Standing(2, 70, True)}
+
+
+def test_a_folder_without_records_is_left_as_it_is(tmp_path: Path) -> None:
+    assert standings(tmp_path, EXERCISES, None) == {}
+    assert not list(tmp_path.iterdir())
+
+
+def test_an_exercise_that_comes_first_is_named_by_its_title() -> None:
+    items = (CourseItem(exercise="liver"), CourseItem(exercise="lung"))
+    course = Course(id="c", title="C", ordered=True, items=items)
+    why = why_not(course, "lung", [], NOW.date(), {"liver": "Liver below the ribs"})
+    assert why == "first pass Liver below the ribs"

@@ -213,6 +213,7 @@ class Beginning(QObject):
         fits = patient is not None and self._conductor.fits(patient, exercise)
         volume = patient.volume if fits and patient is not None else None
         folder = services.sessions()
+        titles = {name: one.title for name, one in self._exercises().items()}
 
         def show(portrait: Portrait | None) -> None:
             if number == self._asked and portrait is not None:
@@ -228,7 +229,7 @@ class Beginning(QObject):
         run_in_background(self, lambda p: services.portrait(exercise, volume, p), show, nothing)
         if student is not None:
             run_in_background(
-                self, lambda _: allowance_of(folder, student, exercise), allow, nothing
+                self, lambda _: attempts_left(folder, student, exercise, titles), allow, nothing
             )
 
     def _is_known(self, exercise: Exercise) -> bool:
@@ -456,8 +457,16 @@ class Beginning(QObject):
             self._briefed = None
 
 
-def allowance_of(folder: Path, student: Person, exercise: Exercise) -> AttemptsLeft:
+def attempts_left(
+    folder: Path, student: Person, exercise: Exercise, titles: Mapping[str, str]
+) -> AttemptsLeft:
     """Return how many attempts a student has by his courses; called beside the window.
+
+    Args:
+        folder: of the records.
+        student: who.
+        exercise: that he wants to begin.
+        titles: of all exercises, by identifier.
 
     Raises:
         AcusError: if the records cannot be read.
@@ -477,7 +486,7 @@ def allowance_of(folder: Path, student: Person, exercise: Exercise) -> AttemptsL
     texts = [text for text, key in People().keys().items() if key == student.key]
     own = index.attempts(texts)
     today = datetime.datetime.now().astimezone().date()
-    refusal = why_not(course, exercise.id, own, today)
+    refusal = why_not(course, exercise.id, own, today, titles)
     return AttemptsLeft(item.attempts, len(attempts_used(own, item)), course.title, refusal)
 
 

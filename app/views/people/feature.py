@@ -170,7 +170,7 @@ class PeopleFeature(Feature):
 
     def look(self) -> None:
         """Learn who there is, and what the student who is here may begin, beside the window."""
-        student = ACCESS.student
+        student, titles = ACCESS.student, self._titles()
 
         def find(_: Progress) -> Known:
             people = self._people
@@ -186,7 +186,7 @@ class PeopleFeature(Feature):
                 for course in courses()[0]
                 if course.takes(student)
                 for item in course.items
-                if (why := why_not(course, item.exercise, own, today))
+                if (why := why_not(course, item.exercise, own, today, titles))
             }
             return replace(known, refused=refused)
 

@@ -415,6 +415,11 @@ class StartFacts(QObject):
         self._may_picture = False
         ACCESS.changed.connect(self._follow)
 
+    @property
+    def pictured(self) -> int:
+        """Exercises whose patient was looked for."""
+        return len(self._pictured)
+
     def begin(self) -> None:
         """Show what is kept, and read the rest: the window stands."""
         self.show_kept()

@@ -290,8 +290,11 @@ class MainWindow(QMainWindow):
 
     def refresh(self) -> None:
         """Write the title and enable what can be done."""
-        name = self.conductor.patient.label if self.conductor.patient else ""
-        self.setWindowTitle(f"{NAMES.shown(name)} – Acus" if name else "Acus")
+        conductor, patient = self.conductor, self.conductor.patient
+        taken = conductor.exercise if patient and conductor.fits(patient) else None
+        name = "" if patient is None else NAMES.shown(patient.label)
+        parts = ("" if taken is None else taken.title, name, "Acus")
+        self.setWindowTitle(" – ".join(filter(None, parts)))
         self.undo_action.setEnabled(self.undo.can_undo)
         self.redo_action.setEnabled(self.undo.can_redo)
 
@@ -352,6 +355,7 @@ class MainWindow(QMainWindow):
         open_ct.opened.connect(lambda patient: change.take(patient, self.show_patient))
         conductor.patient_left.connect(self._forget_patient)
         conductor.patient_changed.connect(self.refresh)
+        conductor.exercise_taken.connect(lambda _: self.refresh())
         self.undo.changed.connect(self.refresh)
         self.projector.changed.connect(self._suit_room)
         start.set_exercises(self.services.exercises())
