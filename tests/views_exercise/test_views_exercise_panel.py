@@ -1,11 +1,12 @@
 from dataclasses import replace
+from itertools import combinations
 from math import inf, nan, radians
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QFont, QFontMetrics
+from PySide6.QtGui import QFont, QFontMetrics, QImage
 from PySide6.QtTest import QTest
 from views_exercise_fakes import snapshot, statistics
 
@@ -30,6 +31,7 @@ from app.views.exercise.status_items import (
     heartbeat_item,
     loop_item,
     recorder_item,
+    robot_item,
     tracker_item,
 )
 from app.views.exercise.tracker_panel import TrackerFigures, _Figures, residual_text
@@ -357,3 +359,90 @@ def test_what_is_to_be_done_before_an_attempt_stands_there_with_its_button(panel
     assert panel.withdrawal.button.isHidden()
     panel.withdrawal.show_snapshot(snapshot())
     assert panel.withdrawal.isHidden()
+
+
+# --- one light for the robot --------------------------------------------------------------------
+def light_of(**changes):
+    loop = LoopFigures(1000.0, 5e-5, 1e-4, 0.0, 0, 9)
+    parts = {"loop": loop_item(loop), "encoders": encoder_item(0.001),
+             "heartbeat": heartbeat_item(0.01)}  # fmt: skip
+    return robot_item(**(parts | changes))
+
+
+LATE = LoopFigures(700.0, 3e-3, 9e-3, 0.2, 400, 2000)
+
+
+@pytest.mark.parametrize(
+    ("changes", "verdict", "words"),
+    [
+        ({}, Verdict.GOOD, "Robot ready"),
+        ({"loop": None}, Verdict.IDLE, "No robot"),
+        ({"fault": "a cable"}, Verdict.BAD, "Robot stopped: a cable"),
+        ({"encoders": encoder_item(0.5)}, Verdict.BAD, "Robot stopped: it does not answer"),
+        ({"heartbeat": heartbeat_item(2.0)}, Verdict.BAD, "Robot stopped: this window stood still"),
+        ({"guard_acts": True}, Verdict.WARNING, "Robot held back: it calms the needle"),
+        ({"at_most": True}, Verdict.WARNING, "Robot held back: the depth is not measured"),
+        ({"loop": loop_item(LATE)}, Verdict.WARNING, "Robot ready, the computer is busy"),
+    ],
+)
+def test_one_light_says_in_a_word_how_the_robot_is_and_its_help_how_each_part_is(
+    changes, verdict, words
+):
+    item = light_of(**changes)
+    assert (item.verdict, item.title) == (verdict, words)
+    parts = [light_of().help.splitlines()[i].split(":")[0][2:] for i in range(3)]
+    assert parts == ["Robot loop", "Encoders", "Heartbeat"]
+    assert all(part in item.help for part in (*parts[1:], "Energy guard"))
+
+
+def all_items():
+    loop = LoopFigures(1000.0, 5e-5, 1e-4, 0.0, 0, 9)
+    return (loop_item(loop), encoder_item(0.001), tracker_item(30.0, 1.0, 0.01, ""),
+            depth_item("tracked", 0.01), heartbeat_item(0.01), recorder_item(True))  # fmt: skip
+
+
+def titles(strip):
+    return [cell.item.title for cell in strip._cells if cell.isVisibleTo(strip)]
+
+
+def test_a_student_sees_one_light_and_a_click_on_it_all_that_was_there_before(qt):
+    strip = StatusStrip()
+    strip.set_detailed(False)
+    strip.show_items(all_items(), light_of())
+    strip.show()
+    assert titles(strip) == ["Cameras", "Depth", "Recorder"]
+    assert [cell._text.whole for cell in strip._cells[:3]] == [
+        "see the marker", "measured", "recording"]  # fmt: skip
+    assert "30 Hz" in strip._cells[0].toolTip()  # nothing is lost
+    wanted = []
+    strip.detailed.connect(wanted.append)
+    QTest.mouseClick(strip.light, Qt.MouseButton.LeftButton)
+    assert wanted == [True]
+    assert titles(strip) == [item.title for item in all_items()]
+    assert "30 Hz" in strip._cells[2]._text.whole
+    QTest.mouseClick(strip.light, Qt.MouseButton.LeftButton)
+    assert len(titles(strip)) == 3
+    strip.close()
+
+
+def test_what_is_not_well_is_said_in_full_to_a_student_too(qt):
+    strip = StatusStrip()
+    strip.set_detailed(False)
+    strip.show_items((tracker_item(30.0, 0.2, 0.01, "marker out of view"),), light_of())
+    assert strip._cells[0]._text.whole == "marker out of view"
+
+
+def test_the_light_is_told_apart_by_its_shape_without_any_colour(qt):
+    """Grey pictures of its states differ by more than a tenth of the light's area."""
+    strip = StatusStrip()
+    strip.show()
+    pictures = []
+    for changes in ({}, {"guard_acts": True}, {"fault": "x"}, {"loop": None}):
+        strip.show_items((), light_of(**changes))
+        strip.light.resize(34, 34)
+        grey = strip.light.grab().toImage().convertToFormat(QImage.Format.Format_Grayscale8)
+        black = np.frombuffer(grey.constBits(), np.uint8).reshape(grey.height(), -1)[:, :34]
+        pictures.append(np.abs(black.astype(int) - int(black[0, 33])) > 40)
+    for one, other in combinations(pictures, 2):
+        assert (one ^ other).mean() > 0.05
+    strip.close()

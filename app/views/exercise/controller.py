@@ -24,7 +24,14 @@ from app.views.exercise.enable_switch import enabling
 from app.views.exercise.energy_gauge import energy_figures
 from app.views.exercise.felt import force_limit
 from app.views.exercise.panel import ExercisePanel
-from app.views.exercise.readings import figures, hand_pose, pad_view, status_items, tracker_figures
+from app.views.exercise.readings import (
+    figures,
+    hand_pose,
+    pad_view,
+    robot_status,
+    status_items,
+    tracker_figures,
+)
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.status import MessageList, StatusStrip
 from app.views.exercise.status_items import MISSED_WINDOW
@@ -111,7 +118,7 @@ class ExerciseDisplay:
             self._status_time = now
             items = status_items(snapshot, rate, missing, late)
             extra = (item for more in self.extra_items for item in more(snapshot))
-            self._views.status.show_items((*extra, *items))
+            self._views.status.show_items((*extra, *items), robot_status(snapshot, items))
 
     def _follow(self, state: State) -> None:
         """Let the hand go where the attempt begins, pauses or ends: what was held was for before.

@@ -127,7 +127,7 @@ class GaugeMode(StrEnum):
     """When the gauge is on the page."""
 
     AUTO = "auto"
-    """With a real robot, and in an attempt in which the guard has acted."""
+    """With a real robot, and in an attempt in which the guard has acted; among all details only."""
     SHOWN = "shown"
     HIDDEN = "hidden"
 
@@ -140,6 +140,7 @@ class EnergyGauge(QWidget):
         self._figures: EnergyFigures | None = None
         self._shown: tuple[object, ...] = ()
         self._mode, self._real, self._acted = GaugeMode.AUTO, False, False
+        self._detailed = True
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setToolTip(gauge_help())
         self.show_energy(None)
@@ -154,6 +155,11 @@ class EnergyGauge(QWidget):
         self._mode = mode
         self._appear()
 
+    def set_detailed(self, detailed: bool) -> None:
+        """Be there of its own accord among all details, or leave that to the robot's light."""
+        self._detailed = detailed
+        self._appear()
+
     def begin(self, real: bool) -> None:
         """Forget whether the guard acted; `real` says whether the robot is one of metal."""
         self._real, self._acted = real, False
@@ -161,7 +167,7 @@ class EnergyGauge(QWidget):
 
     def _appear(self) -> None:
         auto = self._mode is GaugeMode.AUTO and (self._real or self._acted)
-        self.setVisible(auto or self._mode is GaugeMode.SHOWN)
+        self.setVisible((auto and self._detailed) or self._mode is GaugeMode.SHOWN)
 
     def show_energy(self, figures: EnergyFigures | None) -> None:
         """Show a moment; None, or no energy account, shows dashes."""

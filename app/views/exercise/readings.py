@@ -1,6 +1,8 @@
 """From a snapshot of the trainer to what the widgets show. Pure; nothing here judges anything."""
 
+from collections.abc import Sequence
 from math import inf
+from typing import Final
 
 import numpy as np
 
@@ -8,6 +10,7 @@ from app.core import state_vector as sv
 from app.device.faults import Fault
 from app.device.state import DeviceState
 from app.planning.off_path import split
+from app.session.machine import State
 from app.session.pad.geometry import downward
 from app.session.pad.hand import HandPose
 from app.session.pad.view import PadView
@@ -16,6 +19,7 @@ from app.tracking.cameras.watch import CameraState
 from app.tracking.fix import FixStatus
 from app.tracking.statistics import TrackerStatistics
 from app.views.exercise.camera_view import camera_name
+from app.views.exercise.energy_gauge import energy_figures
 from app.views.exercise.felt import felt, guidance_limit
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.status_items import (
@@ -25,6 +29,7 @@ from app.views.exercise.status_items import (
     heartbeat_item,
     loop_item,
     recorder_item,
+    robot_item,
     tracker_item,
 )
 from app.views.exercise.tracker_panel import TrackerFigures
@@ -118,6 +123,25 @@ def status_items(
         lost = record.lost_rows + record.lost_samples if record is not None else 0
         items.append(recorder_item(bool(record and record.active), lost))
     return tuple(items)
+
+
+_IN_TISSUE: Final = (State.INSERTING, State.HOLDING, State.PAUSED)
+
+
+def robot_status(snapshot: Snapshot, items: Sequence[StatusItem]) -> StatusItem:
+    """Return the one light of the robot, from the items of `status_items`."""
+    device = snapshot.device
+    loop = items[0] if snapshot.timing is not None and device is not None else None
+    encoders = items[0 if snapshot.timing is None else 1]
+    energy = energy_figures(snapshot)
+    return robot_item(
+        loop,
+        encoders,
+        items[-2],
+        fault_text(int(device.fault)) if device is not None else "",
+        energy is not None and energy.acting,
+        snapshot.state in _IN_TISSUE and felt(snapshot).at_most,
+    )
 
 
 def tracker_status(snapshot: Snapshot) -> StatusItem:

@@ -5,11 +5,21 @@ time.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import cos, pi, sin
 from typing import Final
 
-from PySide6.QtCore import QEvent, QObject, QSize, Qt
-from PySide6.QtGui import QColor
+from PySide6.QtCore import QEvent, QObject, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import (
+    QColor,
+    QFont,
+    QFontMetrics,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPolygonF,
+)
 from PySide6.QtWidgets import (
+    QAbstractButton,
     QHBoxLayout,
     QListWidget,
     QListWidgetItem,
@@ -35,6 +45,9 @@ TITLE_PX: Final = 170
 _LINE: Final = Qt.ItemDataRole.UserRole
 _COLOUR: Final = Qt.ItemDataRole.UserRole + 1
 """The line as it came, names and all, and its colour in any theme."""
+
+_LIGHT: Final = 26
+"""Size of the robot's light [px]."""
 
 _LOOKS: Final = {
     "state": (theme.TEXT, "•"),
@@ -83,15 +96,123 @@ class MessageList(QListWidget):
             item.setForeground(QColor(theme.now(str(item.data(_COLOUR)))))
 
 
+class RobotLight(QAbstractButton):
+    """One light with a word for everything of the robot, told apart by shape as well as by colour.
+
+    A disc with a tick: ready; a triangle: held back; an octagon with a cross: stopped; a ring: no
+    robot. A click shows what it stands for, and hides it again.
+    """
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._item: StatusItem | None = None
+        self.setCheckable(True)
+        self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Preferred)
+        self.toggled.connect(lambda _: self.updateGeometry())
+
+    @property
+    def item(self) -> StatusItem | None:
+        """What is shown."""
+        return self._item
+
+    def show_item(self, item: StatusItem) -> None:
+        """Show how the robot is; does nothing when that is shown."""
+        if item == self._item:
+            return
+        self._item = item
+        self.setText(item.title)
+        self.setAccessibleName(item.title)
+        click = tr("Click: with details, or without")
+        self.setToolTip(f"{item.title}\n\n{item.help}\n\n{click}")
+        self.updateGeometry()
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        """Room for light and words; for the light alone beside the details."""
+        words = 0 if self.isChecked() else self._metrics().horizontalAdvance(self.text()) + 10
+        return QSize(_LIGHT + 8 + words, _LIGHT + 8)
+
+    def minimumSizeHint(self) -> QSize:
+        """Room for the light; where there is little the words end in an ellipsis."""
+        words = 0 if self.isChecked() else 8 * theme.FONT_PX
+        return QSize(_LIGHT + 8 + words, _LIGHT + 8)
+
+    def _metrics(self) -> QFontMetrics:
+        font = QFont(self.font())
+        font.setPixelSize(theme.FONT_PX)
+        font.setBold(True)
+        return QFontMetrics(font)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw shape and words."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        verdict = Verdict.IDLE if self._item is None else self._item.verdict
+        colour = QColor(verdict.colour_and_symbol[0])
+        centre = QPointF(4 + _LIGHT / 2, self.height() / 2)
+        painter.setPen(QPen(colour, 2.0))
+        painter.setBrush(Qt.BrushStyle.NoBrush if verdict is Verdict.IDLE else colour)
+        reach = _LIGHT / 2 - 1
+        if verdict in (Verdict.GOOD, Verdict.IDLE):
+            painter.drawEllipse(centre, reach, reach)
+        else:
+            painter.drawPolygon(_corners(centre, reach, 3 if verdict is Verdict.WARNING else 8))
+        ground = QColor(theme.now(theme.BACKGROUND))
+        font = QFont(self.font())
+        font.setBold(True)
+        font.setPixelSize(_LIGHT - 8)
+        painter.setFont(font)
+        painter.setPen(ground)
+        sign = {Verdict.GOOD: "✔", Verdict.WARNING: "!", Verdict.BAD: "✖"}.get(verdict, "")
+        box = QRectF(centre.x() - reach, centre.y() - reach, 2 * reach, 2 * reach)
+        below = 2.0 if verdict is Verdict.WARNING else 0.0
+        painter.drawText(box.translated(0.0, below), Qt.AlignmentFlag.AlignCenter, sign)
+        if self.hasFocus():
+            painter.setPen(QPen(QColor(theme.now(theme.ACCENT)), 1.0))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
+        if self.isChecked():
+            return
+        font.setPixelSize(theme.FONT_PX)
+        painter.setFont(font)
+        painter.setPen(QColor(theme.now(theme.TEXT)))
+        room = self.rect().adjusted(_LIGHT + 10, 0, 0, 0)
+        words = self._metrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, room.width())
+        painter.drawText(room, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, words)
+
+
+def _corners(centre: QPointF, reach: float, count: int) -> QPolygonF:
+    """Regular polygon; a triangle on its base, an octagon on its side."""
+    first = -pi / 2 if count == 3 else pi / count
+    turns = (first + 2.0 * pi * i / count for i in range(count))
+    return QPolygonF([centre + QPointF(reach * cos(turn), reach * sin(turn)) for turn in turns])
+
+
 class StatusStrip(QWidget):
-    """Cells beside each other; their tooltips say what the value means and what to do."""
+    """Cells beside each other; their tooltips say what the value means and what to do.
+
+    A student sees one light for the robot, and of the rest what concerns a hand; the whole strip
+    is one click on the light away.
+
+    Signals:
+        detailed(bool): the user wants all details, or no longer.
+    """
+
+    detailed = Signal(bool)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._cells: list[StatusCell] = []
+        self._items: tuple[StatusItem, ...] = ()
+        self.light = RobotLight(self)
+        self.light.setChecked(True)
+        self.light.hide()
+        self.light.toggled.connect(self._show_details)
         self._row = QHBoxLayout(self)
         self._row.setContentsMargins(theme.MARGIN, 3, theme.MARGIN, 3)
         self._row.setSpacing(2 * theme.SPACING)
+        self._row.addWidget(self.light)
         self._row.addStretch(1)
         # Its height is kept while there is nothing to say, so that the panes stay where they are.
         cell = StatusCell(self)
@@ -102,17 +223,39 @@ class StatusStrip(QWidget):
         cell.hide()
         self.setAccessibleName(tr("Status"))
 
-    def show_items(self, items: Sequence[StatusItem]) -> None:
-        """Show these items in this order."""
-        while len(self._cells) < len(items):
+    def show_items(self, items: Sequence[StatusItem], robot: StatusItem | None = None) -> None:
+        """Show these items in this order, and how the robot is, if there is an answer to that."""
+        self._items = tuple(items)
+        self.light.setVisible(robot is not None)
+        if robot is not None:
+            self.light.show_item(robot)
+        self._show()
+
+    @property
+    def is_detailed(self) -> bool:
+        """Whether all details are shown."""
+        return self.light.isChecked()
+
+    def set_detailed(self, detailed: bool) -> None:
+        """Show all details, or what concerns a student."""
+        self.light.setChecked(detailed)
+
+    def _show_details(self, detailed: bool) -> None:
+        self._show()
+        self.detailed.emit(detailed)
+
+    def _show(self) -> None:
+        detailed = self.is_detailed
+        shown = [item for item in self._items if detailed or not item.detail]
+        while len(self._cells) < len(shown):
             self._keep(StatusCell(self))
         for i, cell in enumerate(self._cells):
-            cell.setVisible(i < len(items))
-            if i < len(items):
-                cell.show_item(items[i])
+            cell.setVisible(i < len(shown))
+            if i < len(shown):
+                cell.show_item(shown[i], plain=not detailed)
 
     def _keep(self, cell: StatusCell) -> None:
-        self._row.insertWidget(len(self._cells), cell)
+        self._row.insertWidget(1 + len(self._cells), cell)
         self._cells.append(cell)
 
 
@@ -122,6 +265,7 @@ class StatusCell(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._item: StatusItem | None = None
+        self._plain = False
         self._widest = 0
         self._title = ElidedLabel(parent=self, narrowest=TITLE_PX)
         self._text = ElidedLabel(parent=self)
@@ -151,10 +295,13 @@ class StatusCell(QWidget):
         self._widest = max(self._widest, self._text.sizeHint().width())
         self.updateGeometry()
 
-    def show_item(self, item: StatusItem) -> None:
-        """Show an item; does nothing when it is the one shown."""
-        if item == self._item:
+    def show_item(self, item: StatusItem, plain: bool = False) -> None:
+        """Show an item, in plain words if wanted; does nothing when it is the one shown."""
+        if item == self._item and plain == self._plain:
             return
+        if self._item is None or self._item.title != item.title or plain != self._plain:
+            self._widest = 0  # of what stood here
+        self._plain = plain
         colour, symbol = item.verdict.colour_and_symbol
         if self._item is None or self._item.verdict is not item.verdict:
             self._title.setStyleSheet(
@@ -162,7 +309,8 @@ class StatusCell(QWidget):
             )
         self._item = item
         self._title.set_whole(f"{symbol} {item.title}")
-        self._text.set_whole(item.text)
+        well = plain and item.verdict is Verdict.GOOD and bool(item.plain)
+        self._text.set_whole(item.plain if well else item.text)
         self._grow()
         self.setToolTip(f"{item.title}: {item.text}\n\n{item.help}")
         self.setAccessibleName(f"{item.title}: {item.text}")

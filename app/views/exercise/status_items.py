@@ -68,6 +68,7 @@ def loop_item(figures: LoopFigures) -> StatusItem:
             missed=figures.missed,
             ticks=figures.ticks,
         ),
+        detail=True,
     )
 
 
@@ -84,6 +85,7 @@ def encoder_item(age: float, fault: str = "") -> StatusItem:
             "If it stays old, check the robot's cable and power, then start the attempt again."
         )
         + (f"\n{fault}" if fault else ""),
+        detail=True,
     )
 
 
@@ -107,6 +109,7 @@ def tracker_item(rate: float, valid_share: float, age: float, problem: str) -> S
             "the last such fix. If the marker is out of view, bring it back between the cameras; "
             "look at the camera pictures for dirt, light or something in the way."
         ),
+        plain=tr("see the marker"),
     )
 
 
@@ -131,6 +134,7 @@ def depth_item(source: str, age: float) -> StatusItem:
             "held back for the worst depth that the needle can have. Wait until the cameras see "
             "the marker again."
         ),
+        plain=tr("measured"),
     )
 
 
@@ -145,7 +149,57 @@ def heartbeat_item(age: float) -> StatusItem:
             "The window's sign of life to the robot. After 1 s without one the force goes to zero. "
             "If it stops, the window is frozen: wait, or end the program."
         ),
+        detail=True,
     )
+
+
+def robot_item(
+    loop: StatusItem | None,
+    encoders: StatusItem,
+    heartbeat: StatusItem,
+    fault: str = "",
+    guard_acts: bool = False,
+    at_most: bool = False,
+) -> StatusItem:
+    """Return the one light that stands for everything of the robot: ready, held back, stopped.
+
+    Args:
+        loop: item of the whole strip; None without a robot.
+        encoders: likewise.
+        heartbeat: likewise.
+        fault: what holds the force at zero, if something does.
+        guard_acts: whether the guard takes energy out now.
+        at_most: whether the force is held back because nobody measures the depth.
+    """
+    ready, held = tr("Robot ready"), tr("Robot held back: {why}")
+    stopped = tr("Robot stopped: {why}")
+    verdicts = (loop.verdict if loop else Verdict.IDLE, heartbeat.verdict)
+    if loop is None:
+        verdict, words = Verdict.IDLE, tr("No robot")
+    elif fault:
+        verdict, words = Verdict.BAD, stopped.format(why=fault)
+    elif encoders.verdict is Verdict.BAD:
+        verdict, words = Verdict.BAD, stopped.format(why=tr("it does not answer"))
+    elif heartbeat.verdict is Verdict.BAD:
+        verdict, words = Verdict.BAD, stopped.format(why=tr("this window stood still"))
+    elif guard_acts:
+        verdict, words = Verdict.WARNING, held.format(why=tr("it calms the needle"))
+    elif encoders.verdict is Verdict.WARNING:
+        verdict, words = Verdict.WARNING, held.format(why=tr("it answers late"))
+    elif at_most:
+        verdict, words = Verdict.WARNING, held.format(why=tr("the depth is not measured"))
+    elif Verdict.BAD in verdicts or Verdict.WARNING in verdicts:
+        verdict, words = Verdict.WARNING, tr("Robot ready, the computer is busy")
+    else:
+        verdict, words = Verdict.GOOD, ready
+    guard = tr("acts: the force is weakened or damped") if guard_acts else tr("at rest")
+    lines = [
+        f"{part.verdict.colour_and_symbol[1]} {part.title}: {part.text}"
+        for part in (loop, encoders, heartbeat)
+        if part is not None
+    ]
+    lines.append(tr("Energy guard: {words}", words=guard))
+    return StatusItem(verdict, words, "", "\n".join(lines))
 
 
 def recorder_item(recording: bool, lost: int = 0, failure: str = "") -> StatusItem:

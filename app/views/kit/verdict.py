@@ -26,12 +26,23 @@ class Verdict(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class StatusItem:
-    """One line of the status strip: verdict, title, value in words, and help."""
+    """One line of the status strip.
+
+    Attributes:
+        verdict: how the part is.
+        title: what it is.
+        text: its value in words.
+        help: what that means, and what to do.
+        plain: what a student is told instead of the value while all is well; empty for the value.
+        detail: whether a student is told of it by the one light of the robot alone.
+    """
 
     verdict: Verdict
     title: str
     text: str
     help: str
+    plain: str = ""
+    detail: bool = False
 
 
 def tell(line: QLabel, verdict: Verdict, words: str) -> None:

@@ -144,6 +144,8 @@ class WorkspacePage(QWidget):
         self.tracker_panel = TrackerPanel(self)
         self.messages = MessageList(self)
         self.status = StatusStrip(self)
+        self.status.detailed.connect(self._show_details)
+        self.status.set_detailed(False)
         self.next_step = NextStepLine(self)
         hand = self.bullseye.source
         hand.turned.connect(lambda: self.next_step.set_moves_hub(hand.moves_hub))
@@ -276,6 +278,10 @@ class WorkspacePage(QWidget):
         """Bring the exercise panel and the bull's-eye to the front."""
         self.side.setCurrentWidget(self.exercise_panel)
         self.show_bullseye(True)
+
+    def _show_details(self, detailed: bool) -> None:
+        self.exercise_panel.energy.set_detailed(detailed)
+        self.arranged.emit()
 
     def show_cameras(self) -> None:
         """Bring the camera pictures to the front."""

@@ -109,6 +109,7 @@ class Remembered:
             "traces": viewing.shows_traces,
             "moves_hub": self._workspace.bullseye.source.moves_hub,
             "legend": self._workspace.bullseye.legend.isChecked(),
+            "detailed": self._workspace.status.is_detailed,
             "light": projector.is_light,
             "large": projector.is_large,
             "kept": {name: [w.width, w.level] for name, w in viewing.greys.kept.items()},
@@ -122,6 +123,7 @@ class Remembered:
         workspace.set_left_handed(bool(state["left_handed"]))
         workspace.bullseye.source.set_moves_hub(bool(state.get("moves_hub", False)))
         workspace.bullseye.legend.setChecked(bool(state.get("legend", True)))
+        workspace.status.set_detailed(bool(state.get("detailed", False)))
         for name, (width, level) in state["kept"].items():
             viewing.greys.keep(str(name), WindowLevel(float(width), float(level)))
         self._projector.set(light=bool(state["light"]), large=bool(state["large"]))

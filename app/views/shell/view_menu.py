@@ -59,6 +59,15 @@ class ViewMenu:
         self.bullseye = self._switch(
             tr("Bull's-eye beside the slices"), "", workspace.show_bullseye
         )
+        self.legend = self._switch(
+            tr("Legend of the bull's-eye"), "", workspace.bullseye.legend.setChecked
+        )
+        self.hub = self._switch(
+            tr("The hand moves the hub, not the tip"), "", workspace.bullseye.source.set_moves_hub
+        )
+        self.details = self._switch(
+            tr("Details of the robot (technician's strip)"), "", workspace.status.set_detailed
+        )
         self.shown = self._shown_menu(menu.addMenu(tr("Shown by the exercise")))
         self._entry(tr("Crosshair to target"), "", self.cursor_to_target)
         needle = menu.addMenu(tr("Needle's planes"))
@@ -69,7 +78,13 @@ class ViewMenu:
         self.schemes = self._scheme_menu(menu.addMenu(tr("Mouse and keys")))
         self._screen_entries()
         conductor.views_changed.connect(self.refresh)
-        for changed in (workspace.arranged, viewing.window_changed, viewing.scheme_changed):
+        for changed in (
+            workspace.arranged,
+            viewing.window_changed,
+            viewing.scheme_changed,
+            workspace.bullseye.legend.toggled,
+            workspace.bullseye.source.turned,
+        ):
             changed.connect(self.refresh)
         self.refresh()
 
@@ -204,6 +219,9 @@ class ViewMenu:
         for switch, state in (
             (self.bullseye, workspace.has_bullseye),
             (self._left_handed, workspace.is_left_handed),
+            (self.legend, workspace.bullseye.legend.isChecked()),
+            (self.hub, workspace.bullseye.source.moves_hub),
+            (self.details, workspace.status.is_detailed),
             (self._linked, greys.is_linked),
             (self._locked, greys.is_locked),
             (self._inverted, greys.is_inverted),
