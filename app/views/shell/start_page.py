@@ -129,7 +129,7 @@ class ExerciseRow(QStyledItemDelegate):
         painter.setPen(dim)
         below = box.adjusted(0, metrics.height() + 1, 0, 0)
         small = QFontMetrics(painter.font())
-        lines = max(1, below.height() // small.height())
+        lines = max(1, below.height() // (small.lineSpacing() + 1))
         text = _fitting(exercise.description, small, below.width(), lines)
         painter.drawText(below, top | Qt.TextFlag.TextWordWrap, text)
 
@@ -145,11 +145,12 @@ def _fitting(text: str, metrics: QFontMetrics, width: int, lines: int) -> str:
     """Return as many whole words as stand on so many lines, with dots where some are left out."""
     words, kept = text.split(), ""
     box, flags = QRect(0, 0, width, 10_000), int(Qt.TextFlag.TextWordWrap)
+    room = lines * (metrics.lineSpacing() + 1)  # Qt rounds each line up
     for number, word in enumerate(words):
         longer = f"{kept} {word}".strip()
         last = number == len(words) - 1
         tried = longer if last else f"{longer} …"
-        if metrics.boundingRect(box, flags, tried).height() > lines * metrics.height():
+        if metrics.boundingRect(box, flags, tried).height() > room:
             return f"{kept} …"
         kept = longer
     return kept
