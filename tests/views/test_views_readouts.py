@@ -140,3 +140,15 @@ def test_where_words_are_cut_the_tooltip_says_all_of_them(viewing, pane):
         assert part in words
     assert rest(pane.canvas.rect().center()) == ""  # over the picture nothing comes in the way
     QToolTip.hideText()
+
+
+def test_words_of_another_size_are_whole_even_if_they_were_painted_before_they_were_placed(
+    viewing, pane, monkeypatch
+):
+    title = pane.readouts.title
+    pane.grab()
+    monkeypatch.setattr(theme, "SMALL_PX", 22)
+    pane.grab()
+    title.place()
+    pane.grab()
+    assert title._picture.deviceIndependentSize().toSize() == title.geometry().size()

@@ -273,7 +273,8 @@ class Overlay(Written):
 
     @property
     def _looks(self) -> tuple[object, ...]:
-        return (self._shown, self._most, theme.SMALL_PX, self._pane.devicePixelRatioF())
+        ratio, size = self._pane.devicePixelRatioF(), self._rect.size()
+        return (self._shown, self._most, theme.SMALL_PX, ratio, size.width(), size.height())
 
     def _elided(self, line: str) -> str:
         return self._metrics.elidedText(line, Qt.TextElideMode.ElideRight, self._most)
