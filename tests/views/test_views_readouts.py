@@ -146,6 +146,7 @@ def test_words_of_another_size_are_whole_even_if_they_were_painted_before_they_w
     viewing, pane, monkeypatch
 ):
     title = pane.readouts.title
+    pane.canvas.flush()
     pane.grab()
     monkeypatch.setattr(theme, "SMALL_PX", 22)
     pane.grab()
