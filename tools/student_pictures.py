@@ -48,7 +48,7 @@ def main(folder: Path) -> None:
         wait(application, lambda: facts.pictured >= count)
         window.start_page.tour.click()
         window.tour.move(2)
-        wait(application, lambda: window.tour.veil.isVisible())
+        wait(application, lambda: window.conductor.settled)
         keep("tour")
         window.tour.end()
         keep("start")

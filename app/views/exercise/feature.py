@@ -125,6 +125,11 @@ class ExerciseFeature(Feature):
         else:
             self._begin(exercise)
 
+    def take_first(self) -> None:
+        """Take the easiest exercise and open its patient."""
+        if self.exercises:
+            self._begin(next(iter(self.exercises.values())))
+
     def _begin(self, exercise: Exercise) -> None:
         """Take an exercise at once where its patient is shown, else once that one is there."""
         patient = self._conductor.patient

@@ -1,7 +1,8 @@
 """A tour of three minutes: points at the real parts of the window and says what each is for.
 
-It is offered on the start page until somebody takes it or declines, and stands in the menu Help. It
-opens no patient and starts nothing; where one is open it is shown as it is.
+It is offered on the start page until somebody takes it or declines, and stands in the menu Help.
+Where no patient is open it opens that of the first exercise, beside what it tells; it starts no
+attempt.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
-from PySide6.QtCore import QEvent, QObject, QRect, QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QObject, QRect, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPainterPath, QPaintEvent, QPen
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QStackedWidget, QVBoxLayout, QWidget
 
@@ -162,17 +163,28 @@ class TourVeil(QWidget):
 class Tour(QObject):
     """The tour, in the menu Help and on the start page.
 
+    Args:
+        context: of every feature.
+        start, workspace, debrief: the pages that it leads to.
+        take: takes the first exercise and opens its patient.
+
     Attributes:
         veil: what is shown over the window.
         number: of the stop that is pointed at; None while there is no tour.
     """
 
     def __init__(
-        self, context: Context, start: StartPage, workspace: WorkspacePage, debrief: QWidget
+        self,
+        context: Context,
+        start: StartPage,
+        workspace: WorkspacePage,
+        debrief: QWidget,
+        take: Callable[[], None],
     ) -> None:
         super().__init__(context.shell.dialog_parent)
         self.context = context
         self._start, self._workspace, self._debrief = start, workspace, debrief
+        self._take, self._opens, self._stays = take, False, False
         self._window, self._settings = context.shell.dialog_parent, context.shell.settings
         self.veil = TourVeil(self._window)
         self.number: int | None = None
@@ -183,6 +195,7 @@ class Tour(QObject):
         self.veil.left.connect(self.end)
         add_entries(context.shell.menu(tr("&Help")), [(tr("Three-minute tour"), "", self.begin)])
         context.shell.page_changed.connect(self._follow)
+        context.patients.reading.connect(self._opened)
         self._window.installEventFilter(self)
 
     @property
@@ -203,6 +216,9 @@ class Tour(QObject):
         self._page, self._had_pad = self._current(), self._workspace.has_bullseye
         self._stops = self._all()
         self._go(0)
+        if self.context.conductor.patient is None and not self.context.patients.is_reading:
+            self._opens = True
+            self._take()
 
     def move(self, by: int) -> None:
         """Go some stops on; after the last one the tour is over."""
@@ -215,6 +231,11 @@ class Tour(QObject):
             return
         self.number = None
         self.veil.hide()
+        if self._opens:  # whom nobody asked for need not come any more
+            self._opens = False
+            if self.context.patients.is_reading:
+                self.context.patients.close()
+                self.context.patients.given_up.emit()
         self._workspace.show_bullseye(self._had_pad)
         if self._page is not None:
             self.context.shell.show_page(self._page)
@@ -252,10 +273,23 @@ class Tour(QObject):
         self.veil.point_at(stop, self.number, len(self._stops))
 
     def _follow(self, _: int) -> None:
-        """Leave where the window went elsewhere: a patient came, or a result."""
-        if self.number is not None and self._stops[self.number].page is not self._current():
+        """Leave where the window went elsewhere: another patient came, or a result."""
+        if self.number is None or self._stays:
+            return
+        if self._stops[self.number].page is not self._current():
             self._page = None
             self.end()
+
+    def _opened(self, reading: bool) -> None:
+        """Stay at the stop that is shown when the patient comes whom the tour has opened."""
+        if self._opens and not reading:
+            self._stays = True
+            QTimer.singleShot(0, self._stay)
+
+    def _stay(self) -> None:
+        self._stays = self._opens = False
+        if self.number is not None:
+            self._go(self.number)
 
     def _current(self) -> QWidget | None:
         pages = self._start.parentWidget()

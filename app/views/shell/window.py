@@ -366,7 +366,8 @@ class MainWindow(QMainWindow):
         open_ct.reading.connect(lambda _: self._let_picture())
         self.runs.prepared.connect(self._let_picture)
         debrief = self.feature(DebriefFeature).page
-        self.tour = tour = Tour(self.context, start, self.workspace, debrief)
+        exercises = self.feature(ExerciseFeature)
+        self.tour = tour = Tour(self.context, start, self.workspace, debrief, exercises.take_first)
         start.offer_tour(tour.is_wanted)
         start.tour_wanted.connect(lambda yes: tour.begin() if yes else tour.decline())
         start.open_wanted.connect(open_ct.ask)
