@@ -131,8 +131,10 @@ def _fits(one: Exercise, in_course: Sequence[str]) -> bool:
 
 
 def _passed(before: Sequence[Indexed]) -> set[str]:
-    """Exercises that a person passed, in any version."""
-    return {one.exercise for one in before if one.passed and one.verdict != "altered"}
+    """Exercises that a person passed, in any version; none by a script or altered afterwards."""
+    return {
+        one.exercise for one in before if one.passed and one.counts and one.verdict != "altered"
+    }
 
 
 def _in_a_row(exercise: str, before: Sequence[Indexed]) -> int:

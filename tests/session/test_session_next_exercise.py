@@ -1,6 +1,7 @@
 """What comes next after an attempt, and why: only what is true, known to the student, and open."""
 
 import json
+from dataclasses import replace
 
 import pytest
 
@@ -134,8 +135,10 @@ def test_a_result_that_is_held_is_told_by_no_proposal():
     assert propose("first-insertion", None, [], EXERCISES, held=True).exercise == ""
 
 
-def test_attempts_that_were_altered_pass_nothing():
-    before = [done("thick-tissue", True, verdict="altered"), done("first-insertion", True)]
+def test_attempts_that_were_altered_or_made_by_a_script_pass_nothing():
+    scripted = replace(done("thick-tissue", True), counts=False)
+    altered = done("thick-tissue", True, verdict="altered")
+    before = [scripted, altered, done("first-insertion", True)]
     found = propose("first-insertion", score(0.5), before, EXERCISES)
     assert found.exercise == "thick-tissue"
 

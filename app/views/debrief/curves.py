@@ -220,7 +220,7 @@ def _name(plot: pg.PlotItem, review: Review, low: float, high: float) -> None:
     """Name the states below and the events above the first curve."""
     total = time_end(review.curves.time)
     for span in review.spans:
-        if span.end - span.start > 0.06 * total:  # a narrower one has no room for its name
+        if span.end - span.start > 0.12 * total:  # a narrower one has no room for its name
             text = pg.TextItem(state_word(span.state), color=theme.IMAGE_DIM, anchor=(0.5, 1))
             text.setPos(0.5 * (span.start + span.end), low)
             plot.addItem(text, ignoreBounds=True)
