@@ -283,6 +283,7 @@ def test_one_line_over_the_views_always_says_the_next_step(shows, settle):
     assert settle(lambda: line.text() == "Pull back 2 mm (wheel towards you)")
     assert line.fontMetrics().horizontalAdvance(line.text()) < line.width()
     line.begin(replace(run, shown=Shown(live=False)))
+    assert line.text() == "One moment: the robot is starting"
     line.show_snapshot(moment)
     assert settle(lambda: line.text() == "Push by the scans: S takes one, Enter ends the attempt")
     window.conductor._detach()

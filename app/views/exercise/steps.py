@@ -201,7 +201,7 @@ class NextStepLine(QLabel):
         if run is not None:
             self._steps = NextSteps(run.placed, run.rings[0], run.depth_tolerance)
         self.setVisible(run is not None)
-        self.setText("")
+        self.setText("" if run is None else tr("One moment: the robot is starting"))
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Say what comes after this moment."""

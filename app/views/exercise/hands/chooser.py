@@ -26,7 +26,7 @@ NARROWEST: Final = 64
 def source_title(name: str) -> str:
     """Name of a source for people."""
     return {
-        "mouse": tr("mouse and keys"),
+        "mouse": tr("mouse, keys"),
         "tablet": tr("pen tablet"),
         "gamepad": tr("gamepad"),
     }.get(name, name)
