@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from types import MappingProxyType, SimpleNamespace
 
 import pytest
 
@@ -13,8 +14,11 @@ from app.scoring.rows import Row, ScoreRules
 from app.scoring.tolerance import Tolerance
 from app.session.course import Course, CourseItem, holding
 from app.session.index import Indexed
-from app.session.next_exercise import TRIES, ProposalReason, propose
-from app.session.people import Person
+from app.session.next_exercise import TRIES, ProposalReason, around, held_by, propose
+from app.session.people import People, Person
+from app.session.roster import RosterLine
+from app.session.sidecar import write_summary
+from app.session.summary import Summary
 
 SEVEN = (
     "first-insertion",
@@ -153,3 +157,53 @@ def test_a_result_is_held_for_who_takes_an_assessment_until_it_is_released_and_f
     assert holding([assessed], None, "first-insertion", 1, released=False) is None
     other = Person("p-ba9876543210", "ben", ("B",))
     assert holding([assessed], other, "first-insertion", 1, released=False) is None
+
+
+def write(folder, name, student, total, exercise="first-insertion"):
+    """A record as the index finds it: its summary is enough."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / f"{name}.mcap"
+    path.write_bytes(b"not opened: the sidecar is enough")
+    score = {"total": total, "passed": total >= 60.0, "void_reason": "", "rows": []}
+    under = Conditions(exercise, 1, kind=DeviceKind.SIMULATED, hand="mouse", scoring_version=2)
+    write_summary(
+        path,
+        Summary(
+            name, "2026-11-20T10:00:00+00:00", student, exercise, state="ended",
+            score=MappingProxyType(score), conditions=under,
+        ),
+    )  # fmt: skip
+    return under
+
+
+def test_the_folder_says_what_comes_next_and_which_attempts_may_stand_beside(tmp_path):
+    folder = tmp_path / "records"
+    under = write(folder, "a", "ada", 70.0)
+    write(folder, "b", "ada", 85.0)
+    write(folder, "c", "ben", 95.0)
+    write(folder, "d", "eve", 99.0)
+    shown = SimpleNamespace(id="a", student="ada", conditions=under, score=score(0.5))
+    found = around(folder, shown, False, EXERCISES, False, lambda who: who != "eve", lambda _: "")
+    assert [(one.id, own) for one, own in found.rivals] == [("b", True), ("c", False)]
+    assert found.proposal.exercise == "thick-tissue"
+    held = around(folder, shown, True, EXERCISES, False, lambda _: True, lambda _: "")
+    assert (held.rivals, held.proposal.exercise) == ((), "")
+
+
+def test_attempts_that_a_course_holds_stand_beside_nothing_but_for_the_instructor(tmp_path):
+    person, _ = People().add(RosterLine("ada", groups=("A",)))
+    course("first-insertion", purpose=Purpose.ASSESSMENT).save()
+    folder = tmp_path / "records"
+    under = write(folder, "a", person.key, 70.0)
+    write(folder, "b", person.key, 85.0)
+    shown = SimpleNamespace(id="a", student=person.key, conditions=under, score=score(0.5))
+    assert held_by(shown) == "Autumn"
+
+    def beside(manages):
+        found = around(folder, shown, False, EXERCISES, manages, lambda _: True, lambda _: "")
+        return [one.id for one, _ in found.rivals]
+
+    assert beside(False) == []
+    assert beside(True) == ["b"]
+    People().remark("b", released=True)
+    assert beside(False) == ["b"]

@@ -4,8 +4,7 @@ scans.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Final
 
@@ -21,11 +20,8 @@ from app.imaging.volume import Volume
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
 from app.session.control_scan import ControlScan
-from app.session.course import Course, courses, held_back, holding
 from app.session.errors import SessionError
-from app.session.motion import rivals
-from app.session.next_exercise import Proposal, propose
-from app.session.people import Person, Remarks
+from app.session.next_exercise import Around, around, held_by
 from app.session.recording import open_recording
 from app.session.result import AttemptResult
 from app.session.review import Review, review, review_of_result
@@ -271,117 +267,6 @@ def ask_path_in_dialog(parent: QWidget, title: str, start: str, kind: str) -> st
 
 IDEAL: Final = "ideal"
 """Key of the ideal path among what may stand beside an attempt."""
-
-MOST_RIVALS: Final = 20
-
-
-@dataclass(frozen=True, slots=True)
-class Around:
-    """What the other attempts say of one.
-
-    Attributes:
-        proposal: what comes next.
-        rivals: what may stand beside it, each with whether it is of the same person.
-    """
-
-    proposal: Proposal
-    rivals: tuple[tuple[Indexed, bool], ...]
-
-
-def around(
-    folder: Path,
-    shown: Review,
-    held: bool,
-    exercises: Sequence[Exercise],
-    manages: bool,
-    may_see: Callable[[str], bool],
-    refusal: Callable[[str], str],
-) -> Around:
-    """Look at the other attempts in a folder: what comes next, and what may stand beside one.
-
-    Args:
-        folder: of the records.
-        shown: the attempt.
-        held: whether its result is not released.
-        exercises: that there are, easiest first.
-        manages: whether who is here may see every result.
-        may_see: whether attempts of whom a record names are open to who is here.
-        refusal: says why who is here may not begin an exercise; empty where he may.
-
-    Raises:
-        SessionError: if something cannot be read.
-    """
-    from app.session.index import Index  # SQLAlchemy: behind the window
-
-    index = Index(folder)
-    index.refresh()
-    attempts, (person, whose, courses_here, remarks) = index.attempts(), who_did(shown.student)
-
-    def same(student: str) -> bool:
-        if person is None:
-            return student == shown.student
-        return whose.get(student, "") == person.key
-
-    def is_open(one: Indexed) -> bool:
-        if manages:
-            return True
-        if not may_see(one.student):
-            return False
-        said = remarks.get(one.id)
-        released = said is not None and said.released
-        owner = person if same(one.student) else None
-        return holding(courses_here, owner, one.exercise, one.version, released) is None
-
-    under, own = shown.conditions, [one for one in attempts if same(one.student)]
-    done = under.exercise if under is not None else ""
-    course = next(
-        (
-            one
-            for one in courses_here
-            if person is not None
-            and one.takes(person)
-            and any(item.exercise == done for item in one.items)
-        ),
-        None,
-    )
-    seen = [one for one in own if is_open(one)]
-    score = None if held else shown.score
-    proposal = propose(done, score, seen, exercises, course, refusal, held)
-    found = () if held or under is None else rivals(attempts, shown.id, under, same, is_open)
-    return Around(proposal, tuple((one, same(one.student)) for one in found[:MOST_RIVALS]))
-
-
-Whose = tuple[Person | None, Mapping[str, str], Sequence[Course], Mapping[str, Remarks]]
-"""Who did an attempt, whose the others are, courses, and what the instructor said of attempts."""
-
-
-def who_did(recorded: str) -> Whose:
-    """Find who is meant by what a record names, and what holds for him; nobody where none is known.
-
-    Raises:
-        SessionError: if people or courses cannot be read.
-    """
-    from app.session.people import PEOPLE, People, people_folder
-
-    if not (people_folder() / PEOPLE).exists():
-        return None, {}, (), {}
-    people = People()
-    whose = people.keys()
-    key = whose.get(recorded, "")
-    person = next((one for one in people.everybody() if one.key == key), None) if key else None
-    return person, whose, courses()[0], people.remarks()
-
-
-def held_by(shown: Review) -> str:
-    """Return the title of the course that holds the result of an attempt; empty if none does.
-
-    Raises:
-        SessionError: if people or courses cannot be read.
-    """
-    under = shown.conditions
-    if under is None:
-        return ""
-    return held_back([(shown.id, shown.student, under.exercise, under.version)]).get(shown.id, "")
 
 
 def ghost_words(found: Sequence[tuple[Indexed, bool]], shown: Review) -> list[tuple[object, str]]:
