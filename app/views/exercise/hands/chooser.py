@@ -94,9 +94,9 @@ class HandChooser(QWidget):
         title.setProperty("role", "dim")
         self._row = row = QBoxLayout(QBoxLayout.Direction.LeftToRight)
         row.addWidget(title)
-        for widget in (self.box, self.gain, self.sense):
+        for widget, share in ((self.box, 8), (self.gain, 7), (self.sense, 7)):
             widget.setMinimumWidth(NARROWEST)
-            row.addWidget(widget, 1)
+            row.addWidget(widget, share)
         self._column = column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(2)
