@@ -52,7 +52,7 @@ def main(folder: Path) -> None:
         keep("tour")
         window.tour.end()
         keep("start")
-        window.conductor.exercise_wanted.emit("past-the-vessel")
+        window.conductor.exercise_wanted.emit("first-insertion")
         beginning = window.feature(ExerciseFeature).beginning
         wait(application, lambda: beginning.page.isVisible())
         keep("briefing")
