@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constr
 TRAINER := $(VENV)/.trainer
 TESTS := $(VENV)/.tests
 
-.PHONY: setup demo run test by-hand careless check bench fuzz docs docs-pictures wheel clean
+.PHONY: setup demo run test by-hand careless check bench trial fuzz docs docs-pictures wheel clean
 
 setup: $(TESTS)  ## make .venv with all that tests and checks need, and install what the system lacks
 
@@ -59,6 +59,10 @@ check: setup  ## style, types, structure
 
 bench: setup  ## every figure against its peer, in one run
 	./tools/with-display $(BIN)/python -m tests.bench $(BENCH)
+
+SEEDS ?= 100
+trial: setup  ## what five skills score in every exercise that ships; an hour or more, goes on where it stopped
+	$(BIN)/python -m tools.trial_table --seeds $(SEEDS) $(TRIAL)
 
 fuzz: setup  ## ten thousand mutated files of every kind through their readers
 	$(BIN)/python -W ignore -m tests.fuzz $(FUZZ)

@@ -5,7 +5,16 @@ import json
 import numpy as np
 import pytest
 
-from app.compose.trial import SampledTracker, SkillOutcome, attempt, ordered_share, trial_plan
+from app.compose.trial import (
+    SampledTracker,
+    SkillOutcome,
+    attempt,
+    ordered_seeds,
+    ordered_share,
+    risks_of,
+    run_trial,
+    trial_plan,
+)
 from app.core import paths
 from app.core.clock import VirtualClock
 from app.exercises.library import load_exercise
@@ -16,6 +25,7 @@ from app.tracking.optics.rig import load_rig
 from app.tracking.simulated.cameras import simulated_cameras
 from app.tracking.simulated.scene import MarkerScene
 from app.tracking.tracker import Tracker
+from tools import trial_table
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 
@@ -105,10 +115,14 @@ def test_what_the_rendered_cameras_do_not_see_is_no_fix(hidden):
     assert sampled.fix(1.0).status is FixStatus.OUT_OF_VIEW
 
 
+def placed_of(exercise):
+    return placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
+
+
 @pytest.fixture(scope="module")
 def results():
     exercise = load_exercise("first-insertion")
-    placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
+    placed = placed_of(exercise)
     return {skill: attempt(exercise, placed, skill, 1) for skill in SKILLS}
 
 
@@ -151,6 +165,68 @@ def test_the_share_of_ordered_pairs_counts_a_tie_as_half_and_no_score_as_least()
     assert ordered_share([low, high]) == pytest.approx((0.5 + 1 + 1 + 1) / 4)
     assert (low.quartiles, low.void, high.share_passed) == ((50.0, 50.0, 50.0), 1, 0.5)
     assert SkillOutcome("novice", (nothing,), (False,), 1.0).quartiles is None
+
+
+def test_the_order_within_seeds_counts_no_tie_and_no_score_as_least():
+    nothing = float("nan")
+    low = SkillOutcome("novice", (50.0, nothing, 60.0, 10.0), (False,) * 4, 10.0)
+    high = SkillOutcome("expert", (50.0, 90.0, 90.0, nothing), (True,) * 4, 10.0)
+    assert ordered_seeds([low, high]) == pytest.approx(0.5)
+    assert ordered_seeds([low]) == 1.0
+
+
+@pytest.mark.parametrize("name", trial_table.shipped())
+def test_in_every_shipped_exercise_novices_fail_and_experts_pass_in_their_order(name):
+    """Three skills and one seed; `make trial` asks for all five and a hundred."""
+    exercise = load_exercise(name)
+    found = run_trial(exercise, 1, ("novice", "competent", "expert"), risks_of(exercise))
+    assert ordered_seeds(found) == 1.0, found
+    assert not any(found[0].passed)
+    assert all(found[-1].passed)
+
+
+def test_attempts_are_kept_and_judged_by_bands_that_came_later(tmp_path, monkeypatch):
+    kept, done = tmp_path / "trials.jsonl", []
+    name = "first-insertion"
+    exercise = load_exercise(name)
+    score = attempt(exercise, placed_of(exercise), "expert", 1).score
+
+    class Here:
+        """A pool of this process alone, which draws all attempts from one."""
+
+        def __init__(self, workers):
+            pass
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *error):
+            pass
+
+        def map(self, work, jobs, chunksize):
+            for job in jobs:
+                done.append(job)
+                kind = trial_table.kind_of_attempts(exercise)
+                row = {"of": kind, "exercise": job[0], "skill": job[1], "seed": job[2]}
+                yield json.dumps(row | {"duration": 12.0, "score": score.document()})
+
+    monkeypatch.setattr(trial_table, "ProcessPoolExecutor", Here)
+    trial_table.collect([name], 2, kept, 1)
+    assert len(done) == 10
+    kept.write_text(kept.read_text() + '\n{"of": "cut o')  # stopped while it wrote
+    trial_table.collect([name], 2, kept, 1)
+    assert len(done) == 10  # what is there is not done again
+    found = trial_table.judged(name, 2, kept)
+    assert [one.totals for one in found] == [(score.total, score.total)] * 5
+    said = trial_table.faults(name, found)  # all alike: no order, and novices pass
+    assert [fault.split(": ")[1][:10] for fault in said] == ["the skills", "the novice"]
+    assert "| `first-insertion` " in trial_table.table({name: found}, 2)
+    harder = exercise.model_copy(
+        update={"rules": exercise.rules.model_copy(update={"pass_mark": 100.0})}
+    )
+    monkeypatch.setattr(trial_table, "load_exercise", lambda _: harder)
+    again = trial_table.judged(name, 2, kept)
+    assert any(again[-1].passed) == (score.total == 100.0)
 
 
 def test_the_command_prints_a_row_for_each_skill_and_the_same_as_json(monkeypatch):

@@ -13,9 +13,6 @@ if TYPE_CHECKING:
     from app.compose.trial import SkillOutcome
     from app.core.progress import Progress
     from app.exchange.acusx import PackageManifest, UnpackedExercise
-    from app.exercises.schema import Exercise
-    from app.imaging.volume import Volume
-    from app.session.risks import Risk
 
 app = Commands(help="Exercises: list, new, validate, schema, pack, unpack, trial.")
 
@@ -191,6 +188,7 @@ def pack(
 ) -> Answer:
     """Make one file of an exercise. Plan, structures, the CT's digest, on request the CT."""
     from app.commands.calibrate_parts import with_progress
+    from app.compose.desktop import read_ct
     from app.exchange.acusx import SUFFIX
     from app.exchange.acusx import pack as write
     from app.exercises.library import load_exercise
@@ -199,7 +197,7 @@ def pack(
     target = out or Path(f"{chosen.id}{SUFFIX}")
 
     def work(progress: "Progress") -> "PackageManifest":
-        volume = _volume(chosen, progress.part(0.0, 0.3))
+        volume = read_ct(chosen, progress.part(0.0, 0.3))
         return write(target, chosen, volume, with_ct, progress.part(0.3, 1.0))
 
     manifest = with_progress(work)
@@ -254,16 +252,13 @@ def trial(
 ) -> Answer:
     """Try an exercise: what five scripted skills score. In virtual time; nothing is recorded."""
     from app.commands.calibrate_parts import with_progress
-    from app.compose.desktop import load_risks
-    from app.compose.trial import ordered_share, run_trial
+    from app.compose.trial import ordered_seeds, ordered_share, risks_of, run_trial
     from app.exercises.library import load_exercise
 
     chosen = load_exercise(exercise)
 
     def work(progress: "Progress") -> "tuple[SkillOutcome, ...]":
-        risks: tuple[Risk, ...] = ()
-        if any(part.risks for part in chosen.structures):
-            risks = load_risks(chosen, _volume(chosen, progress.part(0.0, 0.2)))
+        risks = risks_of(chosen, progress.part(0.0, 0.2))
         return run_trial(chosen, seeds, risks=risks, progress=progress.part(0.2, 1.0))
 
     outcomes = with_progress(work)
@@ -288,10 +283,12 @@ def trial(
             f"{one.skill:<12} {score}  {100.0 * one.share_passed:4.0f} %  {one.duration:3.0f} s"
             + (f"  {one.void} without a score" if one.void else "")
         )
-    ordered = ordered_share(outcomes)
-    lines.append(f"neighbouring skills ordered right: {100.0 * ordered:.0f} %")
+    seeds_right, ordered = ordered_seeds(outcomes), ordered_share(outcomes)
+    lines.append(f"all skills in their order: {100.0 * seeds_right:.0f} % of the seeds")
+    lines.append(f"neighbouring skills ordered right, any seed with any: {100.0 * ordered:.0f} %")
     facts = {"id": chosen.id, "version": chosen.version, "seeds": seeds}
-    return Answer(facts | {"skills": rows, "ordered_share": ordered}, lines)
+    facts |= {"skills": rows, "ordered_seeds": seeds_right, "ordered_share": ordered}
+    return Answer(facts, lines)
 
 
 def _line(name: str, field: str) -> str:
@@ -302,18 +299,3 @@ def _line(name: str, field: str) -> str:
     path = Path(name) if Path(name).is_file() else library().files.get(name)
     line = None if path is None else line_of(read_text(path), (field,))
     return f" (line {line})" if line else ""
-
-
-def _volume(exercise: "Exercise", progress: "Progress") -> "Volume":
-    """Read the CT of an exercise in its way."""
-    from app.imaging.reading import choose, load_ct
-    from app.imaging.resampling import read_with
-    from app.imaging.scanning import scan_folder
-
-    ct = exercise.ct
-    if ct.folder is None:
-        from app.imaging.phantom.series import phantom_series
-
-        return load_ct(phantom_series(ct.phantom.seed if ct.phantom else 1, progress))
-    listing = scan_folder(ct.folder, progress.part(0.0, 0.3))
-    return read_with(choose(listing, ct.series, ct.remedy), ct.remedy, progress.part(0.3, 1.0))

@@ -39,6 +39,25 @@ if TYPE_CHECKING:
     from app.views.shell.services import RobotPort, RunSetup
 
 
+def read_ct(exercise: Exercise, progress: Progress | None = None) -> Volume:
+    """Read the CT of an exercise in its way.
+
+    Raises:
+        AcusError: if it cannot be read; says why.
+        Cancelled: if `progress` was cancelled.
+    """
+    from app.imaging.phantom.series import phantom_series
+    from app.imaging.reading import choose, load_ct
+    from app.imaging.resampling import read_with
+    from app.imaging.scanning import scan_folder
+
+    progress, ct = progress or Progress(), exercise.ct
+    if ct.folder is None:
+        return load_ct(phantom_series(ct.phantom.seed if ct.phantom else 1, progress))
+    listing = scan_folder(ct.folder, progress.part(0.0, 0.3))
+    return read_with(choose(listing, ct.series, ct.remedy), ct.remedy, progress.part(0.3, 1.0))
+
+
 def load_risks(
     exercise: Exercise, volume: Volume | None, progress: Progress | None = None
 ) -> tuple[Risk, ...]:

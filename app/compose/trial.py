@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from app.compose.desktop import load_risks, read_ct
 from app.compose.needle import measured_axis, needle_scene
 from app.compose.trainer import TrainerSetup, build_loop
 from app.core import state_vector as sv
@@ -183,6 +184,20 @@ def trial_plan(exercise: Exercise) -> Plan:
     return plan_of(exercise)
 
 
+def risks_of(exercise: Exercise, progress: Progress | None = None) -> tuple[Risk, ...]:
+    """Read an exercise's structures of risk onto its CT; none where it names none.
+
+    Raises:
+        AcusError: if the CT or a file cannot be read, or a structure that is named is missing.
+        Cancelled: if `progress` was cancelled.
+    """
+    if not any(part.risks for part in exercise.structures):
+        return ()
+    progress = progress or Progress()
+    volume = read_ct(exercise, progress.part(0.0, 0.6))
+    return load_risks(exercise, volume, progress.part(0.6, 1.0))
+
+
 def attempt(
     exercise: Exercise,
     placed: PlacedPlan,
@@ -280,6 +295,16 @@ class SkillOutcome:
         return float(np.mean(self.passed))
 
 
+def outcome(skill: str, scores: Sequence[Score | None], durations: Sequence[float]) -> SkillOutcome:
+    """Sum up a skill's attempts, one score and one duration [s] per seed."""
+    return SkillOutcome(
+        skill,
+        tuple(_total(score) for score in scores),
+        tuple(score is not None and score.passed for score in scores),
+        float(np.median(durations)),
+    )
+
+
 def run_trial(
     exercise: Exercise,
     seeds: int = 20,
@@ -305,14 +330,7 @@ def run_trial(
             part.report((seed - 1) / seeds, skill)
             results.append(attempt(exercise, placed, skill, seed, risks))
         scores = [result.score for result in results]
-        outcomes.append(
-            SkillOutcome(
-                skill,
-                tuple(_total(score) for score in scores),
-                tuple(score is not None and score.passed for score in scores),
-                float(np.median([result.duration for result in results])),
-            )
-        )
+        outcomes.append(outcome(skill, scores, [result.duration for result in results]))
     progress.report(1.0)
     return tuple(outcomes)
 
@@ -328,6 +346,19 @@ def ordered_share(outcomes: Sequence[SkillOutcome]) -> float:
         more = high[:, None] - low[None, :]
         shares.append(np.mean((more > 0.0) + 0.5 * (more == 0.0)))
     return float(np.mean(shares)) if shares else 1.0
+
+
+def ordered_seeds(outcomes: Sequence[SkillOutcome]) -> float:
+    """Share of the seeds in which every skill scores more than the one below it; no tie counts.
+
+    A seed gives all skills the same tracker noise and begins the same row of random numbers for
+    their scripts, so skills are compared in pairs on what is nearly the same attempt. That is a
+    weaker question than `ordered_share`, which compares any attempt of one with any of the other.
+    """
+    if len(outcomes) < 2:
+        return 1.0
+    totals = np.array([np.nan_to_num(np.array(one.totals), nan=-1.0) for one in outcomes])
+    return float((np.diff(totals, axis=0) > 0.0).all(axis=0).mean())
 
 
 def _total(score: Score | None) -> float:

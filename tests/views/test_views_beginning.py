@@ -220,7 +220,7 @@ def test_somebody_who_goes_elsewhere_meanwhile_finds_no_attempt_begun(window, be
 def test_the_words_say_what_counts_what_helps_and_what_is_locked():
     first, scans = load_exercise("first-insertion"), load_exercise("scans-only")
     assert scored_words(first)[0] == (
-        "Off the path: best up to 2 mm, passes up to 5 mm; must be kept"
+        "Off the path: best up to 0.6 mm, passes up to 2.7 mm; must be kept"
     )
     assert scored_words(first)[-1] == "60 of 100 points pass."
     assert aid_words(first)[0] == "The robot guides with 70 %."
