@@ -400,3 +400,95 @@ def test_another_ct_in_the_exercises_folder_is_said(opened, form, author, settle
     conductor.set_exercise(load_exercise("mine"))
     conductor.set_patient(replace(conductor.patient, volume=other))
     assert "another one than the exercise was made on" in str(errors[0])
+
+
+def edit_cell(box, row, place, text):
+    box.table.item(row, place).setText(text)
+
+
+def test_layers_of_tissue_are_a_table_each_change_of_which_undo_takes_back(author, form):
+    write(form.task.name, "Layered")
+    form.show_page(4)
+    box = form.effects.layers
+    assert (box.none.isHidden(), box.table.isHidden()) == (False, True)
+    box.more.click()
+    edit_cell(box, 0, 0, "fat")
+    edit_cell(box, 0, 1, "12,5")
+    box.more.click()
+    edit_cell(box, 1, 0, "liver")
+    edit_cell(box, 1, 3, "8")
+    layers = author.editor.exercise.layers
+    assert [(one.name, one.thickness_mm, one.friction) for one in layers] == [
+        ("fat", 12.5, 10.57), ("liver", 20.0, 8.0),
+    ]  # fmt: skip
+    assert box.table.item(0, 3).text() == "10.57"  # what holds where nothing is given
+    box.up.click()
+    assert [one.name for one in author.editor.exercise.layers] == ["liver", "fat"]
+    assert box.table.currentRow() == 0
+    assert (box.up.isEnabled(), box.down.isEnabled()) == (False, True)
+    edit_cell(box, 0, 1, "thick")
+    assert author.editor.exercise is None
+    assert "thickness_mm" in author.editor.problems[0].name
+    for _ in range(3):
+        form.undo.click()
+    assert [one.name for one in author.editor.exercise.layers] == ["fat", "liver"]
+    assert box.table.item(1, 3).text() == "10.57"
+    form.redo.click()
+    assert box.table.item(1, 3).text() == "8"
+    for _ in range(2):
+        box.table.setCurrentCell(0, 0)
+        box.less.click()
+    assert author.editor.exercise.layers == ()
+    assert box.table.isHidden()
+
+
+ROWS = [
+    {"skill": "novice", "scores": [40.0, None, 50.0], "share_passed": 0.0},
+    {"skill": "expert", "scores": [98.0, 99.0, 100.0], "share_passed": 1.0},
+]
+
+
+def test_what_skills_would_score_is_tried_while_the_page_is_looked_at_and_left_on_a_change(
+    author, form, settle, monkeypatch
+):
+    begun, left = [], []
+    monkeypatch.setattr(author.trial, "begin", begun.append)
+    monkeypatch.setattr(author.trial, "cancel", lambda: left.append(len(begun)))
+    author._trial_timer.setInterval(10)
+    write(form.task.name, "Tried")
+    settle(lambda: False, 0.1)
+    assert begun == []  # nobody looks at the page
+    form.show_page(5)
+    assert settle(lambda: len(begun) == 1)
+    assert "trying" in form.score.tried.text()
+    author.trial.found.emit(ROWS, 1)
+    assert form.score.skills.scores == {"novice": [40.0, 50.0], "expert": [98.0, 99.0, 100.0]}
+    assert "novice 40, 50" in form.score.skills.accessibleDescription()
+    assert not form.score.skills.grab().isNull()
+    assert "1 attempts" in form.score.tried.text()
+    before = len(left)
+    author.editor.put("title", value="Other words")
+    settle(lambda: False, 0.1)
+    assert (len(begun), len(left)) == (1, before)  # words change no score
+    author.editor.put("assistance", value=0.3)
+    assert len(left) == before + 1
+    assert settle(lambda: len(begun) == 2)
+    assert begun[1].assistance == 0.3
+    author.trial.failed.emit("no path")
+    assert "no path" in form.score.tried.text()
+
+
+def test_a_trial_that_is_left_ends_its_process_and_says_nothing(author, form, settle):
+    write(form.task.name, "Left")
+    said = []
+    author.trial.found.connect(lambda *found: said.append(found))
+    author.trial.failed.connect(said.append)
+    author.trial.begin(author.editor.exercise)
+    process = author.trial._process
+    assert author.trial.running
+    assert process.waitForStarted(5000)
+    author.trial.cancel()
+    assert not author.trial.running
+    process.waitForFinished(5000)
+    settle(lambda: False, 0.1)
+    assert said == []

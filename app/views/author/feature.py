@@ -2,12 +2,23 @@
 
 from __future__ import annotations
 
+import json
+import os
+import sys
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
 
-from PySide6.QtCore import QTimer, SignalInstance
+from PySide6.QtCore import (
+    QObject,
+    QProcess,
+    QProcessEnvironment,
+    QTemporaryDir,
+    QTimer,
+    Signal,
+    SignalInstance,
+)
 from PySide6.QtGui import QCloseEvent, QKeySequence, QShortcut
 from PySide6.QtWidgets import (
     QFileDialog,
@@ -17,6 +28,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+import app
 from app.core.configuration import FieldProblem
 from app.core.errors import AcusError
 from app.core.progress import Progress
@@ -61,6 +73,8 @@ from app.views.shell.feature import Context, Feature
 from app.views.slices.panes import PaneId
 
 COST_AFTER_MS = 400
+TRIAL_AFTER_MS = 1500
+TRIAL_SEEDS = (1, 5)
 
 
 class ExerciseDialog(Wizard):
@@ -182,6 +196,90 @@ class ExerciseDialog(Wizard):
             outer.insertLayout(2, row)
 
 
+class SkillTrial(QObject):
+    """What scripted skills score in an exercise that is being edited.
+
+    They try it in a process of its own, so the window is never held; a change ends it. One seed
+    first, then several.
+
+    Signals:
+        found(list, int): rows of `acus exercise trial --json`, and how many seeds they are of.
+        failed(str): why it cannot be tried.
+    """
+
+    found = Signal(list, int)
+    failed = Signal(str)
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self._process: QProcess | None = None
+        self._folder: QTemporaryDir | None = None
+
+    @property
+    def running(self) -> bool:
+        """Whether something is being tried."""
+        return self._process is not None
+
+    def begin(self, exercise: Exercise) -> None:
+        """Try an exercise; whatever was being tried is left. Structures of risk are left out."""
+        self.cancel()
+        self._folder = QTemporaryDir()
+        file = Path(self._folder.filePath("trial.yaml"))
+        tolerances = {
+            name: one for name, one in exercise.tolerances.items() if not name.startswith("risk_")
+        }
+        tried = exercise.model_copy(update={"structures": (), "tolerances": tolerances})
+        try:
+            file.write_text(exercise_text(tried, folders()[1]), encoding="utf-8")
+        except (OSError, AcusError) as error:
+            self.failed.emit(str(error))
+            return
+        self._start(file, TRIAL_SEEDS)
+
+    def cancel(self) -> None:
+        """Leave what is being tried; returns at once."""
+        process, self._process = self._process, None
+        if process is not None:
+            process.finished.disconnect()
+            process.finished.connect(process.deleteLater)
+            process.kill()
+
+    def close(self) -> None:
+        """Leave it, and wait until its process has ended."""
+        process = self._process
+        self.cancel()
+        if process is not None:
+            process.waitForFinished(2000)
+
+    def _start(self, file: Path, seeds: tuple[int, ...]) -> None:
+        process = self._process = QProcess(self)
+        surroundings = QProcessEnvironment.systemEnvironment()
+        known = surroundings.value("PYTHONPATH")
+        places = [str(Path(app.__file__).resolve().parents[1]), *([known] if known else [])]
+        surroundings.insert("PYTHONPATH", os.pathsep.join(places))
+        process.setProcessEnvironment(surroundings)
+        process.finished.connect(lambda *_: self._ended(file, seeds))
+        command = ["-m", "app", "exercise", "trial", str(file), "--seeds", str(seeds[0]), "--json"]
+        process.start(sys.executable, command)
+
+    def _ended(self, file: Path, seeds: tuple[int, ...]) -> None:
+        process, self._process = self._process, None
+        if process is None:
+            return
+        output = bytes(process.readAllStandardOutput().data()).decode(errors="replace")
+        errors = bytes(process.readAllStandardError().data()).decode(errors="replace")
+        process.deleteLater()
+        try:
+            rows = json.loads(output)["facts"]["skills"]
+        except (ValueError, KeyError, TypeError):
+            said = [line for line in errors.splitlines() if line.strip()]
+            self.failed.emit(said[-1] if said else tr("the trial ended without an answer"))
+            return
+        self.found.emit(rows, seeds[0])
+        if seeds[1:]:
+            self._start(file, seeds[1:])
+
+
 def first_problem(problems: tuple[FieldProblem, ...]) -> str:
     """Return the first thing that is wrong, with its field."""
     return "" if not problems else f"{problems[0].name}: {plain_words(problems[0])}"
@@ -201,6 +299,12 @@ class AuthorFeature(Feature):
         self._measuring: BackgroundTask | None = None
         self._cost_timer = QTimer(self, singleShot=True, interval=COST_AFTER_MS)
         self._cost_timer.timeout.connect(self._measure)
+        self.trial = SkillTrial(self)
+        self.trial.found.connect(self._show_skills)
+        self.trial.failed.connect(self._no_skills)
+        self._tried: Exercise | None = None
+        self._trial_timer = QTimer(self, singleShot=True, interval=TRIAL_AFTER_MS)
+        self._trial_timer.timeout.connect(self._try_skills)
         self.editor.changed.connect(self._follow)
         self.button = button(tr("Make an exercise from this…"))
         self.button.clicked.connect(self.make)
@@ -267,6 +371,8 @@ class AuthorFeature(Feature):
 
     def close(self) -> None:
         """End what runs, and the form."""
+        self._trial_timer.stop()
+        self.trial.close()
         for task in (self._task, self._measuring):
             if task is not None:
                 task.close()
@@ -319,6 +425,7 @@ class AuthorFeature(Feature):
         dialog.task.kind_wanted.connect(self.set_kind)
         dialog.patient.plan_wanted.connect(self.take_plan)
         dialog.sight.reading_wanted.connect(self.take_reading)
+        dialog.score.looked_at.connect(self._trial_timer.start)
         self.editor.begin(document, saved)
         frame = self._shell.dialog_parent.geometry()  # at its right: the axial pane stays free
         dialog.move(max(frame.right() - dialog.width() - theme.MARGIN, 0), frame.top() + 60)
@@ -565,8 +672,13 @@ class AuthorFeature(Feature):
     # --- live -----------------------------------------------------------------------------------
     def _follow(self) -> None:
         """Draw the tolerances on the CT, and measure anew what a tick costs."""
-        exercise = self.editor.exercise
-        if self.dialog is None or exercise is None:
+        exercise, dialog = self.editor.exercise, self.dialog
+        if dialog is not None and self._tried != _bare(exercise):
+            self._tried = None
+            self.trial.cancel()
+            dialog.score.tried.setText("")
+            self._trial_timer.start()
+        if dialog is None or exercise is None:
             return
         self._draw(exercise)
         self._cost_timer.start()
@@ -597,6 +709,32 @@ class AuthorFeature(Feature):
             self, lambda _: services.explain_exercise(exercise), done, done
         )
 
+    def _try_skills(self) -> None:
+        """Let the skills try what is edited, while somebody looks at the page that shows it."""
+        exercise, dialog = self.editor.exercise, self.dialog
+        if exercise is None or dialog is None or self.editor.problems:
+            return
+        if not dialog.score.isVisible() or self._tried is not None:
+            return
+        self._tried = _bare(exercise)
+        dialog.score.skills.show_scores((), exercise.rules.pass_mark)
+        dialog.score.tried.setText(tr("five scripted skills are trying it …"))
+        self.trial.begin(exercise)
+
+    def _show_skills(self, rows: list[dict[str, Any]], seeds: int) -> None:
+        exercise, dialog = self.editor.exercise, self.dialog
+        if exercise is None or dialog is None:
+            return
+        dialog.score.skills.show_scores(rows, exercise.rules.pass_mark)
+        said = tr("{n} attempts of each skill, without structures of risk", n=seeds)
+        if self.trial.running or seeds < TRIAL_SEEDS[-1]:
+            said += "; " + tr("more are on their way …")
+        dialog.score.tried.setText(said)
+
+    def _no_skills(self, why: str) -> None:
+        if self.dialog is not None:
+            self.dialog.score.tried.setText(tr("It cannot be tried: {why}", why=why))
+
     def _take_digest(self, digest: str) -> None:
         if self.dialog is not None and self.editor.get("ct", "folder") is not None:
             self.editor.learn("ct", "digest", value=digest)
@@ -617,6 +755,17 @@ class AuthorFeature(Feature):
         if self.dialog is dialog:
             self.dialog = None
             self._cost_timer.stop()
+            self._trial_timer.stop()
+            self.trial.cancel()
+            self._tried = None
             self._draw(self._conductor.exercise)
         self.editor.changed.disconnect(dialog.follow)
         dialog.deleteLater()
+
+
+def _bare(exercise: Exercise | None) -> Exercise | None:
+    """Return an exercise without its words, which no score depends on."""
+    if exercise is None:
+        return None
+    words = {"id": "x", "title": "x", "description": "", "level": 1, "version": 1}
+    return exercise.model_copy(update=words)

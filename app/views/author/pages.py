@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from typing import Any
 
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtCore import QPointF, QRectF, QSignalBlocker, Qt, Signal
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QShowEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QDoubleSpinBox,
     QFormLayout,
     QGroupBox,
+    QHBoxLayout,
     QLabel,
     QLineEdit,
     QPlainTextEdit,
@@ -28,7 +31,7 @@ from app.device.control.law import KIND as LAWS
 from app.exercises.guidance import FadingKind
 from app.exercises.library import profile_names
 from app.exercises.locks import Lock
-from app.exercises.parts import ViewName
+from app.exercises.parts import LayerPart, ViewName
 from app.imaging.structures.structure import StructureSet
 from app.imaging.window import PRESETS
 from app.scoring import metrics
@@ -651,7 +654,9 @@ class EffectsPage(Form):
         self.parts = PartsBox(editor, "effects", "")
         self.rows.addWidget(self.parts)
         self.note(("effects",))
-        self.note(("layers",))
+        self.layers = LayersBox(editor)
+        name = tr("Layers of tissue, from the skin inwards")
+        self.add(("layers",), name, self.layers, self.layers.load)
         self.cost = label("", "dim")
         self.rows.addWidget(self.cost)
         self._loads.append(self.parts.load)
@@ -670,6 +675,117 @@ class EffectsPage(Form):
         share = sum(costs.values()) / 1e4
         lines.append(tr("together {share:.2f} % of the millisecond that a tick has", share=share))
         self.cost.setText("\n".join(lines))
+
+
+LAYER_NUMBERS = (
+    *("thickness_mm", "side_stiffness_kpa", "friction", "static_friction", "viscous_friction"),
+)
+"""Columns of the table of layers after the name, as `LayerPart` has them."""
+
+NEW_LAYER = {"name": "tissue", "thickness_mm": 20.0}
+
+
+class LayersBox(QWidget):
+    """The layers of tissue as a table: each cell, row and move is a step that undo takes back."""
+
+    def __init__(self, editor: ExerciseEditor) -> None:
+        super().__init__()
+        self._editor = editor
+        inner = QVBoxLayout(self)
+        inner.setContentsMargins(0, 0, 0, 0)
+        self.none = label(tr("None is given: the body is of one tissue."), "dim")
+        self.table = QTableWidget(0, 1 + len(LAYER_NUMBERS), self)
+        self.table.setHorizontalHeaderLabels(
+            [
+                tr("Layer"),
+                tr("thick\n[mm]"),
+                tr("side stiffness\n[kPa]"),
+                tr("friction\n[N/m]"),
+                tr("break-away\n[N/m]"),
+                tr("viscous\n[N·s/m²]"),
+            ]
+        )
+        self.table.setAccessibleName(tr("Layers of tissue, from the skin inwards"))
+        self.table.setFixedHeight(theme.px(190))
+        self.table.itemChanged.connect(self._take)
+        self.table.itemSelectionChanged.connect(self._allow)
+        self.more, self.less = button(tr("Add a layer")), button(tr("Remove"))
+        self.up, self.down = button(tr("Outwards")), button(tr("Inwards"))
+        buttons = QHBoxLayout()
+        for one, command in (
+            (self.more, self._add),
+            (self.less, self._remove),
+            (self.up, lambda: self._move(-1)),
+            (self.down, lambda: self._move(1)),
+        ):
+            one.clicked.connect(command)
+            buttons.addWidget(one)
+        inner.addWidget(self.none)
+        inner.addWidget(self.table)
+        inner.addLayout(buttons)
+
+    def load(self) -> None:
+        """Show the layers of the document."""
+        given = self._given()
+        self.none.setVisible(not given)
+        self.table.setVisible(bool(given))
+        with QSignalBlocker(self.table):
+            self.table.setRowCount(len(given))
+            for row, layer in enumerate(given):
+                for place, key in enumerate(("name", *LAYER_NUMBERS)):
+                    default = LayerPart.model_fields[key].default if place > 1 else ""
+                    value = layer.get(key, default)
+                    text = f"{value:g}" if isinstance(value, int | float) else str(value)
+                    item = self.table.item(row, place) or QTableWidgetItem()
+                    if item.tableWidget() is None:
+                        self.table.setItem(row, place, item)
+                    item.setText(text)
+        self._allow()
+
+    def _given(self) -> list[dict[str, Any]]:
+        return [dict(layer) for layer in self._editor.get("layers", default=[]) or []]
+
+    def _put(self, layers: list[dict[str, Any]], row: int | None = None) -> None:
+        self._editor.put("layers", value=layers or None)
+        if row is not None:
+            self.table.setCurrentCell(row, 0)
+
+    def _take(self, item: QTableWidgetItem) -> None:
+        layers, text = self._given(), item.text().strip()
+        key = ("name", *LAYER_NUMBERS)[item.column()]
+        value: Any = text
+        if key != "name":
+            with suppress(ValueError):  # the reader says what is wrong with it
+                value = float(text.replace(",", "."))
+        if text or key in ("name", "thickness_mm"):
+            layers[item.row()][key] = value
+        else:
+            layers[item.row()].pop(key, None)  # back to what it is where nothing is given
+        self._put(layers)
+
+    def _add(self) -> None:
+        layers, row = self._given(), self.table.currentRow() + 1
+        row = row if 0 < row <= len(layers) else len(layers)
+        layers.insert(row, dict(NEW_LAYER))
+        self._put(layers, row)
+
+    def _remove(self) -> None:
+        layers, row = self._given(), self.table.currentRow()
+        if 0 <= row < len(layers):
+            del layers[row]
+            self._put(layers, min(row, len(layers) - 1))
+
+    def _move(self, by: int) -> None:
+        layers, row = self._given(), self.table.currentRow()
+        if 0 <= row < len(layers) and 0 <= row + by < len(layers):
+            layers.insert(row + by, layers.pop(row))
+            self._put(layers, row + by)
+
+    def _allow(self) -> None:
+        row, rows = self.table.currentRow(), self.table.rowCount()
+        self.less.setEnabled(0 <= row < rows)
+        self.up.setEnabled(0 < row < rows)
+        self.down.setEnabled(0 <= row < rows - 1)
 
 
 class PartsBox(QWidget):
@@ -789,8 +905,78 @@ USUAL = (
 BANDS = ("expert", "good", "pass", "zero", "weight")
 
 
+class SkillsPlot(QWidget):
+    """A dot for each attempt's score, a column for each skill, and the line to pass.
+
+    Attributes:
+        scores: what is drawn, skill → scores of 0 to 100.
+    """
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.scores: dict[str, list[float]] = {}
+        self._passed: dict[str, float] = {}
+        self._pass_mark = 60.0
+        self.setFixedHeight(theme.px(150))
+        self.setAccessibleName(tr("What scripted skills would score"))
+
+    def show_scores(self, rows: Sequence[Mapping[str, Any]], pass_mark: float) -> None:
+        """Draw rows of `acus exercise trial --json`; none where nothing is known."""
+        self._pass_mark = pass_mark
+        self._passed = {row["skill"]: row["share_passed"] for row in rows}
+        self.scores = {
+            row["skill"]: [score for score in row["scores"] if score is not None] for row in rows
+        }
+        self.setAccessibleDescription(
+            "; ".join(
+                f"{name} " + ", ".join(f"{score:.0f}" for score in scores)
+                for name, scores in self.scores.items()
+            )
+        )
+        self.update()
+
+    def paintEvent(self, _event: QPaintEvent) -> None:
+        """Draw it."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        line = self.fontMetrics().height()
+        left, top, bottom = 2.5 * line, 0.5 * line, self.height() - 2.4 * line
+        right = self.width() - 0.5 * line
+
+        def height(score: float) -> float:
+            return bottom - (bottom - top) * score / 100.0
+
+        painter.setPen(QColor(theme.TEXT_DIM))
+        for score in (0.0, 50.0, 100.0):
+            painter.drawText(QPointF(0.0, height(score) + 0.35 * line), f"{score:.0f}")
+            painter.drawLine(QPointF(left, height(score)), QPointF(right, height(score)))
+        painter.setPen(QPen(QColor(theme.TEXT), 1.0, Qt.PenStyle.DashLine))
+        at = height(self._pass_mark)
+        painter.drawLine(QPointF(left, at), QPointF(right, at))
+        width = (right - left) / max(len(self.scores), 1)
+        for number, (name, scores) in enumerate(self.scores.items()):
+            column = QRectF(left + number * width, bottom + 0.1 * line, width, 2.2 * line)
+            passes = f"{self._passed[name]:.0%} " + tr("pass")
+            painter.setPen(QColor(theme.TEXT))
+            painter.drawText(column, Qt.AlignmentFlag.AlignHCenter, f"{name}\n{passes}")
+            good = self._passed[name] > 0.5
+            painter.setBrush(QColor(theme.GOOD if good else theme.BAD))
+            painter.setPen(Qt.PenStyle.NoPen)
+            for place, score in enumerate(scores):
+                beside = (place - 0.5 * (len(scores) - 1)) * 0.5 * line
+                middle = QPointF(column.center().x() + beside, height(score))
+                painter.drawEllipse(middle, 0.25 * line, 0.25 * line)
+        painter.end()
+
+
 class ScorePage(Form):
-    """What counts: bands, weights, hard fails."""
+    """What counts: bands, weights, hard fails; and what scripted skills would score.
+
+    Signals:
+        looked_at(): the page is shown.
+    """
+
+    looked_at = Signal()
 
     def __init__(self, editor: ExerciseEditor) -> None:
         super().__init__(editor, tr("Score"), ("tolerances", "rules"))
@@ -850,6 +1036,16 @@ class ScorePage(Form):
             tr("The rings of “Off the path” are drawn on the CT as you change them."), "dim"
         )
         self.rows.addWidget(self.drawn)
+        self.rows.addWidget(QLabel(tr("What scripted skills would score")))
+        self.skills = SkillsPlot(self)
+        self.rows.addWidget(self.skills)
+        self.tried = label("", "dim")
+        self.rows.addWidget(self.tried)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Tell that somebody looks."""
+        super().showEvent(event)
+        self.looked_at.emit()
 
     def _show(self) -> None:
         given = self.editor.get("tolerances", default={})
