@@ -297,9 +297,10 @@ def _detail_lines(document: dict[str, Any]) -> list[str]:
     if score.get("void_reason"):
         lines.append(f"{'void':12} {score['void_reason']}")
     for row in score.get("rows", []):
-        value = "-" if row["value"] is None else f"{row['value']:.4g} {row['unit']}"
+        unsure = f" ± {row['sd']:.1g}" if row["value"] is not None and row.get("sd") else ""
+        value = "-" if row["value"] is None else f"{row['value']:.4g}{unsure} {row['unit']}"
         band = row["band"] if score.get("total") is not None else ""  # a void one is not judged
-        lines.append(f"  {row['label']:32} {value:>14}  {band or row['note'] or ''}")
+        lines.append(f"  {row['label']:32} {value:>20}  {band or row['note'] or ''}")
     for event in document["events"]:
         lines.append(f"  {event['time_s']:12.3f} s  {event['message']}")
     for problem in document["problems"]:

@@ -240,14 +240,16 @@ def score_table(summaries: Iterable[Summary]) -> str:
     rows = list(summaries)
     groups = _groups(rows)
     metrics = list(dict.fromkeys(name for row in rows for name in _metrics(row)))
-    lines: list[list[object]] = [[*FIXED, *metrics, "note"]]
+    unsure = [f"{name}_sd" for name in metrics]
+    lines: list[list[object]] = [[*FIXED, *metrics, *unsure, "note"]]
     for row, group in zip(rows, groups, strict=True):
-        values = _metrics(row)
+        values, sds = _metrics(row), _metrics(row, "sd")
         cells = [
             *_fixed(row),
             *_conditions(row),
             group,
             *(values.get(name) for name in metrics),
+            *(sds.get(name) for name in metrics),
             DISCLAIMER,
         ]
         lines.append(cells)
@@ -353,10 +355,10 @@ def _groups(rows: Sequence[Summary]) -> list[int | None]:
     )
 
 
-def _metrics(row: Summary) -> dict[str, object]:
-    """Metric values by column name."""
+def _metrics(row: Summary, key: str = "value") -> dict[str, object]:
+    """Metric values by column name, or their standard deviations (`sd`)."""
     rows = (row.score or {}).get("rows", [])
-    return {f"{r['name']}_{_unit(str(r['unit']))}": r["value"] for r in rows}
+    return {f"{r['name']}_{_unit(str(r['unit']))}": r.get(key) for r in rows}
 
 
 def _unit(unit: str) -> str:

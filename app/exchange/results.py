@@ -42,6 +42,7 @@ TIDY: Final = (
     "value",
     "unit",
     "band",
+    "sd",
     "note",
 )
 """Columns of the tidy table: a row for each metric of each attempt; `score_total` is one."""
@@ -178,11 +179,11 @@ def _tidy(results: Results, progress: Progress) -> Iterator[Sequence[object]]:
             group,
             said.comment,
         )
-        total = ("score_total", one.total, "percent", _passed(one), DISCLAIMER)
-        yield (*head, *total)
+        total = ("score_total", one.total, "percent", _passed(one), score.get("total_sd"))
+        yield (*head, *total, DISCLAIMER)
         for row in score.get("rows", ()):
-            metric = (row["name"], row["value"], row["unit"], row["band"], DISCLAIMER)
-            yield (*head, *metric)
+            metric = (row["name"], row["value"], row["unit"], row["band"], row.get("sd"))
+            yield (*head, *metric, DISCLAIMER)
 
 
 def _wide(results: Results) -> Iterator[Sequence[object]]:

@@ -1,6 +1,7 @@
 """Sampled paths: their length, with and without jitter, and how far two of them are apart."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
@@ -41,11 +42,39 @@ def smoothed(time: FloatArray, points: FloatArray, window: float = WINDOW) -> Fl
     """Return the polyline whose length `smooth_length` is, shape (m, 3) [m]."""
     if len(points) < 3:
         return points
-    blocks = np.floor((time - time[0]) / window)
-    starts = np.flatnonzero(np.diff(blocks, prepend=-1.0))
-    counts = np.diff(starts, append=len(points))
+    starts, counts = _blocks(time, window)
     means = np.add.reduceat(points, starts, axis=0) / counts[:, None]
     return np.vstack([points[:1], means, points[-1:]])
+
+
+def smooth_slopes(time: FloatArray, points: FloatArray, window: float = WINDOW) -> FloatArray:
+    """Slopes of `smooth_length` in each of its points, shape (n, 3)."""
+    if len(points) < 3:
+        return length_slopes(points)
+    _, counts = _blocks(time, window)
+    nodes = length_slopes(smoothed(time, points, window))
+    slopes = np.repeat(nodes[1:-1] / counts[:, None], counts, axis=0)
+    slopes[0] += nodes[0]
+    slopes[-1] += nodes[-1]
+    return slopes
+
+
+def length_slopes(points: FloatArray) -> FloatArray:
+    """Slopes of the length of a polyline in its points, shape (n, 3); none where it stands."""
+    slopes = np.zeros_like(points)
+    steps = np.diff(points, axis=0)
+    lengths = np.linalg.norm(steps, axis=1)[:, None]
+    units = np.divide(steps, lengths, out=np.zeros_like(steps), where=lengths > 0.0)
+    slopes[1:] += units
+    slopes[:-1] -= units
+    return slopes
+
+
+def _blocks(time: FloatArray, window: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Where each block begins, and of how many points it is."""
+    blocks = np.floor((time - time[0]) / window)
+    starts = np.flatnonzero(np.diff(blocks, prepend=-1.0))
+    return starts, np.diff(starts, append=len(time))
 
 
 def resampled(points: FloatArray, spacing: float = SPACING) -> FloatArray:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from math import hypot
 from typing import Any
 
 from pydantic import ValidationError
@@ -16,10 +17,14 @@ from app.scoring.tolerance import Tolerance
 FORMAT = "acus-score/1"
 """Name and version of the stored form."""
 
-SCORING_VERSION = 2
+SCORING_VERSION = 3
 """Of the rules that make a score: it grows whenever a metric, the judging, or what makes an attempt
 void gives another answer to the same attempt. Scores of two versions are not comparable. Version 1
-did not say its number."""
+did not say its number; up to version 2 a value counted as it was measured, since 3 as the best one
+within its standard deviation."""
+
+FIRST_WITH_DOUBT = 3
+"""Version from which on it does."""
 
 TRACKING = "tracking_valid"
 """Metric that decides whether a score is void."""
@@ -46,6 +51,21 @@ class Score:
     rules: ScoreRules
     attempt_void: str = ""
     version: int = SCORING_VERSION
+
+    @property
+    def total_sd(self) -> float | None:
+        """Standard deviation of `total`, of those of the rows, as if they were independent."""
+        weight = sum(row.weight for row in self.rows)
+        if self.total is None or weight <= 0.0:
+            return None
+        return 100.0 * hypot(*(row.weight * row.utility_sd for row in self.rows)) / weight
+
+    def by_version(self, version: int) -> Score:
+        """Judge the same values as an earlier version did."""
+        if version >= FIRST_WITH_DOUBT:
+            return self
+        rows = tuple(replace(row, sd=None) for row in self.rows)
+        return replace(judge(rows, self.rules, self.attempt_void), version=version)
 
     @property
     def failures(self) -> tuple[Row, ...]:
@@ -84,7 +104,7 @@ class Score:
         rows = self.rows
         if tolerances is not None:
             rows = tuple(replace(row, tolerance=tolerances.get(row.name)) for row in rows)
-        return judge(rows, rules or self.rules, self.attempt_void)
+        return replace(judge(rows, rules or self.rules, self.attempt_void), version=self.version)
 
     def document(self) -> dict[str, Any]:
         """Return the score with all its parameters as JSON-ready values; never NaN."""
@@ -92,6 +112,7 @@ class Score:
             "format": FORMAT,
             "scoring_version": self.version,
             "total": self.total,
+            "total_sd": self.total_sd,
             "passed": self.passed,
             "void_reason": self.void_reason,
             "attempt_void": self.attempt_void,

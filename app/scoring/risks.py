@@ -16,6 +16,7 @@ class RiskMark:
         closest_mm: smallest distance of the needle's part in the body; negative inside.
         time: monotonic time of that moment [s].
         depth_mm: of the tip then.
+        inside_s: how long the needle was inside it [s]; None in records that do not say it.
 
     Raises:
         TrajectoryError: if a number is not finite, or the limit is negative.
@@ -26,13 +27,15 @@ class RiskMark:
     closest_mm: float
     time: float = 0.0
     depth_mm: float = 0.0
+    inside_s: float | None = None
 
     def __post_init__(self) -> None:
-        numbers = (self.limit_mm, self.closest_mm, self.time, self.depth_mm)
-        if not (all(map(isfinite, numbers)) and self.limit_mm >= 0.0):
+        numbers = (self.limit_mm, self.closest_mm, self.time, self.depth_mm, self.inside_s or 0.0)
+        if not (all(map(isfinite, numbers)) and self.limit_mm >= 0.0 and numbers[-1] >= 0.0):
             raise TrajectoryError(
                 f"{self.closest_mm} mm from {self.name}, limit {self.limit_mm} mm, at {self.time} "
-                "s: all must be finite numbers, the limit not negative"
+                f"s, inside for {self.inside_s} s: all must be finite numbers, limit and time "
+                "inside not negative"
             )
 
     @property

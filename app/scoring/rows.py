@@ -9,7 +9,7 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from app.core.configuration import Strict
-from app.scoring.tolerance import Band, Tolerance, band, tolerance
+from app.scoring.tolerance import Band, Tolerance, band, best_within, tolerance
 
 
 class ScoreRules(Strict):
@@ -39,6 +39,7 @@ class Row:
         value: what the attempt reached; None if it could not be computed.
         note: why there is no value; empty otherwise.
         tolerance: bands, weight and whether it is required; None if it is only shown.
+        sd: standard deviation of the value, in its unit; 0 for what is counted, None if not known.
     """
 
     name: str
@@ -47,20 +48,30 @@ class Row:
     value: float | None
     note: str = ""
     tolerance: Tolerance | None = None
+    sd: float | None = None
 
     @property
     def utility(self) -> float | None:
-        """How good the value is, 0 ... 1; None if there is no value or no tolerance."""
+        """How good the best value within `sd` is, 0 ... 1; None without value or tolerance."""
         if self.value is None or self.tolerance is None:
             return None
-        return tolerance(self.value, self.tolerance)
+        return tolerance(best_within(self.value, self.sd, self.tolerance), self.tolerance)
+
+    @property
+    def utility_sd(self) -> float:
+        """Half of the range of `utility` over one `sd` to both sides; 0 where nothing is known."""
+        if self.value is None or self.tolerance is None or not self.sd:
+            return 0.0
+        size = best_within(self.value, self.sd, self.tolerance)
+        ends = (tolerance(max(0.0, size + d), self.tolerance) for d in (-self.sd, self.sd))
+        return 0.5 * abs(next(ends) - next(ends))
 
     @property
     def band(self) -> Band | None:
         """Band of the value; None if there is no value or no tolerance."""
         if self.value is None or self.tolerance is None:
             return None
-        return band(self.value, self.tolerance)
+        return band(best_within(self.value, self.sd, self.tolerance), self.tolerance)
 
     @property
     def weight(self) -> float:
@@ -80,6 +91,7 @@ class Row:
             "label": self.label,
             "unit": self.unit,
             "value": self.value if self.value is not None and isfinite(self.value) else None,
+            "sd": self.sd if self.sd is not None and isfinite(self.sd) else None,
             "note": self.note,
             "tolerance": limits,
             "utility": self.utility,
@@ -89,7 +101,7 @@ class Row:
     @classmethod
     def of(cls, document: dict[str, Any]) -> Row:
         """Read what `document` wrote."""
-        limits, value = document["tolerance"], document["value"]
+        limits, value, sd = document["tolerance"], document["value"], document.get("sd")
         return cls(
             name=document["name"],
             label=document["label"],
@@ -97,4 +109,5 @@ class Row:
             value=None if value is None else float(value),
             note=document["note"],
             tolerance=None if limits is None else Tolerance.model_validate(limits),
+            sd=None if sd is None else float(sd),
         )

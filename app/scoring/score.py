@@ -77,7 +77,8 @@ def _row(metric: Metric, trajectory: Trajectory, limits: Tolerance | None) -> Ro
         value, note = None, str(error)
     if value is not None and not isfinite(value):
         value, note = None, "the value is too large to be written as a number"
-    return Row(metric.name, metric.title, metric.unit, value, note, limits)
+    sd = None if value is None else metric.deviation(trajectory)
+    return Row(metric.name, metric.title, metric.unit, value, note, limits, sd)
 
 
 def _attempt_void(trajectory: Trajectory, rules: ScoreRules) -> str:

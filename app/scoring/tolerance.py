@@ -103,6 +103,22 @@ def tolerance(value: float, bands: Bands) -> float:
     return float(np.interp(sign * abs(value), knots, utilities))
 
 
+def best_within(value: float, sd: float | None, bands: Bands) -> float:
+    """Return the best size that a value may truly have within one standard deviation.
+
+    Nobody can tell the two apart, so the doubt is the student's. It moves all knots by `sd`, the
+    same for everybody whose `sd` is the same, and leaves the utility continuous and monotone.
+
+    Args:
+        value: as measured.
+        sd: of it, in the same unit; None if not known: then the value counts as it is.
+        bands: which tell the direction.
+    """
+    if not sd:
+        return abs(value)
+    return abs(value) + sd if bands.higher_is_better else max(0.0, abs(value) - sd)
+
+
 def band(value: float, bands: Bands) -> Band:
     """Name the band that a value falls into; a limit belongs to the better band."""
     sign = -1.0 if bands.higher_is_better else 1.0

@@ -25,7 +25,7 @@ from app.session.risks import Risk, event_of, risk_marks_of
 from app.session.sample import Sample
 from app.session.sample_columns import attachment
 from app.session.samples import SampleHistory, Samples
-from app.session.scored import renders_force, score_document, trajectory
+from app.session.scored import agreement_of, renders_force, score_document, trajectory
 from app.session.sidecar import write_summary
 from app.session.signature import SignatureError, StationKey, sign
 from app.session.summary import Summary
@@ -89,7 +89,14 @@ class AttemptLog:
             for mark in near:
                 self.event(event_of(mark))
             path = trajectory(
-                samples, self.placed, attempt.reason, renders, scans, near, excused(self.events)
+                samples,
+                self.placed,
+                attempt.reason,
+                renders,
+                scans,
+                near,
+                excused(self.events),
+                agreement_of(self.recorder.header.metadata),
             )
             score = self.scorer(path)
         except AcusError as error:

@@ -19,10 +19,10 @@ from app.session.errors import BrokenRecordingError
 from app.session.facts import PLAN, placed_plan
 from app.session.risks import risk_marks
 from app.session.sample_columns import SAMPLES_FILE, same, unpack
-from app.session.samples import Samples, bends, floats, vectors, words
+from app.session.samples import Samples, bends, flags, floats, spreads, vectors, words
 from app.session.scan import FileContents, scan, scan_by_index
 from app.session.schemas import CHANNELS, conforms
-from app.session.scored import renders_force, trajectory
+from app.session.scored import agreement_of, renders_force, trajectory
 from app.session.ticks import Inputs, read_inputs
 from app.session.transitions import excused
 
@@ -94,7 +94,14 @@ class Recording:
         scans = scan_marks(self.events)
         risks = risk_marks(self.events)
         return trajectory(
-            self.samples, self.placed_plan(), reason, renders, scans, risks, excused(self.events)
+            self.samples,
+            self.placed_plan(),
+            reason,
+            renders,
+            scans,
+            risks,
+            excused(self.events),
+            agreement_of(self.metadata),
         )
 
     def placed_plan(self) -> PlacedPlan:
@@ -277,6 +284,8 @@ def _samples(content: FileContents, problems: list[str]) -> Samples:
         radius=floats([quality.get("radius_95") for quality in qualities]),
         bend=bends([row.get("bend") for row in rows]),
         assistance=floats([wrench.get("assistance") for wrench in wrenches]),
+        spread=spreads([quality.get("spread") for quality in qualities]),
+        clamped=flags([bool(wrench.get("clamped")) for wrench in wrenches]),
     )
 
 

@@ -65,7 +65,7 @@ def risk_marks_of(
     samples: Samples, placed: PlacedPlan, risks: Iterable[Risk]
 ) -> tuple[RiskMark, ...]:
     """How near the needle came to each structure; none if it was never seen in the body."""
-    rows, lines = _needles(samples, placed)
+    rows, lines, spans = _needles(samples, placed)
     if not len(rows):
         return ()
     found = []
@@ -77,7 +77,8 @@ def risk_marks_of(
         )
         closest, row = best[0], rows[best[1]]
         depth = float(samples.depth[row]) / MILLIMETRE
-        found.append(RiskMark(risk.name, risk.limit_mm, closest, float(samples.time[row]), depth))
+        at, inside = float(samples.time[row]), float(spans[rough <= 0.0].sum())
+        found.append(RiskMark(risk.name, risk.limit_mm, closest, at, depth, inside))
     return tuple(found)
 
 
@@ -90,7 +91,7 @@ def event_of(mark: RiskMark) -> Event:
         "closest_mm": mark.closest_mm,
         "breach_mm": mark.breach_mm,
         "depth_mm": mark.depth_mm,
-    }
+    } | ({} if mark.inside_s is None else {"inside_s": mark.inside_s})
     return Event(mark.time, KIND, sentence(mark), data)
 
 
@@ -103,9 +104,9 @@ def risk_marks(events: Iterable[Event]) -> tuple[RiskMark, ...]:
             try:
                 numbers = (float(data[key]) for key in ("limit_mm", "closest_mm"))
                 limit, closest = numbers
-                mark = RiskMark(
-                    str(data["structure"]), limit, closest, event.time, float(data["depth_mm"])
-                )
+                name, depth = str(data["structure"]), float(data["depth_mm"])
+                inside = float(data["inside_s"]) if "inside_s" in data else None
+                mark = RiskMark(name, limit, closest, event.time, depth, inside)
             except (LookupError, TypeError, ValueError, TrajectoryError):
                 continue
             found.append(mark)
@@ -120,11 +121,12 @@ def sentence(mark: RiskMark) -> str:
         else f"{mark.closest_mm:.1f} mm from {mark.name}"
     )
     kept = "too near" if mark.breach_mm > 0.0 else "kept"
-    return f"needle {place} at the closest; limit {mark.limit_mm:g} mm: {kept}"
+    inside = f"; inside for {mark.inside_s:.1f} s" if mark.inside_s else ""
+    return f"needle {place} at the closest; limit {mark.limit_mm:g} mm: {kept}{inside}"
 
 
-def _needles(samples: Samples, placed: PlacedPlan) -> tuple[Any, FloatArray]:
-    """Find the needles that differ: number of their sample, and their corners in LPS [mm].
+def _needles(samples: Samples, placed: PlacedPlan) -> tuple[Any, FloatArray, FloatArray]:
+    """Find the needles that differ: number of their sample, corners in LPS [mm], for how long [s].
 
     Two corners each, entry and tip; as many as a bent needle has where one of them is bent.
     """
@@ -133,7 +135,7 @@ def _needles(samples: Samples, placed: PlacedPlan) -> tuple[Any, FloatArray]:
     seen &= np.isfinite(samples.tip).all(axis=1) & np.isfinite(samples.axis).all(axis=1)
     rows = np.flatnonzero(seen)
     if not len(rows):
-        return rows, np.empty((0, 2, 3))
+        return rows, np.empty((0, 2, 3)), np.empty(0)
     shift = samples.target[rows] - placed.p_target
     shift = np.where(np.isfinite(shift), shift, 0.0)
     tips = samples.tip[rows] - shift
@@ -142,9 +144,12 @@ def _needles(samples: Samples, placed: PlacedPlan) -> tuple[Any, FloatArray]:
         lines = _bent(lines, samples.axis[rows], samples.depth[rows], samples.bend[rows])
     corners = placed.T_world_patient.inverse() @ lines.reshape(-1, 3) / MILLIMETRE
     lines = corners.reshape(lines.shape)
-    _, kept = np.unique(np.rint(lines.reshape(len(rows), -1) / SAME_MM), axis=0, return_index=True)
-    kept.sort()
-    return rows[kept], lines[kept]
+    alike = np.rint(lines.reshape(len(rows), -1) / SAME_MM)
+    _, kept, which = np.unique(alike, axis=0, return_index=True, return_inverse=True)
+    spans = np.diff(samples.time, append=samples.time[-1])[rows]
+    lasting = np.bincount(which.ravel(), spans, len(kept))
+    order = np.argsort(kept)
+    return rows[kept[order]], lines[kept[order]], lasting[order]
 
 
 def _bent(lines: FloatArray, axes: FloatArray, depths: FloatArray, bends: FloatArray) -> FloatArray:

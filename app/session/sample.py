@@ -17,6 +17,7 @@ from app.core.transform import FrameName, RigidTransform, rotation_between
 from app.device.state import DeviceState
 from app.session.machine import State
 from app.session.needle import DOWN, NeedlePose
+from app.tracking.motion.depth_filter import HAND_SPEED
 
 _FLIP: Final = np.diag([1.0, -1.0, -1.0])
 _LEVELS: Final = {
@@ -203,13 +204,30 @@ def _quality(sample: Sample, stamp: dict[str, int]) -> dict[str, Any]:
         "sigma_along": sqrt(variance) if variance >= 0.0 else None,
         "radius_95": radius_95(sample),
         "deflection": pose.deflection if pose.deflection_sigma > 0.0 else None,
-    }
+    } | ({} if (known := spread(sample)) is None else {"spread": list(known)})
 
 
 def radius_95(sample: Sample) -> float | None:
     """Radius round the tip that holds the true one with 95 % [m], while cameras vouch for it."""
     measured = sample.pose_valid and sample.pose.measured
     return sample.pose.radius if measured else None
+
+
+def spread(sample: Sample) -> tuple[float, float, float] | None:
+    """Say what the cameras leave unsure of the tip: along and across the needle [m], and since [s].
+
+    Standard deviations, across for each of two directions, of where the tip was when the picture
+    was taken: what a hand may have moved it since, which the pose allows for, is no part of them.
+    None while no camera vouches for the tip.
+    """
+    pose = sample.pose
+    if not (sample.pose_valid and pose.measured):
+        return None
+    along = float(pose.axis @ pose.covariance @ pose.axis)
+    across = max(0.0, 0.5 * (float(np.trace(pose.covariance)) - along))
+    fixed = max(0.0, along - (HAND_SPEED * pose.depth_age) ** 2)
+    numbers = sqrt(fixed), sqrt(across), pose.depth_age
+    return numbers if all(map(isfinite, numbers)) else None
 
 
 def _joints(device: DeviceState, stamp: dict[str, int]) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray, read_only
 from app.core.bend import SIZE
-from app.session.sample import Sample, radius_95
+from app.session.sample import Sample, radius_95, spread
 
 SAMPLE_PERIOD: Final = 0.01
 """Samples are kept at most this often [s]: 100 Hz."""
@@ -42,6 +42,10 @@ class Samples:
             where it always is.
         assistance: the dial, -1...1, shape (n,); NaN where the robot said nothing. None where it is
             not known.
+        spread: what is unsure of the tip, as `sample.spread` says it, shape (n, 3); NaN where no
+            camera vouches for it. None in records of versions that did not keep it.
+        clamped: whether the wanted force was at the robot's limit, shape (n,); None where it is not
+            known.
     """
 
     time: FloatArray
@@ -59,6 +63,8 @@ class Samples:
     radius: FloatArray | None = None
     bend: FloatArray | None = None
     assistance: FloatArray | None = None
+    spread: FloatArray | None = None
+    clamped: NDArray[np.bool_] | None = None
 
     def tip_radius(self) -> float | None:
         """Median radius round the tip that holds the true one with 95 % [m]; None if not known."""
@@ -101,6 +107,8 @@ class SampleHistory:
             radius=floats([radius_95(s) for s in kept]),
             bend=bends([p.bend.numbers() if p and p.bend else None for p in poses]),
             assistance=floats([s.assistance if s.device else None for s in kept]),
+            spread=spreads([spread(s) for s in kept]),
+            clamped=flags([s.device is not None and s.device.limit_scale < 1.0 for s in kept]),
         )
 
 
@@ -118,6 +126,20 @@ def xyz(values: FloatArray) -> dict[str, float]:
 def floats(values: Sequence[float | None]) -> FloatArray:
     """Read-only array, shape (n,), NaN for None."""
     return read_only(np.array([np.nan if v is None else v for v in values], dtype=np.float64))
+
+
+def flags(values: Sequence[bool]) -> NDArray[np.bool_]:
+    """Read-only array, shape (n,)."""
+    return read_only(np.array(values, dtype=np.bool_))
+
+
+def spreads(values: Sequence[Sequence[float | None] | None]) -> FloatArray | None:
+    """Read-only array, shape (n, 3), NaN for None; None if all are."""
+    known = [None if v is None or len(v) != 3 else v for v in values]
+    if all(v is None for v in known):
+        return None
+    missing = (None, None, None)
+    return read_only(np.array([missing if v is None else v for v in known], dtype=np.float64))
 
 
 def bends(values: Sequence[ArrayLike | None]) -> FloatArray | None:

@@ -119,8 +119,9 @@ QUALITY: Final = _object(
         "sigma_along": _NUMBER_OR_NULL,
         "radius_95": _NUMBER_OR_NULL,
         "deflection": _NUMBER_OR_NULL,
+        "spread": _array(_NUMBER),
     },
-    optional=("radius_95", "deflection"),
+    optional=("radius_95", "deflection", "spread"),
 )
 _TEXT_OR_NULL: Final[Schema] = {"type": ["string", "null"]}
 SCORE: Final = _object(

@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from app.core.units import MILLIMETRE
 from app.planning.placement import PlacedPlan
 from app.scoring.result import Score
 from app.scoring.risks import RiskMark
 from app.scoring.scans import ScanMark
 from app.scoring.score import score
 from app.scoring.trajectory import Trajectory
+from app.session.conditions import AGREEMENT
 from app.session.errors import SessionError
 from app.session.machine import State
 from app.session.needle import FROM_CAMERAS
@@ -29,6 +31,19 @@ def renders_force(metadata: Mapping[str, Mapping[str, str]]) -> bool:
     return "pen" not in metadata.get("device", {})
 
 
+def agreement_of(metadata: Mapping[str, Mapping[str, str]]) -> float:
+    """Distance within which screen and needle agreed at the target with 95 % [m], by the head.
+
+    0 where nobody had checked: nothing is known then, and nothing is allowed for.
+    """
+    said = metadata.get(AGREEMENT, {}).get("radius_mm", "0")
+    try:
+        radius = float(said) * MILLIMETRE
+    except ValueError:
+        return 0.0
+    return radius if 0.0 <= radius < 1.0 else 0.0
+
+
 def trajectory(
     samples: Samples,
     placed: PlacedPlan,
@@ -37,6 +52,7 @@ def trajectory(
     scans: tuple[ScanMark, ...] = (),
     risks: tuple[RiskMark, ...] = (),
     excused: float = 0.0,
+    agreement: float = 0.0,
 ) -> Trajectory:
     """Turn samples into what scoring wants: those without a valid pose are left out.
 
@@ -51,6 +67,7 @@ def trajectory(
         scans: control scans, in order.
         risks: structures of risk, and how near the needle came.
         excused: time of pauses that cost nothing [s], see `pauses.excused`.
+        agreement: see `agreement_of` [m].
 
     Raises:
         SessionError: if no sample has a valid pose.
@@ -76,6 +93,9 @@ def trajectory(
         scans=scans,
         risks=risks,
         excused=excused,
+        spread=None if samples.spread is None else samples.spread[keep],
+        agreement=agreement,
+        clamped=samples.clamped[keep] if renders and samples.clamped is not None else None,
     )
 
 

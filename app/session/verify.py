@@ -153,7 +153,8 @@ def verify(recording: Recording) -> Verification:
     now, unscored = _recomputed(recording, written)
     changes = [Change(SCORE_FILE, unreadable, "a score")] if unreadable else []
     if written is not None or now is not None:
-        changes += _changes(written, now, unscored)
+        own = now.by_version(written.version) if written and now else now
+        changes += _changes(written, own, unscored)
     return Verification(recording.id, written, now, unscored, tuple(changes), finished)
 
 
@@ -227,6 +228,8 @@ def _changes(written: Score | None, now: Score | None, unscored: str) -> list[Ch
         if a is None and b is not None and b.tolerance is None:
             continue  # a metric that came later and counts nothing
         pairs.append((name, a.value if a else "no such metric", b.value if b else "no such metric"))
+        if a and b and a.sd is not None and not _alike(a.sd, b.sd):
+            pairs.append((f"uncertainty of {name}", a.sd, b.sd))
         if a and b and a.tolerance != b.tolerance:
             pairs.append((f"limits of {name}", _limits(a.tolerance), _limits(b.tolerance)))
     return [Change(name, a, b) for name, a, b in pairs if not _same(a, b)]
@@ -236,6 +239,11 @@ def _same(a: Any, b: Any) -> bool:
     if isinstance(a, float) and isinstance(b, float):
         return math.isclose(a, b, rel_tol=RELATIVE, abs_tol=RELATIVE)
     return bool(a == b)
+
+
+def _alike(a: float, b: float | None) -> bool:
+    """Whether two standard deviations are the same; they are products of longer sums."""
+    return b is not None and math.isclose(a, b, rel_tol=1e-6, abs_tol=RELATIVE)
 
 
 def _limits(tolerance: Tolerance | None) -> str:

@@ -30,7 +30,7 @@ from app.session.sample import Sample
 from app.session.summary import Summary
 
 ROWS = [
-    {"name": "lateral_error", "unit": "mm", "value": 2.125},
+    {"name": "lateral_error", "unit": "mm", "value": 2.125, "sd": 0.125},
     {"name": "angle_error", "unit": "°", "value": None},
     {"name": "path_ratio", "unit": "", "value": 1.0},
 ]
@@ -52,9 +52,11 @@ def parse(text: str) -> list[dict[str, str]]:
 
 def test_one_row_per_attempt_with_units_in_the_column_names() -> None:
     (row,) = parse(score_table([SCORED]))
-    assert list(row) == [*FIXED, "lateral_error_mm", "angle_error_deg", "path_ratio_ratio", "note"]
+    metrics = ["lateral_error_mm", "angle_error_deg", "path_ratio_ratio"]
+    assert list(row) == [*FIXED, *metrics, *(f"{name}_sd" for name in metrics), "note"]
     assert row["score_total_percent"] == "86.5"
     assert row["lateral_error_mm"] == "2.125"
+    assert row["lateral_error_mm_sd"] == "0.125"
     assert row["angle_error_deg"] == ""
     assert row["passed"] == "true"
     assert row["note"] == DISCLAIMER

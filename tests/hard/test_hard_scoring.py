@@ -13,6 +13,7 @@ from app.scoring.errors import TrajectoryError
 from app.scoring.metrics import available
 from app.scoring.paths import raw_length, smooth_length
 from app.scoring.result import Score
+from app.scoring.risks import RiskMark
 from app.scoring.score import score
 from app.scoring.tolerance import Bands, tolerance
 from app.scoring.trajectory import Trajectory
@@ -47,6 +48,8 @@ def assert_bounded(result: Score) -> None:
     for row in result.rows:
         assert row.value is None or np.isfinite(row.value)
         assert row.value is not None or row.note
+        assert row.sd is None or (np.isfinite(row.sd) and row.sd >= 0.0)
+    assert result.total_sd is None or 0.0 <= result.total_sd <= 100.0
     text = result.to_json()
     assert "NaN" not in text
     assert "Infinity" not in text
@@ -148,6 +151,64 @@ def test_an_absurd_position_is_refused(size: float) -> None:
         attempt(300, tip=np.full((300, 3), size))
 
 
+@pytest.mark.parametrize("n", [0, 1, 2, 3, 300])
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -1.0, 1e300, 0.0])
+def test_uncertainties_that_are_no_numbers_are_not_known(n: int, bad: float) -> None:
+    result = score(attempt(n, spread=np.full((n, 3), bad), clamped=np.zeros(n, dtype=bool)))
+    assert_bounded(result)
+    if n == 300:
+        assert (result.row("depth_error").sd is None) is (bad != 0.0)
+
+
+def test_nothing_ever_seen_has_no_uncertainty() -> None:
+    n = 300
+    result = score(attempt(n, spread=np.zeros((n, 3)), depth_valid=np.zeros(n, dtype=bool)))
+    assert_bounded(result)
+    assert all(row.sd is None for row in result.rows if row.value is None)
+
+
+def test_a_path_of_length_zero_has_bounded_uncertainties() -> None:
+    plan = placed()
+    still = np.tile(plan.p_entry, (500, 1))
+    spread = np.tile([1e-4, 5e-5, 0.0], (500, 1))
+    result = score(attempt(500, plan, tip=still, depth=np.zeros(500), spread=spread))
+    assert_bounded(result)
+    assert (result.row("path_length").sd or 0.0) < 0.2  # rounding has a direction
+    assert result.row("depth_error").sd == pytest.approx(0.1)
+
+
+def test_a_huge_uncertainty_gives_all_points_and_says_so() -> None:
+    n = 300
+    result = score(attempt(n, spread=np.full((n, 3), 1e8)))
+    assert_bounded(result)
+    assert result.row("depth_error").utility == 1.0
+
+
+@pytest.mark.parametrize("shape", [(300,), (300, 2), (299, 3)])
+def test_a_spread_of_another_shape_is_refused(shape: tuple[int, ...]) -> None:
+    with pytest.raises(TrajectoryError, match="spread has shape"):
+        attempt(300, spread=np.zeros(shape))
+
+
+@pytest.mark.parametrize("agreement", [np.nan, -1.0, np.inf])
+def test_an_agreement_that_is_no_distance_is_refused(agreement: float) -> None:
+    with pytest.raises(TrajectoryError, match="agreement is"):
+        attempt(300, agreement=agreement)
+
+
+def test_a_structure_that_was_never_near_and_one_inside_are_bounded() -> None:
+    far = RiskMark("far", 3.0, 1e6, 1e9, 0.0, 0.0)
+    old = RiskMark("old", 3.0, 5.0)
+    n = 300
+    for risks in ((far,), (far, old), (RiskMark("in", 3.0, -4.0, -1e9, 5.0, 2.0),)):
+        result = score(attempt(n, risks=risks, spread=np.full((n, 3), 1e-4)))
+        assert_bounded(result)
+        known = all(risk.inside_s is not None for risk in risks)
+        assert (result.row("risk_time").value is not None) is known
+    with pytest.raises(TrajectoryError, match="inside"):
+        RiskMark("x", 3.0, 1.0, 0.0, 0.0, -1.0)
+
+
 def test_no_depth_ever_measured_is_void() -> None:
     result = score(attempt(300, depth_valid=np.zeros(300, dtype=bool)))
     assert result.void_reason == "nothing measured how deep the needle was"
@@ -184,6 +245,9 @@ def test_random_attempts_are_bounded(n: int, seed: int, size: float) -> None:
             target_shift=rng.normal(0.0, size, (n, 3)),
             phase=names[rng.integers(0, rng.integers(4, 7), n)],
             depth_valid=rng.random(n) < 0.8,
+            spread=np.where(rng.random((n, 3)) < 0.01, np.nan, rng.exponential(size, (n, 3))),
+            clamped=rng.random(n) < 0.5,
+            agreement=size,
         )
     )
     assert_bounded(result)
@@ -194,8 +258,10 @@ def test_a_million_samples_are_scored() -> None:
     felt = np.zeros((n, 3))
     result = score(attempt(n, time=np.arange(n) * 1e-3, felt=felt, hub=felt, guide=felt))
     assert_bounded(result)
-    without_risks = set(available()) - {"risk_breach", "risk_distance"}
-    assert {row.name for row in result.rows if row.value is not None} == without_risks
+    not_asked = {"risk_breach", "risk_distance", "risk_time", "saturation"}
+    assert {row.name for row in result.rows if row.value is not None} == set(
+        available()
+    ) - not_asked
 
 
 def test_the_smoothed_length_is_never_longer_than_the_raw_one() -> None:

@@ -50,8 +50,12 @@ def test_a_file_that_is_no_metric_is_refused_by_name(
 @pytest.mark.parametrize("name", NAMES)
 def test_every_metric_is_finite_on_a_plain_attempt(name: str) -> None:
     base = Attempt(noise=1e-4, force=1.0).trajectory()
-    risks = (RiskMark("vessel", 3.0, 2.0),)
-    trajectory = Attempt(noise=1e-4, force=1.0).trajectory(guide=base.felt, risks=risks)
+    facts = {
+        "guide": base.felt,
+        "risks": (RiskMark("vessel", 3.0, 2.0, inside_s=0.0),),
+        "clamped": np.zeros(len(base), dtype=bool),
+    }
+    trajectory = Attempt(noise=1e-4, force=1.0).trajectory(**facts)
     assert np.isfinite(value(name, trajectory))
 
 

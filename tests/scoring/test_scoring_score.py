@@ -79,7 +79,7 @@ def test_a_total_below_the_pass_mark_fails() -> None:
     assert not score(trajectory, rules=ScoreRules(pass_mark=99.0)).passed
 
 
-RISKS = {"risk_breach", "risk_distance"}
+RISKS = {"risk_breach", "risk_distance", "risk_time"}
 """Metrics of structures that only some exercises have."""
 
 

@@ -66,6 +66,7 @@ def test_how_near_the_needle_came_is_in_record_and_score(bench: Bench) -> None:
     assert vessel.breach_mm == pytest.approx(1.0, abs=0.2)
     assert lung.closest_mm == pytest.approx(10.0, abs=0.5)  # the tip stays before it
     assert lung.breach_mm == 0.0
+    assert vessel.inside_s == lung.inside_s == 0.0
     assert lung.depth_mm == pytest.approx(40.0, abs=0.5)
     values = {row.name: row.value for row in result.score.rows}
     assert values["risk_breach"] == pytest.approx(vessel.breach_mm)
@@ -83,6 +84,11 @@ def test_a_needle_inside_is_negative_and_scores_no_distance(bench: Bench) -> Non
     assert values["risk_breach"] == pytest.approx(3.0 + 5.0, abs=0.1)  # 5 mm in
     (mark,) = result.trajectory.risks
     assert "deep in lung" in sentence(mark)
+    assert mark.inside_s is not None
+    assert 0.0 < mark.inside_s <= result.duration
+    assert values["risk_time"] == mark.inside_s
+    assert "; inside for " in sentence(mark)
+    assert risk_marks([event_of(mark)]) == (mark,)
 
 
 def test_structures_move_with_the_target(bench: Bench) -> None:

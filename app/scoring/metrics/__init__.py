@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import ast
 from dataclasses import dataclass
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -72,6 +73,27 @@ class Metric(Declaration):
             raise MetricUnavailableError(
                 f"{self.path}: compute() fails: {type(error).__name__}: {error}"
             ) from error
+
+    def deviation(self, trajectory: Trajectory) -> float | None:
+        """Return the standard deviation of `compute`, in the same unit; None if it is not known.
+
+        It is the file's own function `deviation`, which a file need not have.
+
+        Raises:
+            Exception: if one of the program's own files fails.
+        """
+        own = None if self.fault else getattr(KIND.load(self), "deviation", None)
+        if own is None:
+            return None
+        try:
+            sd = float(own(trajectory))
+        except MetricUnavailableError:
+            return None
+        except Exception:  # whatever somebody's file does: the value stands
+            if KIND.is_own(self.path):
+                raise
+            return None
+        return sd if isfinite(sd) and sd >= 0.0 else None
 
 
 def available() -> dict[str, Metric]:

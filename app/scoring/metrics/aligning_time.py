@@ -4,6 +4,7 @@ from typing import Any, Final
 
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Phase, Trajectory
+from app.scoring.uncertainty import time_sd
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Aligning time",
@@ -18,3 +19,8 @@ def compute(trajectory: Trajectory) -> float:
     if not trajectory.running.any():
         raise MetricUnavailableError("the attempt was never begun")
     return trajectory.duration(trajectory.phase == Phase.ALIGNING)
+
+
+def deviation(trajectory: Trajectory) -> float:
+    """Return the standard deviation [s] that the time between samples leaves."""
+    return time_sd(trajectory, trajectory.phase == Phase.ALIGNING)

@@ -9,6 +9,7 @@ from typing import Any, Final
 from app.core.arrays import angle_between
 from app.core.units import DEGREE
 from app.scoring.trajectory import Trajectory
+from app.scoring.uncertainty import axis_sd
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Angle error",
@@ -22,3 +23,8 @@ def compute(trajectory: Trajectory) -> float:
     """Return the angle [°], 0 ... 180."""
     i = trajectory.final()
     return angle_between(trajectory.axis[i], trajectory.offset(i).path) / DEGREE
+
+
+def deviation(trajectory: Trajectory) -> float:
+    """Return the standard deviation of the needle's direction in a plane [°]."""
+    return axis_sd(trajectory)

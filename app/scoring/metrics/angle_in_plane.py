@@ -11,6 +11,7 @@ import numpy as np
 from app.core.units import DEGREE
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Trajectory
+from app.scoring.uncertainty import axis_sd
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Angle error in plane",
@@ -33,3 +34,12 @@ def compute(trajectory: Trajectory) -> float:
         raise MetricUnavailableError("the needle or its path runs along the patient's length")
     across = planned[0] * needle[1] - planned[1] * needle[0]
     return float(np.arctan2(across, planned @ needle)) / DEGREE
+
+
+def deviation(trajectory: Trajectory) -> float:
+    """Return the direction's standard deviation as it looks in the plane [°]: larger the more the
+    needle leans out of it.
+    """
+    axis = trajectory.axis[trajectory.final()]
+    seen = (trajectory.placed.placement.rotation.T @ axis)[:2]
+    return axis_sd(trajectory) / max(float(np.linalg.norm(seen)), float(STEEPEST))

@@ -9,6 +9,7 @@ import numpy as np
 
 from app.core.units import DEGREE
 from app.scoring.trajectory import Trajectory
+from app.scoring.uncertainty import axis_sd
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Angle error out of plane",
@@ -28,3 +29,8 @@ def compute(trajectory: Trajectory) -> float:
         for one in (trajectory.axis[i], path)
     )
     return (needle - planned) / DEGREE
+
+
+def deviation(trajectory: Trajectory) -> float:
+    """Return the standard deviation of the needle's direction in a plane [°]."""
+    return axis_sd(trajectory)

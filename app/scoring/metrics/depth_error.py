@@ -4,6 +4,7 @@ from typing import Any, Final
 
 from app.core.units import MILLIMETRE
 from app.scoring.trajectory import Trajectory
+from app.scoring.uncertainty import tip_sd
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Depth error",
@@ -16,3 +17,9 @@ DECLARATION: Final[dict[str, Any]] = {
 def compute(trajectory: Trajectory) -> float:
     """Return what the tip went beyond the target as it is then, along the path to it [mm]."""
     return -trajectory.offset(trajectory.final()).remaining / MILLIMETRE
+
+
+def deviation(trajectory: Trajectory) -> float:
+    """Return the standard deviation of the tip along the path [mm]."""
+    i = trajectory.final()
+    return tip_sd(trajectory, i, trajectory.offset(i).path) / MILLIMETRE

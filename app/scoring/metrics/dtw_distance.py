@@ -9,6 +9,7 @@ from typing import Any, Final
 from app.core.units import MILLIMETRE
 from app.scoring.paths import insertion_and_plan, time_warping
 from app.scoring.trajectory import Trajectory
+from app.scoring.uncertainty import largest_sd
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Mean distance from the path (DTW)",
@@ -21,3 +22,8 @@ DECLARATION: Final[dict[str, Any]] = {
 def compute(trajectory: Trajectory) -> float:
     """Return the distance [mm]."""
     return time_warping(*insertion_and_plan(trajectory)) / MILLIMETRE
+
+
+def deviation(trajectory: Trajectory) -> float:
+    """Return an upper bound of the standard deviation [mm]: the tip's largest on its path."""
+    return largest_sd(trajectory, trajectory.measured_stays()[-1]) / MILLIMETRE

@@ -6,7 +6,14 @@ Published in J. NeuroEng. Rehabil. 12:112 (2015).
 
 from typing import Any, Final
 
-from app.scoring.smoothness import RATE, insertion_speed, log_dimensionless_jerk
+import numpy as np
+
+from app.scoring.smoothness import (
+    RATE,
+    insertion_speed,
+    log_dimensionless_jerk,
+    repeated_speeds,
+)
 from app.scoring.trajectory import Trajectory
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -20,3 +27,9 @@ DECLARATION: Final[dict[str, Any]] = {
 def compute(trajectory: Trajectory) -> float:
     """Return the logarithm, negative for any hand; nearer to zero is smoother."""
     return log_dimensionless_jerk(insertion_speed(trajectory), RATE)
+
+
+def deviation(trajectory: Trajectory) -> float:
+    """Return the standard deviation, of the insertion measured again and again."""
+    again = [log_dimensionless_jerk(speed, RATE) for speed in repeated_speeds(trajectory)]
+    return float(np.std(again, ddof=1))

@@ -7,8 +7,9 @@ samples grows with noise and sampling rate. `path_length_raw` is that plain sum.
 from typing import Any, Final
 
 from app.core.units import MILLIMETRE
-from app.scoring.paths import smooth_length
+from app.scoring.paths import smooth_length, smooth_slopes
 from app.scoring.trajectory import Trajectory
+from app.scoring.uncertainty import path_sd
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Path length",
@@ -22,3 +23,10 @@ def compute(trajectory: Trajectory) -> float:
     """Return the length [mm]."""
     time, tip = trajectory.time, trajectory.tip
     return sum(smooth_length(time[s], tip[s]) for s in trajectory.measured_stays()) / MILLIMETRE
+
+
+def deviation(trajectory: Trajectory) -> float:
+    """Return the standard deviation [mm], to first order."""
+    stays = trajectory.measured_stays()
+    slopes = [smooth_slopes(trajectory.time[stay], trajectory.tip[stay]) for stay in stays]
+    return path_sd(trajectory, stays, slopes) / MILLIMETRE

@@ -6,8 +6,9 @@ It grows with measurement noise and with the sampling rate: compare only attempt
 from typing import Any, Final
 
 from app.core.units import MILLIMETRE
-from app.scoring.paths import raw_length
+from app.scoring.paths import length_slopes, raw_length
 from app.scoring.trajectory import Trajectory
+from app.scoring.uncertainty import path_sd
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Path length, raw",
@@ -20,3 +21,10 @@ DECLARATION: Final[dict[str, Any]] = {
 def compute(trajectory: Trajectory) -> float:
     """Return the length [mm]."""
     return sum(raw_length(trajectory.tip[s]) for s in trajectory.measured_stays()) / MILLIMETRE
+
+
+def deviation(trajectory: Trajectory) -> float:
+    """Return the standard deviation [mm], to first order; what noise adds on average is more."""
+    stays = trajectory.measured_stays()
+    slopes = [length_slopes(trajectory.tip[stay]) for stay in stays]
+    return path_sd(trajectory, stays, slopes) / MILLIMETRE

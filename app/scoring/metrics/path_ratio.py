@@ -6,8 +6,9 @@ import numpy as np
 
 from app.core.units import MILLIMETRE
 from app.scoring.errors import MetricUnavailableError
-from app.scoring.paths import smooth_length
+from app.scoring.paths import length_slopes, smooth_length, smooth_slopes
 from app.scoring.trajectory import Trajectory
+from app.scoring.uncertainty import path_sd
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Path ratio",
@@ -29,3 +30,13 @@ def compute(trajectory: Trajectory) -> float:
             "a ratio needs at least 1 mm"
         )
     return smooth_length(trajectory.time[last], tip) / straight
+
+
+def deviation(trajectory: Trajectory) -> float:
+    """Return the standard deviation, to first order, of length and straight line together."""
+    last = trajectory.measured_stays()[-1]
+    tip = trajectory.tip[last]
+    straight = float(np.linalg.norm(tip[-1] - tip[0]))
+    slopes = smooth_slopes(trajectory.time[last], tip)
+    slopes[[0, -1]] -= compute(trajectory) * length_slopes(tip[[0, -1]])
+    return path_sd(trajectory, [last], [slopes / straight])

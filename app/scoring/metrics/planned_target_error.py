@@ -10,6 +10,7 @@ import numpy as np
 
 from app.core.units import MILLIMETRE
 from app.scoring.trajectory import Trajectory
+from app.scoring.uncertainty import tip_sd
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Error to the planned target",
@@ -23,3 +24,9 @@ def compute(trajectory: Trajectory) -> float:
     """Return the distance [mm]."""
     tip = trajectory.tip[trajectory.final()]
     return float(np.linalg.norm(tip - trajectory.placed.p_target)) / MILLIMETRE
+
+
+def deviation(trajectory: Trajectory) -> float:
+    """Return the standard deviation of the tip towards the planned target [mm]."""
+    i = trajectory.final()
+    return tip_sd(trajectory, i, trajectory.tip[i] - trajectory.placed.p_target) / MILLIMETRE

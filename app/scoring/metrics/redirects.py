@@ -26,16 +26,23 @@ TURNED = 2.0 * DEGREE
 def compute(trajectory: Trajectory) -> float:
     """Count them over all insertions."""
     samples = np.concatenate(trajectory.measured_stays())
+    depths = trajectory.depth.tolist()
     count = 0
     deepest = shallowest = int(samples[0])
-    for i in map(int, samples):
-        depth = trajectory.depth[i]
-        if depth < trajectory.depth[shallowest]:
+    for i in samples.tolist():
+        depth = depths[i]
+        if depth < depths[shallowest]:
             shallowest = i
-        back = trajectory.depth[deepest] - trajectory.depth[shallowest] > DRAWN_BACK
-        if back and depth > trajectory.depth[shallowest] + ONWARDS:
+        back = depths[deepest] - depths[shallowest] > DRAWN_BACK
+        if back and depth > depths[shallowest] + ONWARDS:
             count += angle_between(trajectory.axis[deepest], trajectory.axis[i]) > TURNED
             deepest = shallowest = i
-        elif depth >= trajectory.depth[deepest]:
+        elif depth >= depths[deepest]:
             deepest = shallowest = i
     return float(count)
+
+
+def deviation(trajectory: Trajectory) -> float:
+    """Return 0: it is counted."""
+    del trajectory
+    return 0.0

@@ -2,8 +2,10 @@
 
 from typing import Any, Final
 
+from app.core.units import MILLIMETRE
 from app.scoring.errors import MetricNotAskedError
 from app.scoring.trajectory import Trajectory
+from app.scoring.uncertainty import tip_sd
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Distance from risk",
@@ -18,3 +20,9 @@ def compute(trajectory: Trajectory) -> float:
     if not trajectory.risks:
         raise MetricNotAskedError("no structure of risk was measured")
     return max(0.0, min(risk.closest_mm for risk in trajectory.risks))
+
+
+def deviation(trajectory: Trajectory) -> float:
+    """Return an upper bound of the standard deviation [mm]: the tip's largest at that moment."""
+    nearest = min(trajectory.risks, key=lambda risk: risk.closest_mm)
+    return tip_sd(trajectory, trajectory.at(nearest.time)) / MILLIMETRE

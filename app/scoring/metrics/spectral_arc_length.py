@@ -6,7 +6,15 @@ Rehabil. 12:112 (2015).
 
 from typing import Any, Final
 
-from app.scoring.smoothness import RATE, insertion_speed, spectral_arc_length
+import numpy as np
+
+from app.scoring.smoothness import (
+    COARSE,
+    RATE,
+    insertion_speed,
+    repeated_speeds,
+    spectral_arc_length,
+)
 from app.scoring.trajectory import Trajectory
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -20,3 +28,9 @@ DECLARATION: Final[dict[str, Any]] = {
 def compute(trajectory: Trajectory) -> float:
     """Return the arc length, negative; nearer to zero is smoother."""
     return spectral_arc_length(insertion_speed(trajectory), RATE)
+
+
+def deviation(trajectory: Trajectory) -> float:
+    """Return the standard deviation, of the insertion measured again and again."""
+    again = [spectral_arc_length(speed, RATE, COARSE) for speed in repeated_speeds(trajectory)]
+    return float(np.std(again, ddof=1))

@@ -6,6 +6,7 @@ import numpy as np
 
 from app.core.units import MILLIMETRE
 from app.scoring.trajectory import Trajectory
+from app.scoring.uncertainty import tip_sd
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Target error",
@@ -19,3 +20,9 @@ def compute(trajectory: Trajectory) -> float:
     """Return the distance [mm]."""
     i = trajectory.final()
     return float(np.linalg.norm(trajectory.tip[i] - trajectory.target(i))) / MILLIMETRE
+
+
+def deviation(trajectory: Trajectory) -> float:
+    """Return the standard deviation of the tip towards the target [mm]."""
+    i = trajectory.final()
+    return tip_sd(trajectory, i, trajectory.tip[i] - trajectory.target(i)) / MILLIMETRE

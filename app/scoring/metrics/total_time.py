@@ -4,6 +4,7 @@ from typing import Any, Final
 
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Trajectory
+from app.scoring.uncertainty import time_sd
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Total time",
@@ -19,3 +20,8 @@ def compute(trajectory: Trajectory) -> float:
     if not mask.any():
         raise MetricUnavailableError("the attempt never got that far")
     return trajectory.duration(mask)
+
+
+def deviation(trajectory: Trajectory) -> float:
+    """Return the standard deviation [s] that the time between samples leaves."""
+    return time_sd(trajectory, trajectory.running)

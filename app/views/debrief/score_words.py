@@ -216,7 +216,7 @@ def row_texts(row: Row, score: Score) -> RowTexts:
     band = f"{symbol} {band_word(row.band)}" if row.band and judged else "–"
     return RowTexts(
         label=row.label + (" *" if row.tolerance and row.tolerance.required else ""),
-        value="–" if row.value is None else with_unit(row.value, row.unit),
+        value="–" if row.value is None else with_unit(row.value, row.unit, row.sd),
         band=band,
         points=_points(row, score),
         weight=f"{row.tolerance.weight:g}" if row.tolerance else "–",
@@ -354,12 +354,13 @@ def number(value: float) -> str:
     return f"{value:.0f}" if size >= 100 else f"{value:.1f}" if size >= 10 else f"{value:z.2f}"
 
 
-def with_unit(value: float, unit: str) -> str:
-    """Say a value with its unit; the degree sign stands close."""
+def with_unit(value: float, unit: str, sd: float | None = None) -> str:
+    """Say a value with its unit, and its deviation where it shows; the degree sign stands close."""
     if unit in COUNTED:
         return f"{value:.0f} {unit}"
     gap = "" if unit in ("°", "") else " "
-    return f"{number(value)}{gap}{unit}"
+    unsure = f" ± {number(sd)}" if sd and number(sd) != number(0.0) else ""
+    return f"{number(value)}{unsure}{gap}{unit}"
 
 
 def total_text(score: Score | None) -> str:
