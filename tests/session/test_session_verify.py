@@ -21,6 +21,7 @@ from app.session.store import computed, list_sessions
 from app.session.verify import verify
 
 FOLDER = Path(__file__).parents[1] / "data" / "records"
+KEPT = FOLDER.with_name("records-kept")
 
 
 @pytest.fixture
@@ -189,3 +190,13 @@ def test_what_cannot_be_verified_is_no_answer(folder: Path) -> None:
     )
     assert result.exception is not None
     assert "not an MCAP file" in str(result.exception)  # __main__ makes one line and code 2 of it
+
+
+@pytest.mark.parametrize("name", ["law-fixture", "effect-breathing"])
+def test_a_record_of_version_2_is_confirmed_by_the_rules_of_version_2(name: str) -> None:
+    found = verify(read_recording(KEPT / f"{name}.mcap"))
+    assert found.written is not None
+    assert found.written.version == 2
+    assert found.confirmed
+    assert found.standing is found.written
+    assert all(row.sd is None for row in found.written.rows)
