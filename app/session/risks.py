@@ -147,7 +147,7 @@ def _needles(samples: Samples, placed: PlacedPlan) -> tuple[Any, FloatArray, Flo
     alike = np.rint(lines.reshape(len(rows), -1) / SAME_MM)
     _, kept, which = np.unique(alike, axis=0, return_index=True, return_inverse=True)
     spans = np.diff(samples.time, append=samples.time[-1])[rows]
-    lasting = np.bincount(which.ravel(), spans, len(kept))
+    lasting: FloatArray = np.bincount(which.ravel(), spans, len(kept)).astype(np.float64)
     order = np.argsort(kept)
     return rows[kept[order]], lines[kept[order]], lasting[order]
 
