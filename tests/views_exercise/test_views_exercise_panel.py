@@ -434,6 +434,7 @@ def test_what_is_not_well_is_said_in_full_to_a_student_too(qt):
 
 def test_the_light_is_told_apart_by_its_shape_without_any_colour(qt):
     """Grey pictures of its states differ by more than a tenth of the light's area."""
+    theme.apply_theme(qt)
     strip = StatusStrip()
     strip.show()
     pictures = []

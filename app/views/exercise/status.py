@@ -116,12 +116,18 @@ class RobotLight(QAbstractButton):
         """What is shown."""
         return self._item
 
+    @property
+    def _words(self) -> str:
+        """What is said beside the light, as far as there is room: no text of a button, whose whole
+        is to be seen.
+        """
+        return "" if self._item is None else self._item.title
+
     def show_item(self, item: StatusItem) -> None:
         """Show how the robot is; does nothing when that is shown."""
         if item == self._item:
             return
         self._item = item
-        self.setText(item.title)
         self.setAccessibleName(item.title)
         click = tr("Click: with details, or without")
         self.setToolTip(f"{item.title}\n\n{item.help}\n\n{click}")
@@ -130,7 +136,7 @@ class RobotLight(QAbstractButton):
 
     def sizeHint(self) -> QSize:
         """Room for light and words; for the light alone beside the details."""
-        words = 0 if self.isChecked() else self._metrics().horizontalAdvance(self.text()) + 10
+        words = 0 if self.isChecked() else self._metrics().horizontalAdvance(self._words) + 10
         return QSize(_LIGHT + 8 + words, _LIGHT + 8)
 
     def minimumSizeHint(self) -> QSize:
@@ -178,7 +184,7 @@ class RobotLight(QAbstractButton):
         painter.setFont(font)
         painter.setPen(QColor(theme.now(theme.TEXT)))
         room = self.rect().adjusted(_LIGHT + 10, 0, 0, 0)
-        words = self._metrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, room.width())
+        words = self._metrics().elidedText(self._words, Qt.TextElideMode.ElideRight, room.width())
         painter.drawText(room, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, words)
 
 
