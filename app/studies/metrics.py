@@ -10,7 +10,7 @@ import numpy as np
 
 from app.core.progress import Progress
 from app.core.units import MILLIMETRE
-from app.scoring.paths import frechet, resampled, time_warping
+from app.scoring.paths import frechet, raw_length, resampled, smooth_length, time_warping
 from app.scoring.smoothness import log_dimensionless_jerk, spectral_arc_length
 from app.studies.findings import Cell, Findings, Sheet, Survey
 
@@ -31,6 +31,9 @@ def _measure(progress: Progress | None = None) -> Findings:
     line = resampled(np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 0.1]]))
     beside = line + np.array([3.0 * MILLIMETRE, 0.0, 0.0])
     bent = resampled(np.array([[0.0, 0.0, 0.0], [0.005, 0.0, 0.05], [0.0, 0.0, 0.1]]))
+    time = np.arange(0.0, 60.0, 1.0 / rate)  # a minute along a half circle of 50 mm
+    turn = np.pi * time / time[-1]
+    half = 50.0 * MILLIMETRE * np.column_stack([np.cos(turn), np.sin(turn), np.zeros(len(turn))])
     rows: tuple[tuple[Cell, ...], ...] = tuple(
         (name, case, f"{found:.5f}", f"{published:.5f}", abs(found - published))
         for name, case, found, published in (
@@ -39,6 +42,13 @@ def _measure(progress: Progress | None = None) -> Findings:
             ("Fréchet [mm]", "3 mm beside", frechet(line, beside) / MILLIMETRE, 3.0),
             ("DTW [mm]", "3 mm beside", time_warping(line, beside) / MILLIMETRE, 3.0),
             ("Fréchet [mm]", "bent by 5 mm", frechet(line, bent) / MILLIMETRE, 5.0),
+            ("path, PerkTutor [mm]", "half circle", raw_length(half) / MILLIMETRE, 50.0 * np.pi),
+            (
+                "path, blocks [mm]",
+                "half circle",
+                smooth_length(time, half) / MILLIMETRE,
+                50 * np.pi,
+            ),
         )
     )
     columns = ("metric", "case", "found", "published or closed form", "difference")
