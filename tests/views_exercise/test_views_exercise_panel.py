@@ -381,7 +381,7 @@ LATE = LoopFigures(700.0, 3e-3, 9e-3, 0.2, 400, 2000)
         ({"encoders": encoder_item(0.5)}, Verdict.BAD, "Robot stopped: it does not answer"),
         ({"heartbeat": heartbeat_item(2.0)}, Verdict.BAD, "Robot stopped: this window stood still"),
         ({"guard_acts": True}, Verdict.WARNING, "Robot held back: it calms the needle"),
-        ({"at_most": True}, Verdict.WARNING, "Robot held back: the depth is not measured"),
+        ({"at_most": True}, Verdict.WARNING, "Robot held back: the depth is not certain"),
         ({"loop": loop_item(LATE)}, Verdict.WARNING, "Robot ready, the computer is busy"),
     ],
 )

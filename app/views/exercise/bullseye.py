@@ -295,6 +295,7 @@ INTENT_MS: Final = 10
 TALL: Final = 29
 """Height, in heights of the small letters, from which every word has its place."""
 
+ROOMY_PAD: Final = 230
 USUAL_PAD: Final = 180
 SMALL_PAD: Final = 150
 SMALLEST_PAD: Final = 130
@@ -407,7 +408,11 @@ class Bullseye(QWidget):
                 continue
             self._show_legend(brevity is Brevity.LEGEND)
             self._take_brevity(brevity)
-            if self._needed_height() <= self.height():
+            spare = self.height() - self._needed_height()
+            if brevity is Brevity.LEGEND:  # it takes hardly anything from the pad
+                aside = self.depth_bar.sizeHint().width() + 3 * theme.SPACING
+                spare -= max(0, (self.width() - aside) * 9 // 10 - self.pad.minimumHeight())
+            if spare >= 0:
                 break
         if self._scene is not None and self._view is not None:
             self._write(self._scene, self._view)
@@ -449,7 +454,8 @@ class Bullseye(QWidget):
             label.setMinimumHeight(min(lines, 3) * metrics.lineSpacing())
         tall = self.height() >= TALL * theme.SMALL_PX and brevity <= Brevity.FULL
         self._angles.setVisible(not self._hides_needle and tall)
-        pad = SMALLEST_PAD if short else SMALL_PAD if brevity >= Brevity.SMALL_PAD else USUAL_PAD
+        pad = ROOMY_PAD if brevity <= Brevity.WITHOUT_ANGLES else USUAL_PAD
+        pad = SMALLEST_PAD if short else SMALL_PAD if brevity >= Brevity.SMALL_PAD else pad
         self.pad.setMinimumSize(pad, pad)
         buttons = 0 if self._push.isHidden() else 2 * (self._push.sizeHint().height() + 2)
         self.depth_bar.setMinimumHeight(pad - 20 - buttons)

@@ -169,7 +169,7 @@ def robot_item(
         heartbeat: likewise.
         fault: what holds the force at zero, if something does.
         guard_acts: whether the guard takes energy out now.
-        at_most: whether the force is held back because nobody measures the depth.
+        at_most: whether the force is held back because the depth is not certain.
     """
     ready, held = tr("Robot ready"), tr("Robot held back: {why}")
     stopped = tr("Robot stopped: {why}")
@@ -187,7 +187,7 @@ def robot_item(
     elif encoders.verdict is Verdict.WARNING:
         verdict, words = Verdict.WARNING, held.format(why=tr("it answers late"))
     elif at_most:
-        verdict, words = Verdict.WARNING, held.format(why=tr("the depth is not measured"))
+        verdict, words = Verdict.WARNING, held.format(why=tr("the depth is not certain"))
     elif Verdict.BAD in verdicts or Verdict.WARNING in verdicts:
         verdict, words = Verdict.WARNING, tr("Robot ready, the computer is busy")
     else:

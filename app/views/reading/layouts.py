@@ -100,10 +100,10 @@ SIX = Layout(
 SIX_AND_BULLSEYE = Layout(
     LayoutName.SIX,
     (
-        *zip(_SLICES, ((0, 0, 5, 4), (0, 4, 5, 4), (0, 8, 5, 4)), strict=True),
-        (IN_PLANE, (5, 0, 6, 3)),
-        (IN_PLANE_90, (5, 3, 6, 3)),
-        (BULLSEYE, (5, 6, 6, 6)),
+        *zip(_SLICES, ((0, 0, 4, 4), (0, 4, 4, 4), (0, 8, 4, 4)), strict=True),
+        (IN_PLANE, (4, 0, 7, 3)),
+        (IN_PLANE_90, (4, 3, 7, 3)),
+        (BULLSEYE, (4, 6, 7, 6)),
     ),
 )
 NEEDLE = Layout(LayoutName.NEEDLE, ((IN_PLANE, (0, 0, 1, 6)), (PROBE, (0, 6, 1, 6))))
