@@ -290,7 +290,7 @@ def test_bands_are_edited_in_the_table_and_their_rings_drawn_on_the_ct(opened, f
     author.may_go = lambda: True
     form.may_close = lambda: True
     form.reject()
-    assert opened.workspace.viewing.tolerances_mm == pytest.approx((2.0, 5.0))
+    assert opened.workspace.viewing.tolerances_mm == pytest.approx((0.6, 2.7))
 
 
 def test_fading_is_chosen_and_its_mistakes_are_said(form, author):

@@ -245,10 +245,9 @@ class SkillTrial(QObject):
             process.kill()
 
     def close(self) -> None:
-        """Leave it, and wait until its process has ended."""
-        process = self._process
+        """Leave it, and wait until its process, and what was left before, has ended."""
         self.cancel()
-        if process is not None:
+        for process in self.findChildren(QProcess):
             process.waitForFinished(2000)
 
     def _start(self, file: Path, seeds: tuple[int, ...]) -> None:
