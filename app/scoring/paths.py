@@ -121,18 +121,22 @@ def time_warping(a: FloatArray, b: FloatArray) -> float:
 def _coupled(a: FloatArray, b: FloatArray, *, longest: bool) -> float:
     """Cheapest way from the first to the last pair: its longest distance, or their weighted sum.
 
-    Diagonal by diagonal, as the pairs of one do not depend on each other.
+    Diagonal by diagonal, as the pairs of one do not depend on each other. The pairs (i, k - i) of
+    the diagonal k stand in one row, so that its neighbours are the two rows before, shifted by one.
     """
     n, m = len(a), len(b)
-    cost = np.full((n + 1, m + 1), np.inf)
-    cost[0, 0] = 0.0
-    for k in range(n + m - 1):
-        i = np.arange(max(0, k - m + 1), min(k, n - 1) + 1)
-        j = k - i
-        distance = np.linalg.norm(a[i] - b[j], axis=1)
-        along = np.minimum(cost[i, j + 1], cost[i + 1, j])
+    i, j = np.arange(n)[:, None], np.arange(m)
+    distances = np.full((n + m - 1, n), np.inf)
+    x, y, z = (np.subtract.outer(a[:, k], b[:, k]) for k in range(3))
+    distances[i + j, i] = np.sqrt(x * x + y * y + z * z)
+    before, last, cost = np.full((3, n + 1), np.inf)  # each led by the edge i = -1
+    before[0] = 0.0
+    for distance in distances:
+        along = np.minimum(last[1:], last[:-1])
         if longest:
-            cost[i + 1, j + 1] = np.maximum(distance, np.minimum(along, cost[i, j]))
+            np.maximum(distance, np.minimum(along, before[:-1], out=along), out=cost[1:])
         else:
-            cost[i + 1, j + 1] = np.minimum(along + distance, cost[i, j] + 2.0 * distance)
-    return float(cost[n, m])
+            np.minimum(along + distance, before[:-1] + 2.0 * distance, out=cost[1:])
+        before, last, cost = last, cost, before
+        cost[0] = np.inf  # the corner counts once
+    return float(last[n])
