@@ -20,7 +20,7 @@ from pathlib import Path
 
 from app.compose.trial import (
     SkillOutcome,
-    attempt,
+    Trials,
     ordered_seeds,
     outcome,
     risks_of,
@@ -30,9 +30,7 @@ from app.core import paths
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
 from app.exercises.schema import Exercise
-from app.planning.placement import PlacedPlan
 from app.scoring.result import SCORING_VERSION, Score
-from app.session.risks import Risk
 from app.simulation.skills import SKILLS
 
 DOCS = Path(__file__).resolve().parents[1] / "docs" / "exercises.md"
@@ -62,17 +60,17 @@ def kind_of_attempts(exercise: Exercise) -> str:
 
 
 @cache
-def _prepared(name: str) -> tuple[Exercise, PlacedPlan, tuple[Risk, ...]]:
+def _prepared(name: str) -> tuple[Exercise, Trials]:
     exercise = load_exercise(name)
     placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
-    return exercise, placed, risks_of(exercise)
+    return exercise, Trials(exercise, placed, risks_of(exercise))
 
 
 def one_attempt(job: Job) -> str:
     """Do one attempt; returns its line of the file."""
     name, skill, seed = job
-    exercise, placed, risks = _prepared(name)
-    result = attempt(exercise, placed, skill, seed, risks)
+    exercise, trials = _prepared(name)
+    result = trials.score(skill, seed)
     return json.dumps(
         {
             "of": kind_of_attempts(exercise),
@@ -105,7 +103,7 @@ def collect(names: list[str], seeds: int, file: Path, workers: int) -> None:
     ]
     file.parent.mkdir(parents=True, exist_ok=True)
     with file.open("a", encoding="utf-8") as out, ProcessPoolExecutor(workers) as pool:
-        for done, line in enumerate(pool.map(one_attempt, jobs, chunksize=1), 1):
+        for done, line in enumerate(pool.map(one_attempt, jobs, chunksize=4), 1):
             out.write(f"\n{line}")  # before it: the last one may be cut off
             out.flush()
             if sys.stderr.isatty() or done % 100 == 0:

@@ -1,68 +1,73 @@
 """Attempts in virtual time, without recorder and rendering: what would each skill score?
 
 Everything that decides about a score is the program's own: the loop with the exercise's laws and
-effects, the trainer with its states, the scripted hand, the metrics. Only the pictures are left
-out. In their place stands a model of what the tracker measures (`SampledTracker`), and the record
-is never written.
+effects, the scripted hand, the phases, the metrics. Only the pictures are left out, and the record
+is never written. There are two ways:
+
+`attempt` puts a running trainer round all of it, with whole fixes by `SampledTracker`. It can do
+all that a trainer can (pause, abort), and it costs what the trainer's Python costs.
+
+`Trials` is for the many attempts of a table or a plot. The cameras are a stage of the loop
+(`SampledDepth`), so that the loop runs without being asked, and the samples of the attempt are made
+of its rows at once, by the same rules: depth by the cameras while it is fresh, tip on the robot's
+line, bent as the tissue bends it, phases by `session.transitions`. What a trainer would have to
+judge (a fault of the robot, cameras that see nothing for a second) is not judged again here: such
+an attempt is done over by `attempt`. `tests/test_compose_trial.py` holds the one against the other.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import hypot, inf
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.compose.desktop import load_risks, read_ct
-from app.compose.needle import measured_axis, needle_scene
-from app.compose.trainer import TrainerSetup, build_loop
+from app.compose.needle import UPRIGHT, measured_axis, needle_scene
+from app.compose.trainer import START_DEPTH, TrainerSetup, build_loop, loop_table
 from app.core import state_vector as sv
+from app.core.arrays import FloatArray
+from app.core.bend import tips_beside
 from app.core.clock import VirtualClock
+from app.core.parameters import Stage
 from app.core.progress import Progress
+from app.core.staleness import TRACKER_HOLD
 from app.core.units import MILLIMETRE, MILLISECOND
+from app.device.control import Loop, Table
 from app.exercises.parts import OwnPlan
 from app.exercises.scene import device_of, placed_plan_of, plan_of
 from app.planning.plan import Plan
+from app.session import machine
 from app.session.context import RunContext
-from app.session.fixes import DepthTrust
+from app.session.fixes import AGREEING, FORGOTTEN, DepthTrust
+from app.session.fusion import across_noise, depth_noise
+from app.session.inputs import LoopInputs
+from app.session.machine import AttemptEvent, State
+from app.session.needle import DepthSource
+from app.session.observation import GRACE
 from app.session.recorder import Recorder
+from app.session.risks import risk_marks_of
+from app.session.samples import Samples
+from app.session.scored import scorer, trajectory
 from app.session.trainer import Trainer
+from app.session.transitions import LOST, Classifier, classify
 from app.session.withdrawal import Start
+from app.simulation.plant import initial_plant
 from app.simulation.skills import SKILLS
-from app.simulation.trainee import ScriptPhase
-from app.tracking.fix import NeedleFix
-from app.tracking.health import Hiding
-from app.tracking.markers.extractor import Centre
+from app.simulation.trainee import ScriptPhase, trainee_stage
 from app.tracking.optics.rig import RigProfile, load_rig
-from app.tracking.simulated.scene import MarkerScene, Scene
-from app.tracking.solver import FixSolver, SeenMarker
+from app.tracking.simulated.sampled import BOTH, PROCESSING, SampledDepth, SampledTracker
+from app.tracking.simulated.scene import MarkerScene
 
 if TYPE_CHECKING:
-    from app.core.arrays import FloatArray
     from app.exercises.schema import Exercise
     from app.planning.placement import PlacedPlan
     from app.scoring.result import Score
     from app.session.result import AttemptResult
     from app.session.risks import Risk
-
-ALONG_PX: Final = 0.015
-ACROSS_PX: Final = 0.02
-"""Standard deviation of a marker's centre in one picture [px], along the needle as it is seen and
-across it: measured in 333 rendered pictures of rig `wide`, whose noise is 4 grey values, at depths
-from -15 to 108 mm and tilts up to 40°. Robust figures (1.48 times the median): rare
-pictures, further off across the needle (0.035 px with them), are not modelled."""
-
-MISSED: Final = 0.01
-"""Share of pictures in which the marker is not found though it is there: 3 of 336 of them."""
-
-NOISE_GREY: Final = 4.0
-"""Noise of the pictures that these were measured in; they grow with it in proportion."""
-
-PROCESSING: Final = 0.005
-"""From a pair's arrival to its fix [s]: a followed pair takes 2 to 5 ms of one processor."""
 
 STEP_TICKS: Final = 20
 """Ticks of the loop between two looks of the trainer, as in the program at 1 kHz."""
@@ -72,89 +77,12 @@ SETTLED: Final = 0.6
 LONGEST: Final = 300.0
 """Virtual time [s]: of the beginning, for the cameras to be believed, and of an attempt at most."""
 
+STEP: Final = 1.0 * MILLIMETRE
+BEYOND: Final = 20.0 * MILLIMETRE
+"""Depths by the cameras are tabulated in such steps, to so far behind the target [m]."""
 
-class SampledTracker:
-    """Fixes as the tracker would give them, from where the marker truly is instead of pictures.
-
-    The band's centre is projected into both cameras by their own models, Gaussian noise is added
-    along and across the needle as the picture shows it, and the tracker's own solver makes the fix
-    of it: status, covariance and a fix by one camera come from there. A camera does not see a band
-    that leaves its picture or that the tube hides, and misses one of a hundred. Of a second camera
-    that captures later (`skew_ms`) the tracker takes the pixel at the first's time, as this does.
-
-    Args:
-        rig: cameras and needle.
-        fulcrum: P_I in world [m], shape (3,).
-        scene: what stands before the cameras at a time.
-        axis: the needle's direction by the robot at a time; None while it is not known.
-        seed: of the noise.
-    """
-
-    def __init__(
-        self,
-        rig: RigProfile,
-        fulcrum: FloatArray,
-        scene: Scene,
-        axis: Callable[[float], FloatArray | None],
-        seed: int = 0,
-    ) -> None:
-        self._rig = rig
-        self._models = rig.models
-        self._fulcrum = fulcrum
-        self._scene = scene
-        self._axis = axis
-        self._solver = FixSolver(rig, fulcrum)
-        self._hiding = Hiding(rig.needle)
-        self._random = np.random.default_rng([seed, 7])
-        self._sd = np.array([ALONG_PX, ACROSS_PX]) * max(rig.noise_grey, 1.0) / NOISE_GREY
-        self._delay = rig.latency_ms * MILLISECOND + PROCESSING
-        self._next = inf
-
-    def begin(self, now: float) -> None:
-        """Capture from `now` [s] on."""
-        self._next = now
-
-    def due(self, now: float) -> list[NeedleFix]:
-        """Return the fixes that have come since they were last asked for, at `now` [s]."""
-        fixes = []
-        while self._next + self._delay <= now + 1e-9:
-            fixes.append(self.fix(self._next))
-            self._next += 1.0 / self._rig.rate_hz
-        return fixes
-
-    def fix(self, time: float) -> NeedleFix:
-        """Return the fix of pictures captured at a time [s]."""
-        scene = self._scene(time)
-        seen = (self._sighting(0, scene), self._sighting(1, scene))
-        return self._hiding.judge(self._solver.solve(seen, self._axis(time), time))
-
-    def _sighting(self, camera: int, scene: MarkerScene) -> SeenMarker | None:
-        model, noise = self._models[camera], self._random.standard_normal(2)
-        missed = self._random.random() < MISSED
-        if missed or not scene.visible or self._hidden(scene):
-            return None
-        ends = (scene.p_world, scene.p_world + MILLIMETRE * scene.axis_world)
-        uv, found = model.project(np.array(ends))
-        (u, v), (u_on, v_on) = uv.tolist()
-        width, height = model.image_size
-        if not (found.all() and 0.0 <= u <= width - 1.0 and 0.0 <= v <= height - 1.0):
-            return None
-        length = hypot(u_on - u, v_on - v)
-        c, s = ((u_on - u) / length, (v_on - v) / length) if length > 1e-9 else (1.0, 0.0)
-        a, b = self._sd * noise
-        var_a, var_b = self._sd**2
-        mixed = c * s * (var_a - var_b)
-        spread = [
-            [c * c * var_a + s * s * var_b, mixed],
-            [mixed, s * s * var_a + c * c * var_b],
-        ]
-        centre = np.array([u + c * a - s * b, v + s * a + c * b])
-        return SeenMarker(centre, np.array(spread), Centre.BAND)
-
-    def _hidden(self, scene: MarkerScene) -> bool:
-        hidden = self._rig.needle.hidden_mm
-        beyond = float((scene.p_world - self._fulcrum) @ scene.axis_world) / MILLIMETRE
-        return hidden is not None and hidden[0] < beyond < hidden[1]
+HEARTBEATS: Final = 10
+"""Looks from one sign of life of the window to the next: 0.2 s, of 1 s that the loop allows."""
 
 
 class _Unrecorded(Recorder):
@@ -259,6 +187,194 @@ def attempt(
 
 
 @dataclass(frozen=True, slots=True)
+class Trial:
+    """What an attempt of `Trials` came to.
+
+    Attributes:
+        score: None where it could not be scored.
+        duration: virtual time of the attempt [s].
+    """
+
+    score: Score | None
+    duration: float
+
+
+class Trials:
+    """Many attempts at one exercise, each in a small part of the time that `attempt` takes.
+
+    Args:
+        exercise: with the assistance that it begins with.
+        placed: its plan in the robot's frame.
+        risks: structures that the needle has to keep away from.
+
+    Raises:
+        AcusError: if a profile, an effect or the path cannot be used; says which and why.
+    """
+
+    def __init__(
+        self, exercise: Exercise, placed: PlacedPlan, risks: tuple[Risk, ...] = ()
+    ) -> None:
+        self._exercise, self._placed, self._risks = exercise, placed, risks
+        self._profile = device_of(exercise)
+        self._scorer = scorer(exercise)
+        setup = TrainerSetup(exercise, placed, clock=VirtualClock(BEGIN))
+        table = loop_table(setup, self._profile)
+        # What stages remember is in their arrays: each attempt takes copies, shared ones once.
+        self._stages, self._write = table.compute, table.write
+        self._fulcrum = self._profile.pantograph.fulcrum
+        self._cameras, self._spread = self._measurements(load_rig(exercise.rig))
+
+    def score(self, skill: str, seed: int) -> Trial:
+        """Let a scripted trainee of `simulation.skills` do one attempt; the same for one seed.
+
+        Raises:
+            AcusError: for an unknown skill.
+        """
+        rows, begin = self._rows(skill, seed)
+        samples = self._samples(rows)
+        faults = rows[rows[:, sv.TIME] > begin + GRACE, sv.FAULT]
+        states, unseen = _phases(samples, begin)
+        if faults.any() or unseen >= LOST:
+            result = attempt(self._exercise, self._placed, skill, seed, self._risks)
+            return Trial(result.score, result.duration)
+        samples = replace(samples, state=states)
+        near = risk_marks_of(samples, self._placed, self._risks)
+        path = trajectory(samples, self._placed, risks=near)
+        return Trial(self._scorer(path), float(samples.time[-1]) - begin)
+
+    def _rows(self, skill: str, seed: int) -> tuple[FloatArray, float]:
+        """Run the loop; returns its state at each look of an attempt, and when that began [s]."""
+        placed, profile, clock = self._placed, self._profile, VirtualClock(BEGIN)
+        own: dict[int, FloatArray] = {}
+
+        def fresh(stage: Stage) -> Stage:
+            values = own.setdefault(id(stage.parameters), stage.parameters.copy())
+            return stage._replace(parameters=values)
+
+        before = trainee_stage(placed.axis, placed.length, skill, seed), self._cameras.stage(seed)
+        table = Table.of([*before, *map(fresh, self._stages)], map(fresh, self._write))
+        initial = initial_plant(profile, UPRIGHT, START_DEPTH)
+        loop = Loop(table, profile.rate_hz, clock, initial=initial)
+        loop.inbox.write(
+            hand_depth=START_DEPTH,
+            hand_holds=1.0,
+            homed=1.0,
+            force_cap=profile.limits.hand_force,
+        )
+        inputs = LoopInputs(loop.inbox)
+        inputs.prepare(placed, self._exercise.assistance)
+        loop.open()
+        try:
+            inputs.heartbeat(BEGIN)
+            loop.step(round(SETTLED * profile.rate_hz))
+            begin, tick = clock.now(), round(SETTLED * profile.rate_hz)
+            inputs.arm(True)
+            rows: list[FloatArray] = []
+            while clock.now() < BEGIN + LONGEST:
+                if len(rows) % HEARTBEATS == 0:
+                    inputs.heartbeat(clock.now())
+                loop.step(STEP_TICKS)
+                tick += STEP_TICKS
+                rows.append(loop.rows(tick - 1)[0])
+                if rows[-1][sv.TRAINEE_PHASE] == ScriptPhase.DONE:
+                    break
+        finally:
+            loop.close()
+        return np.array(rows), begin
+
+    def _samples(self, rows: FloatArray) -> Samples:
+        """Return what a trainer keeps of these states (`session.fusion`); all as if `aligning`."""
+        time, axis = rows[:, sv.TIME], rows[:, sv.AXIS]
+        age = time - rows[:, sv.TRACKED_TIME]
+        measured = (rows[:, sv.TRACKED_TIME] > 0.0) & (age <= TRACKER_HOLD)
+        depth = np.where(measured, rows[:, sv.TRACKED_DEPTH], rows[:, sv.DEPTH])
+        axis = axis / np.linalg.norm(axis, axis=1, keepdims=True)
+        bend = np.column_stack(
+            [
+                rows[:, sv.TIP_OFFSET],
+                rows[:, sv.TIP_SLOPE],
+                rows[:, sv.ROOT_CURVATURE],
+                rows[:, sv.BENT_LENGTH],
+            ]
+        )
+        bend[~(bend[:, 9] > 0.0)] = np.nan
+        tip = self._fulcrum + depth[:, None] * axis + tips_beside(bend, depth)
+        along = np.sqrt(np.maximum(rows[:, sv.TRACKED_VARIANCE], 0.0))
+        across = np.interp(depth, *self._spread)
+        spread = np.where(measured[:, None], np.column_stack([along, across, age]), np.nan)
+        source = np.where(measured, DepthSource.TRACKED.value, DepthSource.MODEL.value)
+        return Samples(
+            time=time,
+            state=np.full(len(rows), State.ALIGNING.value, dtype="<U10"),
+            valid=(rows[:, sv.KINEMATICS] == 0.0) & np.isfinite(tip).all(axis=1),
+            depth_source=source,
+            depth=depth,
+            tip=tip,
+            axis=axis,
+            target=self._placed.p_target + rows[:, sv.TARGET_SHIFT],
+            hub=rows[:, sv.HUB],
+            guide=rows[:, sv.GUIDE],
+            felt=rows[:, sv.FELT],
+            measured=np.full(len(rows), np.nan),
+            bend=bend if np.isfinite(bend).any() else None,
+            assistance=rows[:, sv.ASSISTANCE],
+            spread=spread,
+            clamped=rows[:, sv.LIMIT_SCALE] < 1.0,
+        )
+
+    def _measurements(self, rig: RigProfile) -> tuple[SampledDepth, tuple[FloatArray, FloatArray]]:
+        """Tabulate by the tracker's solver and `fusion` what the cameras measure along the path.
+
+        Returns:
+            The cameras as a stage; depths and standard deviations across the needle [m].
+        """
+        placed, axis = self._placed, self._placed.axis
+        offset = rig.needle.marker_offset
+        tracker = SampledTracker(rig, self._fulcrum, lambda _: scenes[0], lambda _: axis)
+        low, high = self._profile.depth_range
+        last = min(high, placed.length + BEYOND)
+        depths = np.arange(min(low, START_DEPTH), last + STEP, STEP)
+        tips = self._fulcrum + depths[:, None] * axis
+        scenes = [MarkerScene.from_tip(tip, axis, offset) for tip in tips]
+        table, across = np.full((len(depths), 3, 2), np.inf), np.zeros(len(depths))
+        for row, scene in enumerate(scenes):
+            for which, found in enumerate(((True, True), (True, False), (False, True))):
+                fix = tracker.noiseless(scene, axis, found)
+                if fix.usable:
+                    table[row, which] = depth_noise(fix, self._fulcrum, axis)
+                    if which == BOTH or not across[row]:
+                        across[row] = across_noise(fix, self._fulcrum, axis)
+        cameras = SampledDepth(
+            table,
+            float(depths[0]),
+            STEP,
+            1.0 / rig.rate_hz,
+            rig.latency_ms * MILLISECOND + PROCESSING,
+            AGREEING,
+            FORGOTTEN,
+        )
+        return cameras, (depths, across)
+
+
+def _phases(samples: Samples, begin: float) -> tuple[NDArray[np.str_], float]:
+    """Return the state at each sample, and the longest time in the body without a depth [s]."""
+    attempt, memory = machine.advance(machine.Attempt(), AttemptEvent.BEGIN, begin), Classifier()
+    seen, away = samples.depth_source == DepthSource.TRACKED.value, samples.tip - samples.target
+    depths, distances = samples.depth.tolist(), np.linalg.norm(away, axis=1).tolist()
+    states, since, unseen = [], begin, 0.0
+    for k, time in enumerate(samples.time.tolist()):
+        depth = depths[k] if seen[k] and samples.valid[k] else None
+        memory, event = classify(memory, attempt.state, time, depth, distances[k])
+        if event is not None:
+            attempt = machine.advance(attempt, event, time)
+        if depth is not None or attempt.state is State.ALIGNING:
+            since = time
+        unseen = max(unseen, time - since)
+        states.append(attempt.state.value)
+    return np.array(states), unseen
+
+
+@dataclass(frozen=True, slots=True)
 class SkillOutcome:
     """What one skill scored in an exercise.
 
@@ -322,13 +438,13 @@ def run_trial(
     """
     progress = progress or Progress()
     placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
-    outcomes = []
+    trials, outcomes = Trials(exercise, placed, risks), []
     for number, skill in enumerate(skills):
         part = progress.part(number / len(skills), (number + 1) / len(skills))
         results = []
         for seed in range(1, seeds + 1):
             part.report((seed - 1) / seeds, skill)
-            results.append(attempt(exercise, placed, skill, seed, risks))
+            results.append(trials.score(skill, seed))
         scores = [result.score for result in results]
         outcomes.append(outcome(skill, scores, [result.duration for result in results]))
     progress.report(1.0)

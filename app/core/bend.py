@@ -75,13 +75,7 @@ class Bend:
     def at(self, depth: ArrayLike) -> FloatArray:
         """Displacement δ [m] at depths [m] from the fulcrum, (...,) -> (..., 3)."""
         s = np.asarray(depth, dtype=np.float64)[..., None]
-        u = np.clip(s / self.length, 0.0, 1.0)
-        second = 0.5 * self.length**2 * self.curvature
-        ends = [self.offset - second, self.length * self.slope - 2.0 * second, -2.0 * second]
-        c = _FROM_TIP @ np.stack([*ends, np.zeros(3)])
-        inside = u**2 * (second + u * (c[0] + u * (c[1] + u * (c[2] + u * c[3]))))
-        result: FloatArray = inside + np.maximum(s - self.length, 0.0) * self.slope
-        return result
+        return _beside(s, self.offset, self.slope, self.curvature, self.length)
 
     def slope_at(self, depth: float) -> FloatArray:
         """Direction δ' beyond the axis [-] at a depth [m], shape (3,)."""
@@ -101,6 +95,38 @@ class Bend:
             slope=rotation @ self.slope,
             curvature=rotation @ self.curvature,
         )
+
+
+def tips_beside(numbers: FloatArray, depth: FloatArray) -> FloatArray:
+    """Displacement of the tip [m] of one bend after the other, at a depth [m] each, shape (n, 3).
+
+    Args:
+        numbers: `Bend.numbers` of each, shape (n, SIZE); zero displacement where its length is not
+            above 0 or a number is not finite.
+        depth: shape (n,).
+    """
+    bent = np.isfinite(numbers).all(axis=1) & (numbers[:, 9] > 0.0)
+    result: FloatArray = np.zeros((len(numbers), 3))
+    of = numbers[bent]
+    result[bent] = _beside(depth[bent, None], of[:, :3], of[:, 3:6], of[:, 6:9], of[:, 9:])
+    return result
+
+
+def _beside(
+    s: FloatArray,
+    offset: FloatArray,
+    slope: FloatArray,
+    curvature: FloatArray,
+    length: FloatArray | float,
+) -> FloatArray:
+    """δ at s, shapes (..., 3) and (..., 1)."""
+    u = np.clip(s / length, 0.0, 1.0)
+    second = 0.5 * length**2 * curvature
+    ends = np.stack([offset - second, length * slope - 2.0 * second, -2.0 * second, 0.0 * second])
+    c = (_FROM_TIP @ ends.reshape(4, -1)).reshape(ends.shape)
+    inside = u**2 * (second + u * (c[0] + u * (c[1] + u * (c[2] + u * c[3]))))
+    result: FloatArray = inside + np.maximum(s - length, 0.0) * slope
+    return result
 
 
 CURVE_POINTS: Final = 9

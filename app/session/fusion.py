@@ -25,7 +25,7 @@ prediction overshoots where the hand stops.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import inf, isfinite, log
+from math import inf, isfinite, log, sqrt
 from typing import Final
 
 import numpy as np
@@ -201,6 +201,28 @@ def fix_depth(fix: NeedleFix, fulcrum: FloatArray, axis: FloatArray) -> tuple[fl
     """
     tip = tip_of(fix, fulcrum, axis)
     return tip.depth, tip.depth_variance
+
+
+def depth_noise(fix: NeedleFix, fulcrum: FloatArray, axis: FloatArray) -> tuple[float, float]:
+    """How far the depth of such a fix differs from picture to picture, standard deviation [m].
+
+    And the variance that it states [m²], in which the calibration has its share.
+    """
+    noise = fix.covariance if fix.noise_covariance is None else fix.noise_covariance
+    gain: FloatArray = np.asarray(axis)
+    if fix.line_variance is not None:
+        depth = float((fix.p_tip_world - fulcrum) @ axis)
+        total = fix.covariance + line_covariance(axis, depth, fix.line_variance)
+        weighted = np.linalg.solve(total, axis)
+        gain = np.asarray(weighted / float(axis @ weighted))
+    return sqrt(max(0.0, float(gain @ noise @ gain))), fix_depth(fix, fulcrum, axis)[1]
+
+
+def across_noise(fix: NeedleFix, fulcrum: FloatArray, axis: FloatArray) -> float:
+    """Return the standard deviation of the tip of such a fix, per axis across the needle [m]."""
+    covariance = tip_of(fix, fulcrum, axis).covariance
+    across = float(np.trace(covariance)) - float(axis @ covariance @ axis)
+    return sqrt(max(0.0, 0.5 * across))
 
 
 def across_sigma(fix: NeedleFix, axis: FloatArray, depth: float) -> float:

@@ -65,11 +65,14 @@ def risk_marks_of(
     samples: Samples, placed: PlacedPlan, risks: Iterable[Risk]
 ) -> tuple[RiskMark, ...]:
     """How near the needle came to each structure; none if it was never seen in the body."""
+    wanted = tuple(risks)
+    if not wanted:
+        return ()
     rows, lines, spans = _needles(samples, placed)
     if not len(rows):
         return ()
     found = []
-    for risk in risks:
+    for risk in wanted:
         rough = _roughly(lines, risk.field)
         best = min(
             (_exactly(lines[n], risk.field), n)

@@ -171,8 +171,10 @@ class RunningAttempt:
         reason = seen.fatal(began, held_arming, simulated)
         if reason:
             return reason
+        pose, away = seen.pose, seen.offset.distance
+        depth = pose.depth if pose.measured else None
         self._classifier, event = classify(
-            self._classifier, attempt.state, seen.pose, seen.offset.distance, self._thresholds
+            self._classifier, attempt.state, pose.time, depth, away, self._thresholds
         )
         silence = inputs.silence(seen.time)
         pause = self._pauses.judge(

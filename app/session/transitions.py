@@ -15,6 +15,7 @@ What the cameras cost the student may void a score (`Rules.maximum_pause`); a bu
 simulated hand are the program's own trouble and cost nothing.
 """
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from enum import StrEnum
@@ -68,11 +69,12 @@ class Classifier:
 def classify(
     memory: Classifier,
     state: State,
-    pose: NeedlePose,
+    time: float,
+    depth: float | None,
     distance: float,
     limits: Thresholds = DEFAULT,
 ) -> tuple[Classifier, AttemptEvent | None]:
-    """Look at one pose.
+    """Look at the needle at one moment.
 
     A depth that the cameras do not vouch for moves nothing and breaks a beginning hold. The speed
     is judged as the spread of the depth over the whole window, so that camera noise at one pose
@@ -81,45 +83,54 @@ def classify(
     Args:
         memory: what the last call returned.
         state: the attempt's state.
-        pose: newest pose.
+        time: moment of the newest pose [s].
+        depth: its depth [m]; None where the cameras do not vouch for it.
         distance: from the tip to the target [m].
         limits: thresholds.
 
     Returns:
         The new memory, and the event that the pose means, if any.
     """
-    if not pose.measured:
+    if depth is None:
         return replace(memory, window=()), None
-    memory = _remember(memory, pose, limits)
+    memory = _remember(memory, time, depth, limits)
     if state is State.ALIGNING:
-        return memory, AttemptEvent.INSERT if pose.depth > limits.insert_depth else None
+        return memory, AttemptEvent.INSERT if depth > limits.insert_depth else None
     if state not in (State.INSERTING, State.HOLDING):
         return memory, None
-    if pose.depth < limits.withdraw_depth:
+    if depth < limits.withdraw_depth:
         return Classifier(), AttemptEvent.WITHDRAW
     if state is State.INSERTING:
-        return _begin_hold(memory, pose, distance, limits)
-    if abs(pose.depth - memory.held_depth) > limits.move_distance:
+        return _begin_hold(memory, distance, limits)
+    if abs(depth - memory.held_depth) > limits.move_distance:
         return Classifier(), AttemptEvent.INSERT
     return memory, None
 
 
-def _remember(memory: Classifier, pose: NeedlePose, limits: Thresholds) -> Classifier:
+def _remember(memory: Classifier, time: float, depth: float, limits: Thresholds) -> Classifier:
     """Append the pose; of those older than the window keep one, so that the window spans it."""
-    window = (*(entry for entry in memory.window if entry[0] < pose.time), (pose.time, pose.depth))
-    start = pose.time - limits.hold_time
-    first = max((i for i, (time, _) in enumerate(window) if time <= start + 1e-9), default=0)
-    return replace(memory, window=window[first:])
+    window = memory.window
+    if window and window[-1][0] >= time:  # the clock stood still: the newest counts
+        window = window[: bisect_left(window, time, key=_time)]
+    window = (*window, (time, depth))
+    first = bisect_right(window, time - limits.hold_time + 1e-9, key=_time) - 1
+    return replace(memory, window=window[max(first, 0) :])
+
+
+def _time(entry: tuple[float, float]) -> float:
+    return entry[0]
 
 
 def _begin_hold(
-    memory: Classifier, pose: NeedlePose, distance: float, limits: Thresholds
+    memory: Classifier, distance: float, limits: Thresholds
 ) -> tuple[Classifier, AttemptEvent | None]:
+    (began, _), (time, depth) = memory.window[0], memory.window[-1]
+    spans = time - began >= limits.hold_time - 1e-9
+    if not (spans and distance < limits.hold_distance):
+        return memory, None
     depths = [depth for _, depth in memory.window]
-    spans = pose.time - memory.window[0][0] >= limits.hold_time - 1e-9
-    still = max(depths) - min(depths) < limits.hold_rate * limits.hold_time
-    if spans and still and distance < limits.hold_distance:
-        return replace(memory, held_depth=pose.depth), AttemptEvent.HOLD
+    if max(depths) - min(depths) < limits.hold_rate * limits.hold_time:
+        return replace(memory, held_depth=depth), AttemptEvent.HOLD
     return memory, None
 
 

@@ -22,6 +22,13 @@ STILL = NeedlePose(
 )
 
 
+def look(
+    memory: Classifier, state: State, pose: NeedlePose, distance: float
+) -> tuple[Classifier, AttemptEvent | None]:
+    """Look at a pose as a running attempt does."""
+    return classify(memory, state, pose.time, pose.depth if pose.measured else None, distance)
+
+
 def play(
     depths: np.ndarray, state: State, distance: float = 0.001, **pose: object
 ) -> list[AttemptEvent]:
@@ -29,7 +36,7 @@ def play(
     memory, events = Classifier(), []
     for k, depth in enumerate(depths):
         seen = replace(STILL, depth=float(depth), time=k * 0.02, **pose)
-        memory, event = classify(memory, state, seen, distance)
+        memory, event = look(memory, state, seen, distance)
         if event is not None:
             state = TABLE[state, event]
             events.append(event)
@@ -92,7 +99,7 @@ def test_a_depth_that_no_camera_vouches_for_moves_nothing(source: DepthSource) -
 def test_poses_at_equal_times_replace_one_another() -> None:
     memory = Classifier()
     for depth in (0.01, 0.02, 0.03):
-        memory, event = classify(memory, State.INSERTING, replace(STILL, depth=depth), 0.0)
+        memory, event = look(memory, State.INSERTING, replace(STILL, depth=depth), 0.0)
         assert event is None
     assert memory.window == ((0.0, 0.03),)
 
@@ -101,5 +108,5 @@ def test_the_window_stays_short() -> None:
     memory = Classifier()
     for k in range(5000):
         pose = replace(STILL, depth=0.05, time=k * 0.02)
-        memory, _ = classify(memory, State.ALIGNING, pose, 1.0)
+        memory, _ = look(memory, State.ALIGNING, pose, 1.0)
     assert len(memory.window) <= 52

@@ -73,8 +73,8 @@ from app.views.shell.feature import Context, Feature
 from app.views.slices.panes import PaneId
 
 COST_AFTER_MS = 400
-TRIAL_AFTER_MS = 1500
-TRIAL_SEEDS = (1, 5)
+TRIAL_AFTER_MS = 700
+TRIAL_SEEDS = (2, 20)
 
 
 class ExerciseDialog(Wizard):

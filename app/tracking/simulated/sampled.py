@@ -1,0 +1,263 @@
+"""What the tracker measures, from where the marker truly is: no pictures are rendered.
+
+Two ways, for attempts in virtual time. `SampledTracker` gives whole fixes by the tracker's own
+solver, one after the other. `SampledDepth` is a stage of the loop: it writes the depth that would
+be believed into the loop's inputs, with the noise that the first way has at that depth, and costs a
+few nanoseconds a tick. `compose.trial` tabulates it with the first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import hypot, inf
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from app.core import state_vector as sv
+from app.core.arrays import FloatArray
+from app.core.compiled import njit, stage
+from app.core.parameters import Stage, numbered, packed
+from app.core.units import MILLIMETRE, MILLISECOND
+from app.tracking.fix import NeedleFix
+from app.tracking.health import Hiding
+from app.tracking.markers.extractor import Centre
+from app.tracking.optics.rig import RigProfile
+from app.tracking.simulated.scene import MarkerScene, Scene
+from app.tracking.solver import FixSolver, SeenMarker
+
+ALONG_PX: Final = 0.015
+ACROSS_PX: Final = 0.02
+"""Standard deviation of a marker's centre in one picture [px], along the needle as it is seen and
+across it: measured in 333 rendered pictures of rig `wide`, whose noise is 4 grey values, at depths
+from -15 to 108 mm and tilts up to 40°. Robust figures (1.48 times the median): rare
+pictures, further off across the needle (0.035 px with them), are not modelled."""
+
+MISSED: Final = 0.01
+"""Share of pictures in which the marker is not found though it is there: 3 of 336 of them."""
+
+NOISE_GREY: Final = 4.0
+"""Noise of the pictures that these were measured in; they grow with it in proportion."""
+
+PROCESSING: Final = 0.005
+"""From a pair's arrival to its fix [s]: a followed pair takes 2 to 5 ms of one processor."""
+
+
+class SampledTracker:
+    """Fixes as the tracker would give them, from where the marker truly is instead of pictures.
+
+    The band's centre is projected into both cameras by their own models, Gaussian noise is added
+    along and across the needle as the picture shows it, and the tracker's own solver makes the fix
+    of it: status, covariance and a fix by one camera come from there. A camera does not see a band
+    that leaves its picture or that the tube hides, and misses one of a hundred. Of a second camera
+    that captures later (`skew_ms`) the tracker takes the pixel at the first's time, as this does.
+
+    Args:
+        rig: cameras and needle.
+        fulcrum: P_I in world [m], shape (3,).
+        scene: what stands before the cameras at a time.
+        axis: the needle's direction by the robot at a time; None while it is not known.
+        seed: of the noise.
+    """
+
+    def __init__(
+        self,
+        rig: RigProfile,
+        fulcrum: FloatArray,
+        scene: Scene,
+        axis: Callable[[float], FloatArray | None],
+        seed: int = 0,
+    ) -> None:
+        self._rig = rig
+        self._models = rig.models
+        self._fulcrum = fulcrum
+        self._scene = scene
+        self._axis = axis
+        self._solver = FixSolver(rig, fulcrum)
+        self._hiding = Hiding(rig.needle)
+        self._random = np.random.default_rng([seed, 7])
+        self._sd = np.array([ALONG_PX, ACROSS_PX]) * max(rig.noise_grey, 1.0) / NOISE_GREY
+        self._delay = rig.latency_ms * MILLISECOND + PROCESSING
+        self._next = inf
+
+    def begin(self, now: float) -> None:
+        """Capture from `now` [s] on."""
+        self._next = now
+
+    def due(self, now: float) -> list[NeedleFix]:
+        """Return the fixes that have come since they were last asked for, at `now` [s]."""
+        fixes = []
+        while self._next + self._delay <= now + 1e-9:
+            fixes.append(self.fix(self._next))
+            self._next += 1.0 / self._rig.rate_hz
+        return fixes
+
+    def fix(self, time: float) -> NeedleFix:
+        """Return the fix of pictures captured at a time [s]."""
+        scene = self._scene(time)
+        seen = (self._sighting(0, scene), self._sighting(1, scene))
+        return self._hiding.judge(self._solver.solve(seen, self._axis(time), time))
+
+    def noiseless(
+        self, scene: MarkerScene, axis: FloatArray, cameras: tuple[bool, bool]
+    ) -> NeedleFix:
+        """Return the fix of pictures without noise; of `cameras` those that find the marker."""
+        none = np.zeros(2)
+        seen = [self._shown(k, scene, none) if found else None for k, found in enumerate(cameras)]
+        return self._solver.solve((seen[0], seen[1]), axis, 0.0)
+
+    def _sighting(self, camera: int, scene: MarkerScene) -> SeenMarker | None:
+        noise = self._random.standard_normal(2)
+        missed = self._random.random() < MISSED
+        return None if missed else self._shown(camera, scene, noise)
+
+    def _shown(self, camera: int, scene: MarkerScene, noise: FloatArray) -> SeenMarker | None:
+        """Return what a camera shows; noise in standard deviations along and across the needle."""
+        model = self._models[camera]
+        if not scene.visible or self._hidden(scene):
+            return None
+        ends = (scene.p_world, scene.p_world + MILLIMETRE * scene.axis_world)
+        uv, found = model.project(np.array(ends))
+        (u, v), (u_on, v_on) = uv.tolist()
+        width, height = model.image_size
+        if not (found.all() and 0.0 <= u <= width - 1.0 and 0.0 <= v <= height - 1.0):
+            return None
+        length = hypot(u_on - u, v_on - v)
+        c, s = ((u_on - u) / length, (v_on - v) / length) if length > 1e-9 else (1.0, 0.0)
+        a, b = self._sd * noise
+        var_a, var_b = self._sd**2
+        mixed = c * s * (var_a - var_b)
+        spread = [
+            [c * c * var_a + s * s * var_b, mixed],
+            [mixed, s * s * var_a + c * c * var_b],
+        ]
+        centre = np.array([u + c * a - s * b, v + s * a + c * b])
+        return SeenMarker(centre, np.array(spread), Centre.BAND)
+
+    def _hidden(self, scene: MarkerScene) -> bool:
+        hidden = self._rig.needle.hidden_mm
+        beyond = float((scene.p_world - self._fulcrum) @ scene.axis_world) / MILLIMETRE
+        return hidden is not None and hidden[0] < beyond < hidden[1]
+
+
+_DRAWS: Final = 1024
+_WAITING: Final = 32
+BOTH, FIRST, SECOND = 0, 1, 2
+"""Columns of the table of `SampledDepth`: which cameras find the marker."""
+
+
+class _SampledDepthPlaces(NamedTuple):
+    """Constants, then memory; behind them the fixes on their way, the noise and the table."""
+
+    period: int
+    delay: int
+    agreeing: int
+    forgotten: int
+    least: int
+    step: int
+    rows: int
+    drawn: int = 0
+    taken: int = 0
+    given: int = 0
+    next: int = 0
+    last: int = 0
+    agreed: int = 0
+    depth: int = 0
+    time: int = 0
+    variance: int = 0
+
+
+_AT: Final = numbered(_SampledDepthPlaces)
+_QUEUE: Final = len(_AT)
+_NOISE: Final = _QUEUE + 3 * _WAITING
+_TABLE: Final = _NOISE + 3 * _DRAWS
+
+
+@njit
+def _capture(state: FloatArray, p: FloatArray) -> None:
+    """Take both pictures: the true depth with the noise of the cameras that find the marker."""
+    draw = _NOISE + 3 * (int(p[_AT.drawn]) % _DRAWS)
+    p[_AT.drawn] += 1.0
+    first, second = p[draw + 1] >= MISSED, p[draw + 2] >= MISSED
+    depth = state[sv.PLANT_DEPTH]
+    row = int((depth - p[_AT.least]) / p[_AT.step] + 0.5)
+    row = min(max(row, 0), int(p[_AT.rows]) - 1)
+    at = _TABLE + 6 * row
+    which = BOTH if first and second else FIRST if first else SECOND
+    if not (first or second) or not np.isfinite(p[at + 2 * which]):
+        return
+    waiting = _QUEUE + 3 * (int(p[_AT.taken]) % _WAITING)
+    p[waiting] = depth + p[at + 2 * which] * p[draw]
+    p[waiting + 1] = state[sv.TIME]
+    p[waiting + 2] = p[at + 2 * which + 1]
+    p[_AT.taken] += 1.0
+
+
+@stage
+def sampled_depth(state: FloatArray, p: FloatArray) -> None:
+    """Write TRACKED_*: the newest believed depth, its time and its variance."""
+    now = state[sv.TIME]
+    if p[_AT.next] == 0.0:
+        p[_AT.next] = now
+    if now >= p[_AT.next] - 1e-9:
+        p[_AT.next] += p[_AT.period]
+        _capture(state, p)
+    while p[_AT.given] < p[_AT.taken]:
+        waiting = _QUEUE + 3 * (int(p[_AT.given]) % _WAITING)
+        time = p[waiting + 1]
+        if time + p[_AT.delay] > now + 1e-9:
+            break
+        p[_AT.given] += 1.0
+        known = p[_AT.last] > 0.0 and time - p[_AT.last] <= p[_AT.forgotten]
+        p[_AT.agreed] = min(p[_AT.agreed] + 1.0, p[_AT.agreeing]) if known else 0.0
+        p[_AT.last] = time
+        believed = p[_AT.agreed] >= p[_AT.agreeing]
+        p[_AT.depth], p[_AT.variance] = p[waiting], p[waiting + 2]
+        p[_AT.time] = time if believed else 0.0
+    state[sv.TRACKED_DEPTH] = p[_AT.depth]
+    state[sv.TRACKED_TIME] = p[_AT.time]
+    state[sv.TRACKED_VARIANCE] = p[_AT.variance]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SampledDepth:
+    """The cameras as a stage of the loop.
+
+    Attributes:
+        table: standard deviation of the noise [m] and stated variance [m²] of a depth, by which
+            cameras find the marker (`BOTH`, `FIRST`, `SECOND`); infinite where there is no
+            measurement; shape (n, 3, 2).
+        least: depth of the table's first row [m].
+        step: from a row to the next [m].
+        period: from pair to pair [s].
+        delay: from capture to fix [s].
+        agreeing: depths that have to agree with a first one before one is believed.
+        forgotten: time without any after which the next is a first one again [s].
+    """
+
+    table: FloatArray
+    least: float
+    step: float
+    period: float
+    delay: float
+    agreeing: int
+    forgotten: float
+
+    def stage(self, seed: int) -> Stage:
+        """Return the stage, which begins to capture with its first tick; `seed` of its noise."""
+        random = np.random.default_rng([seed, 7])
+        noise = np.column_stack([random.standard_normal(_DRAWS), random.random((_DRAWS, 2))])
+        behind = np.zeros(3 * _WAITING), noise.ravel(), self.table.ravel()
+        parameters = packed(
+            _AT,
+            *behind,
+            period=self.period,
+            delay=self.delay,
+            agreeing=float(self.agreeing),
+            forgotten=self.forgotten,
+            least=self.least,
+            step=self.step,
+            rows=float(len(self.table)),
+        )
+        return Stage("cameras", sampled_depth, parameters)
