@@ -275,24 +275,6 @@ def standings(
     return found
 
 
-def comes_next(
-    found: Mapping[str, Standing], exercises: Sequence[Exercise], student: Person | None
-) -> str:
-    """Return the first exercise that is not passed yet: of a student's course, else of all.
-
-    Args:
-        found: how far he has come.
-        exercises: that there are, easiest first.
-        student: who; None for everybody.
-    """
-    order = [one.id for one in exercises]
-    for course in courses()[0] if student is not None else ():
-        if student is not None and course.takes(student):
-            order = [item.exercise for item in course.items if item.exercise in order]
-            break
-    return next((name for name in order if not found.get(name, Standing()).passed), "")
-
-
 def _why_not_counted(one: Indexed, item: CourseItem, said: Remarks | None) -> str:
     if one.verdict == Signed.ALTERED:
         return "altered after it was signed"

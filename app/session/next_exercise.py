@@ -8,7 +8,7 @@ of records.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
@@ -116,19 +116,58 @@ def propose(
         if tries >= TRIES and easier:
             return proposal(_best_for(easier, name)[0], ProposalReason.EASIER, tries)
         return again(ProposalReason.AGAIN, tries)
-    if done in in_course:
-        for one in in_course[in_course.index(done) + 1 :] + in_course[: in_course.index(done)]:
-            if one in by_id and one not in passed and not refused(one):
-                return proposal(by_id[one], ProposalReason.COURSE)
-        return again(ProposalReason.DONE)
-    left = [one for one in exercises if one.id not in passed and not refused(one.id)]
+    left = still_open(exercises, course if done in in_course else None, passed, refused)
     if not left:
         return again(ProposalReason.DONE)
-    level = same.level if same is not None else 0
-    above = [one for one in left if one.level >= level] or left
-    lowest = [one for one in above if one.level == above[0].level]
+    if done in in_course:
+        return proposal(left[0], ProposalReason.COURSE)
+    lowest = [one for one in left if one.level == left[0].level]
     found, trains = _best_for(lowest, name)
     return proposal(found, ProposalReason.WEAKNESS if trains else ProposalReason.LEVEL)
+
+
+def still_open(
+    exercises: Sequence[Exercise],
+    course: Course | None,
+    passed: Container[str],
+    refused: Callable[[str], str] = lambda _: "",
+) -> list[Exercise]:
+    """Return what is not passed yet and may be begun, what comes first at the front.
+
+    In a course that is its order, else that of the exercises, the easiest first. Start page and
+    debrief both go by it; of equally easy ones the debrief prefers what trains what cost most.
+
+    Args:
+        exercises: that there are, easiest first.
+        course: whose exercises alone count; None for all.
+        passed: ids of those that were passed.
+        refused: says why an exercise may not be begun now; empty where it may.
+    """
+    by_id = {one.id: one for one in exercises}
+    order = list(by_id) if course is None else [item.exercise for item in course.items]
+    return [by_id[one] for one in order if one in by_id and one not in passed and not refused(one)]
+
+
+def comes_next(
+    passed: Container[str],
+    exercises: Sequence[Exercise],
+    student: Person | None,
+    refused: Callable[[str], str] = lambda _: "",
+) -> str:
+    """Return the exercise that comes next: of a student's course, else of all; empty for none.
+
+    Args:
+        passed: ids of the exercises that were passed.
+        exercises: that there are, easiest first.
+        student: who; None for everybody.
+        refused: says why an exercise may not be begun now; empty where it may.
+
+    Raises:
+        SessionError: if the courses cannot be read.
+    """
+    some = courses()[0] if student is not None else ()
+    course = next((one for one in some if student is not None and one.takes(student)), None)
+    return next((one.id for one in still_open(exercises, course, passed, refused)), "")
 
 
 def _fits(one: Exercise, in_course: Sequence[str]) -> bool:

@@ -14,7 +14,7 @@ from app.scoring.rows import Row, ScoreRules
 from app.scoring.tolerance import Tolerance
 from app.session.course import Course, CourseItem, holding
 from app.session.index import Indexed
-from app.session.next_exercise import TRIES, ProposalReason, around, held_by, propose
+from app.session.next_exercise import TRIES, ProposalReason, around, comes_next, held_by, propose
 from app.session.people import People, Person
 from app.session.roster import RosterLine
 from app.session.sidecar import write_summary
@@ -102,17 +102,27 @@ def course(*names, ordered=False, purpose=Purpose.PRACTICE):
     return Course(id="autumn", title="Autumn", ordered=ordered, groups=("A",), items=items)
 
 
-def test_in_a_course_the_next_one_of_the_course_follows_then_what_was_skipped():
+def test_in_a_course_the_first_that_is_not_passed_follows_also_one_that_was_skipped():
     names = ("thick-tissue", "scans-only", "first-insertion")
     found = propose("scans-only", score(0.5), [], EXERCISES, course(*names))
-    assert (found.exercise, found.reason) == ("first-insertion", ProposalReason.COURSE)
+    assert (found.exercise, found.reason) == ("thick-tissue", ProposalReason.COURSE)
     assert found.course == "Autumn"
-    before = [done("first-insertion", True)]
+    before = [done("thick-tissue", True)]
     found = propose("scans-only", score(0.5), before, EXERCISES, course(*names))
-    assert found.exercise == "thick-tissue"
-    before.append(done("thick-tissue", True))
+    assert found.exercise == "first-insertion"
+    before.append(done("first-insertion", True))
     found = propose("scans-only", score(0.5), before, EXERCISES, course(*names))
     assert found.reason is ProposalReason.DONE
+
+
+def test_start_page_and_debrief_name_the_same_exercise():
+    for passed in (set(), {"first-insertion"}, {"first-insertion", "thick-tissue"}):
+        before = [done(name, True) for name in sorted(passed)]
+        found = propose("plan-it-yourself", score(0.5), before, EXERCISES)
+        there = comes_next(passed | {"plan-it-yourself"}, EXERCISES, None)
+        level = {one.id: one.level for one in EXERCISES}
+        # Of equally easy ones the debrief prefers what trains what cost most.
+        assert level[found.exercise] == level[there]
 
 
 def test_what_may_not_be_begun_is_not_proposed():

@@ -434,10 +434,12 @@ class StartFacts(QObject):
             self._standings.drop()
 
         def read(_: Progress) -> tuple[dict[str, Standing], str]:
-            from app.session.board import comes_next, standings  # SQLAlchemy: beside the window
+            from app.session.board import standings  # SQLAlchemy: beside the window
+            from app.session.next_exercise import comes_next
 
             found = standings(folder, exercises, student, ACCESS.may_see)
-            return found, comes_next(found, exercises, student)
+            passed = {name for name, standing in found.items() if standing.passed}
+            return found, comes_next(passed, exercises, student, ACCESS.refusal)
 
         def show(found: tuple[dict[str, Standing], str]) -> None:
             whose = (
