@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from app.compose import trial
+from app.compose.trainer import TrainerSetup, build_loop
 from app.compose.trial import (
     SkillOutcome,
     Trials,
@@ -22,7 +23,10 @@ from app.core.clock import VirtualClock
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
 from app.session.fusion import fix_depth
+from app.session.inputs import LoopInputs
+from app.session.motion import ShownMotion, motion
 from app.simulation.skills import SKILLS
+from app.simulation.trainee import ScriptPhase
 from app.tracking.fix import FixStatus
 from app.tracking.optics.rig import load_rig
 from app.tracking.simulated.cameras import simulated_cameras
@@ -237,6 +241,36 @@ def test_a_trial_leaves_nothing_behind_and_is_the_same_twice(first, trials, resu
     assert trials.score("novice", 2).score == trials.score("novice", 2).score
     assert trials.score("novice", 2).score != trials.score("novice", 3).score
     assert not list(paths.sessions().glob("*"))
+
+
+def test_a_recorded_attempt_is_led_again_by_the_scripted_hand(first, results):
+    """What a demonstration shows of it: the novice's movement, not the expert's."""
+    exercise, placed = first
+    was = motion(results["novice"].recording.samples, placed)
+    script = ShownMotion.of(was, exercise.id, exercise.version).script(placed)
+    clock = VirtualClock(10.0)
+    setup = TrainerSetup(exercise, placed, skill="expert", clock=clock, script=script)
+    loop = build_loop(setup, device_of(exercise))
+    inputs = LoopInputs(loop.inbox)
+    inputs.prepare(placed, 0.0)
+    loop.open()
+    inputs.arm(True)
+    rows = []
+    for _ in range(round(script.duration / 0.02) + 60):
+        inputs.heartbeat(clock.now())
+        loop.step(20)
+        rows.append(loop.latest().row)
+        if rows[-1][sv.TRAINEE_PHASE] == ScriptPhase.DONE:
+            break
+    loop.close()
+    rows = np.array(rows)
+    assert rows[-1, sv.TRAINEE_PHASE] == ScriptPhase.DONE
+    assert rows[-1, sv.PLANT_DEPTH] == pytest.approx(was.depth[was.last], abs=1e-3)
+    turned = np.arccos(np.clip(rows[-1, sv.AXIS] @ was.axis[was.last], -1.0, 1.0))
+    assert np.degrees(turned) < 0.6
+    # The novice redirects: the needle comes back before it goes on.
+    depth = rows[:, sv.PLANT_DEPTH]
+    assert (np.maximum.accumulate(depth) - depth).max() > 0.01
 
 
 def test_skills_stand_on_the_published_angles():

@@ -230,6 +230,7 @@ class Desktop:
             from app.compose.pen import pen_settings
             from app.compose.trainer import TrainerSetup, build_rig
             from app.core.temporary import temporary_folder
+            from app.session.motion import ShownMotion
         risks = load_risks(setup.exercise, setup.volume, progress.part(0.0, 0.1))
         progress.report(0.1, "compiling the loop")
         seed = setup.exercise.seed if self._seed is None else self._seed
@@ -239,6 +240,8 @@ class Desktop:
         shows = setup.demonstrates
         skill = DEMONSTRATOR if shows else self._skill
         kept = temporary_folder("demonstration") if shows else self._sessions
+        exercise = setup.exercise
+        shown = ShownMotion.kept(exercise.id, exercise.version) if shows else None
         trainer = TrainerSetup(
             setup.exercise,
             setup.placed,
@@ -251,6 +254,7 @@ class Desktop:
             cameras=setup.cameras,
             pen=pen_settings(setup.robot.pen) if setup.robot.pen else None,
             risks=risks,
+            script=None if shown is None else shown.script(setup.placed),
         )
         rig = build_rig(trainer)
         try:

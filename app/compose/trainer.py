@@ -45,7 +45,7 @@ from app.session.trainer import Trainer
 from app.session.withdrawal import Start
 from app.simulation.hand_motion import hand_stage
 from app.simulation.plant import initial_plant, plant_stage
-from app.simulation.trainee import trainee_stage
+from app.simulation.trainee import TraineeScript, script_stage, trainee_stage
 from app.tracking.cameras.settings import CameraSettings
 from app.tracking.errors import TrackingError
 from app.tracking.motion.depth_filter import FASTEST
@@ -161,6 +161,7 @@ class TrainerSetup:
         ct: the CT, for the record.
         skill: `novice` or `expert` lets a scripted trainee insert the needle; None leaves it to
             the mouse.
+        script: what the scripted trainee does, in place of what his skill would; None for that.
         seed: of everything random in the run.
         sessions: folder of the records.
         clock: monotonic clock; a virtual one for runs faster than real time.
@@ -184,6 +185,7 @@ class TrainerSetup:
     cameras: CameraSettings | None = None
     pen: PenSettings | None = None
     risks: tuple[Risk, ...] = ()
+    script: TraineeScript | None = None
 
 
 def build_trainer(setup: TrainerSetup) -> Trainer:
@@ -369,7 +371,11 @@ def loop_table(
         link = Link.of([hand_stage(profile.geometry.needle_length), *link.read], link.write)
     if (simulated or robot is not None) and setup.skill is not None:
         placed = setup.placed
-        trainee = trainee_stage(placed.axis, placed.length, setup.skill, setup.seed)
+        trainee = (
+            trainee_stage(placed.axis, placed.length, setup.skill, setup.seed)
+            if setup.script is None
+            else script_stage(setup.script, placed.axis)
+        )
         link = Link.of([trainee, *link.read], link.write)
     requests = law_requests(exercise)
     plan = compile_exercise(exercise, profile, declared_views(), simulated)

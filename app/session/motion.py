@@ -7,21 +7,27 @@ another attempt that may be compared, at the same time or at the same depth.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from app.core import paths
 from app.core.arrays import FloatArray, read_only
 from app.core.bend import Bend, needle_curve
+from app.core.files import write_atomically
+from app.core.transform import rotation_between
 from app.core.units import MILLIMETRE
 from app.planning.needle_overlay import NeedleOverlay
 from app.planning.off_path import Offset, offset, path_to
 from app.planning.placement import PlacedPlan
 from app.scoring.conditions import Conditions, comparable
+from app.session.errors import SessionError
 from app.session.machine import State
 from app.session.needle import FROM_CAMERAS
 from app.session.samples import Samples
@@ -29,9 +35,15 @@ from app.session.samples import Samples
 if TYPE_CHECKING:
     from app.session.index import Indexed
     from app.session.recording import Recording
+    from app.simulation.trainee import TraineeScript
 
 NEEDLE_LENGTH: Final = 0.15
 """Length of the drawn shaft [m] where the record's profile does not tell it."""
+
+SHOWN_EVERY: Final = 0.02
+"""Time between the samples that are kept of an attempt to be shown [s]."""
+
+_SHOWN: Final = ("time", "axis", "depth", "path")
 
 _BEFORE: Final = (State.READY.value, State.WITHDRAWING.value)
 
@@ -182,6 +194,106 @@ def needle_length(recording: Recording) -> float:
     except (KeyError, TypeError, ValueError, RecursionError):
         return NEEDLE_LENGTH
     return length if 0.0 < length < 10.0 else NEEDLE_LENGTH
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ShownMotion:
+    """How the needle was led in the attempt that an instructor chose to be shown.
+
+    It is the demonstration of its exercise, in place of the scripted expert. Nothing of the record
+    but the movement is kept: no name, no score; the attempt may be erased and the movement stay.
+
+    Attributes:
+        exercise: id.
+        version: of the exercise; another one is shown by the expert.
+        time: of the samples [s], shape (n,).
+        axis: needle directions in world, shape (n, 3).
+        depth: of the tip [m], shape (n,).
+        path: direction of the path then, shape (3,).
+    """
+
+    exercise: str
+    version: int
+    time: FloatArray
+    axis: FloatArray
+    depth: FloatArray
+    path: FloatArray
+
+    @classmethod
+    def of(cls, motion: NeedleMotion, exercise: str, version: int) -> ShownMotion:
+        """Take the part of an attempt in which the cameras saw the needle, at `SHOWN_EVERY`.
+
+        Raises:
+            SessionError: if the needle was seen for less than a second.
+        """
+        rows = np.flatnonzero(motion.measured & np.isfinite(motion.axis).all(axis=1))
+        rows = rows[rows >= motion.begin]
+        kept: list[int] = []
+        for row in rows.tolist():
+            if not kept or motion.time[row] - motion.time[kept[-1]] >= SHOWN_EVERY - 1e-9:
+                kept.append(row)
+        if not kept or motion.time[kept[-1]] - motion.time[kept[0]] < 1.0:
+            raise SessionError("the cameras saw the needle for less than a second of this attempt")
+        path = motion.placed.axis
+        return cls(
+            exercise, version, motion.time[kept], motion.axis[kept], motion.depth[kept], path
+        )
+
+    @classmethod
+    def kept(cls, exercise: str, version: int) -> ShownMotion | None:
+        """Return what was chosen for an exercise; None for the scripted expert.
+
+        Another version's movement is none, and so is a file that cannot be used: the expert shows
+        the exercise then.
+        """
+        try:
+            said = json.loads(_shown_file(exercise).read_bytes())
+            arrays = [np.array(said[key], dtype=np.float64) for key in _SHOWN]
+            if said["format"] != 1 or said["exercise"] != exercise or said["version"] != version:
+                return None
+        except (OSError, SessionError, KeyError, TypeError, ValueError, RecursionError):
+            return None
+        time, axis, depth, path = arrays
+        shapes = axis.shape == (*time.shape, 3) and depth.shape == time.shape == (len(time),)
+        usable = shapes and path.shape == (3,) and all(np.isfinite(one).all() for one in arrays)
+        if not usable or len(time) < 2 or not (np.diff(time) > 0.0).all():
+            return None
+        return cls(exercise, version, time, axis, depth, path)
+
+    def save(self) -> None:
+        """Keep it as the demonstration of its exercise; replaces one that was chosen before.
+
+        Raises:
+            OSError: if it cannot be written.
+            SessionError: if the record names no identifier of an exercise.
+        """
+        document = {"format": 1, "exercise": self.exercise, "version": self.version} | {
+            key: np.round(getattr(self, key), 7).tolist() for key in _SHOWN
+        }
+        write_atomically(_shown_file(self.exercise), json.dumps(document).encode())
+
+    def script(self, placed: PlacedPlan) -> TraineeScript:
+        """Script the movement about a plan: turned with the path, should that lie otherwise now."""
+        from app.simulation.trainee import traced_script  # compiled: for who shows it
+
+        turn = rotation_between(self.path, placed.axis)
+        return traced_script(self.time, self.axis @ turn.T, self.depth, placed.axis)
+
+
+def show_expert(exercise: str) -> None:
+    """Let the scripted expert show an exercise again.
+
+    Raises:
+        OSError: if the file cannot be removed.
+        SessionError: if that is no identifier of an exercise.
+    """
+    _shown_file(exercise).unlink(missing_ok=True)
+
+
+def _shown_file(exercise: str) -> Path:
+    if not re.fullmatch(r"[a-z0-9][a-z0-9-]{0,63}", exercise):
+        raise SessionError(f"{exercise!r} is no identifier of an exercise")
+    return paths.data() / "demonstrations" / f"{exercise}.json"
 
 
 def rows_beside(own: NeedleMotion, other: NeedleMotion, by: Alignment) -> Rows:

@@ -225,8 +225,53 @@ def trainee_stage(
     """
     if not 0.05 <= speed <= 20.0:
         raise SimulationError(f"speed factor is {speed}; give 0.05 to 20")
-    script = write_script(axis, depth, find_skill(skill), seed)
+    return script_stage(write_script(axis, depth, find_skill(skill), seed), axis, speed)
+
+
+def script_stage(script: TraineeScript, axis: FloatArray, speed: float = 1.0) -> Stage:
+    """Build the stage that plays a script about the path along `axis` (hub to tip, shape (3,))."""
     return Stage("trainee", step, _parameters(script, unit(axis, "axis"), speed))
+
+
+def traced_script(
+    time: FloatArray, axes: FloatArray, depth: FloatArray, axis: FloatArray
+) -> TraineeScript:
+    """Script a movement that was made before, for a hand that leads the needle along it again.
+
+    Args:
+        time: of its samples [s], rising, shape (n,), n > 1.
+        axes: directions of the needle, unit vectors, shape (n, 3).
+        depth: of the tip [m], shape (n,).
+        axis: direction of the path, shape (3,).
+
+    Raises:
+        SimulationError: if a number is not finite, or there are less than two samples.
+    """
+    numbers = np.column_stack([time, axes, depth])
+    if len(numbers) < 2 or not np.isfinite(numbers).all():
+        raise SimulationError("a movement to be shown needs two finite samples at least")
+    basis = tangent_basis(unit(axis, "axis"))
+    e1, e2 = tangents(axes, unit(axis, "axis"), basis)
+    hover = round(1.0 / STEP)  # the hand comes to where the movement begins
+    at = time[0] + np.arange(int((time[-1] - time[0]) / STEP) + 1) * STEP
+    rows = np.column_stack([*(np.interp(at, time, one) for one in (e1, e2, depth)), 0.0 * at])
+    rows[:, 3] = float(ScriptPhase.INSERT)
+    rows = np.vstack([np.tile(rows[0], (hover, 1)), rows])
+    rows[:hover, 3], rows[-1, 3] = float(ScriptPhase.HOVER), float(ScriptPhase.DONE)
+    return TraineeScript(read_only(rows), read_only(np.zeros((TREMOR_ROWS, 3))), read_only(basis))
+
+
+def tangents(
+    axes: FloatArray, axis: FloatArray, basis: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Angles e1, e2 [rad] by which directions, (n, 3), are turned from the path, shapes (n,).
+
+    The inverse of the exponential map that the script is played by.
+    """
+    along, a, b = axes @ axis, axes @ basis[0], axes @ basis[1]
+    sine = np.hypot(a, b)
+    turn = np.divide(np.arctan2(sine, along), sine, out=np.ones_like(sine), where=sine > 1e-9)
+    return turn * a, turn * b
 
 
 def _parameters(script: TraineeScript, axis: FloatArray, speed: float) -> FloatArray:

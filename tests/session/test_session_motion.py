@@ -8,13 +8,24 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.core import paths
 from app.core.bend import Bend
 from app.core.units import MILLIMETRE
 from app.planning.placement import PlacedPlan, Placement
 from app.planning.plan import Plan
 from app.scoring.conditions import Conditions, DeviceKind
+from app.session.errors import SessionError
 from app.session.index import Indexed
-from app.session.motion import NEEDLE_LENGTH, Alignment, beside, motion, rivals, rows_beside
+from app.session.motion import (
+    NEEDLE_LENGTH,
+    Alignment,
+    ShownMotion,
+    beside,
+    motion,
+    rivals,
+    rows_beside,
+    show_expert,
+)
 from app.session.samples import Samples
 
 FULCRUM = (0.0, 0.16056, 0.090)
@@ -175,3 +186,42 @@ def test_beside_a_void_attempt_may_stand_one_that_was_judged_by_the_newest_rules
         [attempt("a", "ada", 60.0)], "x", under(scoring_version=0), lambda _: True, lambda _: True
     )
     assert [one.id for one in found] == ["a"]
+
+
+def test_the_movement_of_an_attempt_is_kept_without_a_name_and_read_back():
+    depth = np.linspace(-0.015, 0.06, 40)
+    shown = ShownMotion.of(moved(depth, measured=[False] * 3 + [True] * 37), "kidney", 2)
+    assert len(shown.time) == 37
+    shown.save()
+    (file,) = (paths.data() / "demonstrations").iterdir()
+    assert set(json.loads(file.read_text())) == {
+        "format", "exercise", "version", "time", "axis", "depth", "path",
+    }  # fmt: skip
+    again = ShownMotion.kept("kidney", 2)
+    np.testing.assert_allclose(again.depth, shown.depth, atol=1e-7)
+    np.testing.assert_allclose(again.axis, shown.axis, atol=1e-7)
+    assert ShownMotion.kept("kidney", 3) is None  # another version: the expert
+    show_expert("kidney")
+    show_expert("kidney")
+    assert ShownMotion.kept("kidney", 2) is None
+
+
+@pytest.mark.parametrize(
+    "text", ["", "{}", "[]", '{"format": 1}', '{"format":1,"exercise":"kidney","version":2,'
+             '"time":[0,1],"axis":[[0,0,null],[0,0,-1]],"depth":[0,1],"path":[0,0,-1]}',
+             '{"format":1,"exercise":"kidney","version":2,'
+             '"time":[1,0],"axis":[[0,0,-1],[0,0,-1]],"depth":[0,1],"path":[0,0,-1]}'],
+)  # fmt: skip
+def test_a_kept_movement_that_cannot_be_used_leaves_the_exercise_to_the_expert(text):
+    file = paths.data() / "demonstrations" / "kidney.json"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(text)
+    assert ShownMotion.kept("kidney", 2) is None
+
+
+def test_a_movement_that_nobody_saw_and_an_exercise_that_is_a_path_are_refused():
+    with pytest.raises(SessionError, match="less than a second"):
+        ShownMotion.of(moved(np.linspace(0.0, 0.05, 40), measured=[False] * 40), "kidney", 1)
+    with pytest.raises(SessionError, match="no identifier"):
+        ShownMotion.of(moved(np.linspace(0.0, 0.05, 40)), "../kidney", 1).save()
+    assert ShownMotion.kept("../kidney", 1) is None

@@ -2,12 +2,22 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, unit
 from app.simulation.errors import SimulationError
 from app.simulation.skills import EXPERT, NOVICE
-from app.simulation.trainee import STEP, ScriptPhase, trainee_stage, write_script
+from app.simulation.trainee import (
+    STEP,
+    ScriptPhase,
+    tangent_basis,
+    tangents,
+    traced_script,
+    trainee_stage,
+    write_script,
+)
 
 AXIS = unit(np.array([0.3, 0.1, -0.9]))
 DEPTH = 0.08
@@ -163,3 +173,33 @@ def test_what_cannot_be_played_is_refused_by_name() -> None:
         trainee_stage(AXIS, -0.01)
     with pytest.raises(SimulationError, match="speed factor is 0"):
         trainee_stage(AXIS, DEPTH, speed=0.0)
+
+
+@given(
+    st.lists(
+        st.tuples(st.floats(-0.7, 0.7), st.floats(-0.7, 0.7), st.floats(-0.02, 0.12)),
+        min_size=2,
+        max_size=6,
+    )
+)
+def test_a_movement_becomes_the_script_that_plays_it(moments):
+    axis = unit(np.array([0.2, -0.3, -1.0]))
+    basis = tangent_basis(axis)
+    e1, e2, depth = np.array(moments).T
+    angle = np.hypot(e1, e2)
+    axes = np.cos(angle)[:, None] * axis + np.sinc(angle / np.pi)[:, None] * (
+        e1[:, None] * basis[0] + e2[:, None] * basis[1]
+    )
+    np.testing.assert_allclose(np.array(tangents(axes, axis, basis)), [e1, e2], atol=1e-9)
+    script = traced_script(np.arange(len(depth)) * 0.5, axes, depth, axis)
+    assert np.isfinite(script.rows).all()
+    np.testing.assert_allclose(script.rows[-1, :3], [e1[-1], e2[-1], depth[-1]], atol=1e-9)
+    assert script.rows[-1, 3] == ScriptPhase.DONE
+
+
+def test_a_movement_of_one_moment_or_without_numbers_is_refused():
+    down = np.array([0.0, 0.0, -1.0])
+    for time, depth in (([0.0], [0.0]), ([0.0, 1.0], [0.0, np.nan])):
+        axes = np.tile(down, (len(time), 1))
+        with pytest.raises(SimulationError, match="two finite samples"):
+            traced_script(np.array(time), axes, np.array(depth), down)

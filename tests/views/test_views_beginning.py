@@ -13,6 +13,7 @@ from app.core import state_vector as sv
 from app.exercises.library import load_exercise
 from app.planning.plan import Plan
 from app.session.machine import State
+from app.session.motion import ShownMotion
 from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.beginning import LINGER_S, TRAINEE_DONE, BeginWish
 from app.views.exercise.briefing import aid_words, locked_words, scored_words
@@ -259,3 +260,13 @@ def test_again_from_the_debrief_begins_at_once_and_another_exercise_is_briefed(
     debrief.begin_wanted.emit("thick-tissue")
     assert window.pages.currentWidget() is beginning.page
     assert beginning.page.title.text() == "Thick tissue"
+
+
+def test_a_demonstration_says_when_it_is_a_recorded_attempt(window, beginning, settle, monkeypatch):
+    monkeypatch.setattr(ShownMotion, "kept", lambda *_: "somebody's")
+    beginning.brief("first-insertion")
+    beginning.show_me()
+    assert settle(lambda: "recorded attempt" in beginning.bar.words.text())
+    window_rect = window.rect()
+    assert window_rect.contains(beginning.bar.geometry())
+    assert beginning.bar.y() > window_rect.height() - 60  # no view lies there

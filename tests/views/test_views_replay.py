@@ -19,7 +19,7 @@ from app.scoring.conditions import Conditions
 from app.session.course import Course, CourseItem, held_back
 from app.session.ct_facts import CtFacts
 from app.session.curves import at_rest, curves
-from app.session.motion import motion
+from app.session.motion import ShownMotion, motion
 from app.session.next_exercise import Proposal, ProposalReason
 from app.session.people import People
 from app.session.roster import RosterLine
@@ -448,3 +448,28 @@ def test_a_scan_in_the_list_leads_to_the_moment_it_was_taken(shown):
     shown._review = replace(shown.review, control_scans=(scan,))
     shown.scans.cellClicked.emit(0, 0)
     assert shown.replayer.time == pytest.approx(7.0)
+
+
+def test_the_instructor_lets_an_attempt_be_shown_in_place_of_the_expert(shown, window, monkeypatch):
+    feature = window.feature(DebriefFeature)
+    take, expert = feature._choices
+    under = Conditions("first-insertion", version=3)
+    feature._controller._show(replace(shown.review, conditions=under), "")
+    feature._offer_choices()
+    assert (take.isEnabled(), expert.isEnabled()) == (True, False)
+    take.trigger()
+    kept = ShownMotion.kept("first-insertion", 3)
+    assert kept.depth[-1] == pytest.approx(shown.review.motion.depth[-1], abs=1e-3)
+    feature._offer_choices()
+    assert expert.isEnabled()
+
+    with monkeypatch.context() as student:
+        student.setattr(type(ACCESS), "may_manage", property(lambda _: False))
+        feature._offer_choices()
+        assert (take.isEnabled(), expert.isEnabled()) == (False, False)
+        feature.choose_expert()  # whatever calls it
+        assert ShownMotion.kept("first-insertion", 3) is not None
+    expert.trigger()
+    feature._offer_choices()
+    expert.trigger()
+    assert ShownMotion.kept("first-insertion", 3) is None

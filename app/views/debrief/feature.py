@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, ClassVar, Final
 from PySide6.QtCore import QObject, QStandardPaths, QTimer, Signal, SignalInstance
 from PySide6.QtWidgets import QDialog, QFileDialog, QVBoxLayout, QWidget
 
+from app.core.errors import AcusError
 from app.core.files import write_atomically
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
@@ -21,6 +22,7 @@ from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
 from app.session.control_scan import ControlScan
 from app.session.errors import SessionError
+from app.session.motion import ShownMotion, show_expert
 from app.session.next_exercise import Around, around, held_by
 from app.session.recording import open_recording
 from app.session.result import AttemptResult
@@ -523,6 +525,14 @@ class DebriefFeature(Feature):
         context.conductor.controller.finished.connect(self.show_result)
         menu = shell.menu(tr("&Sessions"))
         add_entries(menu, [(tr("Past sessions"), "F7", self.show_sessions)])
+        self._choices = add_entries(
+            menu,
+            [
+                (tr("Show this attempt as the demonstration"), "", self.choose_demonstration),
+                (tr("Let the scripted expert show it again"), "", self.choose_expert),
+            ],
+        )
+        menu.aboutToShow.connect(self._offer_choices)
 
     def over(self) -> tuple[SignalInstance, ...]:
         """Return what ends a message of this feature."""
@@ -544,6 +554,48 @@ class DebriefFeature(Feature):
             self.context.shell.show_workspace()
         else:
             self.begin_wanted.emit(wanted)
+
+    def choose_demonstration(self) -> None:
+        """Let the attempt that the debrief shows be the demonstration of its exercise."""
+        shown = self._demonstrable()
+        if shown is None or shown.motion is None or shown.conditions is None:
+            return
+        under = shown.conditions
+        try:
+            ShownMotion.of(shown.motion, under.exercise, under.version).save()
+        except (OSError, AcusError) as error:
+            self.failed.emit(str(error))
+            return
+        self.noted.emit(
+            tr(
+                "Show me now shows this attempt in {title}: its movement, without a name or score.",
+                title=shown.exercise,
+            )
+        )
+
+    def choose_expert(self) -> None:
+        """Let the scripted expert show the exercise of the attempt again."""
+        shown = self._demonstrable()
+        if shown is None or shown.conditions is None:
+            return
+        try:
+            show_expert(shown.conditions.exercise)
+        except (OSError, AcusError) as error:
+            self.failed.emit(str(error))
+            return
+        self.noted.emit(tr("Show me shows the scripted expert in {title}.", title=shown.exercise))
+
+    def _demonstrable(self) -> Review | None:
+        """Return the attempt on the page, where who is here may choose what is shown."""
+        return self.page.review if ACCESS.may_manage else None
+
+    def _offer_choices(self) -> None:
+        shown = self._demonstrable()
+        take, expert = self._choices
+        under = None if shown is None else shown.conditions
+        take.setEnabled(shown is not None and shown.motion is not None and under is not None)
+        kept = None if under is None else ShownMotion.kept(under.exercise, under.version)
+        expert.setEnabled(kept is not None)
 
     def suit_room(self) -> None:
         """Take other colours and sizes; names are hidden, or shown again."""

@@ -1,8 +1,9 @@
 """From the wish to begin an exercise to its attempt: briefing, demonstration, begin.
 
 Whoever wants to begin (start page, menu, F5, course, debrief) comes to the briefing first. There
-one begins, looks around before, lets a scripted expert show the exercise, or goes back. A
-demonstration runs in the same views on a simulated robot; nothing of it is kept or counted.
+one begins, looks around before, has the exercise shown, or goes back. A scripted expert shows it,
+or the movement of an attempt that the instructor chose. A demonstration runs in the same views on a
+simulated robot; nothing of it is kept or counted.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from app.exercises.portrait import Portrait, kept_portrait
 from app.exercises.schema import Exercise
 from app.session.course import attempts_used, courses, why_not
 from app.session.index import Index
+from app.session.motion import ShownMotion
 from app.session.people import Person
 from app.views.exercise.briefing import AttemptsLeft, BriefingPage
 from app.views.exercise.run import ExerciseRun
@@ -76,12 +78,13 @@ class DemonstrationBar(QFrame):
         self.hide()
 
     def tell(self, words: str) -> None:
-        """Say what goes on, at the window's lower edge."""
+        """Say what goes on, in the window's lower right corner: nothing else is said there."""
         self.words.setText(words)
         self.adjustSize()
         around = self.parentWidget()
         if around is not None:
-            self.move((around.width() - self.width()) // 2, around.height() - self.height() - 96)
+            x, y = around.width() - self.width(), around.height() - self.height()
+            self.move(x - theme.SPACING // 2, y - 2)
         self.show()
         self.raise_()
 
@@ -144,7 +147,7 @@ class Beginning(QObject):
         self.wish = BeginWish.NOTHING
         self._briefed: tuple[str, int] | None = None
         self._asked, self._waited, self._scans = 0, 0.0, 0
-        self._untaken = self._arrived = self._was_working = False
+        self._untaken = self._arrived = self._was_working = self._recorded = False
         self._guard = EnterGuard(self)
         self._timer = QTimer(self, interval=PERIOD_MS)
         self._timer.timeout.connect(self._poll)
@@ -261,7 +264,7 @@ class Beginning(QObject):
         self._go(BeginWish.LOOK)
 
     def show_me(self) -> None:
-        """Let the scripted expert do the exercise."""
+        """Let the exercise be shown."""
         self._go(BeginWish.SHOW)
 
     def show_taken(self) -> None:
@@ -324,6 +327,8 @@ class Beginning(QObject):
         self._poll()
 
     def _wait_for(self, wish: BeginWish) -> None:
+        one = self.exercise if wish is BeginWish.SHOW else None
+        self._recorded = one is not None and ShownMotion.kept(one.id, one.version) is not None
         self.wish, self._waited, self._scans = wish, 0.0, 0
         self._untaken = self._arrived = False
         self._timer.start()
@@ -402,9 +407,13 @@ class Beginning(QObject):
         self._conductor.set_demonstrating(True)
         controller, run = self._conductor.controller, self._conductor.controller.run
         if run is None or not run.demonstrates:
-            self.bar.tell(tr("Demonstration: the expert is coming …"))
+            self.bar.tell(tr("The demonstration is coming …"))
             return
-        self.bar.tell(tr("Demonstration: a scripted expert has the needle"))
+        self.bar.tell(
+            tr("Demonstration: a recorded attempt is led again")
+            if self._recorded
+            else tr("Demonstration: a scripted expert has the needle")
+        )
         if controller.is_running:
             self._follow(run)
         elif self._conductor.views.panel.buttons.start.isEnabled():

@@ -273,7 +273,7 @@ class BriefingPage(QWidget):
         self.skip = QCheckBox(tr("Do not show this again for this exercise"), self)
         self.why_not = label("", "dim")
         self.begin.setToolTip(tr("The attempt starts as soon as robot and cameras are there"))
-        self.show_me.setToolTip(tr("A scripted expert does the exercise; nothing is recorded"))
+        self.show_me.setToolTip(tr("An expert does the exercise; nothing is recorded"))
         self.look.setToolTip(tr("Study the CT without the clock; F5 starts the attempt"))
         self._lay_out()
         self._connect()

@@ -116,7 +116,7 @@ class ExerciseDisplay:
         self._show_tracker(run, snapshot, now)
         if now - self._status_time >= STATUS_PERIOD:
             self._status_time = now
-            items = status_items(snapshot, rate, missing, late)
+            items = status_items(snapshot, rate, missing, late, kept=not run.demonstrates)
             extra = (item for more in self.extra_items for item in more(snapshot))
             self._views.status.show_items((*extra, *items), robot_status(snapshot, items))
 

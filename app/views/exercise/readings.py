@@ -96,7 +96,7 @@ def hand_pose(snapshot: Snapshot) -> HandPose | None:
 
 
 def status_items(
-    snapshot: Snapshot, rate: float, missing: float, heartbeat_age: float
+    snapshot: Snapshot, rate: float, missing: float, heartbeat_age: float, kept: bool = True
 ) -> tuple[StatusItem, ...]:
     """Health of every part, for the status strip.
 
@@ -105,6 +105,7 @@ def status_items(
         rate: measured rate of the loop [Hz].
         missing: share of its deadlines that it missed of late, 0…1.
         heartbeat_age: since the window's last sign of life [s].
+        kept: whether what runs is somebody's attempt; of a demonstration nothing is kept.
     """
     device, timing, pose = snapshot.device, snapshot.timing, snapshot.pose
     items = []
@@ -121,7 +122,7 @@ def status_items(
         items.append(recorder_item(False, failure=record.failure))
     else:
         lost = record.lost_rows + record.lost_samples if record is not None else 0
-        items.append(recorder_item(bool(record and record.active), lost))
+        items.append(recorder_item(kept and bool(record and record.active), lost))
     return tuple(items)
 
 
