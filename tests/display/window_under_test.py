@@ -8,12 +8,30 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from PySide6.QtCore import QPointF, Qt, QTimer
-from PySide6.QtWidgets import QPushButton, QWidget
+from PySide6.QtCore import QModelIndex, QPoint, QPointF, Qt, QTimer
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QAbstractItemView,
+    QAbstractSpinBox,
+    QApplication,
+    QComboBox,
+    QFormLayout,
+    QLabel,
+    QLineEdit,
+    QMenu,
+    QMenuBar,
+    QPlainTextEdit,
+    QPushButton,
+    QTabBar,
+    QTableView,
+    QTextEdit,
+    QWidget,
+)
 
 from app.compose.desktop import Desktop
 from app.core.files import write_atomically
@@ -47,6 +65,7 @@ def state_of(window: MainWindow) -> dict[str, Any]:
     snapshot = None if run is None else run.trainer.snapshot()
     panel = workspace.exercise_panel
     return {
+        "things": things(window),
         "settled": window.conductor.settled,
         "page": type(window.pages.currentWidget()).__name__,
         "message": window.message_bar.text if not window.message_bar.isHidden() else "",
@@ -68,6 +87,97 @@ def state_of(window: MainWindow) -> dict[str, Any]:
         "remaining_mm": None if snapshot is None else 1e3 * snapshot.offset.remaining,
         "off_mm": None if snapshot is None else 1e3 * snapshot.offset.lateral,
     }
+
+
+def things(window: MainWindow) -> list[dict[str, Any]]:
+    """Everything that can be clicked or typed into: of the menu or dialog on top, else of all.
+
+    Each with its kind, its words (its own, or the label beside it), its middle on the screen, and
+    the title of the window that it is in.
+    """
+    popup = QApplication.activePopupWidget()
+    modal = QApplication.activeModalWidget()
+    tops = [popup or modal] if popup or modal else QApplication.topLevelWidgets()
+    found: list[dict[str, Any]] = []
+    for top in tops:
+        if top is None or not top.isVisible():
+            continue
+        for widget in (top, *top.findChildren(QWidget)):
+            if widget.isVisible() and widget.isEnabled():
+                title = widget.window().windowTitle()
+                found += [{**one, "window": title} for one in _things_of(widget)]
+    return found
+
+
+def _things_of(widget: QWidget) -> list[dict[str, Any]]:
+    """What a widget offers; nothing where another one hides its middle."""
+
+    def thing(kind: str, words: str, at: QPoint, **more: Any) -> dict[str, Any]:
+        return {"kind": kind, "words": words.replace("&", ""), "at": [at.x(), at.y()], **more}
+
+    if isinstance(widget, QMenu | QMenuBar):
+        return [
+            thing("entry", action.text(), widget.mapToGlobal(box.center()))
+            for action in widget.actions()
+            if action.isVisible()
+            and action.isEnabled()
+            and (box := widget.actionGeometry(action)).isValid()
+        ]
+    if isinstance(widget, QTabBar):
+        return [
+            thing("tab", widget.tabText(k), widget.mapToGlobal(widget.tabRect(k).center()))
+            for k in range(widget.count())
+        ]
+    if isinstance(widget, QAbstractItemView):
+        return _cells(widget, thing)
+    if widget.visibleRegion().isEmpty():
+        return []
+    centre = widget.mapToGlobal(widget.visibleRegion().boundingRect().center())
+    if isinstance(widget, QAbstractButton):
+        words = widget.text() or widget.accessibleName() or widget.toolTip()
+        return [thing("button", words, centre, on=widget.isChecked())]
+    if isinstance(widget, QComboBox):
+        return [thing("choice", _beside(widget), centre, value=widget.currentText())]
+    if isinstance(widget, QAbstractSpinBox):
+        return [thing("number", _beside(widget), centre, value=widget.text())]
+    if isinstance(widget, QLineEdit) and not isinstance(widget.parent(), QAbstractSpinBox):
+        return [thing("field", _beside(widget), centre, value=widget.text())]
+    if isinstance(widget, QTextEdit | QPlainTextEdit):
+        return [thing("text", _beside(widget), centre, value=widget.toPlainText())]
+    return []
+
+
+def _cells(view: QAbstractItemView, thing: Callable[..., dict[str, Any]]) -> list[dict[str, Any]]:
+    """Cells of a list or table that can be seen."""
+    model, found = view.model(), []
+    port, root = view.viewport(), QModelIndex()
+    if model is None or view.visibleRegion().isEmpty():
+        return []
+    for row in range(min(model.rowCount(root), 200)):
+        for column in range(model.columnCount(root) if isinstance(view, QTableView) else 1):
+            index = model.index(row, column)
+            box = view.visualRect(index)
+            words = index.data(Qt.ItemDataRole.DisplayRole)
+            if box.isEmpty() or not port.rect().contains(box.center()):
+                continue
+            at = port.mapToGlobal(box.center())
+            found.append(thing("cell", str(words or ""), at, row=row, column=column))
+    return found
+
+
+def _beside(widget: QWidget) -> str:
+    """Words beside a field: its label's, or what it is called for who cannot see it."""
+    parent = widget.parentWidget()
+    for form in parent.findChildren(QFormLayout) if parent is not None else ():
+        named = form.labelForField(widget)
+        if isinstance(named, QLabel):
+            return named.text()
+    for named in parent.findChildren(QLabel) if parent is not None else ():
+        if named.buddy() is widget:
+            return named.text()
+    if widget.accessibleName():
+        return widget.accessibleName()
+    return widget.placeholderText() if isinstance(widget, QLineEdit) else ""
 
 
 def middle(widget: QWidget) -> list[int]:

@@ -32,6 +32,7 @@ from app.views.cameras.live import AimPort, LiveCamera, LivePreview
 from app.views.cameras.settings_dialog import CameraSettingsDialog
 from app.views.kit import theme
 from app.views.kit.background import run_in_background
+from app.views.kit.parts import size_dialog
 from app.views.kit.progress_strip import ProgressStrip
 from app.views.kit.text import tr
 from app.views.shell.feature import Context, Feature
@@ -153,7 +154,7 @@ class AimDialog(QDialog):
         column.addWidget(self.losses)
         column.addWidget(words)
         column.addWidget(buttons)
-        self.resize(1060, 620)
+        size_dialog(self, 1060, 620)
 
 
 def _opener(

@@ -27,6 +27,7 @@ from app.tracking.cameras.settings import CameraSettings
 from app.views.cameras.live import LiveCamera, LivePreview
 from app.views.kit import theme
 from app.views.kit.background import run_in_background
+from app.views.kit.parts import size_dialog
 from app.views.kit.progress_strip import ProgressStrip
 from app.views.kit.text import tr
 
@@ -247,4 +248,4 @@ class LatencyDialog(QDialog):
         column.addWidget(self.bar)
         column.addWidget(self.outcome)
         column.addWidget(buttons)
-        self.resize(820, 560)
+        size_dialog(self, 820, 560)

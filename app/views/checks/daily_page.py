@@ -31,6 +31,7 @@ from app.tracking.inspection import Inspection
 from app.views.checks.toucher import Toucher, move_there, tell_tracker
 from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
+from app.views.kit.parts import size_dialog
 from app.views.kit.text import tr
 
 LOOKS = {
@@ -98,7 +99,7 @@ class DailyPage(QDialog):
     ) -> None:
         super().__init__(parent)
         self.setWindowTitle(tr("Daily check"))
-        self.resize(theme.px(720), theme.px(520))
+        size_dialog(self, theme.px(720), theme.px(520))
         self._run, self._plate = run, plate
         self._touch: TouchFacts | None = None
         self._failure, self._touching = "", ""

@@ -42,6 +42,7 @@ from app.session.touch import Touch
 from app.views.checks.toucher import Toucher, move_there
 from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
+from app.views.kit.parts import size_dialog
 from app.views.kit.text import tr
 
 _STRETCHED = (1, 3)
@@ -228,7 +229,7 @@ class RegistrationDialog(QDialog):
     def __init__(self, around: CheckSources, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle(tr("Registration check"))
-        self.resize(theme.px(780), 640)  # no higher: 768 must do
+        size_dialog(self, theme.px(780), 640)
         self._around = around
         self._history = UndoHistory(CheckDraft())
         self._touching = ""

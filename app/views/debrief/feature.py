@@ -40,6 +40,7 @@ from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, Indicator, run_in_background
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
+from app.views.kit.parts import size_dialog
 from app.views.kit.text import tr
 from app.views.shell.feature import Context, Feature
 from app.views.structures.layer import draw_in
@@ -467,7 +468,7 @@ class ScanPictures(QObject):
             return
         self.dialog = dialog = QDialog(self._page)
         dialog.setWindowTitle(caption(scan, review.origin))
-        dialog.resize(900, 700)
+        size_dialog(dialog, 900, 700)
         view = ScanView(self._conductor.planning, dialog)
         view.show_scan(picture, scan, review.origin)
         view.viewing.set_draft(DraftPlan.of(review.placed.plan))

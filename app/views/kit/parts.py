@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QHeaderView,
@@ -45,6 +45,15 @@ def button(text: str, role: str = "") -> QPushButton:
     if role:
         made.setProperty("role", role)
     return made
+
+
+FRAME = QSize(16, 48)
+"""About what a desktop draws round a window: border and title bar [px]."""
+
+
+def size_dialog(dialog: QWidget, width: int, height: int) -> None:
+    """Give a dialog a size [px], or what of it the screen has room for with a title bar."""
+    dialog.resize(QSize(width, height).boundedTo(dialog.screen().availableSize() - FRAME))
 
 
 def thin_bar() -> QProgressBar:

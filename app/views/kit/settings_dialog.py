@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QDialog, QDialogButtonBox, QWidget
 
 from app.core.errors import AcusError
 from app.views.kit import theme
-from app.views.kit.parts import label
+from app.views.kit.parts import label, size_dialog
 from app.views.kit.verdict import Verdict, tell
 
 
@@ -32,7 +32,7 @@ class SettingsDialog(QDialog):
     ) -> None:
         super().__init__(parent)
         self.setWindowTitle(title)
-        self.resize(*size)
+        size_dialog(self, *size)
         self.note = label()
         self.note.setMinimumHeight(3 * theme.FONT_PX)
         self.buttons = QDialogButtonBox(

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.views.kit import theme
-from app.views.kit.parts import button
+from app.views.kit.parts import button, size_dialog
 from app.views.kit.text import tr
 from app.views.kit.verdict import Verdict
 
@@ -38,7 +38,7 @@ class Wizard(QDialog):
     ) -> None:
         super().__init__(parent)
         self.setWindowTitle(title)
-        self.resize(theme.px(size[0]), size[1])
+        size_dialog(self, theme.px(size[0]), size[1])
         self.list, self.pages = QListWidget(self), QStackedWidget(self)
         self.back, self.next = button(tr("Back")), button(tr("Next"))
         self._lay_out(list_width)

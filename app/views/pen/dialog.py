@@ -32,7 +32,7 @@ from app.views.cameras.boxes import SizeBox, SourceBox
 from app.views.cameras.live import LivePreview
 from app.views.cameras.settings_dialog import QUIET_MS
 from app.views.kit import theme
-from app.views.kit.parts import button, label
+from app.views.kit.parts import button, label, size_dialog
 from app.views.kit.text import tr
 from app.views.kit.verdict import Verdict, tell
 from app.views.pen.net_page import write_pen
@@ -463,7 +463,7 @@ class PenDialog(QDialog):
         column.setSpacing(theme.MARGIN)
         column.addLayout(pair, 1)
         column.addLayout(buttons)
-        self.resize(1160, 690)
+        size_dialog(self, 1160, 690)
 
     def _connect(self) -> None:
         self.preview.opened.connect(self._take)

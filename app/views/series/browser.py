@@ -29,6 +29,7 @@ from app.imaging.series import Listing, Remedy, Series
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.names import NAMES
+from app.views.kit.parts import size_dialog
 from app.views.kit.text import tr
 
 PICTURE_PX = 112
@@ -248,7 +249,7 @@ class SeriesBrowser(QDialog):
     ) -> None:
         super().__init__(parent)
         self.setWindowTitle(tr("Series of {name}", name=NAMES.shown(listing.path.name)))
-        self.resize(*SIZE)
+        size_dialog(self, *SIZE)
         self.listing = listing
         shown = sorted(listing.series, key=_rank)
         self.cards = [SeriesCard(series, self, taking=taking) for series in shown]

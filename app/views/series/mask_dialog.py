@@ -37,6 +37,7 @@ from PySide6.QtWidgets import (
 from app.imaging.window import PRESETS, to_grey
 from app.planning.history import UndoHistory
 from app.views.kit import theme
+from app.views.kit.parts import size_dialog
 from app.views.kit.text import tr
 from app.views.slices.presets import preset_name
 
@@ -217,7 +218,7 @@ class MaskDialog(QDialog):
     ) -> None:
         super().__init__(parent)
         self.setWindowTitle(tr("Look at the pictures before they are taken in"))
-        self.resize(1080, 760)
+        size_dialog(self, 1080, 760)
         self.pictures = pictures
         self._history: UndoHistory[Boxes] = UndoHistory(boxes)
         self.canvas, self.slider = MaskCanvas(self), QSlider(Qt.Orientation.Horizontal, self)

@@ -31,6 +31,7 @@ from app.core.progress import Progress
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.names import NAMES
+from app.views.kit.parts import size_dialog
 from app.views.kit.progress_strip import ProgressStrip
 from app.views.kit.text import tr
 
@@ -56,7 +57,7 @@ class PacsPanel(QDialog):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle(tr("PACS"))
-        self.resize(980, 620)
+        size_dialog(self, 980, 620)
         self._task: BackgroundTask | None = None
         self.strip = ProgressStrip(self)  # its own: the window's cannot be clicked meanwhile
         self.servers, self.note = QComboBox(self), QLabel(self)

@@ -49,6 +49,7 @@ from app.core.identifiers import without_identifiers
 from app.core.log_file import crash_text, tail
 from app.views.kit.background import run_in_background
 from app.views.kit.names import NAMES
+from app.views.kit.parts import size_dialog
 from app.views.kit.text import disclaimer, tr
 from app.views.shell.application import icon
 
@@ -153,7 +154,7 @@ class AboutDialog(QDialog):
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         buttons.rejected.connect(self.reject)
         layout.addWidget(buttons)
-        self.resize(680, 620)
+        size_dialog(self, 680, 620)
 
     def _show_parts(self, rows: Sequence[Part]) -> None:
         self._head.setText(tr("Libraries, as installed:"))
@@ -239,7 +240,7 @@ class ProblemReport(QDialog):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle(tr("Report a problem"))
-        self.resize(760, 520)
+        size_dialog(self, 760, 520)
         words = QLabel(
             tr(
                 "This is all that a report holds: no names, no pictures, no paths. Look through "
@@ -365,7 +366,7 @@ class HelpWindow(QDialog):
         super().__init__(parent)
         self.asked, self._heading = (name, heading), heading
         self.setWindowTitle(tr("User guide"))
-        self.resize(900, 700)
+        size_dialog(self, 900, 700)
         layout = QVBoxLayout(self)
         self.browser = _Pages()
         self.browser.setOpenExternalLinks(True)
