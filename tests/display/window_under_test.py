@@ -103,7 +103,7 @@ def things(window: MainWindow) -> list[dict[str, Any]]:
         if top is None or not top.isVisible():
             continue
         for widget in (top, *top.findChildren(QWidget)):
-            if widget.isVisible() and widget.isEnabled():
+            if widget.window() is top and widget.isVisible() and widget.isEnabled():
                 title = widget.window().windowTitle()
                 found += [{**one, "window": title} for one in _things_of(widget)]
     return found

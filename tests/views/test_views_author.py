@@ -283,7 +283,7 @@ def test_bands_are_edited_in_the_table_and_their_rings_drawn_on_the_ct(opened, f
     row = list(form.score.metrics).index("lateral_error")
     form.score.bands.item(row, 3).setText("9")
     assert author.editor.exercise.tolerances["lateral_error"].pass_ == 9.0
-    assert opened.workspace.viewing.tolerances_mm == pytest.approx((2.0, 9.0))
+    assert opened.workspace.viewing.tolerances_mm == pytest.approx((0.6, 9.0))
     other = list(form.score.metrics).index("peak_force")
     form.score.bands.item(other, 0).setCheckState(Qt.CheckState.Checked)
     assert "peak_force" in author.editor.exercise.tolerances

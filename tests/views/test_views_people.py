@@ -5,8 +5,9 @@ from datetime import UTC, datetime
 from types import MappingProxyType
 
 import pytest
-from PySide6.QtWidgets import QLineEdit, QPlainTextEdit
+from PySide6.QtWidgets import QComboBox, QLineEdit, QPlainTextEdit
 
+from app.exercises.library import load_exercise
 from app.session.course import courses
 from app.session.people import People
 from app.session.roster import RosterLine
@@ -175,7 +176,7 @@ def test_a_course_is_made_in_a_form_that_says_what_is_wrong(window, feature, set
 
 def test_a_student_may_not_begin_before_an_exercise_opens(window, feature, settle):
     _, pin = People().add(RosterLine("Ada"))
-    known = next(iter(feature._exercises))
+    known = next(iter(feature._exercises()))
     text = {"id": "c", "title": "C", "items": [{"exercise": known, "opens": "2099-01-01"}]}
     from app.session.course import course_of
 
@@ -212,3 +213,17 @@ def test_who_was_erased_is_shown_as_erased(window, feature, settle):
     feature._erase("Ada", with_records=False)
     settle(lambda: ACCESS.shown(person.key) != "Ada")
     assert ACCESS.shown(person.key) == "(erased)"
+
+
+def test_an_exercise_that_was_just_made_can_be_put_into_a_course(feature, monkeypatch):
+    made = load_exercise("first-insertion").model_copy(update={"id": "made", "title": "Just made"})
+    there = feature.context.services.exercises()
+    monkeypatch.setattr(feature.context.services, "exercises", lambda: (*there, made))
+    feature.edit_course(None)
+    offered = [
+        box.itemText(row)
+        for box in feature.dialog.findChildren(QComboBox)
+        for row in range(box.count())
+    ]
+    assert "Just made" in offered
+    feature.dialog.close()

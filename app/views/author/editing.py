@@ -21,6 +21,7 @@ from app.imaging.volume import Volume
 from app.planning.draft import Edit
 from app.planning.history import UndoHistory
 from app.planning.patient import Patient
+from app.scoring.defaults import PUBLISHED_TOLERANCES
 from app.views.kit.text import tr
 
 Document = dict[str, Any]
@@ -209,6 +210,11 @@ def plain_words(problem: FieldProblem) -> str:
     return re.sub(r", got a (mapping|list) of \d+$", "", text)
 
 
+PASS_MARK: Final = 75.0
+"""Total needed to pass a new exercise: between what scripted novices and beginners score along a
+path of 75 mm."""
+
+
 # --- from the window ----------------------------------------------------------------------------
 def opened_document(
     patient: Patient, edit: Edit, structures: StructureSet, like: Exercise | None
@@ -223,6 +229,11 @@ def opened_document(
     """
     document = exercise_document(Exercise(id="exercise", title="x"))
     document |= {"title": "", "id": "exercise"}
+    document["tolerances"] = {
+        name: one.model_dump(mode="json", by_alias=True, exclude_none=True)
+        for name, one in PUBLISHED_TOLERANCES.items()
+    }
+    document["rules"] = document["rules"] | {"pass_mark": PASS_MARK}
     document["ct"] = ct_document(patient)
     document["plan"] = plan_document(edit)
     document["placement"] = {

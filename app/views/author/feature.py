@@ -427,7 +427,9 @@ class AuthorFeature(Feature):
         dialog.score.looked_at.connect(self._trial_timer.start)
         self.editor.begin(document, saved)
         frame = self._shell.dialog_parent.geometry()  # at its right: the axial pane stays free
-        dialog.move(max(frame.right() - dialog.width() - theme.MARGIN, 0), frame.top() + 60)
+        lowest = dialog.screen().availableGeometry().bottom() - dialog.height()
+        top = max(min(frame.top() + 60, lowest), 0)
+        dialog.move(max(frame.right() - dialog.width() - theme.MARGIN, 0), top)
         dialog.show()
         dialog.raise_()
         dialog.activateWindow()

@@ -35,7 +35,7 @@ from app.exercises.parts import LayerPart, ViewName
 from app.imaging.structures.structure import StructureSet
 from app.imaging.window import PRESETS
 from app.scoring import metrics
-from app.scoring.defaults import DEFAULT_TOLERANCES
+from app.scoring.defaults import PUBLISHED_TOLERANCES
 from app.simulation import effects
 from app.simulation.needles import OUTER_DIAMETER
 from app.views.author.editing import DRAWN, ExerciseEditor, Where, plain_words
@@ -439,8 +439,8 @@ class PatientPage(Form):
 
 def default_tolerance(metric: str) -> dict[str, Any]:
     """Return bands to begin with for a metric that is to count."""
-    if metric in DEFAULT_TOLERANCES:
-        found = DEFAULT_TOLERANCES[metric].model_dump(mode="json", by_alias=True)
+    if metric in PUBLISHED_TOLERANCES:
+        found = PUBLISHED_TOLERANCES[metric].model_dump(mode="json", by_alias=True)
         return {name: value for name, value in found.items() if value is not None}
     own = {
         "risk_breach": (0.0, 0.5, 1.0),
@@ -917,7 +917,7 @@ class SkillsPlot(QWidget):
         self.scores: dict[str, list[float]] = {}
         self._passed: dict[str, float] = {}
         self._pass_mark = 60.0
-        self.setFixedHeight(theme.px(150))
+        self.setFixedHeight(theme.px(140))
         self.setAccessibleName(tr("What scripted skills would score"))
 
     def show_scores(self, rows: Sequence[Mapping[str, Any]], pass_mark: float) -> None:
@@ -962,8 +962,9 @@ class SkillsPlot(QWidget):
             good = self._passed[name] > 0.5
             painter.setBrush(QColor(theme.GOOD if good else theme.BAD))
             painter.setPen(Qt.PenStyle.NoPen)
+            step = min(0.5 * line, 0.85 * width / max(len(scores), 1))
             for place, score in enumerate(scores):
-                beside = (place - 0.5 * (len(scores) - 1)) * 0.5 * line
+                beside = (place - 0.5 * (len(scores) - 1)) * step
                 middle = QPointF(column.center().x() + beside, height(score))
                 painter.drawEllipse(middle, 0.25 * line, 0.25 * line)
         painter.end()
@@ -984,34 +985,35 @@ class ScorePage(Form):
         first = [name for name in USUAL if name in there]
         self.metrics = {name: there[name] for name in dict.fromkeys((*first, *there))}
         self.bands = QTableWidget(len(self.metrics), 7, self)
-        self.bands.setHorizontalHeaderLabels(
-            [
-                tr("Counts"),
-                tr("expert"),
-                tr("good"),
-                tr("pass"),
-                tr("zero"),
-                tr("weight"),
-                tr("must pass"),
-            ]
-        )
+        heads = [tr("Counts"), tr("expert"), tr("good"), tr("pass"), tr("zero"), tr("weight")]
+        heads.append(tr("must"))
+        self.bands.setHorizontalHeaderLabels(heads)
         self.bands.setVerticalHeaderLabels(
             [
                 f"{one.title} [{one.unit}]" if one.unit else one.title
                 for one in self.metrics.values()
             ]
         )
-        self.bands.setMinimumHeight(theme.px(330))
-        for place in range(self.bands.columnCount()):
-            self.bands.setColumnWidth(place, theme.px(54 if 0 < place < 6 else 66))
+        self.bands.setMinimumHeight(theme.px(250))
+        for place, words in enumerate(heads):
+            needed = self.bands.fontMetrics().horizontalAdvance(words) + 2 * theme.SPACING
+            self.bands.setColumnWidth(place, max(theme.px(50), needed))
         self.bands.verticalHeader().setMaximumWidth(theme.px(230))
         self.bands.itemChanged.connect(self._take)
         self.add(
             ("tolerances",),
-            tr("Bands: from “expert” on all points, beyond “zero” none"),
+            tr(
+                "Bands: from “expert” on all points, beyond “zero” none; what must be kept "
+                "fails the attempt beyond “pass”"
+            ),
             self.bands,
             self._show,
         )
+        self.rows.addWidget(QLabel(tr("What scripted skills would score")))
+        self.skills = SkillsPlot(self)
+        self.rows.addWidget(self.skills)
+        self.tried = label("", "dim")
+        self.rows.addWidget(self.tried)
         self.number(
             "rules", "pass_mark", name=tr("Total needed to pass"), low=0.0, high=100.0, default=60.0
         )
@@ -1036,11 +1038,6 @@ class ScorePage(Form):
             tr("The rings of “Off the path” are drawn on the CT as you change them."), "dim"
         )
         self.rows.addWidget(self.drawn)
-        self.rows.addWidget(QLabel(tr("What scripted skills would score")))
-        self.skills = SkillsPlot(self)
-        self.rows.addWidget(self.skills)
-        self.tried = label("", "dim")
-        self.rows.addWidget(self.tried)
 
     def showEvent(self, event: QShowEvent) -> None:
         """Tell that somebody looks."""

@@ -15,6 +15,7 @@ from PySide6.QtWidgets import QDialog, QFileDialog, QInputDialog, QMessageBox
 from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.exchange.results import Results, ResultsFormat, results_text, write_results
+from app.exercises.schema import Exercise
 from app.session.archive import backup, erase_person
 from app.session.board import ProgressBoard, board_of
 from app.session.course import Course, CourseError, courses, why_not
@@ -80,7 +81,6 @@ class PeopleFeature(Feature):
             (tr("Back up everything…"), "", self.back_up),
         )
         self._actions = add_entries(menu, entries)
-        self._exercises = {exercise.id: exercise for exercise in context.services.exercises()}
         self._connect()
         ACCESS.changed.connect(self._follow)
         self._follow()
@@ -217,8 +217,12 @@ class PeopleFeature(Feature):
         self.page.board.set_choices(look.courses, groups)
         self.page.board.show_board(look.board, self._titles())
 
+    def _exercises(self) -> dict[str, Exercise]:
+        """Return the exercises that there are now: one may just have been made."""
+        return {exercise.id: exercise for exercise in self.context.services.exercises()}
+
     def _titles(self) -> dict[str, str]:
-        return {name: exercise.title for name, exercise in self._exercises.items()}
+        return {name: exercise.title for name, exercise in self._exercises().items()}
 
     def _show_curve(self, key: str, exercise: str) -> None:
         look = self._look
@@ -365,7 +369,7 @@ class PeopleFeature(Feature):
             edited.save()
             self._changed()
 
-        self._open(CourseDialog(course, self._exercises, take, self._shell.dialog_parent))
+        self._open(CourseDialog(course, self._exercises(), take, self._shell.dialog_parent))
 
     def choose_export(self, form: str) -> None:
         """Ask where results go, and write them."""
