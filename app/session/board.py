@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import datetime
 from collections import Counter, defaultdict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
@@ -20,7 +20,7 @@ from pydantic import ValidationError
 from app.core.progress import Progress
 from app.exercises.schema import Exercise
 from app.scoring.conditions import comparison_groups
-from app.session.course import Course, CourseItem, courses, holding
+from app.session.course import Course, CourseItem, courses, held_back, holding
 from app.session.index import Index, Indexed
 from app.session.people import PEOPLE, People, Person, Remarks, people_folder
 from app.session.signature import Signed
@@ -45,6 +45,7 @@ class BoardCell:
         since: time since the last one; None without one.
         others: his attempts at this exercise that do not count here.
         why: of the others, each reason with how many.
+        void: reasons of those that the instructor declared void, oldest first.
     """
 
     attempts: int = 0
@@ -55,6 +56,7 @@ class BoardCell:
     since: datetime.timedelta | None = None
     others: int = 0
     why: tuple[tuple[str, int], ...] = ()
+    void: tuple[str, ...] = ()
 
     def document(self) -> dict[str, Any]:
         """JSON-ready mapping; the keys stand in docs/json.md."""
@@ -67,6 +69,7 @@ class BoardCell:
             "since_s": None if self.since is None else self.since.total_seconds(),
             "others": self.others,
             "why": dict(self.why),
+            "void": list(self.void),
         }
 
 
@@ -115,6 +118,7 @@ def progress_board(
     whose: Mapping[str, str],
     remarks: Mapping[str, Remarks],
     now: datetime.datetime,
+    held: Container[str] = (),
 ) -> ProgressBoard:
     """Make the board.
 
@@ -125,18 +129,23 @@ def progress_board(
         whose: key of the student by what records name (`People.keys`).
         remarks: what the instructor said, by attempt.
         now: time that "since" is told from.
+        held: attempts whose results are not open to who looks at the board.
     """
     wanted = {item.exercise: item for item in items}
     rows = {person.key for person in students}
     taken: dict[str, list[Indexed]] = defaultdict(list)
     left: dict[tuple[str, str], Counter[str]] = defaultdict(Counter)
+    void: dict[tuple[str, str], list[str]] = defaultdict(list)
     for one in attempts:
         key, item = whose.get(one.student, ""), wanted.get(one.exercise)
         if item is None or key not in rows:
             continue
-        reason = _why_not_counted(one, item, remarks.get(one.id))
+        said = remarks.get(one.id)
+        reason = "not released yet" if one.id in held else _why_not_counted(one, item, said)
         if reason:
             left[key, one.exercise][reason] += 1
+            if said is not None and said.void:
+                void[key, one.exercise].append(said.void)
         else:
             taken[one.exercise].append(one)
     counted: dict[tuple[str, str], list[Indexed]] = defaultdict(list)
@@ -151,7 +160,10 @@ def progress_board(
                 left[key, exercise]["made under other conditions than most"] += 1
     cells = {
         (person.key, item.exercise): _cell(
-            counted[person.key, item.exercise], left[person.key, item.exercise], now
+            counted[person.key, item.exercise],
+            left[person.key, item.exercise],
+            now,
+            tuple(void[person.key, item.exercise]),
         )
         for person in students
         for item in items
@@ -167,6 +179,7 @@ def board_of(
     group: str = "",
     now: datetime.datetime | None = None,
     progress: Progress | None = None,
+    released: bool = False,
 ) -> tuple[ProgressBoard, list[Indexed]]:
     """Return the board of a folder of records, and all attempts in it, oldest first.
 
@@ -177,6 +190,7 @@ def board_of(
         group: of students; empty takes all who take the course.
         now: time that "since" is told from.
         progress: reports, and may cancel.
+        released: leave out results that a course holds back, as a student sees the board.
 
     Raises:
         SessionError: if something cannot be read.
@@ -193,7 +207,10 @@ def board_of(
     own = [one for one in attempts if one.student in whose]
     items = course.items if course is not None else every_item(own)
     now = now or datetime.datetime.now(datetime.UTC)
-    return progress_board(students, items, own, whose, people.remarks(), now), attempts
+    asked = ((one.id, one.student, one.exercise, one.version) for one in own)
+    held = held_back(asked) if released else {}
+    board = progress_board(students, items, own, whose, people.remarks(), now, held)
+    return board, attempts
 
 
 def every_item(attempts: Sequence[Indexed]) -> list[CourseItem]:
@@ -299,10 +316,12 @@ def _largest(groups: Sequence[int | None]) -> int | None:
     return max(counts, key=lambda group: (counts[group], last[group]), default=None)
 
 
-def _cell(some: Sequence[Indexed], left: Counter[str], now: datetime.datetime) -> BoardCell:
+def _cell(
+    some: Sequence[Indexed], left: Counter[str], now: datetime.datetime, void: tuple[str, ...]
+) -> BoardCell:
     others, why = left.total(), tuple(sorted(left.items()))
     if not some:
-        return BoardCell(others=others, why=why)
+        return BoardCell(others=others, why=why, void=void)
     totals = [one.total or 0.0 for one in some]
     return BoardCell(
         attempts=len(some),
@@ -313,6 +332,7 @@ def _cell(some: Sequence[Indexed], left: Counter[str], now: datetime.datetime) -
         since=now - some[-1].time,
         others=others,
         why=why,
+        void=void,
     )
 
 

@@ -95,6 +95,9 @@ class Remarks:
     released: bool = False
 
 
+NOTHING_SAID: Final = Remarks()
+
+
 class People:
     """Everybody who is known here.
 
@@ -372,13 +375,18 @@ class People:
 
     def remark(self, attempt: str, **said: str | bool) -> None:
         """Say something of an attempt: `comment`, `void` (with a reason) or `released`."""
+        self.remark_all([attempt], **said)
+
+    def remark_all(self, attempts: Sequence[str], **said: str | bool) -> None:
+        """Say the same of several attempts, of all or of none."""
         from sqlalchemy.dialects.sqlite import insert
 
         table = _tables().tables["remarks"]
         new = {"comment": "", "void": "", "released": False} | said
-        put = insert(table).values(attempt=attempt, **new)
         with self.database.write() as connection:
-            connection.execute(put.on_conflict_do_update(["attempt"], set_=said))
+            for attempt in attempts:
+                put = insert(table).values(attempt=attempt, **new)
+                connection.execute(put.on_conflict_do_update(["attempt"], set_=said))
 
     # --- erasing ----------------------------------------------------------------------------------
     def erased(self) -> dict[str, str]:

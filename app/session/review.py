@@ -29,6 +29,7 @@ from app.session.motion import NeedleMotion, motion, needle_length
 from app.session.needle import FROM_CAMERAS
 from app.session.pad.geometry import PadScale, PathFrame, path_frame
 from app.session.pad.view import rings
+from app.session.people import NOTHING_SAID, Remarks
 from app.session.recording import Recording
 from app.session.result import AttemptResult
 from app.session.risks import risk_marks
@@ -177,6 +178,7 @@ class Review:
         tip_radius: round the tip that holds the true one with 95 %, median [m]; None if not known.
         correction: the largest turn of the needle in the tissue; None if there was none.
         motion: where the needle was in the patient; None where nothing can be replayed.
+        said: what the instructor says of it; no part of the record.
     """
 
     id: str
@@ -206,6 +208,7 @@ class Review:
     conditions: Conditions | None = None
     correction: Correction | None = None
     motion: NeedleMotion | None = None
+    said: Remarks = NOTHING_SAID
 
     @property
     def rings(self) -> tuple[float, float]:

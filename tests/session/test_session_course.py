@@ -114,6 +114,17 @@ def test_without_a_course_each_exercise_stands_in_its_newest_version() -> None:
     assert items == [CourseItem(exercise="lung", version=3)]
 
 
+def test_a_result_that_is_held_and_a_void_one_are_told_apart_and_counted_nowhere() -> None:
+    some = [attempt(f"a{k}", "p-a", 70 + k, k) for k in range(3)]
+    items = [CourseItem(exercise="lung")]
+    said = {"a0": Remarks(void="camera fell")}
+    found = progress_board([ADA], items, some, WHOSE, said, NOW, held={"a2"})
+    cell = found.cells["p-a", "lung"]
+    assert (cell.best, cell.attempts, cell.void) == (71, 1, ("camera fell",))
+    assert dict(cell.why)["not released yet"] == 1
+    assert [point.attempt for point in found.curve("p-a", "lung")] == ["a1"]
+
+
 def test_ten_thousand_attempts_make_a_board_within_a_second() -> None:
     people = [Person(f"p-{k}", f"s{k}") for k in range(200)]
     some = [

@@ -8,6 +8,7 @@ import pytest
 from PySide6.QtWidgets import QComboBox, QLineEdit, QPlainTextEdit
 
 from app.exercises.library import load_exercise
+from app.scoring.conditions import Conditions
 from app.session.course import courses
 from app.session.people import People
 from app.session.roster import RosterLine
@@ -15,7 +16,7 @@ from app.session.sidecar import write_summary
 from app.session.summary import Summary
 from app.views.author.feature import AuthorFeature
 from app.views.debrief.feature import DebriefFeature
-from app.views.debrief.sessions import SIGNED, STUDENT, cell_text
+from app.views.debrief.sessions import NOTE, SCORE, SIGNED, STUDENT
 from app.views.kit.access import ACCESS
 from app.views.people.feature import PeopleFeature
 from app.views.people.pages import CourseDialog, EntryDialog
@@ -34,7 +35,8 @@ def record(folder, name, student, total=80.0):
     score = {"total": total, "passed": True, "void_reason": "", "rows": []}
     now = datetime.now(UTC).isoformat()
     write_summary(path, Summary(name, now, student, "first-insertion", state="ended",
-                                score=MappingProxyType(score)))  # fmt: skip
+                                score=MappingProxyType(score),
+                                conditions=Conditions("first-insertion", 1)))  # fmt: skip
 
 
 def fill(dialog, *texts):
@@ -48,6 +50,11 @@ def shown(window, settle):
     sessions.refresh()
     settle(lambda: sessions.model.rowCount() > 0)
     return sessions
+
+
+def students(sessions):
+    model = sessions.model
+    return [model.index(row, STUDENT).data() for row in range(model.rowCount())]
 
 
 def test_without_a_password_everything_is_open_as_before(window, feature):
@@ -101,7 +108,7 @@ def test_the_first_password_shows_a_recovery_key_and_closes_what_students_must_n
     assert sessions.delete_button.isHidden()
     assert sessions.export.isHidden()
     assert not window.feature(AuthorFeature).button.isEnabled()
-    assert [cell_text(s, STUDENT) for s in sessions._read if ACCESS.may_see(s.student)] == ["typed"]
+    assert students(sessions) == ["typed"]
     assert sessions.model.rowCount() == 1
     sessions.table.selectAll()
     sessions.delete_selected()
@@ -109,7 +116,7 @@ def test_the_first_password_shows_a_recovery_key_and_closes_what_students_must_n
     feature.show()
     assert not feature.page.isVisible()
     ACCESS.sign_in(person)
-    assert [cell_text(s, STUDENT) for s in sessions._read if ACCESS.may_see(s.student)] == ["Ada"]
+    assert students(sessions) == ["Ada"]
     feature.show()
     assert feature.page.isVisible()
     assert [feature.page.tabs.isTabVisible(k) for k in range(3)] == [True, False, False]
@@ -227,3 +234,97 @@ def test_an_exercise_that_was_just_made_can_be_put_into_a_course(feature, monkey
     ]
     assert "Just made" in offered
     feature.dialog.close()
+
+
+def choose_rows(sessions, *names):
+    sessions.table.clearSelection()
+    sessions._choose(set(names))
+
+
+def cell(sessions, name, column):
+    model = sessions.model
+    rows = {model._summaries[row].id: row for row in range(model.rowCount())}
+    return model.index(rows[name], column).data()
+
+
+def test_the_instructor_goes_from_the_board_to_the_attempts_says_things_and_the_student_reads_them(
+    window, feature, settle
+):
+    folder = feature.context.services.sessions()
+    ada, _ = People().add(RosterLine("Ada"))
+    bob, _ = People().add(RosterLine("Bob"))
+    for name, student in (("a", ada.key), ("b", ada.key), ("c", bob.key)):
+        record(folder, name, student)
+    People().set_instructor("correct horse")
+    ACCESS.sign_in(None, instructor=True)
+    feature.look()
+    feature.show()
+    board = feature.page.board
+    assert settle(lambda: board.board is not None and len(board.board.students) == 2)
+    board.table.setCurrentCell(0, 1)
+    board.buttons[1].click()
+    sessions = window.feature(DebriefFeature).sessions
+    assert window.pages.currentWidget() is sessions
+    assert settle(lambda: sorted(one.id for one in sessions.model._summaries) == ["a", "b"])
+    assert sessions.everything.text().startswith("Ada: First insertion")
+    says = sessions.remarks
+    choose_rows(sessions, "a", "b")
+    says.comment.trigger()
+    says.dialog.text.setPlainText("  Look at the\nangle first ")
+    says.dialog.save()
+    assert settle(lambda: "angle first" in cell(sessions, "b", NOTE))
+    choose_rows(sessions, "a")
+    says.void.trigger()
+    dialog = says.dialog
+    assert not dialog.save()
+    assert "Say why" in dialog.note.text()
+    dialog.text.setPlainText("the cable was loose")
+    dialog.save()
+    assert settle(lambda: cell(sessions, "a", SCORE) == "void")
+    assert "the cable was loose" in cell(sessions, "a", NOTE)
+    assert not says.void.isEnabled()
+    sessions.back.click()
+    assert window.pages.currentWidget() is feature.page
+    assert settle(lambda: board.board.cells[ada.key, "first-insertion"].attempts == 1)
+    assert "1 void" in board.table.item(0, 1).text()
+    assert "the cable was loose" in board.table.item(0, 1).toolTip()
+    ACCESS.sign_in(ada)
+    feature.look()
+    window.feature(DebriefFeature).show_sessions()
+    assert settle(lambda: sorted(one.id for one in sessions.model._summaries) == ["a", "b"])
+    assert cell(sessions, "a", SCORE) == "void"
+    assert says.button.isHidden()
+    choose_rows(sessions, "a")
+    assert not any(action.isEnabled() for action in says.all)
+    says.ask_void()
+    assert says.dialog is None
+    ACCESS.sign_in(None, instructor=True)
+    choose_rows(sessions, "a", "b")
+    says.count.trigger()
+    assert settle(lambda: cell(sessions, "a", SCORE) == "✔ 80")
+    assert People().remarks()["a"].comment == "Look at the\nangle first"
+
+
+def test_what_is_deleted_is_listed_apart_and_brought_back_after_the_window_was_closed(
+    window, feature, settle
+):
+    folder = feature.context.services.sessions()
+    for name in ("a", "b"):
+        record(folder, name, "typed")
+    sessions = shown(window, settle)
+    assert settle(lambda: sessions.model.rowCount() == 2)
+    choose_rows(sessions, "a")
+    sessions.delete_button.click()
+    assert settle(lambda: sessions.model.rowCount() == 1)
+    sessions._deleted = []  # as in another window
+    sessions.trash.click()
+    assert settle(lambda: [one.id for one in sessions.model._summaries] == ["a"])
+    assert "can be brought back for 29 days" in cell(sessions, "a", NOTE)
+    assert sessions.delete_button.isHidden()
+    choose_rows(sessions, "a")
+    assert not sessions.open_button.isEnabled()
+    sessions.bring_back.click()
+    assert settle(lambda: sessions.model.rowCount() == 0)
+    assert "Nothing that was deleted" in sessions._count.text()
+    sessions.trash.click()
+    assert settle(lambda: sessions.model.rowCount() == 2)

@@ -28,7 +28,7 @@ from app.session.summary import Summary
 from app.session.timeline import spans
 from app.views.debrief.feature import IDEAL, DebriefFeature
 from app.views.debrief.replay import Ghost
-from app.views.debrief.sessions import SCORE, SORT_ROLE
+from app.views.debrief.sessions import SCORE, SORT_ROLE, Listed
 from app.views.kit.access import ACCESS
 from app.views.people.feature import PeopleFeature
 from app.views.slices.needle_source import Along
@@ -383,7 +383,7 @@ def test_the_list_tells_a_student_no_result_that_is_held_and_the_instructor_ever
     window.feature(PeopleFeature).look()
     assert settle(lambda: ACCESS.guarded and assessed.key in ACCESS._known.keys)
     asked = ((one.id, one.student, one.exercise_id, 1) for one in (mine, practice))
-    sessions._take([mine, practice], held_back(asked))
+    sessions.show_listed(Listed([mine, practice], held_back(asked)))
     cells = {sessions.model.index(row, SCORE).data(Qt.ItemDataRole.DisplayRole) for row in (0, 1)}
     assert cells == {"held", "✔ 87"}
     assert sessions.model.index(0, SCORE).data(SORT_ROLE) == -1.0
@@ -410,9 +410,24 @@ def test_whoever_signs_in_sees_of_the_attempt_on_the_page_what_he_may(
     assert page.review is None
     ACCESS.sign_in(None, instructor=True)
     assert settle(lambda: page.review is mine)
+    assert "Not released" in page.comment.text()
+    assert page.remarks.release.isEnabled()
+    People().remark(mine.id, comment="well held", void="the cable was loose")
+    feature._controller.look_again()
+    assert settle(lambda: "well held" in page.comment.text())
+    assert "the cable was loose" in page._reason.text()
+    assert "Void" in page._verdict.text()
+    page.remarks.count.trigger()
+    assert settle(lambda: "cable" not in page._reason.text())
     ACCESS.sign_in(assessed)
     assert settle(lambda: page.review is None)
     assert "Autumn" in page.held.text()
+    assert not page.comment.isVisibleTo(page)
+    assert page.remarks.button.isHidden()
+    People().remark(mine.id, released=True)
+    ACCESS.changed.emit()
+    assert settle(lambda: page.review is not None)
+    assert "well held" in page.comment.text()
     ACCESS.sign_in(None)
     assert settle(lambda: "another one's" in page.held.text())
     assert not page.table.isVisibleTo(page)

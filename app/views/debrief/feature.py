@@ -5,6 +5,7 @@ scans.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Final
 
@@ -24,6 +25,7 @@ from app.session.control_scan import ControlScan
 from app.session.errors import SessionError
 from app.session.motion import ShownMotion, show_expert
 from app.session.next_exercise import Around, around, held_by
+from app.session.people import People
 from app.session.recording import open_recording
 from app.session.result import AttemptResult
 from app.session.review import Review, review, review_of_result
@@ -59,12 +61,14 @@ class DebriefController(QObject):
         shown(): the debrief page shows an attempt; bring it to the front.
         replayed(): it can be replayed; its CT is to be found.
         saved(str): a file was written there.
+        noted(str): something else worked.
         failed(str): something did not work, in one line.
     """
 
     shown = Signal()
     replayed = Signal()
     saved = Signal(str)
+    noted = Signal(str)
     failed = Signal(str)
 
     def __init__(
@@ -93,6 +97,10 @@ class DebriefController(QObject):
         sessions.open_requested.connect(lambda summary: self.open_session(summary.id))
         sessions.export_requested.connect(self.export_list)
         sessions.failed.connect(self.failed)
+        page.remarks.failed.connect(self._fail)
+        for speaks in (page.remarks, sessions):
+            speaks.noted.connect(self.noted)
+        page.said.connect(self.look_again)
 
     def show_result(self, result: AttemptResult) -> None:
         """Show an attempt that has just finished."""
@@ -150,16 +158,17 @@ class DebriefController(QObject):
         """Read an attempt beside the window, and show it; a newer wish replaces one under way."""
         if self._reading is not None and self._reading.is_running():
             self._reading.drop()
+
         manages = ACCESS.may_manage
 
-        def read(progress: Progress) -> tuple[Review, str]:
+        def read(progress: Progress) -> tuple[Review, str, str]:
             progress.report(0.1, "")
             found = operation()
             progress.report(0.9, "")
-            return found, "" if manages else held_by(found)
+            return with_remarks(found), *_for(manages, held_by(found))
 
         self._reading = task = BackgroundTask(
-            self, read, lambda both: self._show(*both), self._fail
+            self, read, lambda found: self._show(*found), self._fail
         )
         if self._indicator is not None:
             self._indicator.show_task(task, tr("Reading the attempt"))
@@ -177,22 +186,43 @@ class DebriefController(QObject):
                 tr("This attempt is another one's: sign in as who made it, or as the instructor."),
             )
             return
-        manages = ACCESS.may_manage
+        self._page.follow_access()
 
         def take(held: str) -> None:
             if self._shown is shown and ACCESS.may_see(shown.student):
-                self._put(shown, held)
+                self._put(shown, *_for(ACCESS.may_manage, held))
 
-        run_in_background(self, lambda _: "" if manages else held_by(shown), take, self._fail)
+        run_in_background(self, lambda _: held_by(shown), take, self._fail)
 
-    def _show(self, shown: Review, held: str) -> None:
+    def look_again(self) -> None:
+        """Look what the instructor says now of the attempt that is shown."""
+        shown = self._shown
+        if shown is None:
+            return
+
+        def take(both: tuple[Review, str]) -> None:
+            found, held = both
+            if self._shown is shown:
+                self._shown = found
+                if self._page.review is not None:
+                    self._page.show_said(found, held)
+
+        run_in_background(self, lambda _: (with_remarks(shown), held_by(shown)), take, self._fail)
+
+    def _show(self, shown: Review, held: str, waits: str = "") -> None:
         self._reading, self._shown = None, shown
         self.exercise = shown.conditions.exercise if shown.conditions is not None else ""
-        self._put(shown, held)
+        self._put(shown, held, waits)
         self.shown.emit()
 
-    def _put(self, shown: Review, held: str) -> None:
-        """Put an attempt on the page, or say who releases its result."""
+    def _put(self, shown: Review, held: str, waits: str = "") -> None:
+        """Put an attempt on the page, or say who releases its result.
+
+        Args:
+            shown: the attempt.
+            held: title of the course that holds its result back from who is here.
+            waits: of the one that holds it back from others.
+        """
         if held:
             self._page.show_held(
                 shown,
@@ -202,9 +232,11 @@ class DebriefController(QObject):
                     course=held,
                 ),
             )
-        elif self._page.review is not shown:
-            self._page.show_review(shown)
-            self.replayed.emit()
+        else:
+            if self._page.review is not shown:
+                self._page.show_review(shown)
+                self.replayed.emit()
+            self._page.show_said(shown, waits)
         self._look_around(shown, bool(held))
 
     def _look_around(self, shown: Review, held: bool) -> None:
@@ -261,6 +293,21 @@ class DebriefController(QObject):
             )
         else:
             self.failed.emit(str(error))
+
+
+def _for(manages: bool, held: str) -> tuple[str, str]:
+    """Return the title of a course that holds a result back from who is here, and from others."""
+    return ("", held) if manages else (held, "")
+
+
+def with_remarks(found: Review) -> Review:
+    """Return an attempt with what the instructor says of it; called beside the window.
+
+    Raises:
+        SessionError: if the list of people cannot be read.
+    """
+    said = People().remarks().get(found.id, found.said)
+    return found if said == found.said else replace(found, said=said)
 
 
 def ask_path_in_dialog(parent: QWidget, title: str, start: str, kind: str) -> str:
@@ -515,14 +562,16 @@ class DebriefFeature(Feature):
         self.ct = AttemptCt(self.page, context, lambda: self._controller.exercise)
         self.scan_pictures = ScanPictures(self.page, context.conductor, shell.progress)
         self._controller.failed.connect(lambda why: self.failed.emit(why))
+        self._controller.noted.connect(self.noted)
         self._controller.saved.connect(lambda path: self.noted.emit(tr("Saved {name}", name=path)))
         self._controller.shown.connect(self.show)
         self._controller.replayed.connect(self.ct.find)
         ACCESS.changed.connect(self._controller.follow_access)
         self.page.retry_requested.connect(self.begin_again)
         self.page.next_requested.connect(self.begin_wanted)
-        self.page.sessions_requested.connect(self.show_sessions)
-        self.sessions.closed.connect(shell.show_workspace)
+        self.page.sessions_requested.connect(self._show_list)
+        self._back: Callable[[], object] = shell.show_workspace
+        self.sessions.closed.connect(lambda: self._back())
         context.conductor.controller.finished.connect(self.show_result)
         menu = shell.menu(tr("&Sessions"))
         add_entries(menu, [(tr("Past sessions"), "F7", self.show_sessions)])
@@ -610,8 +659,35 @@ class DebriefFeature(Feature):
 
     def show_sessions(self) -> None:
         """Go to the past attempts."""
+        self._back = self.context.shell.show_workspace
+        self.sessions.show_only(None)
+        self._show_list()
+
+    def show_attempts(self, key: str, exercise: str, words: str, back: Callable[[], None]) -> None:
+        """Go to the attempts of one student.
+
+        Args:
+            key: of the student.
+            exercise: id; empty for all.
+            words: say which attempts these are.
+            back: where *Back* leads.
+        """
+
+        def only(one: Summary) -> bool:
+            return ACCESS.owner(one.student) == key and exercise in ("", one.exercise_id)
+
+        self._back = back
+        self.sessions.show_only(only, words)
+        self._show_list()
+
+    def open_attempt(self, session_id: str) -> None:
+        """Read an attempt, and show its debrief."""
+        self._controller.open_session(session_id)
+
+    def _show_list(self) -> None:
         self.sessions.refresh()
         self.context.shell.show_page(self.sessions)
+        self.sessions.table.setFocus()
 
     def show_result(self, result: AttemptResult) -> None:
         """Show the debrief of an attempt that ended."""

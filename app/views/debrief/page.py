@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from datetime import datetime
 from typing import Final
 
@@ -30,6 +31,7 @@ from app.session.motion import Alignment
 from app.session.next_exercise import Proposal, ProposalReason
 from app.session.review import Review
 from app.views.debrief.curves import CurvesView
+from app.views.debrief.remarks import RemarkActions, said_words
 from app.views.debrief.replay import (
     LEAP_S,
     STEP_S,
@@ -219,6 +221,7 @@ class DebriefPage(QWidget):
         retry_requested(): the same exercise again.
         next_requested(str): begin this exercise, which was proposed.
         sessions_requested().
+        said(): the instructor said something of the attempt.
         ghost_wanted(object): the key of another attempt that is to stand beside this one.
 
     Attributes:
@@ -232,11 +235,13 @@ class DebriefPage(QWidget):
     retry_requested = Signal()
     next_requested = Signal(str)
     sessions_requested = Signal()
+    said = Signal()
     ghost_wanted = Signal(object)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._review: Review | None = None
+        self._waits = ""
         self._proposal: Proposal | None = None
         self._ghost: Ghost | None = None
         self._alignment = Alignment.TIME
@@ -244,7 +249,7 @@ class DebriefPage(QWidget):
         self._verdict, self._total, self._reason = QLabel(self), QLabel(self), QLabel(self)
         self._problems, self.risks = QLabel(self), QLabel(self)
         self.ending, self.lessons, self.proposal = QLabel(self), QLabel(self), QLabel(self)
-        self.held = QLabel(self)
+        self.held, self.comment = QLabel(self), QLabel(self)
         self.table = ScoreTable(self)
         self.scans = ScanList(self)
         self.replayer = Replayer(self)
@@ -256,6 +261,7 @@ class DebriefPage(QWidget):
         self.retry = QPushButton(tr("Again"), self)
         self.next = QPushButton(self)
         self.sessions = QPushButton(tr("Sessions"), self)
+        self.remarks = RemarkActions(self, lambda: [self._review.id] if self._review else [])
         self._style()
         self._lay_out()
         self._connect()
@@ -263,13 +269,13 @@ class DebriefPage(QWidget):
 
     def show_review(self, review: Review) -> None:
         """Show an attempt, standing where its needle ended."""
-        self._review, self._ghost = review, None
+        self._review, self._ghost, self._waits = review, None, ""
         self._show_held("")
         self._title.setText(review.exercise)
         self._facts.setText(facts(review))
         self._show_conditions(review)
         self._total.setText(total_text(review.score))
-        self._show_words(review)
+        self.show_said(review)
         lines = risk_lines(review)
         self.risks.setText("\n".join((tr("Closest to structures of risk"), *lines)))
         self.risks.setVisible(bool(lines))
@@ -284,6 +290,26 @@ class DebriefPage(QWidget):
         self.show_proposal(None)
         self._begin_replay(review)
 
+    def show_said(self, review: Review, waits: str = "") -> None:
+        """Show what the instructor says of the attempt that is shown.
+
+        Args:
+            review: of the same attempt, with what is said now.
+            waits: title of the course whose instructor has not released the result yet, for him.
+        """
+        self._review, self._waits = review, waits
+        self._show_words(review)
+        self.follow_access()
+
+    def follow_access(self) -> None:
+        """Offer what may be said of the attempt by who is here."""
+        review = self._review
+        if review is None:
+            self.remarks.follow({}, {})
+        else:
+            held = {review.id: self._waits} if self._waits else {}
+            self.remarks.follow({review.id: review.said}, held)
+
     def show_held(self, review: Review, words: str) -> None:
         """Say only that there was an attempt, and who releases its result: nothing that tells it.
 
@@ -291,7 +317,8 @@ class DebriefPage(QWidget):
             review: of the attempt; neither score nor course of it is shown.
             words: who releases it.
         """
-        self._review, self._ghost = None, None
+        self._review, self._ghost, self._waits = None, None, ""
+        self.follow_access()
         self.replayer.begin(0.0, 0.0)
         self._title.setText(review.exercise)
         self._facts.setText(facts(review))
@@ -332,6 +359,9 @@ class DebriefPage(QWidget):
         self._verdict.setStyleSheet(f"color: {colour}; font-size: {theme.TITLE_PX + 6}px;")
         self._reason.setText(NAMES.without_names(reason))
         self._reason.setVisible(bool(reason))
+        said = said_words(replace(review.said, void=""), self._waits)
+        self.comment.setText(NAMES.without_names("\n".join(said)))
+        self.comment.setVisible(bool(said))
         problems = "\n".join(f"▲ {problem}" for problem in review.problems)
         self._problems.setText(NAMES.without_names(problems, files=True))
         self._problems.setVisible(bool(review.problems))
@@ -402,6 +432,9 @@ class DebriefPage(QWidget):
         self._total.setStyleSheet(f"font-size: {theme.TITLE_PX}px; font-weight: 600;")
         self._problems.setStyleSheet(f"color: {theme.WARNING}; font-size: {theme.SMALL_PX}px;")
         self.proposal.setStyleSheet("font-weight: 600;")
+        self.comment.setStyleSheet(
+            f"background: {theme.RAISED}; border-left: 3px solid {theme.ACCENT}; padding: 4px 8px;"
+        )
         for label in (
             self._title,
             self._facts,
@@ -413,6 +446,7 @@ class DebriefPage(QWidget):
             self.lessons,
             self.proposal,
             self.held,
+            self.comment,
         ):
             label.setTextFormat(Qt.TextFormat.PlainText)
             label.setWordWrap(True)
@@ -445,7 +479,14 @@ class DebriefPage(QWidget):
         headline.addWidget(self._total, 1, Qt.AlignmentFlag.AlignRight)
         column.addLayout(headline)
         column.addWidget(self.conditions)
-        for widget in (self._reason, self._problems, self.ending, self.lessons, self.proposal):
+        for widget in (
+            self._reason,
+            self.comment,
+            self._problems,
+            self.ending,
+            self.lessons,
+            self.proposal,
+        ):
             column.addWidget(widget)
         column.addWidget(self.table, 3)
         column.addWidget(self.risks)
@@ -474,7 +515,14 @@ class DebriefPage(QWidget):
         note.setProperty("role", "disclaimer")
         note.setWordWrap(True)
         buttons.addWidget(note, 1)
-        for button in (self.sessions, self.export, self.report, self.retry, self.next):
+        for button in (
+            self.remarks.button,
+            self.sessions,
+            self.export,
+            self.report,
+            self.retry,
+            self.next,
+        ):
             buttons.addWidget(button)
         return buttons
 
@@ -493,6 +541,7 @@ class DebriefPage(QWidget):
         self.retry.clicked.connect(self.retry_requested)
         self.next.clicked.connect(self._go_on)
         self.sessions.clicked.connect(self.sessions_requested)
+        self.remarks.changed.connect(self.said)
         self.replayer.moved.connect(self._show_time)
         self.curves.sought.connect(self._seek)
         self.scans.cellClicked.connect(lambda row, _: self._seek_scan(row))

@@ -370,9 +370,16 @@ def total_text(score: Score | None) -> str:
     return tr("{total:.0f} of 100 points", total=score.total)
 
 
+def _ended(sentence: str) -> str:
+    return sentence if sentence.endswith((".", "!", "?")) else f"{sentence}."
+
+
 def verdict(review: Review) -> tuple[str, str, str]:
     """Colour, symbol with word, and the reason in one line."""
     score = review.score
+    if review.said.void:
+        why = tr("Declared void by the instructor: {why}", why=review.said.void)
+        return theme.WARNING, tr("▲ Void"), tr("{why} It counts nowhere.", why=_ended(why))
     if score is None:
         return theme.TEXT_DIM, "–", review.reason or tr("This attempt was not scored.")
     if score.void_reason:

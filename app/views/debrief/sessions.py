@@ -1,6 +1,11 @@
-"""The sessions page: what was recorded, as a table to sort, open, export, delete and bring back."""
+"""The sessions page: what was recorded, as a table to sort, open, export, delete and bring back.
 
-from collections.abc import Mapping, Sequence
+The instructor also says here what is said of attempts (`remarks`), and sees what was deleted.
+"""
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final
 
@@ -28,10 +33,14 @@ from PySide6.QtWidgets import (
 )
 
 from app.core.errors import AcusError
+from app.session.archive import UNDO_DAYS, deleted_at
 from app.session.course import held_back
-from app.session.store import delete, list_sessions, restore
+from app.session.header import TRASH
+from app.session.people import NOTHING_SAID, People, Remarks
+from app.session.store import SUFFIX, delete, list_sessions, restore
 from app.session.summary import BROKEN, Summary
 from app.views.debrief.page import date_text
+from app.views.debrief.remarks import RemarkActions, said_words
 from app.views.debrief.score_words import facts_of, short_words
 from app.views.exercise.readouts import clock_text
 from app.views.exercise.steps import state_word
@@ -60,20 +69,60 @@ _STATE_LOOKS: Final = {
 }
 
 
+@dataclass(frozen=True, slots=True)
+class Listed:
+    """What the list shows.
+
+    Attributes:
+        summaries: of the attempts.
+        held: title of the course that holds a result back, by id.
+        said: what the instructor said, by id.
+        deleted: when they were deleted [s since 1970], by id; empty where none is.
+    """
+
+    summaries: Sequence[Summary] = ()
+    held: Mapping[str, str] = field(default_factory=dict)
+    said: Mapping[str, Remarks] = field(default_factory=dict)
+    deleted: Mapping[str, float] = field(default_factory=dict)
+
+    def for_student(self) -> "Listed":
+        """Return it without what is not open before a result is released."""
+        said = {
+            name: Remarks(void=one.void) if name in self.held else one
+            for name, one in self.said.items()
+        }
+        return Listed(self.summaries, self.held, said, self.deleted)
+
+    def remarks(self, summary: Summary, manages: bool) -> list[str]:
+        """Say what is to be known of an attempt, one line each; of who manages, more."""
+        lines = said_words(
+            self.said.get(summary.id, NOTHING_SAID), self.held.get(summary.id, "") * manages
+        )
+        if summary.id in self.deleted:
+            days = UNDO_DAYS - (time.time() - self.deleted[summary.id]) / 86400.0
+            lines.insert(
+                0,
+                tr("deleted; can be brought back for {n} days", n=int(days))
+                if days >= 1.0
+                else tr("deleted; can be brought back until the trash is emptied"),
+            )
+        return lines
+
+
 class SessionsModel(QAbstractTableModel):
     """Read-only table of summaries."""
 
     def __init__(self) -> None:
         super().__init__()
         self._summaries: tuple[Summary, ...] = ()
-        self._held: Mapping[str, str] = {}
+        self._listed = Listed()
+        self._manages = True
 
-    def set_summaries(
-        self, summaries: Sequence[Summary], held: Mapping[str, str] | None = None
-    ) -> None:
-        """Replace all rows; of those that are `held` by a course no score is shown."""
+    def set_listed(self, listed: Listed, manages: bool) -> None:
+        """Replace all rows; of a result that is held no score is shown unless `manages`."""
         self.beginResetModel()
-        self._summaries, self._held = tuple(summaries), held or {}
+        self._listed = listed if manages else listed.for_student()
+        self._summaries, self._manages = tuple(listed.summaries), manages
         self.endResetModel()
 
     def rowCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008
@@ -107,8 +156,14 @@ class SessionsModel(QAbstractTableModel):
     def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         """Text, colour, alignment, sort key or the summary itself."""
         summary, column = self._summaries[index.row()], index.column()
-        if column == SCORE and summary.id in self._held:
-            course = self._held[summary.id]
+        said = self._listed.said.get(summary.id, NOTHING_SAID)
+        if column == SCORE and said.void and role == Qt.ItemDataRole.DisplayRole:
+            return tr("void")
+        if column == NOTE and role == Qt.ItemDataRole.DisplayRole:
+            lines = [*self._listed.remarks(summary, self._manages), cell_text(summary, column)]
+            return NAMES.without_names(" · ".join(" ".join(one.split()) for one in lines if one))
+        if column == SCORE and summary.id in self._listed.held and not self._manages:
+            course = self._listed.held[summary.id]
             told: dict[int, Any] = {
                 Qt.ItemDataRole.DisplayRole: tr("held"),
                 SORT_ROLE: -1.0,
@@ -127,10 +182,13 @@ class SessionsModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.ToolTipRole:
             known = summary.conditions
             under = [f"{name}: {value}" for name, value in facts_of(known)] if known else []
-            lines = filter(None, (summary.id, summary.reason, *summary.problems, *under))
-            return NAMES.without_names("\n".join(lines), files=True)
+            remarks = self._listed.remarks(summary, self._manages)
+            every = (summary.id, *remarks, summary.reason, *summary.problems, *under)
+            return NAMES.without_names("\n".join(line for line in every if line), files=True)
         if role == Qt.ItemDataRole.TextAlignmentRole and column in _RIGHT:
             return _RIGHTWARDS
+        if role == Qt.ItemDataRole.ForegroundRole and column == SCORE and said.void:
+            return QColor(theme.now(theme.WARNING))
         if role == Qt.ItemDataRole.ForegroundRole and column == STATE:
             return QColor(theme.now(_STATE_LOOKS.get(summary.state, (theme.TEXT, ""))[0]))
         if role == Qt.ItemDataRole.ForegroundRole and column == SIGNED:
@@ -201,19 +259,21 @@ def sort_key(summary: Summary, column: int) -> str | float:
     return cell_text(summary, column).casefold()
 
 
-def listed(folder: Path) -> tuple[list[Summary], dict[str, str]]:
-    """Return the records of a folder, and the courses that hold a result back, by its id.
+def listed(folder: Path, deleted: bool = False) -> Listed:
+    """Return the records of a folder, or those deleted from it, with what is said of them.
 
     Raises:
         SessionError: if something cannot be read.
     """
-    found = list_sessions(folder)
+    place = folder / TRASH if deleted else folder
+    found = list_sessions(place)
     asked = (
         (one.id, one.student, one.exercise_id, one.conditions.version)
         for one in found
         if one.conditions is not None
     )
-    return found, held_back(asked)
+    since = {one.id: deleted_at(place / f"{one.id}{SUFFIX}") for one in found} if deleted else {}
+    return Listed(found, held_back(asked), People().remarks(), since)
 
 
 class SessionsPage(QWidget):
@@ -221,6 +281,8 @@ class SessionsPage(QWidget):
 
     Signals:
         open_requested(Summary): show the debrief of a session.
+        said(): the instructor said something of attempts.
+        noted(str): something worked.
         export_requested(list[Summary]): write these as CSV.
         failed(str): something did not work, in one line.
         closed(): back to where the user came from.
@@ -229,14 +291,16 @@ class SessionsPage(QWidget):
     open_requested = Signal(object)
     export_requested = Signal(object)
     failed = Signal(str)
+    said = Signal()
+    noted = Signal(str)
     closed = Signal()
 
     def __init__(self, folder: Path, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._folder = folder
         self._deleted: list[str] = []
-        self._read: tuple[Summary, ...] = ()
-        self._held: Mapping[str, str] = {}
+        self._listed, self._asked = Listed(), 0
+        self._only: Callable[[Summary], bool] | None = None
         self.model = SessionsModel()
         self.proxy = QSortFilterProxyModel(self)
         self.proxy.setSourceModel(self.model)
@@ -251,7 +315,11 @@ class SessionsPage(QWidget):
         self.export = QPushButton(tr("Export CSV"), self)
         self.delete_button = QPushButton(tr("Delete"), self)
         self.undo = QPushButton(tr("Undo delete"), self)
+        self.trash = QPushButton(tr("Show deleted"), self)
+        self.bring_back = QPushButton(tr("Bring back"), self)
+        self.everything = QPushButton(self)
         self._prepare_table()
+        self.remarks = RemarkActions(self, lambda: [] if self._in_trash else self._readable())
         self._lay_out()
         self._connect()
         ACCESS.changed.connect(self._show_again)
@@ -259,24 +327,68 @@ class SessionsPage(QWidget):
 
     def refresh(self) -> None:
         """Read the folder again, beside the window."""
-        run_in_background(
-            self, lambda _: listed(self._folder), lambda both: self._take(*both), self._fail
-        )
+        self._asked += 1
+        asked, deleted = self._asked, self._in_trash
 
-    def _take(self, summaries: Sequence[Summary], held: Mapping[str, str]) -> None:
-        self._held = held
-        self.show_summaries(summaries)
+        def take(found: Listed) -> None:
+            if asked == self._asked:
+                self.show_listed(found)
 
-    def show_summaries(self, summaries: Sequence[Summary]) -> None:
-        """Show these sessions: those that who is here may see."""
-        self._read = tuple(summaries)
-        held = {} if ACCESS.may_manage else self._held
-        self.model.set_summaries([one for one in summaries if ACCESS.may_see(one.student)], held)
+        run_in_background(self, lambda _: listed(self._folder, deleted), take, self._fail)
+
+    def show_listed(self, found: Listed) -> None:
+        """Show these sessions: those that who is here may see, and that are asked for."""
+        self._listed = found
+        chosen = {one.id for one in self.selected()}
+        shown = [
+            one
+            for one in found.summaries
+            if ACCESS.may_see(one.student) and (self._only is None or self._only(one))
+        ]
+        rows = Listed(shown, found.held, found.said, found.deleted)
+        self.model.set_listed(rows, ACCESS.may_manage)
         self._fit_columns()
+        self._choose(chosen)
         self._enable()
 
+    def show_summaries(self, summaries: Sequence[Summary]) -> None:
+        """Show these sessions, of which nothing is said."""
+        self.show_listed(Listed(tuple(summaries)))
+
+    def show_only(self, only: Callable[[Summary], bool] | None, words: str = "") -> None:
+        """Show some of the attempts, and say which; None shows all again."""
+        self._only = only
+        self.everything.setText(tr("{words}  ✕", words=words))
+        self.everything.setToolTip(tr("Show all attempts again"))
+        self.everything.setVisible(only is not None)
+        self.search.clear()
+        self.trash.setChecked(False)
+        self._show_again()
+
     def _show_again(self) -> None:
-        self.show_summaries(self._read)
+        if self._in_trash and not ACCESS.may_manage:
+            self.trash.setChecked(False)  # reads the others
+            self._listed = Listed()
+        self.show_listed(self._listed)
+
+    @property
+    def _in_trash(self) -> bool:
+        return self.trash.isChecked()
+
+    def _show_trash(self) -> None:
+        """Show what was deleted, or what was not."""
+        self.trash.setText(tr("Back to the attempts") if self._in_trash else tr("Show deleted"))
+        self.show_listed(Listed())
+        self.refresh()
+
+    def _choose(self, names: set[str]) -> None:
+        """Select rows by id."""
+        selection, model = self.table.selectionModel(), self.proxy
+        which = selection.SelectionFlag.Select | selection.SelectionFlag.Rows
+        for row in range(model.rowCount()):
+            index = model.index(row, 0)
+            if index.data(SUMMARY_ROLE).id in names:
+                selection.select(index, which)
 
     def _fit_columns(self) -> None:
         """Fit the columns to all sessions, also to those that the filter hides now."""
@@ -291,7 +403,7 @@ class SessionsPage(QWidget):
 
     def delete_selected(self) -> None:
         """Move the selected sessions to the trash folder; `undo_delete` brings them back."""
-        if not ACCESS.may_manage:
+        if not ACCESS.may_manage or self._in_trash:
             return
         deleted = []
         try:
@@ -302,6 +414,25 @@ class SessionsPage(QWidget):
             self.failed.emit(str(error))
         if deleted:
             self._deleted = deleted
+            words = tr("{n} deleted: Ctrl+Z here, or Show deleted, brings back", n=len(deleted))
+            self.noted.emit(words)
+            self.said.emit()
+        self.refresh()
+
+    def bring_selected_back(self) -> None:
+        """Bring deleted sessions back that are selected among them."""
+        if not ACCESS.may_manage or not self._in_trash:
+            return
+        names = [summary.id for summary in self.selected()]
+        try:
+            for name in names:
+                restore(self._folder, name)
+        except AcusError as error:
+            self.failed.emit(str(error))
+        else:
+            self.noted.emit(tr("{n} brought back", n=len(names)))
+        self._deleted = [name for name in self._deleted if name not in names]
+        self.said.emit()
         self.refresh()
 
     def undo_delete(self) -> None:
@@ -314,33 +445,45 @@ class SessionsPage(QWidget):
                 self._deleted.pop()
         except AcusError as error:
             self.failed.emit(str(error))
+        self.said.emit()
         self.refresh()
 
     # --- inside -----------------------------------------------------------------------------------
     def _open(self, index: QModelIndex | None = None) -> None:
         chosen = [index.data(SUMMARY_ROLE)] if index is not None else self.selected()
-        if len(chosen) != 1:
+        if len(chosen) != 1 or self._in_trash:
             return
         if chosen[0].state == BROKEN:
             self.failed.emit(chosen[0].reason)
         else:
             self.open_requested.emit(chosen[0])
 
+    def _readable(self) -> list[str]:
+        return [summary.id for summary in self.selected() if summary.state != BROKEN]
+
     def _enable(self) -> None:
-        chosen = self.selected()
-        readable = [summary for summary in chosen if summary.state != BROKEN]
-        self.open_button.setEnabled(len(chosen) == 1 and len(readable) == 1)
-        manage = ACCESS.may_manage
+        chosen, readable = self.selected(), self._readable()
+        manage, deleted = ACCESS.may_manage, self._in_trash
+        self.open_button.setEnabled(len(chosen) == 1 and len(readable) == 1 and not deleted)
         for widget in (self.export, self.delete_button, self.undo):
-            widget.setVisible(manage)
-        self.export.setEnabled(bool(readable) and manage)
-        self.delete_button.setEnabled(bool(chosen) and manage)
+            widget.setVisible(manage and not deleted)
+        self.trash.setVisible(manage)
+        self.bring_back.setVisible(manage and deleted)
+        self.bring_back.setEnabled(bool(chosen))
+        self.export.setEnabled(bool(readable) and manage and not deleted)
+        self.delete_button.setEnabled(bool(chosen) and manage and not deleted)
         self.undo.setEnabled(bool(self._deleted) and manage)
+        self.remarks.follow(self._listed.said, self._listed.held)
+        if deleted:
+            self.remarks.button.hide()
         shown, total = self.proxy.rowCount(), self.model.rowCount()
+        empty = tr("No sessions yet: begin an attempt, and it will be listed here.")
+        if deleted:
+            empty = tr("Nothing that was deleted is left.")
+        elif self._only is not None:
+            empty = tr("No attempt of these yet.")
         self._count.setText(
-            tr("No sessions yet: begin an attempt, and it will be listed here.")
-            if total == 0
-            else tr("{shown} of {total} sessions", shown=shown, total=total)
+            empty if total == 0 else tr("{shown} of {total} sessions", shown=shown, total=total)
         )
 
     def _fail(self, error: Exception) -> None:
@@ -365,6 +508,14 @@ class SessionsPage(QWidget):
         self.search.setPlaceholderText(tr("Filter by student, exercise, date, state…"))
         self.search.setClearButtonEnabled(True)
         self.open_button.setProperty("role", "primary")
+        self.open_button.setToolTip(tr("Debrief with replay (double click, or Enter)"))
+        self.delete_button.setToolTip(
+            tr("To the deleted ones, for {n} days at least (Del)", n=UNDO_DAYS)
+        )
+        self.undo.setToolTip(tr("Bring the last deleted ones back (Ctrl+Z in the table)"))
+        self.trash.setToolTip(tr("What was deleted, to be brought back"))
+        self.trash.setCheckable(True)
+        self.everything.hide()
         self._count.setProperty("role", "dim")
 
     def _lay_out(self) -> None:
@@ -373,11 +524,20 @@ class SessionsPage(QWidget):
         top = QHBoxLayout()
         top.addWidget(title)
         top.addSpacing(2 * theme.MARGIN)
+        top.addWidget(self.everything)
         top.addWidget(self.search, 1)
         bottom = QHBoxLayout()
         bottom.addWidget(self.back)
         bottom.addWidget(self._count, 1)
-        for button in (self.undo, self.delete_button, self.export, self.open_button):
+        for button in (
+            self.remarks.button,
+            self.trash,
+            self.bring_back,
+            self.undo,
+            self.delete_button,
+            self.export,
+            self.open_button,
+        ):
             bottom.addWidget(button)
         page = QVBoxLayout(self)
         page.setContentsMargins(theme.MARGIN, theme.MARGIN, theme.MARGIN, theme.MARGIN)
@@ -395,9 +555,22 @@ class SessionsPage(QWidget):
         self.export.clicked.connect(self._export)
         self.delete_button.clicked.connect(self.delete_selected)
         self.undo.clicked.connect(self.undo_delete)
+        self.trash.toggled.connect(lambda _: self._show_trash())
+        self.bring_back.clicked.connect(self.bring_selected_back)
+        self.everything.clicked.connect(lambda: self.show_only(None))
+        self.remarks.failed.connect(self._fail)
+        self.remarks.noted.connect(self.noted)
+        self.remarks.changed.connect(self.refresh)
+        self.remarks.changed.connect(self.said)
+        self.table.addActions(self.remarks.all)
+        self.table.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
         delete = QShortcut(QKeySequence(QKeySequence.StandardKey.Delete), self.table)
         delete.setContext(Qt.ShortcutContext.WidgetShortcut)
         delete.activated.connect(self.delete_selected)
+        for key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            opens = QShortcut(QKeySequence(key), self.table)
+            opens.setContext(Qt.ShortcutContext.WidgetShortcut)
+            opens.activated.connect(lambda: self._open())
         self.table.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:

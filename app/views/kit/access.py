@@ -81,11 +81,15 @@ class Access(QObject):
         """Return what a record names: the key of who is signed in, else what was typed."""
         return self.student.key if self.student is not None else typed
 
+    def owner(self, recorded: str) -> str:
+        """Return the key of the student whom a record names; empty where nobody is known."""
+        return self._known.keys.get(recorded, "")
+
     def may_see(self, recorded: str) -> bool:
         """Whether attempts of whom a record names are open to who is here."""
         if self.may_manage:
             return True
-        owner = self._known.keys.get(recorded, "")
+        owner = self.owner(recorded)
         return owner == self.student.key if self.student is not None else not owner
 
     def refusal(self, exercise: str) -> str:

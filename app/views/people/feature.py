@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import ClassVar, TypeVar
 
-from PySide6.QtCore import QStandardPaths, SignalInstance
+from PySide6.QtCore import QStandardPaths, Signal, SignalInstance
 from PySide6.QtWidgets import QDialog, QFileDialog, QInputDialog, QMessageBox
 
 from app.core.errors import AcusError
@@ -30,9 +30,9 @@ from app.views.kit.names import NAMES
 from app.views.kit.text import tr
 from app.views.people.pages import (
     CourseDialog,
+    CurveDialog,
     EntryDialog,
     PeoplePage,
-    curve_dialog,
     text_dialog,
 )
 from app.views.shell.feature import Context, Feature
@@ -54,12 +54,19 @@ class Look:
 class PeopleFeature(Feature):
     """Signing in and out, and the page of people, in the menu of sessions.
 
+    Signals:
+        attempts_wanted(str, str, str): key of a student, id of an exercise (empty for all), and
+            what these attempts are called: they are to be listed.
+        attempt_wanted(str): the debrief of this attempt.
+
     Attributes:
         page: board, students and courses.
         dialog: the one that was opened last.
     """
 
     topic: ClassVar[str] = "people"
+    attempts_wanted = Signal(str, str, str)
+    attempt_wanted = Signal(str)
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
@@ -200,7 +207,9 @@ class PeopleFeature(Feature):
         def read(progress: Progress) -> Look:
             people, (known, broken) = self._people, courses()
             course = next((one for one in known if one.id == chosen), None)
-            board, attempts = board_of(self._folder, people, course, group or "", None, progress)
+            board, attempts = board_of(
+                self._folder, people, course, group or "", None, progress, released=not names
+            )
             everybody = people.everybody(names)
             if not names:
                 everybody = [one for one in everybody if student and one.key == student.key]
@@ -228,10 +237,21 @@ class PeopleFeature(Feature):
         look = self._look
         if look is None:
             return
-        who = next((one.pseudonym for one in look.people if one.key == key), "")
-        title = f"{NAMES.shown(who)}: {self._titles().get(exercise, exercise)}"
         points = look.board.curve(key, exercise)
-        self._open(curve_dialog(title, points, self._shell.dialog_parent))
+        dialog = CurveDialog(self._named(key, exercise), points, self._shell.dialog_parent)
+        dialog.attempt_chosen.connect(self.attempt_wanted)
+        dialog.attempts.clicked.connect(lambda: self._show_attempts(key, exercise))
+        dialog.attempts.clicked.connect(dialog.accept)
+        self._open(dialog)
+
+    def _show_attempts(self, key: str, exercise: str) -> None:
+        self.attempts_wanted.emit(key, exercise, self._named(key, exercise))
+
+    def _named(self, key: str, exercise: str) -> str:
+        """Say whose attempts at what."""
+        people = self._look.people if self._look is not None else ()
+        who = NAMES.shown(next((one.pseudonym for one in people if one.key == key), ""))
+        return f"{who}: {self._titles().get(exercise, exercise)}" if exercise else who
 
     # --- students ---------------------------------------------------------------------------------
     def add_student(self) -> None:
@@ -424,6 +444,7 @@ class PeopleFeature(Feature):
         self.page.closed.connect(self._shell.show_workspace)
         board.choice_changed.connect(self.refresh)
         board.curve_wanted.connect(self._show_curve)
+        board.attempts_wanted.connect(self._show_attempts)
         board.export_wanted.connect(self.choose_export)
         students.add.clicked.connect(lambda: self.add_student())
         students.roster.clicked.connect(lambda: self.choose_roster())

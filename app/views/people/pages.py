@@ -7,8 +7,17 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Final
 
 from PySide6.QtCore import QPointF, QRectF, Qt, Signal
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import (
+    QAction,
+    QColor,
+    QKeySequence,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+)
 from PySide6.QtWidgets import (
+    QAbstractItemView,
     QCheckBox,
     QComboBox,
     QDialog,
@@ -32,6 +41,7 @@ from app.exercises.schema import Exercise
 from app.session.board import BoardCell, CurvePoint, ProgressBoard
 from app.session.course import Course, course_of
 from app.session.people import Person
+from app.views.debrief.page import date_text
 from app.views.kit import theme
 from app.views.kit.names import NAMES
 from app.views.kit.parts import button, label, table
@@ -45,19 +55,21 @@ _LEVEL: Final = 0.5
 
 def cell_words(cell: BoardCell) -> str:
     """Say how a student stands: best, last, trend, time since."""
+    void = tr(" · {n} void", n=len(cell.void)) if cell.void else ""
     if not cell.attempts or cell.best is None or cell.last is None or cell.since is None:
-        return "–" if not cell.others else tr("– ({n} not counted)", n=cell.others)
+        return "–" if not cell.others else tr("– ({n} not counted)", n=cell.others) + void
     arrow = ""
     if cell.trend is not None:
         arrow = " ↗" if cell.trend > _LEVEL else " ↘" if cell.trend < -_LEVEL else " →"
     passed = "✔ " if cell.passed else ""
     return tr(
-        "{passed}best {best:.0f}, last {last:.0f}{arrow} · {since}   ",
+        "{passed}best {best:.0f}, last {last:.0f}{arrow} · {since}{void}   ",
         passed=passed,
         best=cell.best,
         last=cell.last,
         arrow=arrow,
         since=since_words(cell.since),
+        void=void,
     )
 
 
@@ -77,6 +89,7 @@ def cell_details(cell: BoardCell) -> str:
     if cell.trend is not None:
         lines.append(tr("trend {trend:+.1f} points a time", trend=cell.trend))
     lines += [tr("{n} not counted: {why}", n=n, why=why) for why, n in cell.why]
+    lines += [tr("void: {why}", why=why) for why in cell.void]
     return "\n".join(lines)
 
 
@@ -86,17 +99,26 @@ class BoardTab(QWidget):
     Signals:
         choice_changed(): another course or group.
         curve_wanted(str, str): key of a student, id of an exercise.
+        attempts_wanted(str, str): likewise; of all exercises where the id is empty.
         export_wanted(str): a form of `exchange.results`.
     """
 
     choice_changed = Signal()
     curve_wanted = Signal(str, str)
+    attempts_wanted = Signal(str, str)
     export_wanted = Signal(str)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.course, self.group = QComboBox(self), QComboBox(self)
         self.table = table((tr("Student"),))
+        self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectItems)
+        self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        self.table.setAccessibleName(tr("Progress"))
+        self.curve = self._action(tr("Curve"), "Return", tr("Points over the attempts (Enter)"))
+        self.attempts = self._action(
+            tr("Attempts…"), "Ctrl+Return", tr("List them: debrief, replay, remarks (Ctrl+Enter)")
+        )
         self.hint = label("", "dim")
         self.board: ProgressBoard | None = None
         self.form, self.export = QComboBox(self), button(tr("Export…"))
@@ -127,11 +149,24 @@ class BoardTab(QWidget):
         column = QVBoxLayout(self)
         column.addLayout(top)
         column.addWidget(self.table, 1)
-        column.addWidget(self.hint)
+        below = QHBoxLayout()
+        below.addWidget(self.hint, 1)
+        self.buttons = tuple(button(action.text()) for action in (self.curve, self.attempts))
+        for shown, action in zip(self.buttons, (self.curve, self.attempts), strict=True):
+            shown.setToolTip(action.toolTip())
+            shown.clicked.connect(action.trigger)
+            below.addWidget(shown)
+        column.addLayout(below)
         for box in (self.course, self.group):
             box.activated.connect(lambda _: self.choice_changed.emit())
         self.export.clicked.connect(lambda: self.export_wanted.emit(self.form.currentData()))
         self.table.cellDoubleClicked.connect(self._open)
+        self.table.itemSelectionChanged.connect(self._enable)
+        self.curve.triggered.connect(
+            lambda: self._open(self.table.currentRow(), self.table.currentColumn())
+        )
+        self.attempts.triggered.connect(lambda: self._list())
+        self._enable()
 
     def set_choices(self, courses: Sequence[Course], groups: Sequence[str]) -> None:
         """Offer courses and groups; what was chosen stays where it is still there."""
@@ -175,14 +210,48 @@ class BoardTab(QWidget):
             if not board.items
             else tr(
                 "Only attempts that may be compared; none of a script or an emulated robot. "
-                "Double-click a cell for its curve."
+                "Double-click a cell for its curve, a student for all attempts."
             )
         )
+        self._enable()
+
+    def _action(self, text: str, keys: str, tip: str) -> QAction:
+        action = QAction(text, self.table)
+        action.setShortcut(QKeySequence(keys))
+        action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
+        action.setToolTip(tip)
+        self.table.addAction(action)
+        self.table.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
+        return action
+
+    def _chosen(self) -> tuple[str, str] | None:
+        """Return the student, and the exercise or none for all, of the cell that is chosen."""
+        row, column = self.table.currentRow(), self.table.currentColumn()
+        board = self.board
+        if board is None or not self.table.selectedItems() or row >= len(board.students):
+            return None
+        return board.students[row].key, board.items[column - 1].exercise if column > 0 else ""
+
+    def _enable(self) -> None:
+        chosen = self._chosen()
+        self.attempts.setEnabled(chosen is not None)
+        self.curve.setEnabled(chosen is not None and bool(chosen[1]))
+        for shown, action in zip(self.buttons, (self.curve, self.attempts), strict=True):
+            shown.setEnabled(action.isEnabled())
+
+    def _list(self) -> None:
+        chosen = self._chosen()
+        if chosen is not None:
+            self.attempts_wanted.emit(*chosen)
 
     def _open(self, row: int, column: int) -> None:
-        if self.board is not None and column > 0:
-            student, item = self.board.students[row], self.board.items[column - 1]
-            self.curve_wanted.emit(student.key, item.exercise)
+        if self.board is None or not 0 <= row < len(self.board.students):
+            return
+        student = self.board.students[row]
+        if column > 0:
+            self.curve_wanted.emit(student.key, self.board.items[column - 1].exercise)
+        else:
+            self.attempts_wanted.emit(student.key, "")
 
 
 class StudentsTab(QWidget):
@@ -490,31 +559,39 @@ class CourseDialog(SettingsDialog):
 
 
 class CurvePlot(QWidget):
-    """Points over the attempts, 0 to 100, with personal best and moving median."""
+    """Points over the attempts, 0 to 100, with personal best and moving median.
+
+    Signals:
+        chosen(str): id of the attempt whose point was clicked.
+    """
+
+    chosen = Signal(str)
 
     def __init__(self, points: Sequence[CurvePoint], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._points = points
         self.setMinimumSize(480, 260)
+        self.setMouseTracking(True)
+
+    def place(self, number: int, total: float) -> QPointF:
+        """Return where a number of points of the attempt of that number (from 1) is drawn."""
+        room = QRectF(self.rect()).adjusted(4 * theme.SPACING, theme.SPACING, -theme.SPACING, 0)
+        room.setBottom(room.bottom() - 3 * theme.SPACING)
+        x = room.left() + room.width() * (number - 0.5) / max(2, len(self._points))
+        return QPointF(x, room.bottom() - room.height() * total / 100.0)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw grid, the two lines and the attempts."""
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        room = QRectF(self.rect()).adjusted(4 * theme.SPACING, theme.SPACING, -theme.SPACING, 0)
-        room.setBottom(room.bottom() - 3 * theme.SPACING)
-        most = max(2, len(self._points))
-
-        def at(number: int, total: float) -> QPointF:
-            x = room.left() + room.width() * (number - 0.5) / most
-            return QPointF(x, room.bottom() - room.height() * total / 100.0)
-
+        most, at = max(2, len(self._points)), self.place
         painter.setPen(QColor(theme.now(theme.TEXT_DIM)))
+        left, right = 4.0 * theme.SPACING, self.width() - float(theme.SPACING)
         for level in (0, 25, 50, 75, 100):
             y = at(1, level).y()
             painter.drawText(QPointF(0.0, y + 4.0), str(level))
             painter.setOpacity(0.25)
-            painter.drawLine(QPointF(room.left(), y), QPointF(room.right(), y))
+            painter.drawLine(QPointF(left, y), QPointF(right, y))
             painter.setOpacity(1.0)
         step = max(1, most // 12)
         for number in range(1, len(self._points) + 1, step):
@@ -531,21 +608,65 @@ class CurvePlot(QWidget):
             painter.drawEllipse(at(number, point.total), 4.0, 4.0)
         painter.end()
 
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Say which attempt is under the mouse."""
+        point = self._under(event.position())
+        told = "" if point is None else f"{point.total:.0f} · {date_text(point.started)}"
+        self.setToolTip(told)
+        shape = Qt.CursorShape.ArrowCursor if point is None else Qt.CursorShape.PointingHandCursor
+        self.setCursor(shape)
 
-def curve_dialog(title: str, points: Sequence[CurvePoint], parent: QWidget) -> QDialog:
-    """Return a dialog with a student's curve in one exercise."""
-    dialog = QDialog(parent)
-    dialog.setWindowTitle(title)
-    dialog.resize(720, 420)
-    words = tr(
-        "{n} attempts that may be compared · ● points · solid: personal best · dashed: median of "
-        "the last five",
-        n=len(points),
-    )
-    column = QVBoxLayout(dialog)
-    column.addWidget(CurvePlot(points, dialog), 1)
-    column.addWidget(label(words if points else tr("No attempt that counts yet."), "dim"))
-    return dialog
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Choose the attempt that is under the mouse."""
+        point = self._under(event.position())
+        if point is not None:
+            self.chosen.emit(point.attempt)
+
+    def _under(self, where: QPointF) -> CurvePoint | None:
+        """Return the attempt within reach of a place."""
+        for number, point in enumerate(self._points, 1):
+            away = self.place(number, point.total) - where
+            if away.manhattanLength() < 2.0 * theme.SPACING:
+                return point
+        return None
+
+
+class CurveDialog(QDialog):
+    """A student's curve in one exercise; a click on a point leads to its attempt.
+
+    Signals:
+        attempt_chosen(str): id of the attempt.
+
+    Attributes:
+        attempts: button that lists them all.
+    """
+
+    attempt_chosen = Signal(str)
+
+    def __init__(self, title: str, points: Sequence[CurvePoint], parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(title)
+        self.resize(720, 420)
+        self.plot, self.attempts = CurvePlot(points, self), button(tr("Attempts…"))
+        words = tr(
+            "{n} attempts that may be compared · ● points, click for the debrief · solid: personal "
+            "best · dashed: median of the last five",
+            n=len(points),
+        )
+        close = button(tr("Close"))
+        close.clicked.connect(self.reject)
+        row = QHBoxLayout()
+        row.addWidget(label(words if points else tr("No attempt that counts yet."), "dim"), 1)
+        row.addWidget(self.attempts)
+        row.addWidget(close)
+        column = QVBoxLayout(self)
+        column.addWidget(self.plot, 1)
+        column.addLayout(row)
+        self.plot.chosen.connect(self._choose)
+
+    def _choose(self, attempt: str) -> None:
+        self.attempt_chosen.emit(attempt)
+        self.accept()
 
 
 def text_dialog(title: str, words: str, text: str, parent: QWidget) -> QDialog:

@@ -35,6 +35,7 @@ from app.views.kit.names import NAMES
 from app.views.kit.progress_strip import ProgressStrip
 from app.views.kit.text import tr
 from app.views.measure.editor import MeasureEditor
+from app.views.people.feature import PeopleFeature
 from app.views.plan.editor import PlanEditor
 from app.views.reading.editors import Editors, UndoOrder
 from app.views.reading.workspace import WorkspacePage
@@ -365,6 +366,7 @@ class MainWindow(QMainWindow):
         self.pages.currentChanged.connect(lambda _: self._let_picture())
         open_ct.reading.connect(lambda _: self._let_picture())
         self.runs.prepared.connect(self._let_picture)
+        self._connect_people()
         debrief = self.feature(DebriefFeature).page
         exercises = self.feature(ExerciseFeature)
         self.tour = tour = Tour(self.context, start, self.workspace, debrief, exercises.take_first)
@@ -376,6 +378,14 @@ class MainWindow(QMainWindow):
             self.feature(ExerciseFeature).beginning.go_on
         )
         start.sessions_wanted.connect(lambda: self.feature(DebriefFeature).show_sessions())
+
+    def _connect_people(self) -> None:
+        """Let the board lead to the attempts of a student, and back."""
+        people, debrief = self.feature(PeopleFeature), self.feature(DebriefFeature)
+        people.attempt_wanted.connect(debrief.open_attempt)
+        people.attempts_wanted.connect(
+            lambda key, exercise, words: debrief.show_attempts(key, exercise, words, people.show)
+        )
 
     def _let_picture(self) -> None:
         """Let missing pictures of patients be made while nobody waits for anything else."""

@@ -1,0 +1,235 @@
+"""What the instructor says of attempts, as actions: comment, void with a reason, release a result.
+
+The list and the debrief hold the same actions. What is said stands in the list of people, by id of
+the attempt; the record stays as it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtWidgets import (
+    QDialogButtonBox,
+    QMenu,
+    QPlainTextEdit,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.core.errors import AcusError
+from app.session.errors import PeopleError
+from app.session.people import NOTHING_SAID, People, Remarks
+from app.views.kit.access import ACCESS
+from app.views.kit.parts import label
+from app.views.kit.settings_dialog import SettingsDialog
+from app.views.kit.text import tr
+
+
+def said_words(said: Remarks, held: str = "") -> list[str]:
+    """Say what the instructor said of an attempt, and whether a course holds its result: lines.
+
+    Args:
+        said: of the attempt.
+        held: title of the course that holds its result; empty if none does.
+    """
+    lines = []
+    if said.void:
+        lines.append(tr("Declared void by the instructor: {why}", why=said.void))
+    if said.comment:
+        lines.append(tr("The instructor says: {words}", words=said.comment))
+    if held:
+        lines.append(tr("Not released: the student sees no result yet (course {name})", name=held))
+    return lines
+
+
+class SayingDialog(SettingsDialog):
+    """A text of some lines that is taken as it stands.
+
+    Args:
+        title: of the dialog.
+        words: what is to be known, above the text.
+        text: that stands there already.
+        take: takes the text; raises an AcusError if it cannot be.
+        parent: window.
+    """
+
+    def __init__(
+        self, title: str, words: str, text: str, take: Callable[[str], object], parent: QWidget
+    ) -> None:
+        super().__init__(title, (480, 260), QDialogButtonBox.StandardButton.Ok, parent)
+        self._take = take
+        self.text = QPlainTextEdit(text, self)
+        self.text.setAccessibleName(title)
+        self.text.setTabChangesFocus(True)
+        column = QVBoxLayout(self)
+        column.addWidget(label(words, "dim"))
+        column.addWidget(self.text, 1)
+        column.addWidget(self.note)
+        column.addWidget(self.buttons)
+        self.text.setFocus()
+
+    def check(self) -> None:
+        """Everything is checked when it is taken."""
+
+    def keep(self) -> None:
+        """Hand the text on, on its lines but without blanks around them."""
+        self._take("\n".join(line.strip() for line in self.text.toPlainText().strip().split("\n")))
+
+
+class RemarkActions(QObject):
+    """The actions of one page, for whichever attempts are chosen there; the instructor's only.
+
+    Args:
+        page: whose keys they are, while the keyboard is in it.
+        chosen: ids of the attempts that they are about.
+
+    Signals:
+        changed(): something was said.
+        noted(str): what was said, for the message line.
+        failed(object): why it could not be.
+
+    Attributes:
+        all: the actions in their order.
+        button: opens them as a menu.
+        dialog: the one that was opened last; None once it is closed.
+    """
+
+    changed = Signal()
+    noted = Signal(str)
+    failed = Signal(object)
+
+    def __init__(self, page: QWidget, chosen: Callable[[], Sequence[str]]) -> None:
+        super().__init__(page)
+        self._page, self._chosen = page, chosen
+        self._said: Mapping[str, Remarks] = {}
+        self._held: Mapping[str, str] = {}
+        self.dialog: SayingDialog | None = None
+        self.button = QPushButton(tr("Instructor"), page)
+        self.button.setAutoDefault(False)
+        self.button.setToolTip(tr("Comment, declare void, release results of what is chosen"))
+        menu = QMenu(self.button)
+        menu.setToolTipsVisible(True)
+        self.button.setMenu(menu)
+        self.comment = self._add(
+            tr("Comment…"), "Ctrl+K", tr("Say something that the student reads in the debrief")
+        )
+        self.void = self._add(
+            tr("Declare void…"),
+            "Ctrl+Shift+V",
+            tr("It stays in the list and counts nowhere; the student reads why"),
+        )
+        self.count = self._add(
+            tr("Let it count again"), "", tr("Take back that it was declared void")
+        )
+        self.release = self._add(
+            tr("Release the result"), "Ctrl+R", tr("Let the student see score and replay")
+        )
+        self.hold = self._add(
+            tr("Hold the result back"), "", tr("Hide it again until it is released")
+        )
+        self.all = (self.comment, self.void, self.count, self.release, self.hold)
+        menu.addActions(self.all)
+        self.comment.triggered.connect(lambda: self.ask_comment())
+        self.void.triggered.connect(lambda: self.ask_void())
+        self.count.triggered.connect(lambda: self._say(tr("It counts again"), void=""))
+        self.release.triggered.connect(lambda: self._say(tr("Released"), released=True))
+        self.hold.triggered.connect(lambda: self._say(tr("Held back"), released=False))
+        self.follow({}, {})
+
+    def follow(self, said: Mapping[str, Remarks], held: Mapping[str, str]) -> None:
+        """Offer what can be said now.
+
+        Args:
+            said: what the instructor said, by attempt.
+            held: courses that hold a result back, by attempt.
+        """
+        self._said, self._held = said, held
+        ids = list(self._chosen()) if ACCESS.may_manage else []
+        self.button.setVisible(ACCESS.may_manage)
+        self.button.setEnabled(bool(ids))
+        self.comment.setEnabled(bool(ids))
+        self.void.setEnabled(any(not self._of(name).void for name in ids))
+        self.count.setEnabled(any(self._of(name).void for name in ids))
+        self.release.setEnabled(any(name in held for name in ids))
+        self.hold.setEnabled(any(self._of(name).released for name in ids))
+
+    def ask_comment(self) -> None:
+        """Ask for a comment; an empty one takes it away."""
+        ids = self._ids()
+        if ids:
+            known = {self._of(name).comment for name in ids}
+            text = known.pop() if len(known) == 1 else ""
+            words = tr("The student reads this in the debrief and in the list. Empty: none.")
+            self._ask(tr("Comment"), words, text, lambda text: self._comment(ids, text))
+
+    def ask_void(self) -> None:
+        """Ask why the attempts do not count."""
+        ids = self._ids()
+        if ids:
+            words = tr(
+                "It counts nowhere then: not on the board, in no curve, for no course. The record "
+                "stays, and this can be taken back. Why? The student reads the reason."
+            )
+            known = {self._of(name).void for name in ids}
+            text = known.pop() if len(known) == 1 else ""
+            self._ask(tr("Declare void"), words, text, lambda why: self._void(ids, why))
+
+    # --- inside -----------------------------------------------------------------------------------
+    def _add(self, text: str, keys: str, tip: str) -> QAction:
+        action = QAction(text, self._page)
+        if keys:
+            action.setShortcut(QKeySequence(keys))
+            action.setShortcutContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
+            tip = f"{tip} ({keys})"
+        action.setToolTip(tip)
+        self._page.addAction(action)
+        return action
+
+    def _of(self, name: str) -> Remarks:
+        return self._said.get(name, NOTHING_SAID)
+
+    def _ids(self) -> list[str]:
+        return list(self._chosen()) if ACCESS.may_manage else []
+
+    def _comment(self, ids: Sequence[str], text: str) -> None:
+        self._write(ids, comment=text)
+        self.noted.emit(tr("Comment kept") if text else tr("Comment taken away"))
+
+    def _void(self, ids: Sequence[str], why: str) -> None:
+        if not why:
+            raise PeopleError(tr("Say why: the student reads it in the list and in the debrief."))
+        self._write(ids, void=why)
+        self.noted.emit(tr("{n} attempts declared void", n=len(ids)))
+
+    def _say(self, done: str, **said: str | bool) -> None:
+        ids = self._ids()
+        if said.get("released"):
+            ids = [name for name in ids if name in self._held]
+        if not ids:
+            return
+        try:
+            self._write(ids, **said)
+        except AcusError as error:
+            self.failed.emit(error)
+        else:
+            self.noted.emit(tr("{done}: {n} attempts", done=done, n=len(ids)))
+
+    def _write(self, ids: Sequence[str], **said: str | bool) -> None:
+        if not ACCESS.may_manage:
+            raise PeopleError(tr("Only the instructor does that: Sessions ▸ Sign in."))
+        People().remark_all(ids, **said)
+        self.changed.emit()
+
+    def _ask(self, title: str, words: str, text: str, take: Callable[[str], object]) -> None:
+        self.dialog = dialog = SayingDialog(title, words, text, take, self._page.window())
+
+        def ended() -> None:
+            if self.dialog is dialog:
+                self.dialog = None
+            dialog.deleteLater()
+
+        dialog.finished.connect(ended)
+        dialog.open()
