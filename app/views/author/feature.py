@@ -327,6 +327,14 @@ class AuthorFeature(Feature):
         for action in self._actions:
             action.setEnabled(ACCESS.may_manage)
 
+    def _may(self) -> bool:
+        """Whether who is here may make exercises, whatever asks; else it is said."""
+        why = ACCESS.why_not_manage
+        if why:
+            self.failed.emit(why)
+            self._say(why, Verdict.BAD)
+        return not why
+
     # --- what the window asks -------------------------------------------------------------------
     def over(self) -> tuple[SignalInstance, ...]:
         """Return what ends a message of this feature."""
@@ -380,6 +388,8 @@ class AuthorFeature(Feature):
     # --- making and changing --------------------------------------------------------------------
     def make(self) -> None:
         """Begin an exercise on the CT, plan and structures that are open."""
+        if not self._may():
+            return
         patient = self._conductor.patient
         if patient is None:
             self.failed.emit(tr("There is no CT open to make an exercise of: open one first."))
@@ -397,6 +407,8 @@ class AuthorFeature(Feature):
 
     def change(self) -> None:
         """Change the exercise that is taken; one that comes with Acus is copied first."""
+        if not self._may():
+            return
         exercise = self._conductor.exercise
         if exercise is None:
             self.failed.emit(tr("No exercise is taken: choose one first."))
@@ -516,6 +528,8 @@ class AuthorFeature(Feature):
 
     def keep(self) -> bool:
         """Keep the exercise; a changed one is a new version. Returns whether that was done."""
+        if not self._may():
+            return False
         exercise = self._finished()
         if exercise is None:
             return False
@@ -546,12 +560,16 @@ class AuthorFeature(Feature):
     # --- files ----------------------------------------------------------------------------------
     def export(self) -> None:
         """Write what is in the form into one file."""
+        if not self._may():
+            return
         exercise = self._finished()
         if exercise is not None:
             self._export(exercise)
 
     def export_taken(self) -> None:
         """Write the exercise that is taken into one file."""
+        if not self._may():
+            return
         if self._conductor.exercise is None:
             self.failed.emit(tr("No exercise is taken: choose one first."))
         else:
@@ -590,6 +608,8 @@ class AuthorFeature(Feature):
 
     def ask_import(self) -> None:
         """Ask for a file of an exercise and take it in."""
+        if not self._may():
+            return
         kinds = tr("Exercises (*{suffix})", suffix=SUFFIX)
         name, _ = QFileDialog.getOpenFileName(
             self._shell.dialog_parent, tr("Import exercise"), str(Path.home()), kinds

@@ -583,6 +583,9 @@ class DebriefFeature(Feature):
             ],
         )
         menu.aboutToShow.connect(self._offer_choices)
+        for signal in (ACCESS.changed, self._controller.shown):
+            signal.connect(self._offer_choices)
+        self._offer_choices()
 
     def over(self) -> tuple[SignalInstance, ...]:
         """Return what ends a message of this feature."""

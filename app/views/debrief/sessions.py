@@ -587,5 +587,5 @@ class SessionsPage(QWidget):
 
     def _export(self) -> None:
         readable = [summary for summary in self.selected() if summary.state != BROKEN]
-        if readable:
+        if readable and ACCESS.may_manage:
             self.export_requested.emit(readable)

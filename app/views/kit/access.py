@@ -59,6 +59,15 @@ class Access(QObject):
         """Whether people, courses, all results, deleting and exports are open to who is here."""
         return self.instructor or (not self.guarded and self.student is None)
 
+    @property
+    def why_not_manage(self) -> str:
+        """Say that what changes these needs the instructor; empty for who may."""
+        return (
+            ""
+            if self.may_manage
+            else tr("Only the instructor does that: Sessions ▸ Sign in as the instructor.")
+        )
+
     def sign_in(self, student: Person | None, instructor: bool = False) -> None:
         """Somebody has signed in, nobody is where neither is given."""
         self.student, self.instructor = student, instructor

@@ -256,6 +256,8 @@ class PeopleFeature(Feature):
     # --- students ---------------------------------------------------------------------------------
     def add_student(self) -> None:
         """Ask for one student."""
+        if not self._may():
+            return
         names = (tr("Pseudonym"), tr("Name"), tr("PIN (empty: drawn)"), tr("Groups"))
         words = tr("The pseudonym is what screens show; the name is kept apart from all records.")
 
@@ -276,6 +278,8 @@ class PeopleFeature(Feature):
 
     def choose_roster(self) -> None:
         """Ask for a roster and take it."""
+        if not self._may():
+            return
         parent = self._shell.dialog_parent
         start, kind = str(NAMES.folder(_documents())), tr("CSV (*.csv *.txt)")
         path = QFileDialog.getOpenFileName(parent, tr("Roster"), start, kind)[0]
@@ -284,6 +288,8 @@ class PeopleFeature(Feature):
 
     def take_roster(self, path: Path) -> None:
         """Take a roster, beside the window; what is wrong is shown line by line."""
+        if not self._may():
+            return
 
         def read(_: Progress) -> RosterReport:
             lines, errors = read_roster(path.read_bytes())
@@ -307,6 +313,8 @@ class PeopleFeature(Feature):
 
     def new_pin(self) -> None:
         """Draw another PIN for the student who is chosen."""
+        if not self._may():
+            return
         person = self.page.students.chosen()
         if person is not None:
             pin = f"{secrets.randbelow(10**6):06d}"
@@ -317,6 +325,8 @@ class PeopleFeature(Feature):
 
     def assign(self) -> None:
         """Ask which typed name of old records is the student's who is chosen."""
+        if not self._may():
+            return
         person, look = self.page.students.chosen(), self._look
         if person is None or look is None:
             return
@@ -340,6 +350,8 @@ class PeopleFeature(Feature):
 
     def erase(self) -> None:
         """Ask whether, and how, the student who is chosen is erased for good."""
+        if not self._may():
+            return
         person = self.page.students.chosen()
         if person is None:
             return
@@ -382,6 +394,8 @@ class PeopleFeature(Feature):
     # --- courses, results, backup -----------------------------------------------------------------
     def edit_course(self, course: Course | None) -> None:
         """Show a course, or an empty one, as a form."""
+        if not self._may():
+            return
 
         def take(edited: Course) -> None:
             if course is None and any(one.id == edited.id for one in courses()[0]):
@@ -393,6 +407,8 @@ class PeopleFeature(Feature):
 
     def choose_export(self, form: str) -> None:
         """Ask where results go, and write them."""
+        if not self._may():
+            return
         suffix = "json" if form == ResultsFormat.JSON else "csv"
         parent, start = self._shell.dialog_parent, _documents() / f"acus-results-{form}.{suffix}"
         kind = f"{suffix.upper()} (*.{suffix})"
@@ -403,7 +419,7 @@ class PeopleFeature(Feature):
     def export(self, form: str, path: Path) -> None:
         """Write the results of those on the board, beside the window; it can be cancelled."""
         look = self._look
-        if look is None or not ACCESS.may_manage:
+        if look is None or not self._may():
             return
         semicolons = self.page.board.semicolons.isChecked()
 
@@ -427,6 +443,8 @@ class PeopleFeature(Feature):
 
     def back_up(self) -> None:
         """Ask where, and write everything into one file."""
+        if not self._may():
+            return
         parent = self._shell.dialog_parent
         start = _documents() / f"acus-{datetime.date.today()}.acusbackup"
         kind = tr("Backup of Acus (*.acusbackup)")
@@ -484,6 +502,12 @@ class PeopleFeature(Feature):
     def _changed(self) -> None:
         self.look()
         self.refresh()
+
+    def _may(self) -> bool:
+        """Whether who is here may change people and courses, whatever asks; else it is said."""
+        if not ACCESS.may_manage:
+            self.failed.emit(ACCESS.why_not_manage)
+        return ACCESS.may_manage
 
     def _try(self, work: Callable[[], object]) -> None:
         try:
