@@ -6,6 +6,7 @@ import datetime
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Final
 
@@ -17,9 +18,10 @@ from app.core.errors import ConfigurationError
 from app.core.files import write_atomically
 from app.exercises.guidance import Purpose
 from app.exercises.library import library
+from app.exercises.schema import Exercise
 from app.session.errors import SessionError
 from app.session.index import Indexed
-from app.session.people import PEOPLE, People, Person, people_folder
+from app.session.people import PEOPLE, People, Person, Remarks, people_folder
 
 NAME: Final = r"^[a-z0-9]+(-[a-z0-9]+)*$"
 """A course's id is also its file's name."""
@@ -201,6 +203,118 @@ def why_not(
         if not used and not any(one.passed for one in tries):
             return f"first pass {titled.get(before.exercise, before.exercise)}"
     return ""
+
+
+@dataclass(frozen=True, slots=True)
+class CourseStanding:
+    """How somebody stands in one exercise of a course.
+
+    Attributes:
+        item: the exercise.
+        title: as it is written; its id where the library has none of that name.
+        used: attempts that are used up; None where nobody is signed in.
+        passed: whether one passes that may be told.
+        best: points; None where there are none, or none that may be told.
+        held: whether a result waits for its release.
+        refusal: why it may not be begun now; empty if nothing speaks against it.
+    """
+
+    item: CourseItem
+    title: str
+    used: int | None = None
+    passed: bool = False
+    best: float | None = None
+    held: bool = False
+    refusal: str = ""
+
+
+def course_standings(
+    course: Course,
+    exercises: Mapping[str, Exercise],
+    person: Person | None,
+    own: Sequence[Indexed],
+    remarks: Mapping[str, Remarks],
+    today: datetime.date,
+) -> list[CourseStanding]:
+    """Return how somebody stands in a course, in its order.
+
+    Args:
+        course: that he takes.
+        exercises: that the library has, by id.
+        person: who; None for nobody, who may begin all of it and of whom nothing counts.
+        own: his attempts, those that are void left out.
+        remarks: what the instructor said, by attempt.
+        today: by the station's calendar.
+    """
+    titles = {name: one.title for name, one in exercises.items()}
+    found = []
+    for item in course.items:
+        known = exercises.get(item.exercise)
+        refusal = ""
+        if known is None:
+            refusal = "this exercise is not in the library here"
+        elif person is not None and known.version != item.version:
+            refusal = (
+                f"the course pins version {item.version}, the library has version {known.version}: "
+                "the instructor changes one of them"
+            )
+        if person is None:
+            named = titles.get(item.exercise, item.exercise)
+            found.append(CourseStanding(item, named, refusal=refusal))
+            continue
+        tries = attempts_used(own, item)
+        open_ = [one for one in tries if not _is_held(course, person, one, remarks)]
+        totals = [one.total for one in open_ if one.total is not None]
+        found.append(
+            CourseStanding(
+                item,
+                titles.get(item.exercise, item.exercise),
+                len(tries),
+                any(one.passed for one in open_),
+                max(totals, default=None),
+                len(open_) < len(tries),
+                refusal or why_not(course, item.exercise, own, today, titles),
+            )
+        )
+    return found
+
+
+def next_of_course(standings: Sequence[CourseStanding]) -> CourseStanding | None:
+    """Return what comes next: not passed, nothing speaks against it; what waits comes last."""
+    able = [one for one in standings if not one.refusal and not one.passed]
+    return min(able, key=lambda one: one.held, default=None)
+
+
+def waiting_for_release(
+    course: Course,
+    attempts: Sequence[Indexed],
+    persons: Mapping[str, Person],
+    remarks: Mapping[str, Remarks],
+) -> list[str]:
+    """Return ids of the attempts whose results a course holds back.
+
+    Args:
+        course: the course.
+        attempts: of the index.
+        persons: whose attempts are whose, by what records name.
+        remarks: what the instructor said, by attempt.
+    """
+    return [
+        one.id
+        for one in attempts
+        if (person := persons.get(one.student)) and _is_held(course, person, one, remarks)
+    ]
+
+
+def not_void(attempts: Iterable[Indexed], remarks: Mapping[str, Remarks]) -> list[Indexed]:
+    """Return attempts without those that the instructor declared void: they use up nothing."""
+    return [one for one in attempts if one.id not in remarks or not remarks[one.id].void]
+
+
+def _is_held(course: Course, person: Person, one: Indexed, remarks: Mapping[str, Remarks]) -> bool:
+    said = remarks.get(one.id)
+    released = said is not None and said.released
+    return holding([course], person, one.exercise, one.version, released) is not None
 
 
 def holding(

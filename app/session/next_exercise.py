@@ -16,7 +16,7 @@ from typing import Final
 
 from app.exercises.schema import Exercise
 from app.scoring.result import Score
-from app.session.course import Course, courses, held_back, holding
+from app.session.course import Course, courses, held_back, holding, not_void
 from app.session.index import Index, Indexed
 from app.session.motion import rivals
 from app.session.people import PEOPLE, People, Person, Remarks, people_folder
@@ -270,7 +270,7 @@ def around(
         ),
         None,
     )
-    seen = [one for one in own if is_open(one)]
+    seen = not_void((one for one in own if is_open(one)), remarks)
     score = None if held else shown.score
     proposal = propose(done, score, seen, exercises, course, refusal, held)
     found = () if held or under is None else rivals(attempts, shown.id, under, same, is_open)

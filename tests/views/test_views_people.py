@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QComboBox, QLineEdit, QPlainTextEdit
 
 from app.exercises.library import load_exercise
 from app.scoring.conditions import Conditions
-from app.session.course import courses
+from app.session.course import course_of, courses
 from app.session.people import People
 from app.session.roster import RosterLine
 from app.session.sidecar import write_summary
@@ -28,7 +28,7 @@ def feature(window):
     window.feature(PeopleFeature).close()
 
 
-def record(folder, name, student, total=80.0):
+def record(folder, name, student, total=80.0, version=1):
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"{name}.mcap"
     path.write_bytes(b"not opened: the sidecar is enough")
@@ -36,7 +36,7 @@ def record(folder, name, student, total=80.0):
     now = datetime.now(UTC).isoformat()
     write_summary(path, Summary(name, now, student, "first-insertion", state="ended",
                                 score=MappingProxyType(score),
-                                conditions=Conditions("first-insertion", 1)))  # fmt: skip
+                                conditions=Conditions("first-insertion", version)))  # fmt: skip
 
 
 def fill(dialog, *texts):
@@ -119,7 +119,8 @@ def test_the_first_password_shows_a_recovery_key_and_closes_what_students_must_n
     assert students(sessions) == ["Ada"]
     feature.show()
     assert feature.page.isVisible()
-    assert [feature.page.tabs.isTabVisible(k) for k in range(3)] == [True, False, False]
+    assert [feature.page.tabs.isTabVisible(k) for k in range(3)] == [True, False, True]
+    assert feature.page.courses.new.isHidden()
     feature.sign_in_instructor()
     fill(feature.dialog, "wrong")
     assert "password is wrong" in feature.dialog.note.text()
@@ -175,8 +176,9 @@ def test_a_course_is_made_in_a_form_that_says_what_is_wrong(window, feature, set
     dialog.save()
     course = courses()[0][0]
     assert (course.title, course.groups, len(course.items)) == ("Autumn", ("A", "B"), 1)
-    settle(lambda: feature.page.courses.list.count() == 1)
-    feature.page.courses.list.setCurrentRow(0)
+    tree = feature.page.courses.tree
+    settle(lambda: tree.topLevelItemCount() == 1)
+    tree.setCurrentItem(tree.topLevelItem(0))
     feature.page.courses.edit.click()
     assert feature.dialog.course() == course
 
@@ -185,8 +187,6 @@ def test_a_student_may_not_begin_before_an_exercise_opens(window, feature, settl
     _, pin = People().add(RosterLine("Ada"))
     known = next(iter(feature._exercises()))
     text = {"id": "c", "title": "C", "items": [{"exercise": known, "opens": "2099-01-01"}]}
-    from app.session.course import course_of
-
     course_of(text, "test").save()
     feature.sign_in_student()
     fill(feature.dialog, "Ada", pin)
@@ -328,3 +328,64 @@ def test_what_is_deleted_is_listed_apart_and_brought_back_after_the_window_was_c
     assert "Nothing that was deleted" in sessions._count.text()
     sessions.trash.click()
     assert settle(lambda: sessions.model.rowCount() == 2)
+
+
+def test_a_student_begins_the_next_exercise_of_a_course_and_reads_why_another_is_refused(
+    window, feature, settle
+):
+    ada, _ = People().add(RosterLine("Ada"))
+    People().set_instructor("correct horse")
+    names = ("first-insertion", "thick-tissue", "breathing-liver")
+    version = feature._exercises()[names[0]].version
+    record(feature.context.services.sessions(), "a", ada.key, 91.0, version)
+    items = [
+        {"exercise": names[0], "attempts": 1},
+        {"exercise": names[1], "closes": "2020-01-01"},
+        {"exercise": names[2], "attempts": 2, "purpose": "assessment"},
+    ]
+    for item in items:
+        item["version"] = feature._exercises()[item["exercise"]].version
+    course_of({"id": "c", "title": "Autumn", "items": items}, "test").save()
+    ACCESS.sign_in(ada)
+    feature.look()
+    feature.show()
+    tab, wanted, said = feature.page.courses, [], []
+    feature.page.tabs.setCurrentWidget(tab)
+    assert settle(lambda: tab.tree.topLevelItemCount() == 1)
+    rows = [tab.tree.topLevelItem(0).child(row) for row in range(3)]
+    assert [row.text(0) for row in rows] == [feature._exercises()[name].title for name in names]
+    assert rows[0].text(2) == "0 of 1 left"
+    assert "passed" in rows[0].text(4)
+    assert "best 91" in rows[0].text(4)
+    assert "until 2020-01-01" in rows[1].text(3)
+    assert "next" in rows[2].text(4)
+    feature.context.conductor.exercise_wanted.connect(wanted.append)
+    feature.failed.connect(said.append)
+    tab.begin.click()
+    assert wanted == [names[2]]
+    for row, why in ((0, "all 1 attempts are used"), (1, "it closed on 2020-01-01")):
+        tab.tree.setCurrentItem(rows[row])
+        tab.begin.click()
+        assert why in said[-1]
+    assert wanted == [names[2]]
+    People().remark("a", void="the cable was loose")  # gives the attempt back
+    feature.refresh()
+    assert settle(lambda: tab.tree.topLevelItem(0).child(0).text(2) == "1 of 1 left")
+
+
+def test_the_instructor_releases_all_results_of_a_course_at_once(window, feature, settle):
+    ada, _ = People().add(RosterLine("Ada"))
+    item = {"exercise": "first-insertion", "purpose": "assessment"}
+    course_of({"id": "c", "title": "Autumn", "items": [item]}, "test").save()
+    for name in ("a", "b"):
+        record(feature.context.services.sessions(), name, ada.key)
+    feature.show()
+    tab = feature.page.courses
+    assert settle(lambda: tab.tree.topLevelItemCount() == 1)
+    assert "2 results wait" in tab.tree.topLevelItem(0).text(4)
+    tab.release.click()
+    box = feature.dialog
+    assert "Release 2 results of Autumn?" in box.text()
+    next(one for one in box.buttons() if one.text() == "Release").click()
+    assert settle(lambda: not tab.release.isEnabled())
+    assert all(People().remarks()[name].released for name in ("a", "b"))

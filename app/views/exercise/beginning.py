@@ -22,7 +22,7 @@ from app.core import state_vector as sv
 from app.exercises.guidance import Purpose
 from app.exercises.portrait import Portrait, kept_portrait
 from app.exercises.schema import Exercise
-from app.session.course import attempts_used, courses, why_not
+from app.session.course import attempts_used, courses, not_void, why_not
 from app.session.index import Index
 from app.session.motion import ShownMotion
 from app.session.people import Person
@@ -492,8 +492,9 @@ def attempts_left(
         return AttemptsLeft()
     index = Index(folder)
     index.refresh()
-    texts = [text for text, key in People().keys().items() if key == student.key]
-    own = index.attempts(texts)
+    people = People()
+    texts = [text for text, key in people.keys().items() if key == student.key]
+    own = not_void(index.attempts(texts), people.remarks())
     today = datetime.datetime.now().astimezone().date()
     refusal = why_not(course, exercise.id, own, today, titles)
     return AttemptsLeft(item.attempts, len(attempts_used(own, item)), course.title, refusal)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import datetime
 import secrets
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import ClassVar, TypeVar
@@ -18,7 +18,16 @@ from app.exchange.results import Results, ResultsFormat, results_text, write_res
 from app.exercises.schema import Exercise
 from app.session.archive import backup, erase_person
 from app.session.board import ProgressBoard, board_of
-from app.session.course import Course, CourseError, courses, why_not
+from app.session.course import (
+    Course,
+    CourseError,
+    CourseStanding,
+    course_standings,
+    courses,
+    not_void,
+    waiting_for_release,
+    why_not,
+)
 from app.session.errors import PeopleError
 from app.session.index import Index, Indexed
 from app.session.people import PEOPLE, People, Person, RosterReport, people_folder
@@ -42,13 +51,18 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """What the page shows: students (with names for the instructor), courses, board, attempts."""
+    """What the page shows: students (with names for the instructor), courses, board, attempts.
+
+    Of courses also how who is here stands in them, and which results wait for their release.
+    """
 
     people: list[Person]
     courses: list[Course]
     broken: list[str]
     board: ProgressBoard
     attempts: list[Indexed]
+    standings: Mapping[str, list[CourseStanding]]
+    waiting: Mapping[str, list[str]]
 
 
 class PeopleFeature(Feature):
@@ -74,6 +88,7 @@ class PeopleFeature(Feature):
         self._panel = context.conductor.views.panel
         self._people = People()
         self._look: Look | None = None
+        self._asked = self._learning = 0
         self._running: list[BackgroundTask] = []
         self.dialog: QDialog | None = None
         self.page = PeoplePage()
@@ -187,7 +202,7 @@ class PeopleFeature(Feature):
             index = Index(self._folder)
             index.refresh()
             texts = [text for text, key in known.keys.items() if key == student.key]
-            own, today = index.attempts(texts), datetime.datetime.now().astimezone().date()
+            own, today = not_void(index.attempts(texts), people.remarks()), _today()
             refused = {
                 item.exercise: why
                 for course in courses()[0]
@@ -197,12 +212,19 @@ class PeopleFeature(Feature):
             }
             return replace(known, refused=refused)
 
-        self._beside(find, ACCESS.learn)
+        self._learning += 1
+        asked = self._learning
+
+        def learn(known: Known) -> None:
+            if asked == self._learning:
+                ACCESS.learn(known)
+
+        self._beside(find, learn)
 
     def refresh(self) -> None:
         """Read people, courses and attempts anew, beside the window."""
         chosen, group = self.page.board.course.currentData(), self.page.board.group.currentData()
-        names, student = ACCESS.may_manage, ACCESS.student
+        names, student, exercises = ACCESS.may_manage, ACCESS.student, self._exercises()
 
         def read(progress: Progress) -> Look:
             people, (known, broken) = self._people, courses()
@@ -210,18 +232,38 @@ class PeopleFeature(Feature):
             board, attempts = board_of(
                 self._folder, people, course, group or "", None, progress, released=not names
             )
-            everybody = people.everybody(names)
+            everybody, remarks, keys = people.everybody(names), people.remarks(), people.keys()
+            by_key = {one.key: one for one in everybody}
+            persons = {text: by_key[key] for text, key in keys.items()}
+            waiting = {
+                one.id: waiting_for_release(one, attempts, persons, remarks) for one in known
+            }
             if not names:
                 everybody = [one for one in everybody if student and one.key == student.key]
                 board = replace(board, students=tuple(everybody))
-            return Look(everybody, known, broken, board, attempts)
+                known = [one for one in known if student and one.takes(student)]
+                broken, waiting = [], {}
+            own = [one for one in attempts if student and keys.get(one.student) == student.key]
+            own = not_void(own, remarks)
+            standings = {
+                one.id: course_standings(one, exercises, student, own, remarks, _today())
+                for one in known
+            }
+            return Look(everybody, known, broken, board, attempts, standings, waiting)
 
-        self._beside(read, self._show_look, tr("Reading the attempts"))
+        self._asked += 1
+        asked = self._asked
+
+        def show(look: Look) -> None:
+            if asked == self._asked:  # else it was read before something changed
+                self._show_look(look)
+
+        self._beside(read, show, tr("Reading the attempts"))
 
     def _show_look(self, look: Look) -> None:
         self._look = look
         self.page.students.show_people(look.people)
-        self.page.courses.show_courses(look.courses, look.broken)
+        self.page.courses.show_courses(look.courses, look.broken, look.standings, look.waiting)
         groups = sorted({name for person in look.people for name in person.groups})
         self.page.board.set_choices(look.courses, groups)
         self.page.board.show_board(look.board, self._titles())
@@ -405,6 +447,38 @@ class PeopleFeature(Feature):
 
         self._open(CourseDialog(course, self._exercises(), take, self._shell.dialog_parent))
 
+    def begin_of_course(self, standing: CourseStanding) -> None:
+        """Begin an exercise of a course, or say why that cannot be."""
+        if standing.refusal:
+            self.failed.emit(
+                tr("{title} cannot be begun: {why}.", title=standing.title, why=standing.refusal)
+            )
+        else:
+            self.context.conductor.exercise_wanted.emit(standing.item.exercise)
+
+    def release_course(self, course: Course) -> None:
+        """Ask whether all results that wait in a course are released."""
+        if not self._may():
+            return
+        ids = list(self._look.waiting.get(course.id, ())) if self._look is not None else []
+        box = QMessageBox(self._shell.dialog_parent)
+        box.setWindowTitle(tr("Release results"))
+        box.setText(tr("Release {n} results of {title}?", n=len(ids), title=course.title))
+        box.setInformativeText(
+            tr("Their students see score, replay and your comments then. Each can be held back.")
+        )
+        release = box.addButton(tr("Release"), QMessageBox.ButtonRole.AcceptRole)
+        box.setDefaultButton(box.addButton(QMessageBox.StandardButton.Cancel))
+
+        def answered(clicked: object) -> None:
+            if clicked is release and ids and self._may():
+                self._try(lambda: self._people.remark_all(ids, released=True))
+                self.noted.emit(tr("{n} results released", n=len(ids)))
+                self._changed()
+
+        box.buttonClicked.connect(answered)
+        self._open(box)
+
     def choose_export(self, form: str) -> None:
         """Ask where results go, and write them."""
         if not self._may():
@@ -470,6 +544,8 @@ class PeopleFeature(Feature):
         students.assign.clicked.connect(lambda: self.assign())
         students.erase.clicked.connect(lambda: self.erase())
         tab.new.clicked.connect(lambda: self.edit_course(None))
+        tab.begin_wanted.connect(self.begin_of_course)
+        tab.release_wanted.connect(self.release_course)
         tab.edit.clicked.connect(lambda: self.edit_course(tab.chosen()) if tab.chosen() else None)
         conductor = self.context.conductor
         conductor.controller.finished.connect(lambda _: self._ended())
@@ -538,6 +614,10 @@ class PeopleFeature(Feature):
 
         dialog.finished.connect(ended)
         dialog.open()
+
+
+def _today() -> datetime.date:
+    return datetime.datetime.now().astimezone().date()
 
 
 def _documents() -> Path:
