@@ -1,13 +1,16 @@
 """`acus results`: who stands where, and tables that leave."""
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.people import Pseudonym
+
+if TYPE_CHECKING:
+    from app.exchange.results import Results
 
 CourseOption = Annotated[
     str,
@@ -18,6 +21,9 @@ CourseOption = Annotated[
     ),
 ]
 GroupOption = Annotated[str, typer.Option("--group", help="Only students of this group.")]
+PDF = "pdf"
+"""Form of `results export` beside those of `exchange.results`: Qt draws it."""
+
 FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
 
@@ -88,7 +94,7 @@ def curve(
 
 
 def export(
-    form: Annotated[str, typer.Argument(metavar="FORM", help="tidy, wide, moodle or json.")],
+    form: Annotated[str, typer.Argument(metavar="FORM", help="tidy, wide, moodle, json or pdf.")],
     out: Annotated[Path, typer.Option("--out", help="File to write.")],
     course: CourseOption = "",
     group: GroupOption = "",
@@ -97,22 +103,28 @@ def export(
         typer.Option("--semicolons", help="For an Excel whose decimal sign is the comma."),
     ] = False,
     names: Annotated[bool, typer.Option("--names", help="Names too.")] = False,
+    student: Annotated[
+        str,
+        typer.Option("--student", help="pdf: of this one.", autocompletion=completion.students),
+    ] = "",
     folder: FolderOption = None,
 ) -> Answer:
-    """Write results as a table, grades or JSON (instructor).
+    """Write results as a table, grades, JSON or a report (instructor).
 
     tidy: a row for each metric of each attempt. wide: a row for each student. moodle: best points
-    by username, as Moodle's gradebook imports them. json: all of it. Ctrl-C cancels; a file is
-    written whole or not at all.
+    by username, as Moodle's gradebook imports them. json: all of it. pdf: report of the group, or
+    of one student. Ctrl-C cancels; a file is written whole or not at all.
     """
     from app.commands.calibrate_parts import with_progress
     from app.commands.people import instructor
     from app.exchange.results import Results, ResultsFormat, results_text, write_results
     from app.session.people import People
 
-    if form not in [one.value for one in ResultsFormat]:
-        forms = ", ".join(one.value for one in ResultsFormat)
-        raise typer.BadParameter(f"{form}: the forms are {forms}")
+    forms = [*(one.value for one in ResultsFormat), PDF]
+    if form not in forms:
+        raise typer.BadParameter(f"{form}: the forms are {', '.join(forms)}")
+    if student and form != PDF:
+        raise typer.BadParameter("--student is for pdf; the tables hold everybody")
     instructor(People())
     found, attempts, people = _board(course, group, folder)
     everybody = {person.key: person for person in people.everybody(names)}
@@ -125,13 +137,35 @@ def export(
         attempts = [one for one in attempts if one.exercise in exercises]
     listed = {key: person.name for key, person in everybody.items()} if names else {}
     results = Results(found, attempts, known, people.remarks(), listed)
-    text = with_progress(
-        lambda progress: results_text(results, ResultsFormat(form), semicolons, progress)
-    )
-    write_results(out, text)
+    if form == PDF:
+        _write_report(results, out, student, course, group)
+    else:
+        text = with_progress(
+            lambda progress: results_text(results, ResultsFormat(form), semicolons, progress)
+        )
+        write_results(out, text)
     facts = {"files": [out], "attempts": len(attempts), "students": len(found.students)}
     return Answer(
         facts, [f"{len(attempts)} attempts of {len(found.students)} students written to {out}"]
+    )
+
+
+def _write_report(results: "Results", out: Path, student: str, course: str, group: str) -> None:
+    """Draw the report of the group, or of one student, and write it whole or not at all."""
+    from app.exercises.library import library
+    from app.session.people import People
+    from app.views.people.results_report import group_report, student_report, write_report
+
+    person = People().find(student) if student else None
+    titles = {one.id: one.title for one in library()}
+    heading = " · ".join(filter(None, (course, group))) or "Acus"
+    write_report(
+        out,
+        lambda: (
+            group_report(results, titles, heading)
+            if person is None
+            else student_report(results, person, titles)
+        ),
     )
 
 

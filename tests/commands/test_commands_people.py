@@ -60,6 +60,14 @@ def test_a_course_from_roster_to_gradebook(acus, tmp_path):
         assert (done["attempts"], done["students"]) == (2, 2)
     assert (tmp_path / "moodle.csv").read_bytes().startswith(b"\xef\xbb\xbfusername,")
     acus("results", "export", "json", "--out", tmp_path / "all.json")
+    for some in ((), ("--student", "Ada"), ("--names", "--course", "c")):
+        acus("results", "export", "pdf", "--out", tmp_path / "r.pdf", *some)
+        assert (tmp_path / "r.pdf").read_bytes().startswith(b"%PDF")
+    assert "is for pdf" in acus(
+        "results", "export", "json", "--out", "x", "--student", "Ada", code=2
+    )
+    gone = "--student", "Eve"
+    assert "no student here" in acus("results", "export", "pdf", "--out", "x", *gone, code=2)
     assert len(json.loads((tmp_path / "all.json").read_text())["attempts"]) == 2
     assert "the forms are" in acus("results", "export", "xls", "--out", "x", code=2)
 

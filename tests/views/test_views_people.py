@@ -19,7 +19,7 @@ from app.views.debrief.feature import DebriefFeature
 from app.views.debrief.sessions import NOTE, SCORE, SIGNED, STUDENT
 from app.views.kit.access import ACCESS
 from app.views.people.feature import PeopleFeature
-from app.views.people.pages import CourseDialog, EntryDialog
+from app.views.people.pages import GROUP_PDF, STUDENT_PDF, CourseDialog, EntryDialog
 
 
 @pytest.fixture
@@ -389,3 +389,23 @@ def test_the_instructor_releases_all_results_of_a_course_at_once(window, feature
     next(one for one in box.buttons() if one.text() == "Release").click()
     assert settle(lambda: not tab.release.isEnabled())
     assert all(People().remarks()[name].released for name in ("a", "b"))
+
+
+def test_reports_of_the_group_and_of_the_student_chosen_are_written(
+    window, feature, settle, tmp_path
+):
+    person, _ = People().add(RosterLine("Ada"))
+    record(feature.context.services.sessions(), "a", person.key, 72.0)
+    feature.show()
+    board = feature.page.board
+    settle(lambda: board.board is not None and bool(board.board.items))
+    said = []
+    feature.failed.connect(said.append)
+    feature.choose_export(STUDENT_PDF)
+    assert "Choose a student" in str(said[0])
+    feature.export(GROUP_PDF, tmp_path / "group.pdf")
+    board.table.setCurrentCell(0, 0)
+    feature.export(STUDENT_PDF, tmp_path / "ada.pdf")
+    assert settle(lambda: (tmp_path / "group.pdf").exists() and (tmp_path / "ada.pdf").exists())
+    for name in ("group.pdf", "ada.pdf"):
+        assert (tmp_path / name).read_bytes().startswith(b"%PDF")

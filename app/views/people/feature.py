@@ -38,12 +38,15 @@ from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.text import tr
 from app.views.people.pages import (
+    GROUP_PDF,
+    STUDENT_PDF,
     CourseDialog,
     CurveDialog,
     EntryDialog,
     PeoplePage,
     text_dialog,
 )
+from app.views.people.results_report import group_report, student_report, write_report
 from app.views.shell.feature import Context, Feature
 
 T = TypeVar("T")
@@ -483,7 +486,10 @@ class PeopleFeature(Feature):
         """Ask where results go, and write them."""
         if not self._may():
             return
-        suffix = "json" if form == ResultsFormat.JSON else "csv"
+        if form == STUDENT_PDF and self._chosen_student() is None:
+            self.failed.emit(tr("Choose a student on the board first: click on the row."))
+            return
+        suffix = "pdf" if form.endswith("pdf") else "json" if form == "json" else "csv"
         parent, start = self._shell.dialog_parent, _documents() / f"acus-results-{form}.{suffix}"
         kind = f"{suffix.upper()} (*.{suffix})"
         path = QFileDialog.getSaveFileName(parent, tr("Export results"), str(start), kind)[0]
@@ -495,9 +501,12 @@ class PeopleFeature(Feature):
         look = self._look
         if look is None or not self._may():
             return
-        semicolons = self.page.board.semicolons.isChecked()
+        semicolons, chosen = self.page.board.semicolons.isChecked(), self._chosen_student()
+        saved, titles = tr("Saved {name}", name=str(path)), self._titles()
+        board = self.page.board
+        places = [board.course.currentText(), board.group.currentText()]
 
-        def work(progress: Progress) -> None:
+        def gather() -> Results:
             people = {person.key: person for person in look.people}
             known = {text: people[key] for text, key in self._people.keys().items()}
             wanted = {item.exercise for item in look.board.items}
@@ -509,11 +518,25 @@ class PeopleFeature(Feature):
                 and one.student in known
                 and known[one.student].key in shown
             ]
-            results = Results(look.board, some, known, self._people.remarks(), {})
-            write_results(path, results_text(results, ResultsFormat(form), semicolons, progress))
+            return Results(look.board, some, known, self._people.remarks(), {})
 
-        saved = tr("Saved {name}", name=str(path))
+        def work(progress: Progress) -> None:
+            results = gather()
+            if form == GROUP_PDF:  # on pages of its own: Qt allows that beside the window
+                write_report(path, lambda: group_report(results, titles, " · ".join(places)))
+            elif form == STUDENT_PDF and chosen is not None:
+                write_report(path, lambda: student_report(results, chosen, titles))
+            else:
+                text = results_text(results, ResultsFormat(form), semicolons, progress)
+                write_results(path, text)
+
         self._beside(work, lambda _: self.noted.emit(saved), tr("Writing the results"))
+
+    def _chosen_student(self) -> Person | None:
+        """Return the student whose row of the board is chosen."""
+        row, board = self.page.board.table.currentRow(), self.page.board.board
+        some = board.students if board is not None else ()
+        return some[row] if 0 <= row < len(some) else None
 
     def back_up(self) -> None:
         """Ask where, and write everything into one file."""

@@ -95,6 +95,10 @@ def cell_details(cell: BoardCell) -> str:
     return "\n".join(lines)
 
 
+GROUP_PDF, STUDENT_PDF = "group-pdf", "student-pdf"
+"""Forms of results that Qt draws, beside those of `exchange.results`."""
+
+
 class BoardTab(QWidget):
     """Students by exercises.
 
@@ -102,7 +106,7 @@ class BoardTab(QWidget):
         choice_changed(): another course or group.
         curve_wanted(str, str): key of a student, id of an exercise.
         attempts_wanted(str, str): likewise; of all exercises where the id is empty.
-        export_wanted(str): a form of `exchange.results`.
+        export_wanted(str): a form of `exchange.results`, or a report.
     """
 
     choice_changed = Signal()
@@ -129,6 +133,8 @@ class BoardTab(QWidget):
             (tr("Table, a row for each student (CSV)"), "wide"),
             (tr("Gradebook for Moodle (CSV)"), "moodle"),
             (tr("Everything (JSON)"), "json"),
+            (tr("Report of the group (PDF)"), GROUP_PDF),
+            (tr("Report of the student chosen (PDF)"), STUDENT_PDF),
         ):
             self.form.addItem(title, name)
         self.semicolons = QCheckBox(tr("Decimal comma"), self)
