@@ -21,7 +21,7 @@ FolderOption = Annotated[
 
 
 def register(app: typer.Typer) -> None:
-    """Add `session list`, `show`, `replay`, `verify`, `compare`, `export`, `delete`."""
+    """Add the group `session`."""
     session = Commands(help="Recorded attempts.")
     session.command("list")(list_)
     session.command("show")(show)
@@ -31,6 +31,7 @@ def register(app: typer.Typer) -> None:
     session.command("export")(export)
     session.command("delete")(delete)
     session.command("restore")(restore)
+    session.command("recover")(recover)
     app.add_typer(session, name="session")
 
 
@@ -168,6 +169,37 @@ def restore(
     instructor(People())
     path = store.restore(_folder(folder), session_id)
     return Answer({"id": path.stem, "file": path}, [f"{path.stem} is back"])
+
+
+def recover(
+    session_id: Annotated[
+        str,
+        typer.Argument(
+            metavar="[ID]", help="Its id; none lists them.", autocompletion=completion.sessions
+        ),
+    ] = "",
+    folder: FolderOption = None,
+) -> Answer:
+    """List attempts that were cut off, or close one as it stands.
+
+    It is listed as unfinished then and never scored as finished. One that a running program
+    writes is none of them.
+    """
+    from app.session import interrupted
+
+    place = _folder(folder)
+    if session_id:
+        path = interrupted.recover(place, session_id)
+        facts = {"id": path.stem, "file": path, "interrupted": []}
+        return Answer(facts, [f"{path.stem} was closed as it stands: listed as unfinished"])
+    found, _ = interrupted.interrupted(place)
+    lines = [
+        f"{one.id}  {one.student}  {one.exercise_id}  {one.duration:.0f} s: `acus session recover "
+        f"{one.id}` keeps it"
+        for one in found
+    ]
+    facts = {"id": "", "file": None, "interrupted": [one.document() for one in found]}
+    return Answer(facts, lines or [f"no attempt was cut off in {place}"])
 
 
 def export(

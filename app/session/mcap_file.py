@@ -17,6 +17,7 @@ from typing import Any, Final, cast
 from mcap.writer import CompressionType, Writer
 
 from app import __version__
+from app.core.descriptors import hold
 from app.session.blocks import COLUMNS, SLOT_NAMES
 from app.session.errors import RecordingError
 from app.session.header import Attachment, SessionHeader
@@ -75,6 +76,8 @@ class GrowingFile:
         try:
             _set_aside(self._reserve, self._size)
             self._fd = os.open(self._part, flags, 0o600)
+            with suppress(OSError):  # a file system without locks: its time of change tells
+                hold(self._fd)  # nobody takes it for one that a killed program left
         except OSError:
             self._reserve.unlink(missing_ok=True)
             raise

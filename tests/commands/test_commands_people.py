@@ -1,6 +1,7 @@
 """The commands of people, courses, results and the store, from the first student to a backup."""
 
 import json
+import os
 import sys
 from pathlib import Path
 
@@ -131,3 +132,16 @@ def test_an_altered_record_is_told_by_verify_and_in_the_list(acus):
     found = acus("session", "verify", path.stem, code=3)
     assert (found["confirmed"], found["signature"]) == (True, "altered")
     assert acus("session", "list")["sessions"][0]["signature"] == "altered"
+
+
+def test_an_attempt_that_was_cut_off_is_listed_and_closed(acus):
+    attempts("s")
+    path = next(sessions().glob("*.mcap"))
+    assert acus("session", "recover")["interrupted"] == []
+    path.with_suffix(".sig").unlink()
+    path.write_bytes(path.read_bytes()[:-60])
+    os.utime(path, (1e9, 1e9))
+    (found,) = acus("session", "recover")["interrupted"]
+    assert found["id"] == path.stem
+    assert acus("session", "recover", path.stem)["file"].endswith(path.name)
+    assert acus("session", "recover")["interrupted"] == []

@@ -1,6 +1,7 @@
 """Signing in, what students do not reach, and the page of students, courses and progress."""
 
 import json
+import os
 from datetime import UTC, datetime
 from types import MappingProxyType
 
@@ -10,7 +11,10 @@ from PySide6.QtWidgets import QComboBox, QLineEdit, QPlainTextEdit
 from app.exercises.library import load_exercise
 from app.scoring.conditions import Conditions
 from app.session.course import course_of, courses
+from app.session.header import SessionHeader
 from app.session.people import People
+from app.session.recorder import Recorder
+from app.session.recording import read_recording
 from app.session.roster import RosterLine
 from app.session.sidecar import write_summary
 from app.session.summary import Summary
@@ -409,3 +413,63 @@ def test_reports_of_the_group_and_of_the_student_chosen_are_written(
     assert settle(lambda: (tmp_path / "group.pdf").exists() and (tmp_path / "ada.pdf").exists())
     for name in ("group.pdf", "ada.pdf"):
         assert (tmp_path / name).read_bytes().startswith(b"%PDF")
+
+
+@pytest.fixture
+def killed(services):
+    """What a killed program left of an attempt."""
+    now = datetime.now(UTC)
+    header = SessionHeader("k1", now, 0.0, "typed", "first-insertion", "First insertion")
+    recorder = Recorder(services.sessions(), header)
+    recorder.open()
+    recorder._file.abandon()
+    path = recorder.status().path
+    os.utime(path, (now.timestamp() - 900.0,) * 2)
+    return path
+
+
+def test_an_interrupted_attempt_is_offered_at_the_start_and_kept_in_the_list_if_nobody_answers(
+    killed, window, feature, settle
+):
+    debrief = window.feature(DebriefFeature)
+    assert settle(lambda: debrief.interruptions.box is not None)
+    box = debrief.interruptions.box
+    assert "First insertion" in box.informativeText()
+    buttons = {one.text(): one for one in box.buttons()}
+    assert sorted(buttons) == ["Discard", "Later", "Recover"]
+    buttons["Later"].click()
+    assert settle(lambda: debrief.interruptions.box is None)
+    assert killed.exists()
+    sessions = shown(window, settle)
+    assert "cut off" in cell(sessions, "k1", NOTE)
+    choose_rows(sessions, "k1")
+    assert not sessions.recover.isHidden()
+    sessions.recover.click()
+    assert settle(lambda: "interrupted after 0 s" in cell(sessions, "k1", NOTE))
+    choose_rows(sessions, "k1")
+    assert sessions.recover.isHidden()
+    assert cell(sessions, "k1", SCORE) == ""
+
+
+def test_a_student_may_recover_but_not_discard_and_reads_no_name(killed, window, feature, settle):
+    debrief, people = window.feature(DebriefFeature), People()
+    people.add(RosterLine("Ada"))
+    people.set_instructor("correct horse")
+    people.assign("typed", "Ada")
+    feature.look()
+    assert settle(lambda: ACCESS.guarded and ACCESS.owner("typed"))
+    if debrief.interruptions.box is not None:
+        debrief.interruptions.box.close()
+        settle()
+    debrief.interruptions._offered.clear()
+    debrief.interruptions._looks = 0
+    debrief.interruptions.look()
+    assert settle(lambda: debrief.interruptions.box is not None)
+    box = debrief.interruptions.box
+    assert "a student" in box.informativeText()
+    buttons = {one.text(): one for one in box.buttons()}
+    assert buttons["Discard"].isHidden()
+    debrief.sessions.discard_these(["k1"])
+    assert killed.exists()
+    buttons["Recover"].click()
+    assert settle(lambda: read_recording(killed).complete)

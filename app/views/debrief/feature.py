@@ -9,8 +9,15 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Final
 
-from PySide6.QtCore import QObject, QStandardPaths, QTimer, Signal, SignalInstance
-from PySide6.QtWidgets import QDialog, QFileDialog, QVBoxLayout, QWidget
+from PySide6.QtCore import QObject, QStandardPaths, Qt, QTimer, Signal, SignalInstance
+from PySide6.QtWidgets import (
+    QApplication,
+    QDialog,
+    QFileDialog,
+    QMessageBox,
+    QVBoxLayout,
+    QWidget,
+)
 
 from app.core.errors import AcusError
 from app.core.files import write_atomically
@@ -23,6 +30,7 @@ from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
 from app.session.control_scan import ControlScan
 from app.session.errors import SessionError
+from app.session.interrupted import interrupted
 from app.session.motion import ShownMotion, show_expert
 from app.session.next_exercise import Around, around, held_by
 from app.session.people import People
@@ -37,6 +45,7 @@ from app.views.debrief.replay import Ghost
 from app.views.debrief.report import report_bytes
 from app.views.debrief.sessions import SessionsPage
 from app.views.exercise.conductor import Conductor
+from app.views.exercise.readouts import clock_text
 from app.views.exercise.scan_view import ScanView, caption
 from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, Indicator, run_in_background
@@ -530,6 +539,121 @@ class ScanPictures(QObject):
         dialog.open()
 
 
+LOOK_AGAIN_MS: Final = 20_000
+"""After this long it is looked once more whether a record was cut off that had just grown."""
+
+_NAMED: Final = 5
+
+
+class Interruptions(QObject):
+    """Offers at the start of the program to recover attempts that were cut off.
+
+    Args:
+        sessions: the list, which recovers or discards.
+        folder: of the records.
+        parent: window; the question stands over it.
+        busy: whether nobody may be asked now.
+
+    Attributes:
+        box: the question; None while there is none.
+    """
+
+    def __init__(
+        self, sessions: SessionsPage, folder: Path, parent: QWidget, busy: Callable[[], bool]
+    ) -> None:
+        super().__init__(parent)
+        self._sessions, self._folder, self._window, self._busy = sessions, folder, parent, busy
+        self._looks, self._offered = 0, set[str]()
+        self.box: QMessageBox | None = None
+
+    def look(self) -> None:
+        """Look beside the window; once more later where a record had just grown."""
+        if self._looks:
+            return
+        self._look()
+
+    def close(self) -> None:
+        """Ask nothing more."""
+        self._looks = 9
+        if self.box is not None:
+            self.box.close()
+
+    def _look(self) -> None:
+        if self._looks > 1:
+            return
+        self._looks += 1
+        run_in_background(self, lambda _: interrupted(self._folder), self._take, self._nothing)
+
+    def _nothing(self, _: Exception) -> None:
+        """Say nothing: the list says what cannot be read."""
+
+    def _take(self, both: tuple[list[Summary], bool]) -> None:
+        found, fresh = both
+        if fresh:
+            QTimer.singleShot(LOOK_AGAIN_MS, self, self._look)
+        self._offer([one for one in found if one.id not in self._offered])
+
+    def _offer(self, found: list[Summary]) -> None:
+        """Ask what becomes of attempts; later, while somebody does one or is asked something."""
+        if not found or self._looks == 9:
+            return
+        if self._busy() or self.box is not None:
+            QTimer.singleShot(LOOK_AGAIN_MS, self, lambda: self._offer(found))
+            return
+        self._offered |= {one.id for one in found}
+        lines = [
+            "  ·  ".join(
+                (
+                    NAMES.shown(ACCESS.shown(one.student))
+                    if ACCESS.may_see(one.student)
+                    else tr("a student"),
+                    one.exercise_title or one.exercise_id,
+                    date_text(one.started),
+                    clock_text(one.duration),
+                )
+            )
+            for one in found[:_NAMED]
+        ]
+        if len(found) > _NAMED:
+            lines.append(tr("and {n} more", n=len(found) - _NAMED))
+        self.box = box = QMessageBox(self._window)
+        box.setWindowTitle(tr("Interrupted attempts"))
+        box.setIcon(QMessageBox.Icon.Information)
+        box.setTextFormat(Qt.TextFormat.PlainText)
+        box.setText(
+            tr("The program ended in the middle of an attempt:")
+            if len(found) == 1
+            else tr("The program ended in the middle of {n} attempts:", n=len(found))
+        )
+        keeps = tr(
+            "Recover keeps what was recorded: it stays in the list as unfinished, without a score. "
+            "Later changes nothing; the list of sessions offers it too."
+        )
+        box.setInformativeText("\n".join([*lines, "", keeps]))
+        roles = QMessageBox.ButtonRole
+        recovers = box.addButton(tr("Recover"), roles.AcceptRole)
+        discards = box.addButton(tr("Discard"), roles.DestructiveRole)
+        discards.setToolTip(tr("To the deleted ones; the instructor can bring it back"))
+        discards.setVisible(ACCESS.may_manage)
+        box.setEscapeButton(box.addButton(tr("Later"), roles.RejectRole))
+        box.setDefaultButton(recovers)
+        ids = [one.id for one in found]
+
+        def answered(clicked: object) -> None:
+            if clicked is recovers:
+                self._sessions.recover_these(ids)
+            elif clicked is discards:
+                self._sessions.discard_these(ids)
+
+        def ended() -> None:
+            self.box = None
+            box.deleteLater()
+
+        box.buttonClicked.connect(answered)
+        box.finished.connect(ended)
+        box.open()
+
+
 class DebriefFeature(Feature):
     """Two pages: shown when an attempt ends, and from the menu.
 
@@ -540,6 +664,7 @@ class DebriefFeature(Feature):
         page: the debrief.
         sessions: the list of past attempts.
         ct: finds the CT of the attempt that is shown.
+        interruptions: offers to recover attempts that were cut off.
     """
 
     topic: ClassVar[str] = "debrief"
@@ -561,6 +686,15 @@ class DebriefFeature(Feature):
         )
         self.ct = AttemptCt(self.page, context, lambda: self._controller.exercise)
         self.scan_pictures = ScanPictures(self.page, context.conductor, shell.progress)
+        self.interruptions = Interruptions(
+            self.sessions,
+            folder,
+            shell.dialog_parent,
+            lambda: (
+                context.conductor.controller.is_running
+                or QApplication.activeModalWidget() is not None
+            ),
+        )
         self._controller.failed.connect(lambda why: self.failed.emit(why))
         self._controller.noted.connect(self.noted)
         self._controller.saved.connect(lambda path: self.noted.emit(tr("Saved {name}", name=path)))
@@ -597,6 +731,7 @@ class DebriefFeature(Feature):
 
     def close(self) -> None:
         """End what runs; idempotent."""
+        self.interruptions.close()
         self.ct.close()
 
     def begin_again(self) -> None:

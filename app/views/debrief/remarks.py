@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtGui import QAction, QKeySequence, QShortcut
 from PySide6.QtWidgets import (
     QDialogButtonBox,
     QMenu,
@@ -179,14 +179,17 @@ class RemarkActions(QObject):
 
     # --- inside -----------------------------------------------------------------------------------
     def _add(self, text: str, keys: str, tip: str) -> QAction:
-        action = QAction(text, self._page)
+        """Make an action whose keys are this page's: another page has actions of the same."""
+        action = QAction(f"{text}\t{keys}" if keys else text, self._page)
         if keys:
-            action.setShortcut(QKeySequence(keys))
-            action.setShortcutContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
-            tip = f"{tip} ({keys})"
+            shortcut = QShortcut(QKeySequence(keys), self._page, lambda: self._press(action))
+            shortcut.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
         action.setToolTip(tip)
-        self._page.addAction(action)
         return action
+
+    def _press(self, action: QAction) -> None:
+        if action.isEnabled():
+            action.trigger()
 
     def _of(self, name: str) -> Remarks:
         return self._said.get(name, NOTHING_SAID)

@@ -5,7 +5,7 @@ The instructor also says here what is said of attempts (`remarks`), and sees wha
 
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Final
 
@@ -33,9 +33,11 @@ from PySide6.QtWidgets import (
 )
 
 from app.core.errors import AcusError
+from app.core.progress import Progress
 from app.session.archive import UNDO_DAYS, deleted_at
 from app.session.course import held_back
 from app.session.header import TRASH
+from app.session.interrupted import interrupted, recover
 from app.session.people import NOTHING_SAID, People, Remarks
 from app.session.store import SUFFIX, delete, list_sessions, restore
 from app.session.summary import BROKEN, Summary
@@ -78,12 +80,14 @@ class Listed:
         held: title of the course that holds a result back, by id.
         said: what the instructor said, by id.
         deleted: when they were deleted [s since 1970], by id; empty where none is.
+        cut: ids of those that were cut off and have no end yet.
     """
 
     summaries: Sequence[Summary] = ()
     held: Mapping[str, str] = field(default_factory=dict)
     said: Mapping[str, Remarks] = field(default_factory=dict)
     deleted: Mapping[str, float] = field(default_factory=dict)
+    cut: frozenset[str] = frozenset()
 
     def for_student(self) -> "Listed":
         """Return it without what is not open before a result is released."""
@@ -91,13 +95,15 @@ class Listed:
             name: Remarks(void=one.void) if name in self.held else one
             for name, one in self.said.items()
         }
-        return Listed(self.summaries, self.held, said, self.deleted)
+        return replace(self, said=said)
 
     def remarks(self, summary: Summary, manages: bool) -> list[str]:
         """Say what is to be known of an attempt, one line each; of who manages, more."""
         lines = said_words(
             self.said.get(summary.id, NOTHING_SAID), self.held.get(summary.id, "") * manages
         )
+        if summary.id in self.cut:
+            lines.append(tr("cut off: Recover closes it as it stands"))
         if summary.id in self.deleted:
             days = UNDO_DAYS - (time.time() - self.deleted[summary.id]) / 86400.0
             lines.insert(
@@ -273,7 +279,8 @@ def listed(folder: Path, deleted: bool = False) -> Listed:
         if one.conditions is not None
     )
     since = {one.id: deleted_at(place / f"{one.id}{SUFFIX}") for one in found} if deleted else {}
-    return Listed(found, held_back(asked), People().remarks(), since)
+    cut = frozenset() if deleted else frozenset(one.id for one in interrupted(place)[0])
+    return Listed(found, held_back(asked), People().remarks(), since, cut)
 
 
 class SessionsPage(QWidget):
@@ -317,6 +324,7 @@ class SessionsPage(QWidget):
         self.undo = QPushButton(tr("Undo delete"), self)
         self.trash = QPushButton(tr("Show deleted"), self)
         self.bring_back = QPushButton(tr("Bring back"), self)
+        self.recover = QPushButton(tr("Recover"), self)
         self.everything = QPushButton(self)
         self._prepare_table()
         self.remarks = RemarkActions(self, lambda: [] if self._in_trash else self._readable())
@@ -345,7 +353,7 @@ class SessionsPage(QWidget):
             for one in found.summaries
             if ACCESS.may_see(one.student) and (self._only is None or self._only(one))
         ]
-        rows = Listed(shown, found.held, found.said, found.deleted)
+        rows = replace(found, summaries=shown)
         self.model.set_listed(rows, ACCESS.may_manage)
         self._fit_columns()
         self._choose(chosen)
@@ -435,6 +443,38 @@ class SessionsPage(QWidget):
         self.said.emit()
         self.refresh()
 
+    def recover_selected(self) -> None:
+        """Close those of the selected attempts that were cut off; they stay as they stand."""
+        ids = [summary.id for summary in self.selected() if summary.id in self._listed.cut]
+        self.recover_these(ids)
+
+    def recover_these(self, ids: Sequence[str]) -> None:
+        """Close attempts that were cut off, beside the window."""
+
+        def work(_: Progress) -> None:
+            for name in ids:
+                recover(self._folder, name)
+
+        def done(_: None) -> None:
+            self.noted.emit(tr("{n} recovered: listed as unfinished, without a score", n=len(ids)))
+            self.said.emit()
+            self.refresh()
+
+        run_in_background(self, work, done, self._fail)
+
+    def discard_these(self, ids: Sequence[str]) -> None:
+        """Move attempts to the deleted ones."""
+        if not ACCESS.may_manage:
+            return
+        try:
+            for name in ids:
+                delete(self._folder, name)
+        except AcusError as error:
+            self.failed.emit(str(error))
+        self._deleted = list(ids)
+        self.noted.emit(tr("{n} discarded: Show deleted brings them back", n=len(ids)))
+        self.refresh()
+
     def undo_delete(self) -> None:
         """Bring the sessions deleted last back."""
         if not ACCESS.may_manage:
@@ -470,6 +510,8 @@ class SessionsPage(QWidget):
         self.trash.setVisible(manage)
         self.bring_back.setVisible(manage and deleted)
         self.bring_back.setEnabled(bool(chosen))
+        cut = any(summary.id in self._listed.cut for summary in chosen)
+        self.recover.setVisible(cut and not deleted)
         self.export.setEnabled(bool(readable) and manage and not deleted)
         self.delete_button.setEnabled(bool(chosen) and manage and not deleted)
         self.undo.setEnabled(bool(self._deleted) and manage)
@@ -513,6 +555,9 @@ class SessionsPage(QWidget):
             tr("To the deleted ones, for {n} days at least (Del)", n=UNDO_DAYS)
         )
         self.undo.setToolTip(tr("Bring the last deleted ones back (Ctrl+Z in the table)"))
+        self.recover.setToolTip(
+            tr("The program was killed in this attempt: keep what was recorded, as unfinished")
+        )
         self.trash.setToolTip(tr("What was deleted, to be brought back"))
         self.trash.setCheckable(True)
         self.everything.hide()
@@ -530,6 +575,7 @@ class SessionsPage(QWidget):
         bottom.addWidget(self.back)
         bottom.addWidget(self._count, 1)
         for button in (
+            self.recover,
             self.remarks.button,
             self.trash,
             self.bring_back,
@@ -556,6 +602,7 @@ class SessionsPage(QWidget):
         self.delete_button.clicked.connect(self.delete_selected)
         self.undo.clicked.connect(self.undo_delete)
         self.trash.toggled.connect(lambda _: self._show_trash())
+        self.recover.clicked.connect(self.recover_selected)
         self.bring_back.clicked.connect(self.bring_selected_back)
         self.everything.clicked.connect(lambda: self.show_only(None))
         self.remarks.failed.connect(self._fail)

@@ -414,6 +414,8 @@ class MainWindow(QMainWindow):
         super().showEvent(event)
         QTimer.singleShot(PAINTED_MS, self.runs.prepare)
         QTimer.singleShot(PAINTED_MS, self.start_facts.begin)
+        interruptions = self.feature(DebriefFeature).interruptions
+        QTimer.singleShot(PAINTED_MS, interruptions, interruptions.look)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Accept a folder or a file from it."""
