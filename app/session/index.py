@@ -16,7 +16,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from datetime import UTC, datetime
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -86,8 +86,7 @@ class Indexed:
     @cached_property
     def conditions(self) -> Conditions:
         """What the score was made under."""
-        known = json.loads(self.under) if self.under else None
-        return Conditions(self.exercise) if known is None else Conditions.of(known)
+        return _conditions_of(self.under) if self.under else Conditions(self.exercise)
 
     @property
     def time(self) -> datetime:
@@ -97,6 +96,12 @@ class Indexed:
         except ValueError:
             return datetime.fromtimestamp(0.0, UTC)
         return found if found.tzinfo else found.replace(tzinfo=UTC)
+
+
+@lru_cache(maxsize=4096)
+def _conditions_of(under: str) -> Conditions:
+    """Read conditions from their text; most attempts of a group were made under the same."""
+    return Conditions.of(json.loads(under))
 
 
 @dataclass(frozen=True, slots=True)
