@@ -24,7 +24,7 @@ from app.exercises.library import library, load_exercise
 from app.exercises.scene import placed_plan_of
 from app.planning.plan import Plan
 from app.session.ct_facts import CtFacts
-from app.session.errors import ReplayError
+from app.session.errors import ReplayError, SessionError
 from app.session.recording import Recording, read_recording
 from app.session.replay import contents
 from app.session.trainer import Trainer
@@ -35,9 +35,17 @@ PLAN = Plan(np.array([0.0, -100.0, 0.0]), np.array([15.0, -35.0, 10.0]), "test")
 
 
 def attempt(
-    folder: Path, clock: Clock, seconds: float, exercise: str = "thick-tissue", skill: Any = None
+    folder: Path,
+    clock: Clock,
+    seconds: float,
+    exercise: str = "thick-tissue",
+    skill: Any = None,
+    tell: Callable[[Trainer, float], None] = lambda trainer, elapsed: None,
 ) -> Recording:
-    """An attempt on the composed loop with guidance, the depth measured without cameras."""
+    """An attempt on the composed loop with guidance, the depth measured without cameras.
+
+    `tell` is called every 20 ms with the trainer and the time since the beginning.
+    """
     chosen = load_exercise(exercise)
     profile = device_of(chosen)
     placed = placed_plan_of(chosen, profile, PLAN)
@@ -63,6 +71,7 @@ def attempt(
     for k in range(round(seconds / 0.02)):
         if skill is None:
             trainer.hand(0.1 * np.sin(0.05 * k), 0.05, 0.0004 * k)
+        tell(trainer, 0.02 * k)
         if virtual:
             trainer.step()
         else:
@@ -118,6 +127,47 @@ def test_a_hand_led_attempt_at_any_exercise_is_recomputed_to_the_last_bit(
     recording = attempt(tmp_path, VirtualClock(50.0), 3.0, exercise)
     assert not np.isnan(recording.inputs.column("hand_x")).any()
     assert replay_recording(recording).identical
+
+
+def test_a_breath_held_on_command_is_told_recorded_and_recomputed(tmp_path: Path) -> None:
+    seen: dict[float, Any] = {}
+
+    def tell(trainer: Trainer, elapsed: float) -> None:
+        wishes = {1.0: True, 32.0: False, 33.0: True, 42.0: False}
+        if round(elapsed, 2) in wishes:
+            trainer.hold_breath(wishes[round(elapsed, 2)])
+        seen[round(elapsed, 2)] = trainer.snapshot().breath
+
+    recording = attempt(tmp_path, VirtualClock(50.0), 43.0, "hold-the-breath", tell=tell)
+    assert not seen[0.5].asked
+    assert seen[1.5].asked
+    assert not seen[1.5].held  # he breathes out first
+    assert seen[8.0].held
+    assert seen[8.0].left - seen[12.0].left == pytest.approx(4.0, abs=0.05)
+    assert seen[30.0].spent  # asked, and not able to any longer
+    assert seen[40.0].held
+    assert not seen[42.9].asked
+    told = [event.message.split(",")[0] for event in recording.events if event.kind == "breath"]
+    hold = ["the patient is told to hold", "the patient holds the breath"]
+    may = "the patient may breathe"
+    assert told == [*hold, "the patient has to breathe: let him", may, *hold, may]
+    left = [seen[time].left for time in sorted(seen) if seen[time].held]
+    assert left[0] == pytest.approx(19.0, abs=0.3)
+    assert min(left) < 0.2
+    shift = recording.samples.target - recording.samples.target[0]
+    assert np.linalg.norm(shift, axis=1).max() > 0.011
+    report = replay_recording(recording)
+    assert report.identical
+    assert report.every_slot
+
+
+def test_only_a_patient_who_holds_on_command_can_be_told_to(tmp_path: Path) -> None:
+    def tell(trainer: Trainer, _: float) -> None:
+        assert trainer.snapshot().breath is None
+        with pytest.raises(SessionError, match="does not hold the breath on command"):
+            trainer.hold_breath(True)
+
+    attempt(tmp_path, VirtualClock(50.0), 0.04, "breathing-liver", tell=tell)
 
 
 def test_an_attempt_in_real_time_is_recomputed_to_the_last_bit(tmp_path: Path) -> None:

@@ -184,9 +184,10 @@ def pen_table(
     placed_exercise = exercise.placed_as(placed.placement)
     effects = compile_exercise(placed_exercise, profile, declared_views(), simulated=False)
     plant = [plant_stage(profile, UPRIGHT, START_DEPTH)] if simulated else []
-    trainee = (
-        [trainee_stage(placed.axis, placed.length, skill, seed)] if simulated and skill else []
-    )
+    trainee = []
+    if simulated and skill:
+        holds = exercise.holds_breath
+        trainee = [trainee_stage(placed.axis, placed.length, skill, seed, holds=holds)]
     place = [DepthInterval.of(profile).stage(), Kinematics.of(profile).stage()]
     stages = [*trainee, *read, velocity_stage(profile), *place]
     return Table.of([*stages, *effects.stages()], plant)

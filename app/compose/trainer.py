@@ -372,7 +372,9 @@ def loop_table(
     if (simulated or robot is not None) and setup.skill is not None:
         placed = setup.placed
         trainee = (
-            trainee_stage(placed.axis, placed.length, setup.skill, setup.seed)
+            trainee_stage(
+                placed.axis, placed.length, setup.skill, setup.seed, holds=exercise.holds_breath
+            )
             if setup.script is None
             else script_stage(setup.script, placed.axis)
         )

@@ -251,7 +251,9 @@ class Trials:
             values = own.setdefault(id(stage.parameters), stage.parameters.copy())
             return stage._replace(parameters=values)
 
-        before = trainee_stage(placed.axis, placed.length, skill, seed), self._cameras.stage(seed)
+        holds = self._exercise.holds_breath
+        trainee = trainee_stage(placed.axis, placed.length, skill, seed, holds=holds)
+        before = trainee, self._cameras.stage(seed)
         table = Table.of([*before, *map(fresh, self._stages)], map(fresh, self._write))
         initial = initial_plant(profile, UPRIGHT, START_DEPTH)
         loop = Loop(table, profile.rate_hz, clock, initial=initial)

@@ -11,17 +11,26 @@ that are named below their slots. Code loops over `SUMS` and slices by `AXIS`, n
 to another. Lines may therefore be moved: nothing changes by it, or this import fails and says why.
 """
 
-from itertools import count
+from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
 
 from app.core.arrays import FloatArray
 
-_next = count()
+_given: list[int] = []
 _inputs: list[int] = []
 _sums: list[int] = []
 _scene_slots: list[int] = []
+
+
+def _places() -> Iterator[int]:
+    while True:
+        _given.append(len(_given))
+        yield _given[-1]
+
+
+_next = _places()
 
 
 def _input() -> int:
@@ -49,11 +58,10 @@ def _scene() -> int:
 
 
 def _end_of_inputs() -> int:
-    """Return the number of inputs, which is the place of a slot that nobody uses."""
-    slot = next(_next)
-    if slot != len(_inputs):
+    """Return the number of inputs; it takes no place itself."""
+    if len(_given) != len(_inputs):
         raise ImportError("state_vector: INPUTS does not stand directly below the last input")
-    return slot
+    return len(_inputs)
 
 
 def _vector(*slots: int) -> slice:
@@ -90,7 +98,8 @@ TEST_Y: Final = _input()
 TEST_Z: Final = _input()
 TEST_LEFT: Final = _input()  # [N·m] joint torques that a service routine asks for
 TEST_RIGHT: Final = _input()
-INPUTS: Final = _end_of_inputs()  # number of input slots (and a spare slot)
+HOLD_BREATH: Final = _input()  # [-] 1 while the patient is asked to hold the breath
+INPUTS: Final = _end_of_inputs()  # number of input slots
 
 # --- time -----------------------------------------------------------------------------------------
 TIME: Final = next(_next)  # [s] monotonic time of the tick

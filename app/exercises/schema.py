@@ -38,6 +38,7 @@ from app.scoring.errors import ScoringError
 from app.scoring.rows import ScoreRules
 from app.scoring.score import check_names
 from app.scoring.tolerance import Tolerance
+from app.simulation.effects import declaration
 
 
 class Exercise(Strict):
@@ -191,6 +192,19 @@ class Exercise(Strict):
         if self.purpose is Purpose.ASSESSMENT:
             return EVERY_LOCK
         return frozenset(self.locks or ())
+
+    @property
+    def holds_breath(self) -> bool:
+        """Whether the patient holds the breath on command."""
+        part = self.effects.get("breathing")
+        return part is not None and part.model == "on_command"
+
+    @property
+    def longest_hold(self) -> float | None:
+        """Time that the patient can hold the breath [s]; None where he is not told to."""
+        if not self.holds_breath:
+            return None
+        return declaration("breathing").checked(self.effects["breathing"].parameters)["longest"]
 
     def beginning_with(self, dial: StartingDial) -> Exercise:
         """Return the exercise as one attempt has it; of a probe, with nothing that tells.

@@ -7,6 +7,7 @@ is a multiple of `STATE_EVERY` the whole state as float64.
 """
 
 import struct
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Final
 
@@ -29,7 +30,17 @@ _HEADER: Final = struct.Struct("<4sHHIIQ")
 SLOT_NAMES: Final = tuple(
     {index: name for name, index in slots.INDEX.items()}.get(k, "") for k in range(slots.SLOTS)
 )
-"""Name of every slot of the state in its order; empty for the spare one."""
+"""Name of every slot of the state in its order."""
+
+
+def slots_of_record(names: Iterable[str]) -> tuple[str, ...]:
+    """Return a record's own names of its state's slots as they are called now.
+
+    Before there was the input `hold_breath`, its place stood empty, without a name and always zero:
+    nobody asked. Such a record therefore has today's slots.
+    """
+    return tuple(name or "hold_breath" for name in names)
+
 
 INPUTS: Final = tuple(name for name in SLOT_NAMES[: slots.INPUTS] if name)
 """What other threads give a tick through the inbox."""
@@ -46,7 +57,10 @@ WIRE: Final = (
 OUTPUTS: Final = ("kinematics", "depth", "depth_source", "torque_left", "torque_right", "fault")
 """What a tick computes and every row of a record holds; all else is in its digest."""
 
-COLUMNS: Final = (*INPUTS, *CLOCK, *WIRE, *OUTPUTS)
+LATER: Final = ("hold_breath",)
+"""Inputs that records did not always have: behind all others, so that those blocks read alike."""
+
+COLUMNS: Final = (*(n for n in INPUTS if n not in LATER), *CLOCK, *WIRE, *OUTPUTS, *LATER)
 """Slot names of a block's columns."""
 
 TRAINEE: Final = ("hand_x", "hand_y", "hand_depth", "hand_holds")

@@ -82,6 +82,10 @@ class LoopInputs:
             hand_x=checked[0], hand_y=checked[1], hand_depth=checked[2], hand_holds=float(holds)
         )
 
+    def hold_breath(self, held: bool) -> None:
+        """Ask the simulated patient to hold the breath, or to breathe."""
+        self._inbox.write(hold_breath=float(held))
+
     def tracked(self, depth: float, time: float, variance: float) -> None:
         """Hand over a depth that the cameras measured [m], its time [s] and variance [m²]."""
         values: ArrayLike = (depth, time, variance)

@@ -23,6 +23,8 @@ from app.session.inputs import LoopInputs
 from app.session.machine import State
 from app.session.needle import DOWN, DepthSource, NeedlePose
 from app.session.sample import Sample
+from app.session.snapshot import BreathHold
+from app.simulation.scene import SETTLING
 from app.tracking.fix import NeedleFix
 
 if TYPE_CHECKING:
@@ -32,6 +34,9 @@ if TYPE_CHECKING:
     from app.tracking.statistics import TrackerStatistics
     from app.tracking.tracker import Tracker
 
+
+STILL: Final = 0.1
+"""A target that has not moved at all for this long rests [s]; a breathing one always moves."""
 
 LOOP_LIMIT: Final = 0.5
 """Age of the loop's newest state [s] from which the loop counts as dead."""
@@ -268,3 +273,42 @@ class RobotAndCameras:
         if self._tracker is None or self._tracker.events is own:
             return []
         return list(self._tracker.events.drain())
+
+
+class BreathWatch:
+    """Tells how a breath-hold stands from what the loop was asked and where the target is.
+
+    Args:
+        longest: time that this patient can hold the breath [s].
+    """
+
+    def __init__(self, longest: float) -> None:
+        self.now = BreathHold()
+        self._longest = longest
+        self._place: tuple[float, ...] = ()
+        self._rests_since = inf
+
+    def observe(self, device: DeviceState | None, time: float) -> str:
+        """Take the loop's newest state at `time` [s]; returns what has changed, in words."""
+        if device is None:
+            return ""
+        place = tuple(device.row[slots.TARGET_SHIFT].tolist())
+        if place != self._place:
+            self._place, self._rests_since = place, time
+        before, asked = self.now, float(device.row[slots.HOLD_BREATH]) > 0.5
+        held = asked and time - self._rests_since >= STILL
+        # The organ has taken its place within the hold, so that the hold began before it rested.
+        left = self._longest - SETTLING - (time - self._rests_since)
+        spent = asked and not held and (before.held or before.spent)
+        self.now = BreathHold(asked, held, max(0.0, left) if held else 0.0, spent)
+        return self._change(before)
+
+    def _change(self, before: BreathHold) -> str:
+        now = self.now
+        if now.held and not before.held:
+            return f"the patient holds the breath, for {now.left:.0f} s at most"
+        if now.spent and not before.spent:
+            return "the patient has to breathe: let him, and ask again"
+        if now.asked != before.asked:
+            return "the patient is told to hold" if now.asked else "the patient may breathe"
+        return ""

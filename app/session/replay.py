@@ -349,7 +349,10 @@ def _states(
     recorded = inputs.checkpoint
     if recorded is None:
         raise ReplayError(f"this record cannot be replayed: {why_not(inputs)}")
-    values = inputs.values[:, [inputs.columns.index(name) for name in given]]
+    values = np.zeros((len(inputs.values), len(given)))  # an input that came later was never given
+    for place, name in enumerate(given):
+        if name in inputs.columns:
+            values[:, place] = inputs.column(name)
     rerun = Rerun(table_of(recording), recorded.in_order_of(SLOT_NAMES), given)
     for first in range(0, rows, _CHUNK):
         yield first, rerun.run(values[first : min(first + _CHUNK, rows)])

@@ -51,7 +51,7 @@ __all__ = [
     "spans",
 ]
 
-SHOWN_EVENTS: Final = ("scan", "fault", "abort")
+SHOWN_EVENTS: Final = ("scan", "breath", "fault", "abort")
 """Kinds of events that are marked on the curves."""
 
 TURN_S: Final = 2.0

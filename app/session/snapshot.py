@@ -25,6 +25,23 @@ if TYPE_CHECKING:
     from app.tracking.statistics import TrackerStatistics
 
 
+@dataclass(frozen=True, slots=True)
+class BreathHold:
+    """How a patient stands who holds the breath on command.
+
+    Attributes:
+        asked: whether he is asked to.
+        held: whether he holds it, so that the target rests.
+        left: for how long he still can [s].
+        spent: whether he breathes although he is asked: he could not hold it any longer.
+    """
+
+    asked: bool = False
+    held: bool = False
+    left: float = 0.0
+    spent: bool = False
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Snapshot:
     """Everything about the running trainer at one moment.
@@ -53,6 +70,7 @@ class Snapshot:
         withdrawal: what happens, or is to be done, before the attempt can begin with the needle out
             of the skin; empty otherwise.
         may_confirm: whether the student may say that the needle is out.
+        breath: how the breath-hold stands; None where the patient is not told.
         measured_pose: the pose as measured, behind by its age; None in snapshots made by hand.
     """
 
@@ -78,6 +96,7 @@ class Snapshot:
     measured_pose: NeedlePose | None = None
     withdrawal: str = ""
     may_confirm: bool = False
+    breath: BreathHold | None = None
 
 
 _FIX_TEXT = {

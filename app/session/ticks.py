@@ -61,7 +61,7 @@ def read_inputs(content: FileContents, problems: list[str]) -> Inputs:
     """Read all blocks of a record; what cannot be read is told in `problems`."""
     channel = content.channels.get("/loop/inputs", {})
     columns = _names(channel.get("slots", "")) or blocks.COLUMNS
-    slots = _names(channel.get("state", ""))
+    slots = blocks.slots_of_record(_names(channel.get("state", "")))
     parts = _blocks(content, len(columns), problems)
     checked = bool(slots) and all(len(part.digests) == len(part.values) for part in parts)
     whole = [(row, p) for row, p in _starts(parts) if p.states.shape[1] == len(slots) > 0]

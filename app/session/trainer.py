@@ -15,11 +15,11 @@ from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
 from app.session.attempt_log import AttemptLog
 from app.session.context import RunContext
-from app.session.errors import ControlLockedError
+from app.session.errors import ControlLockedError, SessionError
 from app.session.fixes import TRUST, DepthTrust
 from app.session.inputs import Arming, ClearanceOf, LoopInputs
 from app.session.machine import AttemptEvent
-from app.session.observation import Observation, RobotAndCameras
+from app.session.observation import BreathWatch, Observation, RobotAndCameras
 from app.session.result import AttemptResult
 from app.session.risks import Risk
 from app.session.running import RunningAttempt
@@ -51,7 +51,8 @@ class Trainer:
     thread; `end` and `abort` write files, the others only take a lock for a moment.
 
     Attributes:
-        events: for the window to drain: `state`, `abort`, `scan`, `recorder`, and the tracker's.
+        events: for the window to drain: `state`, `abort`, `scan`, `breath`, `recorder`, and the
+            tracker's.
         result: of the attempt that finished last; None before the first.
     """
 
@@ -94,6 +95,8 @@ class Trainer:
         self._inputs = LoopInputs(loop.inbox)
         self._arming = Arming(self._inputs, held_arming, clearance)
         self._sources = RobotAndCameras(loop, tracker, self._inputs, trust)
+        longest = exercise.longest_hold
+        self._breath = None if longest is None else BreathWatch(longest)
         self._running = RunningAttempt(self.events)
         self._withdrawal = Withdrawal(self._inputs, start)
         self._latest: Latest[Snapshot] = Latest()
@@ -166,6 +169,7 @@ class Trainer:
                 self._sources.require_ticks(self._ticker.failed)
             self._arming.require()
             self._inputs.prepare(self._placed, self._dial)
+            self._inputs.hold_breath(False)
             self._inputs.assist(self._dial)  # whatever the dial was turned to before
             now = self._clock.now()
             header = self._context.header(self._exercise, self._placed, student, now, hand)
@@ -241,6 +245,19 @@ class Trainer:
             )
         self._inputs.assist(value)
 
+    def hold_breath(self, held: bool) -> None:
+        """Tell the patient to hold the breath, or to breathe; the next ticks tell how he stands.
+
+        Raises:
+            SessionError: if the exercise's patient does not hold the breath on command.
+        """
+        if self._breath is None:
+            raise SessionError(
+                f"the patient of exercise {self._exercise.id} does not hold the breath on command; "
+                "breathing with `model: on_command` does"
+            )
+        self._inputs.hold_breath(held)
+
     @property
     def held_arming(self) -> bool:
         """Whether the forces are on only while `arm` holds them on."""
@@ -302,6 +319,8 @@ class Trainer:
                 seen, self._inputs, self._arming.held, self._withdrawal.simulated
             )
             self._arming.pause(was_paused, self._running.paused)
+            if self._breath is not None and (words := self._breath.observe(seen.device, now)):
+                self._running.say("breath", words, now, {"held": self._breath.now.held})
             reason = reason or self._bring_out(seen)
             if reason:
                 return reason
@@ -362,6 +381,7 @@ class Trainer:
             measured_pose=seen.pose,
             withdrawal=withdrawal.words,
             may_confirm=withdrawal.asks,
+            breath=None if self._breath is None else self._breath.now,
         )
         self._latest.publish(snapshot, now)
         return snapshot

@@ -2,12 +2,16 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Final
 
 import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, frozen
 from app.simulation.errors import SimulationError
+
+SETTLING: Final = 1.0
+"""Time in which an organ takes the place that a breath-hold gives it, and leaves it again [s]."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,6 +3,10 @@
 It runs on TIME since the attempt was armed, so a run is the same on every machine and at every
 rate; it begins afresh with every attempt, from where the hand is: what the script's beginning lies
 off it is taken out along a minimum-jerk curve while the script hovers.
+
+Where the target breathes, its last moment waits for the rest between two breaths. With `holds` it
+tells the patient to hold the breath before it inserts, waits until the target rests, aims where the
+target rests then, and lets breathe while it draws back.
 """
 
 from dataclasses import dataclass, replace
@@ -23,6 +27,12 @@ STEP: Final = 0.005  # [s] between rows of the script
 TREMOR_STEP: Final = 0.004  # [s] between rows of the tremor tile
 TREMOR_ROWS: Final = 1000  # the tile lasts 4 s and repeats without a seam
 ABOVE_SKIN: Final = -0.015  # [m] depth at which the hand hovers
+WAITING: Final = 0.4  # [s] at the end of the script, that last up to 8 s where the target moves
+_SLOWER: Final = 0.95  # of the time that passes then, this much is waited
+_INSERT, _CORRECT, _WAIT = 3.0, 6.0, 8.0  # `ScriptPhase`, as compiled code compares them
+_AT_REST: Final = 3e-4  # [m] from its place at the end of a breath
+_STILL: Final = 0.2  # [s] without any motion: the breath is held
+_AIMS: Final = 0.2  # [s] time constant with which the held target is aimed at
 
 
 class ScriptPhase(IntEnum):
@@ -36,6 +46,7 @@ class ScriptPhase(IntEnum):
     REDIRECT = 5
     CORRECT = 6
     HOLD = 7
+    WAIT = 8
     DONE = 9
 
 
@@ -110,7 +121,8 @@ def _moves(
     moves.append(_insert(moves[-1], final, past, skill))
     moves.append(replace(moves[-1], phase=ScriptPhase.CORRECT, duration=0.6))
     moves.append(_Move(ScriptPhase.CORRECT, 1.0, final, left))
-    moves.append(_Move(ScriptPhase.HOLD, skill.hold, final, left))
+    moves.append(_Move(ScriptPhase.HOLD, skill.hold - WAITING, final, left))
+    moves.append(_Move(ScriptPhase.WAIT, WAITING, final, left))
     return moves
 
 
@@ -202,14 +214,38 @@ class _TraineePlaces(NamedTuple):
     hover: int
 
 
+class _HoldsPlaces(NamedTuple):
+    """Behind the script, where breath-holds are commanded: depth of the target [m], and memory.
+
+    `ready` once the breath is held, `still` since when the target rests [s], `was_*` where it was
+    [m], `aim_*` how far the script is turned and pushed towards it [rad, rad, m].
+    """
+
+    depth: int
+    ready: int = 0
+    still: int = 0
+    was_x: int = 0
+    was_y: int = 0
+    was_z: int = 0
+    aim_1: int = 0
+    aim_2: int = 0
+    aim_depth: int = 0
+
+
 _AT: Final = numbered(_TraineePlaces)
+_HOLDS: Final = numbered(_HoldsPlaces)
 _TREMOR: Final = len(_AT)
 _SCRIPT: Final = _TREMOR + 3 * TREMOR_ROWS
 _TREMOR_PERIOD: Final = TREMOR_ROWS * TREMOR_STEP
 
 
 def trainee_stage(
-    axis: FloatArray, depth: float, skill: str | Skill = "expert", seed: int = 0, speed: float = 1.0
+    axis: FloatArray,
+    depth: float,
+    skill: str | Skill = "expert",
+    seed: int = 0,
+    speed: float = 1.0,
+    holds: bool = False,
 ) -> Stage:
     """Build the stage that inserts to `depth` [m] along `axis` (hub to tip, shape (3,)).
 
@@ -219,18 +255,21 @@ def trainee_stage(
         skill: the name of one of `skills.SKILLS`, or a `Skill`.
         seed: another seed is another attempt of the same skill.
         speed: 2 plays the script twice as fast; the tremor keeps its frequency.
+        holds: whether the patient holds the breath on command, and is told to.
 
     Raises:
         SimulationError: for an unknown skill, a depth not above 0 or a speed outside 0.05-20.
     """
     if not 0.05 <= speed <= 20.0:
         raise SimulationError(f"speed factor is {speed}; give 0.05 to 20")
-    return script_stage(write_script(axis, depth, find_skill(skill), seed), axis, speed)
+    script = write_script(axis, depth, find_skill(skill), seed)
+    told = packed(_HOLDS, depth=depth) if holds else np.zeros(0)
+    return Stage("trainee", step, _parameters(script, unit(axis, "axis"), speed, told))
 
 
 def script_stage(script: TraineeScript, axis: FloatArray, speed: float = 1.0) -> Stage:
     """Build the stage that plays a script about the path along `axis` (hub to tip, shape (3,))."""
-    return Stage("trainee", step, _parameters(script, unit(axis, "axis"), speed))
+    return Stage("trainee", step, _parameters(script, unit(axis, "axis"), speed, np.zeros(0)))
 
 
 def traced_script(
@@ -274,12 +313,15 @@ def tangents(
     return turn * a, turn * b
 
 
-def _parameters(script: TraineeScript, axis: FloatArray, speed: float) -> FloatArray:
+def _parameters(
+    script: TraineeScript, axis: FloatArray, speed: float, told: FloatArray
+) -> FloatArray:
     vectors = {"axis": axis, "first": script.basis[0], "second": script.basis[1]}
     return packed(
         _AT,
         script.tremor.ravel(),
         script.rows.ravel(),
+        told,
         start=np.nan,
         speed=speed,
         rows=len(script.rows),
@@ -330,6 +372,45 @@ def _begin_where_the_hand_is(state: FloatArray, p: FloatArray) -> None:
             p[_AT.from_1 + i] = 0.0
 
 
+@njit
+def _breathes_away(state: FloatArray) -> bool:
+    """Whether the target is away from where it rests at the end of a breath."""
+    x, y, z = state[sv.TARGET_SHIFT_X], state[sv.TARGET_SHIFT_Y], state[sv.TARGET_SHIFT_Z]
+    return x * x + y * y + z * z > _AT_REST * _AT_REST
+
+
+@njit
+def _waits_for_hold(state: FloatArray, p: FloatArray, b: int, phase: float) -> bool:
+    """Command the breath and aim at the target; whether the script has to wait for it.
+
+    `b` is where the places of `_HoldsPlaces` begin. The target is seen as the tick before left it.
+    """
+    inserts = phase == _INSERT or phase >= _CORRECT
+    state[sv.HOLD_BREATH] = 1.0 if inserts else 0.0
+    if not inserts:
+        p[b + _HOLDS.ready] = p[b + _HOLDS.still] = 0.0
+        return False
+    if p[b + _HOLDS.ready] > 0.0:
+        return False
+    dt = state[sv.DT]
+    moved, along, first, second = False, 0.0, 0.0, 0.0
+    for i in range(3):
+        shift = state[sv.TARGET_SHIFT_X + i]
+        moved = moved or shift != p[b + _HOLDS.was_x + i]
+        p[b + _HOLDS.was_x + i] = shift
+        along += shift * p[_AT.axis_x + i]
+        first += shift * p[_AT.first_x + i]
+        second += shift * p[_AT.second_x + i]
+    p[b + _HOLDS.still] = 0.0 if moved else p[b + _HOLDS.still] + dt
+    depth, share = p[b + _HOLDS.depth], 0.0 if moved else min(1.0, dt / _AIMS)
+    p[b + _HOLDS.aim_1] += share * (first / depth - p[b + _HOLDS.aim_1])
+    p[b + _HOLDS.aim_2] += share * (second / depth - p[b + _HOLDS.aim_2])
+    p[b + _HOLDS.aim_depth] += share * (along - p[b + _HOLDS.aim_depth])
+    if p[b + _HOLDS.still] >= _STILL + 5.0 * _AIMS:
+        p[b + _HOLDS.ready] = 1.0
+    return True
+
+
 @stage
 def step(state: FloatArray, parameters: FloatArray) -> None:
     """Write the wanted direction and depth, that the hand holds, and the phase."""
@@ -342,9 +423,20 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
     if np.isnan(parameters[_AT.start]):
         parameters[_AT.start] = time
         _begin_where_the_hand_is(state, parameters)
-    elapsed = max(0.0, time - parameters[_AT.start])
     last = int(parameters[_AT.rows]) - 1
+    elapsed = max(0.0, time - parameters[_AT.start])
     at = min(elapsed * parameters[_AT.speed] / STEP, float(last))
+    phase = parameters[_SCRIPT + 4 * int(at) + 3]
+    told = _SCRIPT + 4 * (last + 1)
+    waited = 0.0
+    if len(parameters) > told:
+        waited = 1.0 if _waits_for_hold(state, parameters, told, phase) else 0.0
+    elif phase == _WAIT and _breathes_away(state):
+        waited = _SLOWER
+    if waited > 0.0:
+        parameters[_AT.start] += waited * state[sv.DT]
+        elapsed = max(0.0, time - parameters[_AT.start])
+        at = min(elapsed * parameters[_AT.speed] / STEP, float(last))
     row = int(at)
     next_row = min(row + 1, last)
     shaking = (elapsed - _TREMOR_PERIOD * np.floor(elapsed / _TREMOR_PERIOD)) / TREMOR_STEP
@@ -359,6 +451,10 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
         e1 += left * parameters[_AT.from_1]
         e2 += left * parameters[_AT.from_2]
         depth += left * parameters[_AT.from_depth]
+    if len(parameters) > told:
+        e1 += parameters[told + _HOLDS.aim_1]
+        e2 += parameters[told + _HOLDS.aim_2]
+        depth += parameters[told + _HOLDS.aim_depth]
     share = shaking - np.floor(shaking)
     e1 += _interpolate(parameters, _TREMOR, 3, shake, next_shake, share, 0)
     e2 += _interpolate(parameters, _TREMOR, 3, shake, next_shake, share, 1)

@@ -60,7 +60,7 @@ def test_every_slot_has_its_own_place_and_inputs_come_first():
     places = sorted(state_vector.INDEX.values())
     assert len(set(places)) == len(places)
     assert max(places) < state_vector.SLOTS == len(state_vector.empty_state())
-    assert state_vector.INDEX["hand_holds"] < state_vector.INPUTS < state_vector.INDEX["time"]
+    assert state_vector.INDEX["hold_breath"] < state_vector.INPUTS <= state_vector.INDEX["time"]
 
 
 @pytest.mark.parametrize("bad", [[0, 0, 0], [float("nan"), 0, 1], [float("inf"), 0, 0]])

@@ -22,7 +22,10 @@ from app.scoring.trajectory import Trajectory
 SHIPPED = [
     "first-insertion",
     "thick-tissue",
+    "with-less-help",
     "breathing-liver",
+    "kidney",
+    "hold-the-breath",
     "past-the-vessel",
     "plan-it-yourself",
     "against-repulsion",

@@ -35,6 +35,7 @@ EXERCISE = SimpleNamespace(
     tolerances=DEFAULT_TOLERANCES,
     rules=ScoreRules(),
     guidance=GuidancePart(),
+    longest_hold=None,
 )
 
 

@@ -53,6 +53,55 @@ def test_the_waveform_is_the_power_of_the_sine_for_whole_and_broken_shapes(shape
         assert effect.lujan(phase, shape) == pytest.approx(expected, rel=1e-12, abs=1e-30)
 
 
+def commanded(asked: list[tuple[float, bool]], lasts: float, **parameters: float) -> FloatArray:
+    """Displacement every 2 ms of a patient who is told at these times to hold, or to breathe."""
+    binding = Binding(Scene(R_world_patient=SUPINE), model="on_command")
+    memory, state, rows = memory_of("breathing", parameters, binding), sv.empty_state(), []
+    state[sv.DT] = 0.002
+    for k in range(round(lasts / 0.002)):
+        told = [wish for since, wish in asked if since <= 0.002 * k]
+        state[sv.TIME], state[sv.HOLD_BREATH] = 50.0 + 0.002 * k, float(told[-1] if told else 0)
+        state[sv.TARGET_SHIFT] = 0.0
+        effect.step(state, memory)
+        rows.append(state[sv.TARGET_SHIFT].copy())
+    return np.array(rows)
+
+
+def test_unasked_it_breathes_as_without_the_command() -> None:
+    free = commanded([], 12.0)
+    np.testing.assert_allclose(free, shifts(0.002 * np.arange(1, 6001) + 9.0)[:], atol=3e-5)
+
+
+def test_a_hold_breathes_out_settles_where_it_is_and_lasts_until_he_may_breathe() -> None:
+    moved = commanded([(5.0, True), (16.0, False)], 24.0)
+    held = moved[round(10.0 / 0.002) : round(16.0 / 0.002)]
+    assert np.ptp(held, axis=0).max() == 0.0
+    assert 1e-4 < np.linalg.norm(held[0]) < 0.0061  # 2 SD of 3 mm at most
+    assert moved[round(16.5 / 0.002) :, 1].min() < -0.0115
+
+
+def test_a_hold_ends_by_itself_and_has_to_be_asked_for_anew() -> None:
+    moved = commanded([(1.0, True), (40.0, False), (41.0, True)], 55.0)
+    assert moved[round(26.0 / 0.002) : round(40.0 / 0.002), 1].min() < -0.0115  # asked in vain
+    first, second = moved[round(20.0 / 0.002)], moved[round(50.0 / 0.002)]
+    assert np.linalg.norm(first - second) > 1e-4  # never twice at one place
+
+
+@pytest.mark.parametrize("told", [0.0, 1.9, 3.99])
+def test_the_target_never_jumps_whenever_it_is_told(told: float) -> None:
+    times = told + 0.31 * np.arange(60)
+    moved = commanded([(float(t), k % 2 == 0) for k, t in enumerate(times)], 20.0)
+    moved = np.vstack([moved, commanded([(told, True), (told + 9.0, False)], 20.0)[1:] * 1.0])
+    for part in (moved[:10_000], moved[10_000:]):
+        assert np.linalg.norm(np.diff(part, axis=0), axis=1).max() < 0.002 * 0.035
+
+
+def test_where_holds_lie_spreads_as_asked() -> None:
+    places = [commanded([(0.0, True)], 7.0, draws=float(k), period=2.0)[-1, 1] for k in range(40)]
+    assert 0.0015 < float(np.std(places)) < 0.0035
+    assert not commanded([(0.0, True)], 7.0, spread=0.0)[-1].any()
+
+
 def test_it_is_periodic_even_after_a_day() -> None:
     first = shifts(np.array([0.0, 1.3]))[1]
     later = shifts(np.array([0.0, 1.3 + 21_600 * 4.0]))[1]

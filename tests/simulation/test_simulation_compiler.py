@@ -118,7 +118,8 @@ def test_what_is_declared_is_what_the_effect_has(name: str) -> None:
     for parameter in declared.parameters.values():
         assert parameter.minimum <= parameter.default <= parameter.maximum
     asked = Asked(declared.checked({}))
-    parameters_of(name, asked, Binding(Scene()))
+    for model in declared.models:
+        parameters_of(name, asked, Binding(Scene(), model=model))
     assert asked.names == set(declared.parameters)
 
 

@@ -1,5 +1,7 @@
 """The scripted trainee: phases, skill, determinism."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -79,7 +81,8 @@ def test_it_starts_above_the_skin_off_the_path_and_holds_at_the_end() -> None:
     rows = played("expert")
     assert rows[0, 4] == pytest.approx(-0.015, abs=2e-4)
     assert angles(rows)[0] > 4.0
-    assert np.count_nonzero(rows[:, 5] == ScriptPhase.HOLD) * 0.002 == pytest.approx(1.5, abs=0.01)
+    holds = np.isin(rows[:, 5], (ScriptPhase.HOLD, ScriptPhase.WAIT))
+    assert np.count_nonzero(holds) * 0.002 == pytest.approx(1.5, abs=0.01)
 
 
 def test_phases_come_in_order_for_an_expert() -> None:
@@ -130,6 +133,55 @@ def test_it_waits_until_armed_and_begins_anew_when_armed_again() -> None:
         state[sv.ENABLED], state[sv.TIME] = enabled, time
         step(state, parameters)
         assert state[sv.TRAINEE_PHASE] == phase
+
+
+def breathing_run(shift: Callable[[float, bool], float], holds: bool) -> FloatArray:
+    """Hand (x, y, depth), phase, hold asked, shift every 2 ms of an expert until he is done."""
+    _, step, parameters = trainee_stage(AXIS, DEPTH, "expert", 1, holds=holds)
+    state, rows = sv.empty_state(), []
+    state[sv.ENABLED], state[sv.DT] = 1.0, 0.002
+    for k in range(20_000):
+        state[sv.TIME] = 100.0 + 0.002 * k
+        state[sv.HOLD_BREATH] = 0.0
+        step(state, parameters)
+        asked = state[sv.HOLD_BREATH] > 0.5
+        state[sv.TARGET_SHIFT_Y] = shift(0.002 * k, asked)
+        hand = [state[sv.HAND_X], state[sv.HAND_Y], state[sv.HAND_DEPTH]]
+        rows.append([*hand, state[sv.TRAINEE_PHASE], float(asked), state[sv.TARGET_SHIFT_Y]])
+        if state[sv.TRAINEE_PHASE] == ScriptPhase.DONE:
+            return np.array(rows)
+    raise AssertionError("never done")
+
+
+@pytest.mark.parametrize("period", [3.1, 4.0, 5.3])
+def test_its_end_waits_for_the_rest_between_two_breaths(period: float) -> None:
+    rows = breathing_run(lambda t, _: -0.012 * np.sin(np.pi * t / period) ** 4, holds=False)
+    assert abs(rows[-1, 5]) < 6e-4
+    assert not rows[:, 4].any()
+
+
+def test_it_does_not_wait_for_a_rest_that_never_comes() -> None:
+    rows = breathing_run(lambda _t, _a: 0.005, holds=False)
+    assert len(rows) * 0.002 < 22.0
+
+
+def test_it_has_the_breath_held_waits_and_aims_where_the_target_rests() -> None:
+    since = [np.inf]
+
+    def shift(time: float, asked: bool) -> float:
+        since[0] = min(since[0], time) if asked else np.inf
+        if time - since[0] > 3.0:
+            return 0.004
+        swing = np.cos(2.0 * np.pi * (time - since[0])) if asked else 1.0
+        return 0.004 * float(swing) + 1e-6 * time
+
+    rows = breathing_run(shift, holds=True)
+    inside = rows[:, 2] > 0.0
+    assert (rows[inside, 4] > 0.5).all()
+    assert (rows[inside, 5] == 0.004).all()
+    x, y, depth = rows[-1, :3]
+    tip = depth * np.array([x, y, -np.sqrt(1.0 - x * x - y * y)])
+    assert np.linalg.norm(tip - DEPTH * AXIS - [0.0, 0.004, 0.0]) < 1.2e-3
 
 
 def test_another_seed_is_another_run() -> None:

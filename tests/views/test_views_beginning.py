@@ -223,7 +223,7 @@ def test_the_words_say_what_counts_what_helps_and_what_is_locked():
     assert scored_words(first)[0] == (
         "Off the path: best up to 0.6 mm, passes up to 2.7 mm; must be kept"
     )
-    assert scored_words(first)[-1] == "60 of 100 points pass."
+    assert scored_words(first)[-1] == "75 of 100 points pass."
     assert aid_words(first)[0] == "The robot guides with 70 %."
     assert locked_words(first) == ["Nothing: you may change help, views and layout."]
     assert "control scans alone" in " ".join(aid_words(scans))

@@ -7,6 +7,13 @@ Lujan 1999 writes -A cos^{2n}(π t / T - φ0); φ0 = π/2 starts at the end of e
 organ rests longest and the CT is taken. The anterior part lags by φ, so the path is a loop.
 Median amplitudes of the liver: SI 11.9, AP 3.8, LR 1.3 mm.
 
+The model `on_command` breathes the same way and holds the breath when HOLD_BREATH asks for it: the
+breath is breathed out, both parts come to rest, and the organ settles within a second where this
+hold has it. No two holds have it at the same place: the inter-quartile range of the diaphragm over
+several holds is 4.2 mm, of a normal distribution with 3.1 mm (van Kesteren 2022, doi
+10.1186/s13014-022-02068-5, who also gives 20 to 30 s for a hold). After `longest` the patient
+breathes by himself, whatever is asked; a new hold has to be asked for anew.
+
 Driven by time, so declared active: it is not counted in energy balances.
 """
 
@@ -19,15 +26,18 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
 from app.core.parameters import numbered, packed
-from app.simulation.scene import Binding
+from app.simulation.scene import SETTLING, Binding
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Breathing moves the target",
-    "reads": ("time",),
+    "reads": ("time", "dt", "hold_breath"),
     "writes": ("target_shift",),
     "consumers": ("view target_motion", "score of tip to target"),
     "needs": (),
-    "models": {"lujan": "sin^2n along inferior and left, lagging along anterior; exact in time"},
+    "models": {
+        "lujan": "sin^2n along inferior and left, lagging along anterior; exact in time",
+        "on_command": "the same by steps; breathes out and holds on command, never at one place",
+    },
     "energy": ("active", "driven by time"),
     "cost_class": "A",
     "parameters": {
@@ -37,6 +47,9 @@ DECLARATION: Final[dict[str, Any]] = {
         "period": (4.0, "s", 0.5, 60.0, "of one breath"),
         "shape": (2.0, "-", 1.0, 10.0, "n of sin^2n: higher rests longer at exhalation"),
         "anterior_lag": (0.392699, "rad", 0.0, 1.5708, "phase by which the anterior part lags"),
+        "longest": (20.0, "s", 1.0, 120.0, "of a hold; then he has to breathe (on_command)"),
+        "spread": (0.003, "m", 0.0, 0.02, "standard deviation of where holds lie (on_command)"),
+        "draws": (1.0, "-", 0.0, 1e6, "seed of where they lie (on_command)"),
     },
 }
 
@@ -59,12 +72,40 @@ class _BreathingPlaces(NamedTuple):
 _AT: Final = numbered(_BreathingPlaces)
 
 
+class _HoldingPlaces(NamedTuple):
+    """What `on_command` has behind these: constants, memory; then where its holds lie [m].
+
+    `mode` is one of the four below, `phase` the breath's [rad], `held` how long it is held [s],
+    `eased` how far the organ has gone to where the hold has it, `number` the holds so far.
+    """
+
+    longest: int
+    out_x: int
+    out_y: int
+    out_z: int
+    mode: int = 0
+    phase: int = 0
+    held: int = 0
+    eased: int = 0
+    number: int = 0
+    refused: int = 0
+
+
+_BREATHES, _COMES_TO_REST, _HOLDS, _BEGINS = 0, 1, 2, 3
+"""Modes: free; breathed out, the anterior part still on its way; held; the first breath after."""
+
+_HOLD: Final = numbered(_HoldingPlaces, len(_AT))
+_DRAWS: Final = len(_AT) + len(_HOLD)
+_PLACES: Final = 32  # holds before their places repeat
+_MOST_SD: Final = 2.0  # a patient who was told how does not hold further off
+
+
 def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
     """Return a fresh parameters array; breathing starts at exhalation at its first tick."""
     left, posterior, superior = binding.scene.R_world_patient.T
     in_phase = values["left_right"] * left - values["superior_inferior"] * superior
     lagging = -values["anterior_posterior"] * posterior
-    return packed(
+    waveform = packed(
         _AT,
         period=values["period"],
         shape=values["shape"],
@@ -77,6 +118,17 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
         lagging_y=lagging[1],
         lagging_z=lagging[2],
     )
+    if binding.model != "on_command":
+        return waveform
+    way = in_phase + lagging
+    length = float(np.linalg.norm(way))
+    out = way / length if length > 0.0 else -superior
+    drawn = np.random.default_rng([int(values["draws"]), 9]).standard_normal(_PLACES)
+    places = values["spread"] * np.clip(drawn, -_MOST_SD, _MOST_SD)
+    holding = packed(
+        _HOLD, places, longest=values["longest"], out_x=out[0], out_y=out[1], out_z=out[2]
+    )
+    return np.concatenate([waveform, holding])
 
 
 @njit
@@ -91,9 +143,65 @@ def lujan(phase: float, shape: float) -> float:
     return result
 
 
+@njit
+def _let_pass(p: FloatArray, asked: bool, dt: float) -> None:
+    """Go on by `dt` [s]: the breath's phase, its mode, and how far the hold's place is reached."""
+    mode = p[_HOLD.mode]
+    if not asked:
+        p[_HOLD.refused] = 0.0
+    wish = asked and p[_HOLD.refused] == 0.0
+    if mode == _HOLDS:
+        p[_HOLD.held] += dt
+        if p[_HOLD.held] >= p[_HOLD.longest]:
+            p[_HOLD.refused] = 1.0
+        if not wish or p[_HOLD.refused] > 0.0:
+            p[_HOLD.mode], p[_HOLD.phase] = _BEGINS, 0.0
+        p[_HOLD.eased] = min(1.0, p[_HOLD.eased] + dt / SETTLING)
+        return
+    p[_HOLD.eased] = max(0.0, p[_HOLD.eased] - dt / SETTLING)
+    p[_HOLD.phase] += np.pi * dt / p[_AT.period]
+    phase = p[_HOLD.phase]
+    if mode == _COMES_TO_REST:
+        if phase >= p[_AT.lag] and p[_HOLD.eased] == 0.0:
+            p[_HOLD.mode], p[_HOLD.held] = _HOLDS, 0.0
+            p[_HOLD.number] += 1.0
+    elif phase >= np.pi:
+        p[_HOLD.phase] = phase - np.pi
+        p[_HOLD.mode] = _COMES_TO_REST if wish else _BREATHES
+
+
+@njit
+def _on_command(state: FloatArray, p: FloatArray) -> None:
+    """Add where the target is now, after letting the time of this tick pass."""
+    dt = state[sv.DT]
+    if np.isfinite(dt) and dt > 0.0:
+        _let_pass(p, state[sv.HOLD_BREATH] > 0.5, dt)
+    mode, phase, shape = p[_HOLD.mode], p[_HOLD.phase], p[_AT.shape]
+    behind = phase - p[_AT.lag]
+    in_phase, lagging = lujan(phase, shape), lujan(behind, shape)
+    if mode == _COMES_TO_REST or mode == _HOLDS:  # noqa: SIM109  (compiled)
+        in_phase = 0.0
+    if (mode == _BEGINS and behind < 0.0) or (mode == _COMES_TO_REST and behind > 0.0):
+        lagging = 0.0
+    if mode == _HOLDS:
+        lagging = 0.0
+    s = p[_HOLD.eased]
+    draw = max(0, int(p[_HOLD.number]) - 1) % _PLACES
+    away = s * s * s * (10.0 - 15.0 * s + 6.0 * s * s) * p[_DRAWS + draw]
+    for axis in range(3):
+        state[sv.TARGET_SHIFT_X + axis] += (
+            in_phase * p[_AT.in_phase_x + axis]
+            + lagging * p[_AT.lagging_x + axis]
+            + away * p[_HOLD.out_x + axis]
+        )
+
+
 @stage
 def step(state: FloatArray, parameters: FloatArray) -> None:
     """Add the displacement of the target to TARGET_SHIFT_*."""
+    if len(parameters) > _DRAWS:
+        _on_command(state, parameters)
+        return
     time = state[sv.TIME]
     if not np.isfinite(time):
         return

@@ -110,7 +110,7 @@ class ExerciseDisplay:
         """
         self._follow(snapshot.state)
         limit = force_limit(snapshot, run.profile.limits.hand_force)
-        self._show_panel(snapshot, limit, not run.shown.live, now)
+        self._show_panel(snapshot, limit, not run.shown.live, not run.demonstrates, now)
         self._show_pad(run, snapshot, limit)
         rate, missing = self.rates = self._rates.read(snapshot, now)
         self._show_tracker(run, snapshot, now)
@@ -130,10 +130,14 @@ class ExerciseDisplay:
             self._going = going
             self._views.bullseye.let_go()
 
-    def _show_panel(self, snapshot: Snapshot, limit: float, hidden: bool, now: float) -> None:
+    def _show_panel(
+        self, snapshot: Snapshot, limit: float, hidden: bool, interactive: bool, now: float
+    ) -> None:
         views = self._views
         views.bullseye.source.set_locked(snapshot.state in RUNNING)
         views.panel.withdrawal.show_snapshot(snapshot)
+        commands = interactive and snapshot.state in RUNNING
+        views.panel.breath.show_breath(snapshot.breath, commands)
         views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))
         figured = snapshot.state, hidden
         if figured == self._figured and 0.0 <= now - self._figures_time < FIGURES_PERIOD:
@@ -367,6 +371,14 @@ class ExerciseController(QObject):
         if self._run is not None:
             self._run.trainer.confirm_outside()
 
+    def hold_breath(self, held: bool) -> None:
+        """Tell the patient to hold the breath, or to breathe."""
+        if self._run is not None:
+            try:
+                self._run.trainer.hold_breath(held)
+            except AcusError as error:
+                self._fail(str(error))
+
     def scan(self) -> None:
         """Take a control scan: of the slices that are set, where scans guide; else count one."""
         run = self._run
@@ -450,6 +462,7 @@ class ExerciseController(QObject):
         panel.assistance_changed.connect(self.set_assistance)
         panel.enable.held.connect(self.set_held)
         panel.withdrawal.confirmed.connect(self.confirm_outside)
+        panel.breath.asked.connect(self.hold_breath)
         panel.buttons.scan_requested.connect(self.scan)
         panel.buttons.end_requested.connect(self.end)
         panel.buttons.abort_requested.connect(self.abort)

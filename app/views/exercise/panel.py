@@ -12,6 +12,7 @@ from PySide6.QtWidgets import (
     QFormLayout,
     QFrame,
     QGridLayout,
+    QHBoxLayout,
     QLabel,
     QLineEdit,
     QPushButton,
@@ -23,7 +24,7 @@ from PySide6.QtWidgets import (
 from app.exercises.guidance import GuidancePart
 from app.planning.plan import Plan
 from app.session.machine import RUNNING, State
-from app.session.snapshot import Snapshot
+from app.session.snapshot import BreathHold, Snapshot
 from app.views.exercise.assistance_dial import AssistanceDial
 from app.views.exercise.enable_switch import EnableSwitch
 from app.views.exercise.energy_gauge import EnergyGauge
@@ -201,6 +202,53 @@ class WithdrawalNote(QWidget):
         self.button.setVisible(snapshot.may_confirm)
 
 
+class BreathCommand(QWidget):
+    """Tells a patient who holds the breath on command to hold it, or to breathe; says how he is.
+
+    Signals:
+        asked(bool): he is to hold it.
+    """
+
+    asked = Signal(bool)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.button = _button("", tr("Breathe in, breathe out, hold: until you let him breathe"))
+        self._words = QLabel(self)
+        self._wish = False
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self.button)
+        row.addWidget(self._words, 1)
+        self.button.clicked.connect(self._turn)
+        self._key = QShortcut(QKeySequence(Qt.Key.Key_A), self)
+        self._key.setAutoRepeat(False)
+        self._key.activated.connect(self.button.click)
+        self.show_breath(None, False)
+
+    def show_breath(self, breath: BreathHold | None, commands: bool) -> None:
+        """Show how the patient stands, or nothing; `commands`: whether he can be told now."""
+        self.setVisible(breath is not None)
+        self.button.setEnabled(breath is not None and commands)
+        self._key.setEnabled(breath is not None and commands)
+        if breath is None:
+            return
+        self._wish = not breath.asked
+        holds, breathes = tr("Hold the breath (A)"), tr("Let breathe (A)")
+        self.button.setText(holds if self._wish else breathes)
+        if breath.held:
+            words = tr("holds: {s:.0f} s left").format(s=breath.left)
+        elif breath.spent:
+            words = tr("has to breathe")
+        else:
+            words = tr("breathes out and holds") if breath.asked else tr("breathes")
+        self._words.setText(words)
+        self._words.setStyleSheet(f"color: {theme.WARNING if breath.spent else theme.TEXT};")
+
+    def _turn(self) -> None:
+        self.asked.emit(self._wish)
+
+
 PSEUDONYM: Final = r"([A-Za-z0-9][A-Za-z0-9._-]{0,31})?"
 """What a pseudonym may look like; empty for an anonymous attempt."""
 
@@ -238,6 +286,7 @@ class ExercisePanel(QWidget):
         self.buttons = AttemptActions(self)
         self.withdrawal = WithdrawalNote(self)
         self.enable = EnableSwitch(self)
+        self.breath = BreathCommand(self)
         self.scan = ScanPanel(self)
         self.readouts = AttemptReadouts(self)
         self.energy = EnergyGauge(self)
@@ -312,6 +361,7 @@ class ExercisePanel(QWidget):
         self.set_guidance(None, None)
         self.set_offsets(True)
         self.scan.forget()
+        self.breath.show_breath(None, False)
         self.energy.show_energy(None)
 
     def set_waiting(self, why: str) -> None:
@@ -370,6 +420,7 @@ class ExercisePanel(QWidget):
             self.withdrawal,
             self.buttons,
             self.enable,
+            self.breath,
             self.scan,
             _line(),
             self.readouts,

@@ -52,6 +52,7 @@ _LIGHT: Final = 26
 _LOOKS: Final = {
     "state": (theme.TEXT, "•"),
     "scan": (theme.ACCENT, "▼"),
+    "breath": (theme.ACCENT, "•"),
     "abort": (theme.BAD, "✖"),
     "fault": (theme.BAD, "✖"),
     "recorder": (theme.WARNING, "▲"),

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
 from app.core.units import MILLIMETRE
 from app.session.machine import State
-from app.session.snapshot import NextStep, NextSteps, Snapshot, StepKind
+from app.session.snapshot import BreathHold, NextStep, NextSteps, Snapshot, StepKind
 from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
 from app.views.kit.text import tr
@@ -177,6 +177,23 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False) -> str:
     }[step.kind]
 
 
+def breath_words(breath: BreathHold, words: str, commands: bool) -> str:
+    """Say how the breath-hold stands before `words`, or what is to be done about it instead.
+
+    Args:
+        breath: of the patient.
+        words: the next step, as the needle has it.
+        commands: whether who reads it tells the patient.
+    """
+    if breath.held:
+        return tr("Held, {s:.0f} s left: ").format(s=breath.left) + words
+    if breath.spent:
+        return tr("He has to breathe: let him (A)") if commands else tr("He has to breathe")
+    if breath.asked:
+        return tr("Wait: he breathes out and holds")
+    return tr("Have the breath held (A): {step}", step=words) if commands else words
+
+
 class NextStepLine(QLabel):
     """The one line that always says the next step, over the views, to be read at arm's length."""
 
@@ -230,6 +247,8 @@ class NextStepLine(QLabel):
         words = step_words(step, self._run.interactive or shows, tip)
         if shows and step.kind is StepKind.START:
             words = tr("The demonstration begins")
+        elif self._snapshot.breath is not None and step.kind is not StepKind.START:
+            words = breath_words(self._snapshot.breath, words, not shows)
         if words != self.text():
             self.setText(words)
             self.setToolTip(words)

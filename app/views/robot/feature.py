@@ -62,6 +62,7 @@ MOVING = (
     Qt.Key.Key_Home,
     Qt.Key.Key_End,
     Qt.Key.Key_S,
+    Qt.Key.Key_A,
     Qt.Key.Key_F5,
 )
 """Keys that mean something during an attempt."""

@@ -1,0 +1,58 @@
+"""The command to hold the breath: button, key, words, and the line of the next step."""
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+
+from app.session.snapshot import BreathHold
+from app.views.exercise.panel import BreathCommand
+from app.views.exercise.steps import breath_words
+
+HELD = BreathHold(asked=True, held=True, left=12.4)
+
+
+@pytest.fixture
+def command(application):
+    command = BreathCommand()
+    command.show()
+    yield command
+    command.close()
+
+
+def test_it_is_there_only_where_the_patient_can_be_told(command):
+    command.show_breath(None, True)
+    assert not command.isVisible()
+    command.show_breath(BreathHold(), False)
+    assert command.isVisible()
+    assert not command.button.isEnabled()
+
+
+def test_button_and_key_say_and_ask_the_other_of_what_is(command):
+    asked = []
+    command.asked.connect(asked.append)
+    command.show_breath(BreathHold(), True)
+    assert command.button.text() == "Hold the breath (A)"
+    command.button.click()
+    command.show_breath(HELD, True)
+    assert command.button.text() == "Let breathe (A)"
+    command.activateWindow()
+    assert QTest.qWaitForWindowActive(command)
+    QTest.keyClick(command, Qt.Key.Key_A)
+    assert asked == [True, False]
+
+
+@pytest.mark.parametrize(
+    ("breath", "words"),
+    [
+        (BreathHold(), "Have the breath held (A): Push"),
+        (BreathHold(asked=True), "Wait: he breathes out and holds"),
+        (HELD, "Held, 12 s left: Push"),
+        (BreathHold(asked=True, spent=True), "He has to breathe: let him (A)"),
+    ],
+)
+def test_the_line_says_how_he_stands_and_what_to_do(breath, words):
+    assert breath_words(breath, "Push", True) == words
+
+
+def test_who_only_watches_is_not_told_to_command():
+    assert breath_words(BreathHold(), "Push", False) == "Push"
