@@ -5,15 +5,9 @@ Run by `make by-hand`, on an X server of its own: it takes the mouse.
 
 from __future__ import annotations
 
-import json
-import os
-import shutil
-import subprocess
-import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -22,73 +16,9 @@ from app.imaging.scan_order import Seen
 from app.session.control_scan import scans_of
 from app.session.recording import read_recording
 from app.session.store import list_sessions
+from tests.display.user import BY_HAND, User, somebody
 
-ROOT = Path(__file__).resolve().parents[2]
-
-pytestmark = [
-    pytest.mark.display,
-    pytest.mark.timeout(600),
-    pytest.mark.skipif(not os.environ.get("ACUS_BY_HAND"), reason="takes the mouse: make by-hand"),
-    pytest.mark.skipif(not os.environ.get("DISPLAY"), reason="no X server (DISPLAY is not set)"),
-    pytest.mark.skipif(shutil.which("xdotool") is None, reason="xdotool is not installed"),
-]
-
-
-class User:
-    """Eyes and hands: reads where things are, and sends X events."""
-
-    def __init__(self, report: Path, process: subprocess.Popen[bytes]) -> None:
-        self._report, self._process = report, process
-
-    def see(self) -> dict[str, Any]:
-        """What the window shows now."""
-        assert self._process.poll() is None, "the window is gone"
-        return json.loads(self._report.read_text()) if self._report.exists() else {"page": ""}
-
-    def wait(self, until: Callable[[dict[str, Any]], Any], what: str, patience: float) -> Any:
-        """Look until something is there; returns it."""
-        end = time.monotonic() + patience
-        while time.monotonic() < end:
-            if answer := until(self.see()):
-                return answer
-            time.sleep(0.1)
-        raise AssertionError(f"{what}: not within {patience:g} s; the window shows {self.see()}")
-
-    def click(self, place: list[float]) -> None:
-        """Click there."""
-        self.do("mousemove", *place, "sleep", 0.15, "click", 1)
-        time.sleep(0.3)
-
-    def drag(self, start: list[float], step: np.ndarray, parts: int = 12) -> None:
-        """Press, move in small steps, release."""
-        self.do("mousemove", *start, "sleep", 0.1, "mousedown", 1)
-        for share in np.linspace(0.0, 1.0, parts + 1)[1:]:
-            self.do("mousemove", *(np.asarray(start) + share * step), "sleep", 0.03)
-        self.do("mouseup", 1)
-        time.sleep(0.4)
-
-    def wheel(self, notches: int) -> None:
-        """Turn the wheel away from oneself, a notch at a time."""
-        for _ in range(notches):
-            self.do("click", 4, "sleep", 0.02)
-
-    def key(self, *keys: str) -> None:
-        """Press and release keys."""
-        self.do("key", *keys)
-        time.sleep(0.3)
-
-    def keep_picture(self, name: str) -> None:
-        """Keep the screen as it is now, if `ACUS_BY_HAND_PICTURES` names a folder."""
-        folder = os.environ.get("ACUS_BY_HAND_PICTURES")
-        if folder:
-            path = Path(folder) / f"{name}.png"
-            subprocess.run(["import", "-window", "root", str(path)], check=True)
-
-    @staticmethod
-    def do(command: str, *arguments: object) -> None:
-        """Send events through the X server."""
-        texts = [f"{a:.0f}" if isinstance(a, np.floating) else str(a) for a in arguments]
-        subprocess.run(["xdotool", command, *texts], check=True, capture_output=True)
+pytestmark = BY_HAND
 
 
 @pytest.fixture
@@ -97,19 +27,10 @@ def sessions(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def user(tmp_path: Path, sessions: Path) -> Iterator[User]:
+def user(tmp_path: Path) -> Iterator[User]:
     """Somebody before a window that has just been started."""
-    report = tmp_path / "window.json"
-    folders = {"ACUS_SESSIONS": sessions, "ACUS_DATA": tmp_path, "ACUS_SETTINGS": tmp_path}
-    environment = os.environ | {name: str(path) for name, path in folders.items()}
-    environment.pop("QT_QPA_PLATFORM", None)
-    command = [sys.executable, "-m", "tests.display.window_under_test", str(report)]
-    process = subprocess.Popen(command, cwd=ROOT, env=environment)
-    try:
-        yield User(report, process)
-    finally:
-        process.terminate()
-        process.wait(20)
+    with somebody(tmp_path) as user:
+        yield user
 
 
 def test_open_place_insert_end_debrief_by_hand(user: User, sessions: Path) -> None:

@@ -35,6 +35,7 @@ from PySide6.QtWidgets import (
 
 from app.compose.desktop import Desktop
 from app.core.files import write_atomically
+from app.views.author.feature import AuthorFeature
 from app.views.debrief.feature import DebriefFeature
 from app.views.shell.application import start
 from app.views.shell.collector import collect_for
@@ -67,6 +68,8 @@ def state_of(window: MainWindow) -> dict[str, Any]:
     return {
         "things": things(window),
         "settled": window.conductor.settled,
+        "axial": axial(window),
+        **form(window),
         "page": type(window.pages.currentWidget()).__name__,
         "message": window.message_bar.text if not window.message_bar.isHidden() else "",
         "begin": middle(window.start_page.begin),
@@ -89,6 +92,32 @@ def state_of(window: MainWindow) -> dict[str, Any]:
     }
 
 
+def axial(window: MainWindow) -> dict[str, list[float]] | None:
+    """Where LPS (0, 0) of the axial pane's slice lies on the screen, and 1 mm to L and to P."""
+    canvas = window.workspace.panes[0].canvas
+    if canvas.plane is None or not canvas.isVisible():
+        return None
+
+    def place(x: float, y: float) -> np.ndarray:
+        at = canvas.plane.point((x, y, 0.0), canvas.index)
+        found = canvas.mapToGlobal(canvas.pixel_at(at.x, at.y))
+        return np.array([found.x(), found.y()])
+
+    origin = place(0.0, 0.0)
+    steps = {"left": place(100.0, 0.0), "back": place(0.0, 100.0)}
+    return {"origin": origin.tolist()} | {
+        name: (0.01 * (there - origin)).tolist() for name, there in steps.items()
+    }
+
+
+def form(window: MainWindow) -> dict[str, str]:
+    """What the form of an exercise says of its trials and of keeping it."""
+    dialog = window.feature(AuthorFeature).dialog
+    if dialog is None:
+        return {"tried": "", "kept": ""}
+    return {"tried": dialog.score.tried.text(), "kept": dialog.note.text()}
+
+
 def things(window: MainWindow) -> list[dict[str, Any]]:
     """Everything that can be clicked or typed into: of the menu or dialog on top, else of all.
 
@@ -103,7 +132,7 @@ def things(window: MainWindow) -> list[dict[str, Any]]:
         if top is None or not top.isVisible():
             continue
         for widget in (top, *top.findChildren(QWidget)):
-            if widget.window() is top and widget.isVisible() and widget.isEnabled():
+            if widget.window() == top and widget.isVisible() and widget.isEnabled():
                 title = widget.window().windowTitle()
                 found += [{**one, "window": title} for one in _things_of(widget)]
     return found

@@ -15,6 +15,7 @@ from app.imaging.structures.structure import Structure, StructureKind, Structure
 from app.imaging.window import WindowLevel
 from app.planning.placement import PatientOrientation, Placement
 from app.views.author.feature import AuthorFeature
+from app.views.slices.viewing import Tool
 
 
 @pytest.fixture
@@ -492,3 +493,13 @@ def test_a_trial_that_is_left_ends_its_process_and_says_nothing(author, form, se
     process.waitForFinished(5000)
     settle(lambda: False, 0.1)
     assert said == []
+
+
+def test_a_plan_that_an_exercise_holds_is_not_asked_for_any_more(opened, form, author):
+    plan = author.context.editors.plan
+    assert plan.dirty
+    write(form.task.name, "X")
+    form.keep.click()
+    assert not plan.dirty
+    plan.place(Tool.TARGET, (6.0, 4.0, 140.0), True)
+    assert plan.dirty

@@ -538,6 +538,10 @@ class AuthorFeature(Feature):
         except AcusError as error:
             self._say(str(error), Verdict.BAD)
             return False
+        plan = self.context.editors.plan
+        drawn = plan_document(plan.edit, own=is_own(self.editor.document))
+        if plan.path is None and drawn == self.editor.get("plan"):
+            plan.saved(None)  # nobody has to be asked for it any more: the exercise holds it
         self._conductor.exercises_changed.emit()
         words = tr("Kept as “{name}”, version {n}.", name=saved.id, n=saved.version)
         self._say(words)

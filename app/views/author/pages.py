@@ -1002,10 +1002,7 @@ class ScorePage(Form):
         self.bands.itemChanged.connect(self._take)
         self.add(
             ("tolerances",),
-            tr(
-                "Bands: from “expert” on all points, beyond “zero” none; what must be kept "
-                "fails the attempt beyond “pass”"
-            ),
+            tr("Bands: from “expert” on all points, beyond “zero” none"),
             self.bands,
             self._show,
         )

@@ -128,6 +128,7 @@ class BoardTab(QWidget):
         self.hint = label("", "dim")
         self.board: ProgressBoard | None = None
         self.form, self.export = QComboBox(self), button(tr("Export…"))
+        self.form.setAccessibleName(tr("Form of the results"))
         for title, name in (
             (tr("Table, a row for each metric (CSV)"), "tidy"),
             (tr("Table, a row for each student (CSV)"), "wide"),
@@ -599,6 +600,7 @@ class CourseDialog(SettingsDialog):
         self.id, self.title, self.groups = (QLineEdit(self) for _ in range(3))
         self.ordered = QCheckBox(tr("In order: the next opens when the one before was passed"))
         self.offered = QComboBox(self)
+        self.offered.setAccessibleName(tr("Exercise to add"))
         for identifier, exercise in exercises.items():
             self.offered.addItem(exercise.title, identifier)
         self.add, self.remove = button(tr("Add")), button(tr("Remove"))
@@ -606,7 +608,7 @@ class CourseDialog(SettingsDialog):
         self.items = QTableWidget(0, 6, self)
         self.items.setHorizontalHeaderLabels([*titles, tr("Closes")])
         self.items.verticalHeader().setDefaultSectionSize(theme.CONTROL_HEIGHT + 8)
-        for place, width in enumerate((230, 90, 100, 130, 130, 130)):
+        for place, width in enumerate((230, 80, 90, 120, 125, 125)):
             self.items.setColumnWidth(place, width)
         form = QFormLayout()
         self.groups.setPlaceholderText(tr("separated by commas; empty: everybody"))
@@ -646,7 +648,9 @@ class CourseDialog(SettingsDialog):
         known = self._exercises.get(exercise)
         row = self.items.rowCount()
         self.items.insertRow(row)
-        name = QTableWidgetItem(exercise)
+        name = QTableWidgetItem(known.title if known else exercise)
+        name.setData(Qt.ItemDataRole.UserRole, exercise)
+        name.setToolTip(exercise)
         name.setFlags(name.flags() & ~Qt.ItemFlag.ItemIsEditable)
         self.items.setItem(row, 0, name)
         pinned = QSpinBox()
@@ -664,7 +668,7 @@ class CourseDialog(SettingsDialog):
             self.items.setCellWidget(row, column, widget)
         for column, text in ((4, opens), (5, closes)):
             day = QLineEdit(text)
-            day.setPlaceholderText("2026-11-30")
+            day.setPlaceholderText(tr("year-month-day"))
             self.items.setCellWidget(row, column, day)
 
     def course(self) -> Course:
@@ -693,7 +697,9 @@ class CourseDialog(SettingsDialog):
 
     def _item(self, row: int) -> dict[str, object]:
         name = self.items.item(row, 0)
-        found: dict[str, object] = {"exercise": name.text() if name is not None else ""}
+        found: dict[str, object] = {
+            "exercise": "" if name is None else name.data(Qt.ItemDataRole.UserRole)
+        }
         for column, key in ((1, "version"), (2, "attempts")):
             widget = self.items.cellWidget(row, column)
             if isinstance(widget, QSpinBox) and widget.value():

@@ -231,8 +231,8 @@ class PlanEditor(QObject):
         self.path = path
         self.changed.emit()
 
-    def saved(self, path: Path) -> None:
-        """Remember where the plan was written."""
+    def saved(self, path: Path | None) -> None:
+        """Remember where the plan was written; None where an exercise holds it, and no file."""
         self.path, self._saved = path, self.edit
         self.changed.emit()
 
