@@ -184,16 +184,17 @@ def report(user: User, folder: Path) -> None:
     ada = user.find("ada", "cell")[0]
     cell = next(one for one in user.find("", "cell") if one["row"] == ada["row"] and one["column"])
     user.do("mousemove", *cell["at"], "sleep", 0.2, "click", "--repeat", 2, "--delay", 60, 1)
-    user.keep_picture("course-10-double-click")
-    user.wait(lambda _: user.find("Close", "button"), "the curve", 10)
-    time.sleep(0.5)
+    time.sleep(1.0)
     user.keep_picture("course-10-curve")
-    user.press("Close", "button")
-    for number, form in enumerate(("tidy", "wide", "moodle", "json")):
+    user.key("Escape")
+    user.click(user.find("bob", "cell")[0]["at"])
+    forms = ("tidy", "wide", "moodle", "json", "group-pdf", "student-pdf")
+    for number, form in enumerate(forms):
         user.press("Form of the results", "choice")
-        user.key(*["Up"] * 5, *["Down"] * number, "Return")
+        user.key(*["Up"] * 7, *["Down"] * number, "Return")
         user.press("Export…", "button", whole=True)
-        path = folder / f"results-{form}.{'json' if form == 'json' else 'csv'}"
+        suffix = form if form == "json" else "pdf" if form.endswith("pdf") else "csv"
+        path = folder / f"results-{form}.{suffix}"
         user.choose_file(path)
         user.wait(lambda _, path=path: path.is_file(), f"results, {form}", 20)
 
