@@ -96,6 +96,10 @@ class User:
         self.wait(lambda seen: any(t["kind"] == "field" for t in seen["things"]), "dialog", 10)
         self.do("key", "ctrl+a")
         self.do("type", "--delay", 8, str(path))
+        time.sleep(0.6)
+        if not self.find("", "button"):  # what begins so is offered: that popup takes the keys
+            self.do("key", "Escape")
+            time.sleep(0.3)
         self.key("Return")
 
     def click(self, place: list[float]) -> None:
