@@ -203,7 +203,8 @@ def check(folder: Path) -> None:
     summaries = list_sessions(folder / "sessions")
     assert len(summaries) == 6
     assert {one.state for one in summaries} == {"ended"}
-    rows = list(csv.DictReader((folder / "results-wide.csv").open(encoding="utf-8-sig")))
+    with (folder / "results-wide.csv").open(encoding="utf-8-sig", newline="") as file:
+        rows = list(csv.DictReader(file))
     assert [row["pseudonym"] for row in rows] == sorted(STUDENTS)
     best = {
         row["pseudonym"]: [float(value) for key, value in row.items() if key.endswith("best")]
@@ -213,5 +214,7 @@ def check(folder: Path) -> None:
     for k in range(2):
         points = [best[name][k] for name in ("cy", "bob", "ada")]
         assert points == sorted(points)
+    for name in ("group", "student"):
+        assert (folder / f"results-{name}-pdf.pdf").read_bytes().startswith(b"%PDF")
     text = (folder / "results-tidy.csv").read_text(encoding="utf-8-sig")
     assert "Example" not in text  # no name leaves without being asked for
