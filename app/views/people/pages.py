@@ -668,7 +668,8 @@ class CourseDialog(SettingsDialog):
             self.items.setCellWidget(row, column, widget)
         for column, text in ((4, opens), (5, closes)):
             day = QLineEdit(text)
-            day.setPlaceholderText(tr("year-month-day"))
+            day.setPlaceholderText(tr("any day"))
+            day.setToolTip(tr("A day as year-month-day, such as 2026-11-30; empty: any"))
             self.items.setCellWidget(row, column, day)
 
     def course(self) -> Course:
