@@ -6,6 +6,7 @@ from datetime import UTC, datetime
 from types import MappingProxyType
 
 import pytest
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox, QLineEdit, QPlainTextEdit
 
 from app.exercises.library import load_exercise
@@ -323,7 +324,9 @@ def test_what_is_deleted_is_listed_apart_and_brought_back_after_the_window_was_c
     sessions._deleted = []  # as in another window
     sessions.trash.click()
     assert settle(lambda: [one.id for one in sessions.model._summaries] == ["a"])
-    assert "can be brought back for 29 days" in cell(sessions, "a", NOTE)
+    assert cell(sessions, "a", NOTE) == "29 days left"
+    tip = sessions.model.index(0, NOTE).data(Qt.ItemDataRole.ToolTipRole)
+    assert "can be brought back for 29 days" in tip
     assert sessions.delete_button.isHidden()
     choose_rows(sessions, "a")
     assert not sessions.open_button.isEnabled()

@@ -37,6 +37,7 @@ from app.session.people import People
 from app.session.recording import open_recording
 from app.session.result import AttemptResult
 from app.session.review import Review, review, review_of_result
+from app.session.roster import looks_like_a_key
 from app.session.sidecar import fresh_summary
 from app.session.store import find
 from app.session.summary import Summary
@@ -593,6 +594,13 @@ class Interruptions(QObject):
             QTimer.singleShot(LOOK_AGAIN_MS, self, self._look)
         self._offer([one for one in found if one.id not in self._offered])
 
+    def _who(self, one: Summary) -> str:
+        """Name who did an attempt, as far as who is here may know it, and it is known by now."""
+        known = ACCESS.shown(one.student)
+        if not ACCESS.may_see(one.student) or looks_like_a_key(known):
+            return tr("a student")
+        return NAMES.shown(known)
+
     def _offer(self, found: list[Summary]) -> None:
         """Ask what becomes of attempts; later, while somebody does one or is asked something."""
         if not found or self._looks == 9:
@@ -604,9 +612,7 @@ class Interruptions(QObject):
         lines = [
             "  ·  ".join(
                 (
-                    NAMES.shown(ACCESS.shown(one.student))
-                    if ACCESS.may_see(one.student)
-                    else tr("a student"),
+                    self._who(one),
                     one.exercise_title or one.exercise_id,
                     date_text(one.started),
                     clock_text(one.duration),

@@ -376,7 +376,7 @@ def _verdict(painter: QPainter, review: Review, y: float) -> float:
     _text(painter, MARGIN, y, word, font(17.0, bold=True))
     total = QRectF(MARGIN, y - 15.0, WIDTH - 2 * MARGIN, 20.0)
     painter.setFont(font(14.0, bold=True))
-    painter.drawText(total, Qt.AlignmentFlag.AlignRight, total_text(review.score))
+    painter.drawText(total, Qt.AlignmentFlag.AlignRight, total_text(review.score, review.said.void))
     if reason:
         painter.setFont(font(9.5))
         _paragraph(painter, reason, y + 8.0, 26.0)

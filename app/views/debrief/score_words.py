@@ -363,8 +363,10 @@ def with_unit(value: float, unit: str, sd: float | None = None) -> str:
     return f"{number(value)}{unsure}{gap}{unit}"
 
 
-def total_text(score: Score | None) -> str:
-    """Say the total, or that there is none."""
+def total_text(score: Score | None, void: str = "") -> str:
+    """Say the total, or that there is none; none that the instructor declared void either."""
+    if void:
+        return ""
     if score is None or score.total is None:
         return tr("not scored")
     return tr("{total:.0f} of 100 points", total=score.total)

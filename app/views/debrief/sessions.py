@@ -57,6 +57,8 @@ SORT_ROLE: Final = Qt.ItemDataRole.UserRole
 SUMMARY_ROLE: Final = Qt.ItemDataRole.UserRole + 1
 DATE, STUDENT, EXERCISE, SCORE, MADE, STATE, DURATION, SIGNED, NOTE = range(9)
 _RIGHT: Final = frozenset({SCORE, DURATION})
+_REMARK_CHARS, _MADE_PX = 48, 110
+"""Characters of remarks that are to be seen, and what their neighbour keeps at least [px]."""
 _RIGHTWARDS: Final = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 _SIGNED_LOOKS: Final = {
     "verified": (theme.GOOD, "✔"),
@@ -97,15 +99,29 @@ class Listed:
         }
         return replace(self, said=said)
 
-    def remarks(self, summary: Summary, manages: bool) -> list[str]:
-        """Say what is to be known of an attempt, one line each; of who manages, more."""
-        lines = said_words(
-            self.said.get(summary.id, NOTHING_SAID), self.held.get(summary.id, "") * manages
-        )
+    def remarks(self, summary: Summary, manages: bool, short: bool = False) -> list[str]:
+        """Say what is to be known of an attempt, one line each; of who manages, more.
+
+        Args:
+            summary: of the attempt.
+            manages: whether who is here may see every result.
+            short: for a cell, which has little room; the whole stands in its tip.
+        """
+        said, held = self.said.get(summary.id, NOTHING_SAID), self.held.get(summary.id, "")
+        days = UNDO_DAYS - (time.time() - self.deleted.get(summary.id, 0.0)) / 86400.0
+        if short:
+            told = (
+                (summary.id in self.deleted, tr("{n} days left", n=max(0, int(days)))),
+                (bool(said.void), tr("void: {why}", why=said.void)),
+                (bool(said.comment), f"“{said.comment}”"),
+                (bool(held) and manages, tr("not released")),
+                (summary.id in self.cut, tr("cut off")),
+            )
+            return [words for so, words in told if so]
+        lines = said_words(said, held if manages else "")
         if summary.id in self.cut:
             lines.append(tr("cut off: Recover closes it as it stands"))
         if summary.id in self.deleted:
-            days = UNDO_DAYS - (time.time() - self.deleted[summary.id]) / 86400.0
             lines.insert(
                 0,
                 tr("deleted; can be brought back for {n} days", n=int(days))
@@ -166,7 +182,8 @@ class SessionsModel(QAbstractTableModel):
         if column == SCORE and said.void and role == Qt.ItemDataRole.DisplayRole:
             return tr("void")
         if column == NOTE and role == Qt.ItemDataRole.DisplayRole:
-            lines = [*self._listed.remarks(summary, self._manages), cell_text(summary, column)]
+            lines = self._listed.remarks(summary, self._manages, short=True)
+            lines.append(cell_text(summary, column))
             return NAMES.without_names(" · ".join(" ".join(one.split()) for one in lines if one))
         if column == SCORE and summary.id in self._listed.held and not self._manages:
             course = self._listed.held[summary.id]
@@ -403,6 +420,18 @@ class SessionsPage(QWidget):
         self.proxy.setFilterFixedString("")
         self.table.resizeColumnsToContents()
         self.proxy.setFilterFixedString(self.search.text())
+        self._leave_room()
+
+    def _leave_room(self) -> None:
+        """Leave remarks room to be read: what it was made with stands in the tip of each row."""
+        rows = (self.model.index(row, NOTE) for row in range(self.model.rowCount()))
+        longest = max((len(row.data() or "") for row in rows), default=0)
+        wanted = min(longest, _REMARK_CHARS) * self.table.fontMetrics().averageCharWidth()
+        others = sum(self.table.columnWidth(column) for column in range(NOTE))
+        missing = wanted + 2 * theme.SPACING - (self.table.viewport().width() - others)
+        made = self.table.columnWidth(MADE)
+        if missing > 0 and made > _MADE_PX:
+            self.table.setColumnWidth(MADE, max(_MADE_PX, made - missing))
 
     def selected(self) -> list[Summary]:
         """Return the selected sessions, from the top."""

@@ -494,7 +494,7 @@ def standing_words(standing: CourseStanding, comes: bool) -> list[str]:
         now.append(tr("result not released"))
     if standing.refusal:
         now.append(standing.refusal)
-    elif comes:
+    elif comes and standing.used is not None:
         now.append(tr("▶ next"))
     return [standing.title, purpose, attempts, days, " · ".join(now)]
 
