@@ -1,13 +1,17 @@
 """`acus people` and `acus course`: students, groups, the instructor; exercises for them."""
 
 import os
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from app.commands import completion
 from app.commands.answer import Answer, Commands
+
+if TYPE_CHECKING:
+    from app.session.summary import Summary
 
 Pseudonym = Annotated[
     str,
@@ -50,6 +54,30 @@ def instructor(people: Any) -> None:
     if given is None:
         given = typer.prompt("Instructor's password", hide_input=True, err=True)
     people.check_instructor(given)
+
+
+def held(summaries: "Iterable[Summary]", ask: bool = False) -> dict[str, str]:
+    """Return which of these results a course holds back from who runs the command.
+
+    By id, the title of the course. None where no instructor is set, and none for the instructor:
+    his password stands in `ACUS_INSTRUCTOR_PASSWORD`, or is asked for if `ask`.
+
+    Raises:
+        PeopleError: for a wrong password.
+    """
+    from app.session.course import held_back
+    from app.session.people import People
+
+    asked = (
+        (one.id, one.student, one.exercise_id, one.conditions.version if one.conditions else 0)
+        for one in summaries
+    )
+    people = People()
+    found = held_back(asked) if people.has_instructor() else {}
+    if not found or (not ask and PASSWORD not in os.environ):
+        return found
+    instructor(people)
+    return {}
 
 
 def list_(

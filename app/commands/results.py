@@ -1,5 +1,6 @@
 """`acus results`: who stands where, and tables that leave."""
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -126,7 +127,7 @@ def export(
     if student and form != PDF:
         raise typer.BadParameter("--student is for pdf; the tables hold everybody")
     instructor(People())
-    found, attempts, people = _board(course, group, folder)
+    found, attempts, people = _board(course, group, folder, asked=True)
     everybody = {person.key: person for person in people.everybody(names)}
     known = {text: everybody[key] for text, key in people.keys().items()}
     if course or group:
@@ -169,18 +170,30 @@ def _write_report(results: "Results", out: Path, student: str, course: str, grou
     )
 
 
-def _board(course: str, group: str, folder: Path | None) -> tuple[Any, list[Any], Any]:
-    """Return board, attempts and people."""
+def _board(
+    course: str, group: str, folder: Path | None, asked: bool = False
+) -> tuple[Any, list[Any], Any]:
+    """Return board, attempts and people.
+
+    Results that a course holds back are left out, but for the instructor: his password stands in
+    the environment, or has been `asked` for.
+    """
     from app.commands.calibrate_parts import with_progress
+    from app.commands.people import PASSWORD, instructor
     from app.session.board import board_of
     from app.session.course import find_course
     from app.session.people import People
     from app.session.store import records_folder
 
     people, chosen = People(), find_course(course) if course else None
+    known = not people.has_instructor() or PASSWORD in os.environ
+    if known:
+        instructor(people)  # a wrong password is said, not passed over
     place = records_folder(folder)
     found, attempts = with_progress(
-        lambda progress: board_of(place, people, chosen, group, progress=progress)
+        lambda progress: board_of(
+            place, people, chosen, group, progress=progress, released=not known and not asked
+        )
     )
     return found, attempts, people
 

@@ -1,5 +1,6 @@
 """`acus session`: recorded attempts."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -20,6 +21,10 @@ FolderOption = Annotated[
 ]
 
 
+HELD = "the instructor has not released the result yet"
+"""Stands in the list in place of a score that a course holds back."""
+
+
 def register(app: typer.Typer) -> None:
     """Add the group `session`."""
     session = Commands(help="Recorded attempts.")
@@ -37,10 +42,13 @@ def register(app: typer.Typer) -> None:
 
 def list_(folder: FolderOption = None) -> Answer:
     """List all attempts, newest first. Broken records with the reason."""
+    from app.commands.people import held
     from app.session.store import list_sessions
 
     place = _folder(folder)
     summaries = list_sessions(place)
+    kept = held(summaries)
+    summaries = [replace(s, score=None, reason=HELD) if s.id in kept else s for s in summaries]
     facts = {"folder": str(place), "sessions": [s.document() for s in summaries]}
     if not summaries:
         return Answer(facts, [f"no sessions in {place}"])
@@ -52,6 +60,7 @@ def show(
     folder: FolderOption = None,
 ) -> Answer:
     """Show one attempt: score, events, what its record holds."""
+    from app.commands.people import held
     from app.session.calibration_flag import CalibrationFlags
     from app.session.recording import read_recording
     from app.session.sidecar import fresh_summary
@@ -60,6 +69,7 @@ def show(
     path = find(_folder(folder), session_id)
     recording = read_recording(path)
     summary = CalibrationFlags.read().flagged(fresh_summary(path))
+    held([summary], ask=True)
     document = _details(recording, summary.document())
     return Answer(document, _detail_lines(document))
 
@@ -75,14 +85,18 @@ def replay(
     folder: FolderOption = None,
 ) -> Answer:
     """Say what a record holds of the robot's loop. --check computes it anew and compares."""
+    from app.commands.people import held
     from app.session.recording import read_recording
     from app.session.replay import contents
+    from app.session.sidecar import fresh_summary
     from app.session.store import find
 
-    recording = read_recording(find(_folder(folder), session_id))
+    path = find(_folder(folder), session_id)
+    recording = read_recording(path)
     if not check:
-        held = contents(recording)
-        return Answer(held.document(), list(held.sentences()))
+        content = contents(recording)
+        return Answer(content.document(), list(content.sentences()))
+    held([fresh_summary(path)], ask=True)
     from app.compose.trainer import replay_recording  # loads kernels
     from app.session.verify import verify as verified
 
@@ -104,11 +118,13 @@ def verify(
     differs or the record was altered after it was signed. *verified* means: written by this
     station, not that the owner of its disk could not forge it.
     """
-    from app.session.sidecar import verify_record
+    from app.commands.people import held
+    from app.session.sidecar import fresh_summary, verify_record
     from app.session.signature import Signed, judge_whole, this_station
     from app.session.store import find
 
     path = find(_folder(folder), session_id)
+    held([fresh_summary(path)], ask=True)
     found, signed = verify_record(path), judge_whole(path, this_station())
     facts = {"signature": signed.verdict.value, "signature_reason": signed.why}
     return Answer(
@@ -126,11 +142,13 @@ def compare(
     folder: FolderOption = None,
 ) -> Answer:
     """Say whether two scores may be compared. Code 3 with the reasons if not."""
+    from app.commands.people import held
     from app.scoring.conditions import Conditions, comparable
     from app.session.sidecar import fresh_summary
     from app.session.store import find
 
     pair = [fresh_summary(find(_folder(folder), name)) for name in (first, second)]
+    held(pair, ask=True)
     a, b = (s.conditions or Conditions(s.exercise_id) for s in pair)
     reasons = comparable(a, b)
     facts = {
@@ -231,23 +249,29 @@ def _folder(folder: Path | None) -> Path:
 
 
 def _scores(folder: Path, ids: list[str] | None) -> tuple[str, int]:
+    from app.commands.people import held
     from app.exchange.csv_export import score_table
     from app.session.sidecar import fresh_summary
     from app.session.store import computed, find
 
     chosen = [find(folder, name) for name in dict.fromkeys(ids or [])]
     summaries = [fresh_summary(path) for path in chosen] if ids else computed(folder)
+    held(summaries, ask=True)
     return score_table(summaries), len(summaries)
 
 
 def _trajectory(folder: Path, ids: list[str] | None) -> tuple[str, int]:
+    from app.commands.people import held
     from app.exchange.csv_export import trajectory_table
     from app.session.recording import read_recording
+    from app.session.sidecar import fresh_summary
     from app.session.store import find
 
     if ids is None or len(ids) != 1:
         raise typer.BadParameter("--trajectory takes exactly one session id")
-    recording = read_recording(find(folder, ids[0]))
+    path = find(folder, ids[0])
+    held([fresh_summary(path)], ask=True)
+    recording = read_recording(path)
     return trajectory_table(recording), len(recording.samples.time)
 
 

@@ -145,3 +145,34 @@ def test_an_attempt_that_was_cut_off_is_listed_and_closed(acus):
     assert found["id"] == path.stem
     assert acus("session", "recover", path.stem)["file"].endswith(path.name)
     assert acus("session", "recover")["interrupted"] == []
+
+
+def test_results_that_a_course_holds_are_shown_to_the_instructor_alone(acus, monkeypatch, tmp_path):
+    added = acus("people", "add", "Ada", "--pin", "1843")
+    attempts(added["key"])
+    name = next(sessions().glob("*.mcap")).stem
+    version = acus("session", "list")["sessions"][0]["conditions"]["version"]
+    course = tmp_path / "c.yaml"
+    item = f"{{exercise: liver-01, version: {version}, purpose: assessment}}"
+    course.write_text(f"id: c\ntitle: Exam\nitems:\n- {item}\n")
+    acus("course", "save", course, code=3)  # saved; the exercise is not in the library
+    People().set_instructor("correct horse")
+
+    held = acus("session", "list")["sessions"][0]
+    assert held["score"] is None
+    assert "not released" in held["reason"]
+    cell = acus("results", "board", "--course", "c")["cells"][0]
+    assert (cell["attempts"], cell["best"]) == (0, None)
+    assert cell["why"] == {"not released yet": 1}
+    assert acus("results", "curve", "Ada", "liver-01", "--course", "c")["points"] == []
+    monkeypatch.setenv("ACUS_INSTRUCTOR_PASSWORD", "wrong")
+    assert "password is wrong" in acus("session", "show", name, code=2)
+    monkeypatch.setenv("ACUS_INSTRUCTOR_PASSWORD", "correct horse")
+    assert acus("session", "show", name)["score"]["total"] is not None
+    assert acus("session", "list")["sessions"][0]["score"]["total"] is not None
+    assert acus("results", "board", "--course", "c")["cells"][0]["attempts"] == 1
+
+    acus("people", "remark", name, "--release")
+    monkeypatch.delenv("ACUS_INSTRUCTOR_PASSWORD")
+    assert acus("session", "show", name)["score"]["total"] is not None
+    assert acus("results", "board", "--course", "c")["cells"][0]["attempts"] == 1
