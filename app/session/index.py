@@ -24,6 +24,7 @@ from app.core.json_values import finite
 from app.core.progress import Progress
 from app.scoring.conditions import Conditions, DeviceKind
 from app.session.database import BUSY_SECONDS, Database, DatabaseError
+from app.session.people import People
 from app.session.sidecar import Cached, fresh_kept, read_kept
 from app.session.signature import StationKey, judged, signature_file, this_station
 from app.session.store import SUFFIX, records
@@ -122,7 +123,7 @@ class Refreshed:
 def totals_of(folder: Path, student: str, exercise: str, version: int) -> list[float | None]:
     """Return the scores of a student's attempts at a version of an exercise, oldest first.
 
-    Attempts of scripted trainees are left out; one without a score is None.
+    Attempts of scripted trainees and void ones are left out; one without a score is None.
 
     Args:
         folder: of the records.
@@ -133,7 +134,7 @@ def totals_of(folder: Path, student: str, exercise: str, version: int) -> list[f
     Raises:
         DatabaseError: if the index cannot be read.
     """
-    index = Index(folder)
+    index, remarks = Index(folder), People().remarks()
     index.refresh()
     return [
         one.total
@@ -141,6 +142,7 @@ def totals_of(folder: Path, student: str, exercise: str, version: int) -> list[f
         if (one.exercise, one.version) == (exercise, version)
         and one.state in ("ended", "aborted", "unfinished")
         and not one.conditions.scripted
+        and (one.id not in remarks or not remarks[one.id].void)
     ]
 
 

@@ -9,6 +9,8 @@ from app.exercises.library import load_exercise
 from app.exercises.parts import ViewName
 from app.exercises.schema import Exercise
 from app.session import index
+from app.session.people import Person
+from app.views.kit.access import ACCESS
 
 ALL = {"live_overlay", "bullseye", "three_d", "cameras"}
 FADING = {"kind": "performance", "step": 0.3, "probe_every": 3}
@@ -49,6 +51,20 @@ def test_the_next_attempt_begins_with_the_dial_that_the_last_ones_earned(
     assert {one.value for one in opened.conductor.exercise.shown_views} == views
     assert asked[0][1:] == ("s-7", exercise.id, exercise.version)
     assert opened.conductor.exercise.fading == exercise.fading
+
+
+def test_of_a_student_who_is_signed_in_the_attempts_under_the_own_key_are_looked_up(
+    opened, exercise, settle, monkeypatch
+):
+    asked = []
+    monkeypatch.setattr(index, "totals_of", lambda *what: asked.append(what) or [])
+    ACCESS.sign_in(Person("p-0123456789ab", "Ada"))
+    try:
+        opened.conductor.set_exercise(exercise)
+        assert settle(lambda: bool(asked))
+    finally:
+        ACCESS.sign_in(None)
+    assert asked[0][1] == "p-0123456789ab"
 
 
 def test_start_waits_until_the_attempts_are_looked_up(opened, exercise, settle, monkeypatch):

@@ -303,7 +303,14 @@ def test_the_instructor_goes_from_the_board_to_the_attempts_says_things_and_the_
     assert not any(action.isEnabled() for action in says.all)
     says.ask_void()
     assert says.dialog is None
+    sessions.show_only(lambda _: True, "all")
+    window.feature(DebriefFeature)._back = feature.show
+    ACCESS.sign_in(None)
+    sessions.back.click()  # the board is closed to who is here now
+    assert not sessions.isVisible()
+    window.feature(DebriefFeature).show_sessions()
     ACCESS.sign_in(None, instructor=True)
+    assert settle(lambda: sessions.model.rowCount() == 3)
     choose_rows(sessions, "a", "b")
     says.count.trigger()
     assert settle(lambda: cell(sessions, "a", SCORE) == "✔ 80")

@@ -711,7 +711,7 @@ class DebriefFeature(Feature):
         self.page.next_requested.connect(self.begin_wanted)
         self.page.sessions_requested.connect(self._show_list)
         self._back: Callable[[], object] = shell.show_workspace
-        self.sessions.closed.connect(lambda: self._back())
+        self.sessions.closed.connect(self._leave_list)
         context.conductor.controller.finished.connect(self.show_result)
         menu = shell.menu(tr("&Sessions"))
         add_entries(menu, [(tr("Past sessions"), "F7", self.show_sessions)])
@@ -827,6 +827,12 @@ class DebriefFeature(Feature):
     def open_attempt(self, session_id: str) -> None:
         """Read an attempt, and show its debrief."""
         self._controller.open_session(session_id)
+
+    def _leave_list(self) -> None:
+        """Go back to where one came from; to the panes where that is closed by now."""
+        self._back()
+        if self.sessions.isVisible():
+            self.context.shell.show_workspace()
 
     def _show_list(self) -> None:
         self.sessions.refresh()

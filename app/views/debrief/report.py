@@ -371,6 +371,10 @@ def radius_text(radius: float | None) -> str:
     return tr("± {mm:.1f} mm (95 %), median", mm=1e3 * radius)
 
 
+_COMMENT_HIGH: Final = 90.0
+"""A comment takes no more of the page than this [pt]."""
+
+
 def _verdict(painter: QPainter, review: Review, y: float) -> float:
     _, word, reason = verdict(review)
     _text(painter, MARGIN, y, word, font(17.0, bold=True))
@@ -381,6 +385,14 @@ def _verdict(painter: QPainter, review: Review, y: float) -> float:
         painter.setFont(font(9.5))
         _paragraph(painter, reason, y + 8.0, 26.0)
         y += 26.0
+    if review.said.comment:
+        words = tr("The instructor says: {words}", words=review.said.comment)
+        painter.setFont(font(9.5))
+        room = QRectF(MARGIN, y + 8.0, WIDTH - 2 * MARGIN, _COMMENT_HIGH)
+        wraps = Qt.TextFlag.TextWordWrap
+        needed = painter.boundingRect(room, int(wraps), words).height()
+        _paragraph(painter, words, y + 8.0, min(needed, _COMMENT_HIGH))
+        y += min(needed, _COMMENT_HIGH) + 6.0
     return y + 28.0
 
 

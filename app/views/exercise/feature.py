@@ -12,6 +12,7 @@ from app.exercises.parts import OwnPlan
 from app.exercises.schema import Exercise
 from app.planning.patient import Patient
 from app.views.exercise.beginning import Beginning
+from app.views.kit.access import ACCESS
 from app.views.kit.background import run_in_background
 from app.views.kit.text import tr
 from app.views.shell.feature import Context, Feature
@@ -69,7 +70,8 @@ class ExerciseFeature(Feature):
         self._asked += 1
         if exercise is None:
             return
-        number, student = self._asked, self._panel.student.text().strip()
+        number = self._asked
+        student = ACCESS.recorded_as(self._panel.student.text().strip())
         folder = self.context.services.sessions()
         controller.set_waiting(tr("Start waits: the attempts so far are looked up."))
 
