@@ -68,16 +68,17 @@ def interrupted(folder: Path, now: float | None = None) -> tuple[list[Summary], 
 
 def is_cut_off(path: Path) -> bool:
     """Whether a file begins as a record, has no end, and was never signed as finished."""
+    if signature_file(path).exists():  # asked first: of most attempts it is enough
+        return False
     try:
         with path.open("rb") as stream:
             begins = stream.read(len(MCAP0_MAGIC)) == MCAP0_MAGIC
             if not begins or path.stat().st_size < 2 * len(MCAP0_MAGIC):
                 return False
             stream.seek(-len(MCAP0_MAGIC), os.SEEK_END)
-            ends = stream.read() == MCAP0_MAGIC
+            return stream.read() != MCAP0_MAGIC
     except OSError:
         return False
-    return not ends and not signature_file(path).exists()
 
 
 def recover(folder: Path, session_id: str, now: float | None = None) -> Path:

@@ -2,7 +2,10 @@
 
 import os
 import shutil
+import subprocess
+import sys
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -153,3 +156,33 @@ def test_an_attempt_that_had_ended_when_the_program_was_killed_keeps_its_score(t
     found = read_summary(tmp_path / "cut.mcap")
     assert found.state == whole.state
     assert found.score == whole.score
+
+
+CHILD = """
+import sys, time
+from datetime import UTC, datetime
+from pathlib import Path
+from app.session.header import SessionHeader
+from app.session.recorder import Recorder
+recorder = Recorder(Path(sys.argv[1]), SessionHeader("k", datetime.now(UTC), 0.0, "s", "x"))
+recorder.open()
+print("open", flush=True)
+time.sleep(60)
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs locks")
+def test_another_program_holds_its_record_until_it_is_killed(tmp_path):
+    with subprocess.Popen(
+        [sys.executable, "-c", CHILD, str(tmp_path)],
+        stdout=subprocess.PIPE,
+        cwd=Path(__file__).parents[2],
+    ) as child:
+        assert child.stdout is not None
+        assert child.stdout.readline() == b"open\n"
+        path = tmp_path / "k.mcap"
+        age(path)
+        assert interrupted(tmp_path) == ([], False)
+        child.kill()
+        child.wait(timeout=30)
+    assert [one.id for one in interrupted(tmp_path)[0]] == ["k"]
