@@ -7,9 +7,10 @@ of the needle's part in the body, from the entry to the tip, where the cameras v
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from math import inf
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -74,11 +75,9 @@ def risk_marks_of(
     found = []
     for risk in wanted:
         rough = _roughly(lines, risk.field)
-        best = min(
-            (_exactly(lines[n], risk.field), n)
-            for n in np.argsort(rough, kind="stable")[:CLOSEST].tolist()
-        )
-        closest, row = best[0], rows[best[1]]
+        order = np.argsort(rough, kind="stable")[:CLOSEST].tolist()
+        closest, n = _closest(lines, order, risk.field)
+        row = rows[n]
         depth = float(samples.depth[row]) / MILLIMETRE
         at, inside = float(samples.time[row]), float(spans[rough <= 0.0].sum())
         found.append(RiskMark(risk.name, risk.limit_mm, closest, at, depth, inside))
@@ -168,9 +167,15 @@ def _bent(lines: FloatArray, axes: FloatArray, depths: FloatArray, bends: FloatA
     return result
 
 
-def _exactly(line: FloatArray, field: SignedDistance) -> float:
-    """Smallest distance of a needle's pieces [mm]."""
-    return min(field.along(start, end).distance_mm for start, end in pairwise(line))
+def _closest(lines: FloatArray, order: Sequence[int], field: SignedDistance) -> tuple[float, int]:
+    """Smallest distance of some needles [mm], and whose it is; a piece further off is passed by."""
+    best, whose = inf, order[0]
+    for n in order:
+        for start, end in pairwise(lines[n]):
+            found = field.nearer(start, end, best)
+            if found is not None and found < best:
+                best, whose = found, n
+    return best, whose
 
 
 def _roughly(lines: FloatArray, field: SignedDistance) -> FloatArray:

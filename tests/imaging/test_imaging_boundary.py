@@ -112,3 +112,19 @@ def test_the_nearest_place_of_a_path_has_no_better_neighbour():
         nearest = field.along(start, end)
         dense = start + np.linspace(0.0, 1.0, 400)[:, None] * (end - start)
         assert nearest.distance_mm <= field.boundary.at(dense).min() + 0.05
+
+
+def test_a_line_that_is_surely_no_nearer_is_passed_by_and_any_other_is_told_exactly():
+    volume = made((60, 60, 40), (0.8, 0.8, 2.0))
+    field = SignedDistance.of(box(volume, (20, 20, 10), (39, 39, 29)))
+    random = np.random.default_rng(5)
+    passed = 0
+    for _ in range(60):
+        start, end = volume.lps_mm(random.uniform(-10.0, 70.0, (2, 3)))
+        exact = field.along(start, end).distance_mm
+        for than in (exact - 3.0, exact - 0.01, exact + 0.01, np.inf):
+            found = field.nearer(start, end, than)
+            assert found in (None, exact)
+            assert found is not None or exact >= than
+            passed += found is None
+    assert passed > 30

@@ -309,6 +309,23 @@ class SignedDistance:
             float(distances[nearest]), start + share * (end - start), share * length, through
         )
 
+    def nearer(self, start_mm: ArrayLike, end_mm: ArrayLike, than_mm: float) -> float | None:
+        """Return how near a straight line comes [mm]; None where that is surely no nearer than so.
+
+        Args:
+            start_mm: of the line, LPS [mm], shape (3,).
+            end_mm: of the line.
+            than_mm: distance that is known already.
+        """
+        start, end = np.asarray(start_mm, np.float64), np.asarray(end_mm, np.float64)
+        length = float(np.linalg.norm(end - start))
+        shares = np.linspace(0.0, 1.0, max(2, int(np.ceil(length / SAMPLE_MM)) + 1))
+        least, _ = self.boundary.bounds_mm(start + shares[:, None] * (end - start))
+        # Between two samples the line may be nearer by half of their distance.
+        if least.min() - 0.5 * length / (len(shares) - 1) >= than_mm:
+            return None
+        return self.along(start, end).distance_mm
+
 
 def _resampled(structure: Structure, low: FloatArray, step: float, size: Any) -> Any:
     """Which cells of a cubic grid along L, P, S lie inside, shape (S, P, L)."""
