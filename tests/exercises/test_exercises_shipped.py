@@ -16,6 +16,7 @@ from app.planning.placement import PlacedPlan
 from app.planning.plan import Plan
 from app.planning.reach import reach
 from app.scoring.result import Score
+from app.scoring.risks import RiskMark
 from app.scoring.score import score
 from app.scoring.trajectory import Trajectory
 
@@ -29,6 +30,8 @@ SHIPPED = [
     "past-the-vessel",
     "plan-it-yourself",
     "against-repulsion",
+    "beside-the-vein",
+    "lung-between-ribs",
     "scans-only",
 ]
 FULCRUM = np.array([0.0, 0.16056, 0.090])
@@ -57,6 +60,11 @@ def attempt(exercise: Exercise, badness: float, seed: int) -> Score:
         felt=np.tile(6.0 * badness * side, (n, 1)),
         phase=np.where(share > 0.0, "inserting", "aligning"),  # type: ignore[arg-type]
         depth_valid=np.ones(n, dtype=bool),
+        risks=tuple(
+            RiskMark(name, limit, limit + 1.0 - 6.0 * badness, time[-1], 60.0, 0.0)
+            for part in exercise.structures
+            for name, limit in part.risks.items()
+        ),
     )
     return score(trajectory, exercise.tolerances, exercise.rules)
 

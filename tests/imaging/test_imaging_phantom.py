@@ -9,8 +9,9 @@ from app.core.progress import Cancelled, Progress
 from app.imaging.body import find_body, is_inside, skin_entry
 from app.imaging.phantom import organs, skeleton
 from app.imaging.phantom.anatomy import anatomy
-from app.imaging.phantom.lesion import planned_patient
-from app.imaging.phantom.series import phantom_series
+from app.imaging.phantom.lesion import make_patient, planned_patient
+from app.imaging.phantom.patient import Patient
+from app.imaging.phantom.series import Scan, phantom_series
 from app.imaging.scanning import scan_folder
 
 SEEDS = range(1, 6)
@@ -37,6 +38,37 @@ def test_its_files_carry_every_required_tag_and_a_pseudonym(small_phantom):
     for name in required.split():
         assert name in file, name
     assert file.file_meta.TransferSyntaxUID == "1.2.840.10008.1.2.1"
+
+
+def test_only_patients_from_seed_1000_on_have_a_nodule_which_lies_in_the_lung():
+    assert make_patient(1).nodule is None
+    assert make_patient(999).nodule is None
+    assert "lung nodule" not in anatomy(1).organs
+    for seed in range(1000, 1010):
+        patient = make_patient(seed)
+        (x, y, z), radius = patient.nodule
+        at = organs.place_of(patient, *np.array([[x], [y], [z]]))
+        assert organs.lungs(patient, at)[0] < -radius - 2.0
+        assert anatomy(seed).organs["lung nodule"] == pytest.approx(
+            np.array((x, y, z)) * patient.scale
+        )
+
+
+def test_a_nodule_changes_nothing_but_its_own_place():
+    class Without(Patient):
+        nodule = None
+
+    patient = make_patient(1001)
+    bare = Without(**{name: getattr(patient, name) for name in patient.__dataclass_fields__})
+    (x, y, z), radius = patient.nodule
+    pictures = [Scan(one, 128, 3.0).slice_hu(z * patient.scale[2], 7) for one in (patient, bare)]
+    rows, columns = np.nonzero(pictures[0] != pictures[1])
+    at = (np.column_stack([columns, rows]) - 63.5) * 3.0 / np.array(patient.scale[:2])
+    away = np.hypot(*(at - (x, y)).T)
+    assert 0.0 < away.max() < radius + 8.0
+    assert pictures[0].max() <= 3071
+    row, column = rows[away.argmin()], columns[away.argmin()]
+    assert pictures[0][row, column] > pictures[1][row, column] + 500
 
 
 def test_it_is_made_once(small_phantom):

@@ -28,7 +28,7 @@ class Anatomy:
         entry_mm: on the skin: a default entry whose straight path to the lesion passes between
             the ribs, meets neither lung nor gut nor large vessels, is 60 to 90 mm long and at most
             30° off the vertical of a supine patient.
-        organs: a point inside each named organ.
+        organs: a point inside each named organ; the `lung nodule` of a patient who has one.
     """
 
     seed: int
@@ -42,13 +42,14 @@ def anatomy(seed: int) -> Anatomy:
     """Return the truth of the patient of a seed."""
     patient, entry = planned_patient(seed)
     scale = patient.scale
+    inside = _ORGANS if patient.nodule is None else _ORGANS | {"lung nodule": patient.nodule[0]}
     mean_scale = (scale[0] * scale[1] * scale[2]) ** (1.0 / 3.0)
     return Anatomy(
         seed=seed,
         lesion_mm=_lps(patient, patient.lesion_mm),
         lesion_radius_mm=patient.lesion_radius_mm * mean_scale,
         entry_mm=_lps(patient, entry),
-        organs=MappingProxyType({name: _lps(patient, at) for name, at in _ORGANS.items()}),
+        organs=MappingProxyType({name: _lps(patient, at) for name, at in inside.items()}),
     )
 
 

@@ -117,6 +117,21 @@ class Canvas:
         self.paint(self._diaphragm(at), MUSCLE)
         self.paint(distance, -885.0 + gradient + 14.0 * self.texture)
         self.paint_tubes(self.grid.tubes.lung, 35.0)
+        self._nodule()
+
+    def _nodule(self) -> None:
+        """Round and solid, with a slightly lobed rim; most patients have none."""
+        if self.patient.nodule is None:
+            return
+        (x, y, z), radius = self.patient.nodule
+        if abs(self.z - z) > radius + 2.0:
+            return
+        reach = radius + 3.0
+        box = self.grid.box(x - reach, x + reach, y - reach, y + reach)
+        at = self.place(box)
+        dx, dy, dz = at.x - x, at.y - y, at.z - z
+        rim = 0.5 * np.sin(0.9 * dx + self.patient.seed) * np.cos(0.8 * dy)
+        self.paint(np.sqrt(dx * dx + dy * dy + dz * dz) - radius - rim, 42.0, box)
 
     def _diaphragm(self, at: organs.Place) -> Field:
         """Thin muscle between lung and abdomen."""

@@ -10,6 +10,9 @@ Point = tuple[float, float, float]
 MODEL_TOP: Final = 300.0
 """Height of the model [mm]: from the iliac crests (0) to the lung bases below the heart (300)."""
 
+NODULES_FROM: Final = 1000
+"""Patients of this seed and above have a nodule in the right lung besides; the others have none."""
+
 
 @dataclass(frozen=True, slots=True)
 class Patient:
@@ -43,6 +46,18 @@ class Patient:
     def generator(self, part: int) -> np.random.Generator:
         """Random numbers of one part of the anatomy, the same at every call."""
         return np.random.default_rng([self.seed, part])
+
+    @property
+    def nodule(self) -> tuple[Point, float] | None:
+        """Centre, model coordinates, and radius [mm] of the nodule in the right lung, if any.
+
+        It has its own random numbers, so that nothing else of a patient depends on it.
+        """
+        if self.seed < NODULES_FROM:
+            return None
+        low, high = (-92.0, -36.0, 276.0, 5.0), (-72.0, -22.0, 284.0, 7.5)
+        x, y, z, radius = self.generator(9).uniform(low, high).tolist()
+        return (x, y, z), radius
 
 
 def draw_patient(seed: int) -> Patient:
