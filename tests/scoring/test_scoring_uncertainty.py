@@ -13,6 +13,7 @@ from app.scoring.rows import Row, ScoreRules
 from app.scoring.score import score
 from app.scoring.tolerance import Tolerance
 from app.scoring.trajectory import Trajectory
+from app.tracking.fix import DIRECTION_SIGMA
 
 ALONG, ACROSS, PICTURES = 0.2 * MILLIMETRE, 0.05 * MILLIMETRE, 2
 """Standard deviations of the tip, and samples that share one picture."""
@@ -56,6 +57,7 @@ def found() -> tuple[Trajectory, dict[str, list[float]]]:
     names = (
         *("target_error", "lateral_error", "depth_error", "planned_target_error"),
         *("path_length", "path_ratio", "spectral_arc_length", "log_dimensionless_jerk"),
+        "path_length_raw",
         *BOUNDED,
     )
     values: dict[str, list[float]] = {name: [] for name in names}
@@ -82,6 +84,36 @@ def test_a_deviation_is_that_of_repeated_measurements(
     said = float(np.median(np.array(told, dtype=float)))
     seen = float(np.std(values[name]))
     assert said == pytest.approx(seen, rel=0.25)
+
+
+def test_the_deviation_of_the_raw_path_is_an_upper_bound(
+    found: tuple[Trajectory, dict[str, list[float]]],
+) -> None:
+    """Noise of a step's own size bends the polyline: its length varies less than to first order."""
+    true, values = found
+    again = measured_again(true, np.random.default_rng(9))
+    said, seen = available()["path_length_raw"].deviation(again), np.std(values["path_length_raw"])
+    assert said is not None
+    assert seen <= said <= 2.0 * seen
+
+
+@pytest.mark.parametrize(
+    "name", ["angle_error", "angle_at_skin", "angle_in_plane", "angle_out_of_plane"]
+)
+def test_the_deviation_of_an_angle_is_that_of_repeated_directions(name: str) -> None:
+    """Encoders err by DIRECTION_SIGMA in each direction across the needle.
+
+    A needle one degree off the path: on the path itself the size of an angle varies less.
+    """
+    true, metric, rng = insertion(), available()[name], np.random.default_rng(11)
+    leaning = true.axis + 0.0175 * np.cross(true.axis, [0.6, 0.8, 0.0])
+    true = replace(true, axis=leaning / np.linalg.norm(leaning, axis=1, keepdims=True))
+    values = []
+    for _ in range(300):
+        turned = true.axis + rng.normal(0.0, DIRECTION_SIGMA, true.axis.shape)
+        unit = turned / np.linalg.norm(turned, axis=1, keepdims=True)
+        values.append(metric.compute(replace(true, axis=unit)))
+    assert metric.deviation(true) == pytest.approx(float(np.std(values)), rel=0.2)
 
 
 @pytest.mark.parametrize("name", BOUNDED)

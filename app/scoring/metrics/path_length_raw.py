@@ -24,7 +24,11 @@ def compute(trajectory: Trajectory) -> float:
 
 
 def deviation(trajectory: Trajectory) -> float:
-    """Return the standard deviation [mm], to first order; what noise adds on average is more."""
+    """Return an upper bound of the standard deviation [mm], to first order.
+
+    Repeated measurements vary by two thirds of it where noise is as large as a step; what noise
+    adds on average is more.
+    """
     stays = trajectory.measured_stays()
     slopes = [length_slopes(trajectory.tip[stay]) for stay in stays]
     return path_sd(trajectory, stays, slopes) / MILLIMETRE
