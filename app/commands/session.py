@@ -88,15 +88,14 @@ def replay(
     from app.commands.people import held
     from app.session.recording import read_recording
     from app.session.replay import contents
-    from app.session.sidecar import fresh_summary
     from app.session.store import find
+    from app.session.summary import derive
 
-    path = find(_folder(folder), session_id)
-    recording = read_recording(path)
+    recording = read_recording(find(_folder(folder), session_id))
     if not check:
         content = contents(recording)
         return Answer(content.document(), list(content.sentences()))
-    held([fresh_summary(path)], ask=True)
+    held([derive(recording)], ask=True)
     from app.compose.trainer import replay_recording  # loads kernels
     from app.session.verify import verify as verified
 
@@ -119,12 +118,14 @@ def verify(
     station, not that the owner of its disk could not forge it.
     """
     from app.commands.people import held
-    from app.session.sidecar import fresh_summary, verify_record
+    from app.session.recording import open_recording
+    from app.session.sidecar import verify_record
     from app.session.signature import Signed, judge_whole, this_station
     from app.session.store import find
+    from app.session.summary import derive
 
     path = find(_folder(folder), session_id)
-    held([fresh_summary(path)], ask=True)
+    held([derive(open_recording(path))], ask=True)  # nothing beside the record is written anew
     found, signed = verify_record(path), judge_whole(path, this_station())
     facts = {"signature": signed.verdict.value, "signature_reason": signed.why}
     return Answer(
@@ -264,14 +265,13 @@ def _trajectory(folder: Path, ids: list[str] | None) -> tuple[str, int]:
     from app.commands.people import held
     from app.exchange.csv_export import trajectory_table
     from app.session.recording import read_recording
-    from app.session.sidecar import fresh_summary
     from app.session.store import find
+    from app.session.summary import derive
 
     if ids is None or len(ids) != 1:
         raise typer.BadParameter("--trajectory takes exactly one session id")
-    path = find(folder, ids[0])
-    held([fresh_summary(path)], ask=True)
-    recording = read_recording(path)
+    recording = read_recording(find(folder, ids[0]))
+    held([derive(recording)], ask=True)
     return trajectory_table(recording), len(recording.samples.time)
 
 

@@ -354,7 +354,12 @@ def test_the_sheet_of_keys_fits_a_small_screen(window):
 @pytest.mark.parametrize("scheme", SCHEMES.values(), ids=SCHEMES)
 def test_no_key_of_the_menus_is_taken_by_a_pane(window, scheme):
     window.workspace.viewing.set_scheme(scheme)
-    keys = {key.toString() for action in window.findChildren(QAction) for key in action.shortcuts()}
+    keys = {
+        key.toString()
+        for action in window.findChildren(QAction)
+        for key in action.shortcuts()
+        if action.shortcutContext() is not Qt.ShortcutContext.WidgetShortcut  # of another page
+    }
     digits = {str(number) for number in range(10)}
     assert not keys & (set(scheme.keys) | digits)
 
