@@ -99,6 +99,7 @@ TEST_Z: Final = _input()
 TEST_LEFT: Final = _input()  # [N·m] joint torques that a service routine asks for
 TEST_RIGHT: Final = _input()
 HOLD_BREATH: Final = _input()  # [-] 1 while the patient is asked to hold the breath
+NEEDLE_ROLL: Final = _input()  # [rad] roll of the needle, clockwise seen from the hub
 INPUTS: Final = _end_of_inputs()  # number of input slots
 
 # --- time -----------------------------------------------------------------------------------------
@@ -222,6 +223,11 @@ GRIP_X: Final = next(_next)  # [-] x of the needle direction where the simulated
 GRIP_Y: Final = next(_next)
 GRIP_DEPTH: Final = next(_next)  # [m] depth where it is: HAND_* at the speed of a hand
 TRAINEE_PHASE: Final = next(_next)  # [-] phase of the scripted trainee; 0 none, 9 done
+
+# --- later slots: at the end, so that the places in older records mean what they meant ------------
+INDENTATION: Final = _scene()  # [m] how far the tip has pushed in what it has not yet pierced
+PUNCTURES: Final = _scene()  # [-] membranes that the tip has punctured so far
+BONE_CONTACT: Final = _scene()  # [-] 1 while the tip stands on bone
 
 SLOTS: Final = next(_next)
 """Length of the state vector."""

@@ -14,6 +14,8 @@ class Lock(StrEnum):
     """Window, level, slab and layout."""
     HAND = "hand"
     """What moves the simulated hand, and how far."""
+    MODELS = "models"
+    """By which model each effect is computed."""
 
 
 EVERY_LOCK = frozenset(Lock)

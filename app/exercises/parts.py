@@ -1,6 +1,7 @@
 """Parts of an exercise file: CT, plan, placement, effects, tissue."""
 
 from collections.abc import Mapping
+from dataclasses import fields
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Literal
@@ -13,6 +14,7 @@ from app.imaging.series import Remedy
 from app.planning.placement import PatientOrientation, Placement
 from app.planning.plan import Plan
 from app.simulation.needles import OUTER_DIAMETER
+from app.simulation.scene import TissueLayer
 
 Triple = tuple[float, float, float]
 NotNegative = Annotated[float, Field(ge=0.0)]
@@ -213,6 +215,15 @@ class NeedlePart(Strict):
         return gauge
 
 
+class LayersFrom(StrEnum):
+    """Where the layers of tissue come from."""
+
+    FILE = "file"
+    """As the exercise has them; else the simulation's own."""
+    CT = "ct"
+    """From the CT along the path, when the attempt begins."""
+
+
 class LayerPart(Strict):
     """A slab of tissue along the path, counted from the skin.
 
@@ -223,14 +234,31 @@ class LayerPart(Strict):
         friction: kinetic shaft friction per inserted length [N/m].
         static_friction: break-away friction per inserted length [N/m].
         viscous_friction: per inserted length [N·s/m²].
+        moves: share of the displacement by breathing that it goes along with, 0 to 1; None: all of
+            it from the breathing organ inwards, nothing above.
+        puncture_force: of the membrane it begins with, for 18 G [N]; 0 for none.
+        toughness: fracture toughness [J/m²]; cutting costs it times the outer diameter.
+        indentation_stiffness: of the membrane pushed in by the tip, linear part [N/m].
+        indentation_hardening: quadratic part of it [N/m²].
+        relaxation_share: of a quick indentation's resistance that relaxes.
+        relaxation_time: time constant of that [s].
+        rigid: bone; the last layer, where the needle stops.
     """
 
     name: str
-    thickness_mm: NotNegative
+    thickness_mm: Annotated[float, Field(gt=0.0)]
     side_stiffness_kpa: NotNegative = 20.0
     friction: NotNegative = 10.57
     static_friction: NotNegative = 18.45
     viscous_friction: NotNegative = 250.0
+    moves: Annotated[float, Field(ge=0.0, le=1.0)] | None = None
+    puncture_force: NotNegative = 0.0
+    toughness: NotNegative = 0.0
+    indentation_stiffness: NotNegative = 2.0
+    indentation_hardening: NotNegative = 2300.0
+    relaxation_share: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.0
+    relaxation_time: Annotated[float, Field(gt=0.0)] = 0.5
+    rigid: bool = False
 
     @property
     def thickness(self) -> float:
@@ -241,3 +269,11 @@ class LayerPart(Strict):
     def side_stiffness(self) -> float:
         """Lateral foundation stiffness [N/m²]."""
         return self.side_stiffness_kpa * KILOPASCAL
+
+    def layer(self) -> TissueLayer:
+        """Return it as the value that the simulation uses.
+
+        Raises:
+            SimulationError: if its membrane has no stiffness.
+        """
+        return TissueLayer(**{one.name: getattr(self, one.name) for one in fields(TissueLayer)})

@@ -21,7 +21,7 @@ from app.simulation.consumers import Consumer, DevicePort
 from app.simulation.needles import OUTER_DIAMETER
 from app.simulation.plan import SimulationPlan
 from app.simulation.plan import compile as compile_scene
-from app.simulation.scene import DEFAULT_LAYERS, EffectRequest, Needle, Scene, TissueLayer
+from app.simulation.scene import DEFAULT_LAYERS, EffectRequest, Needle, Scene
 
 if TYPE_CHECKING:
     from app.imaging.phantom.anatomy import Anatomy
@@ -88,23 +88,12 @@ def placed_plan_of(
 
 def scene_of(exercise: Exercise, profile: DeviceProfile) -> Scene:
     """Return what the simulation has to know about an exercise."""
-    layers = tuple(
-        TissueLayer(
-            name=part.name,
-            thickness=part.thickness,
-            side_stiffness=part.side_stiffness,
-            friction=part.friction,
-            static_friction=part.static_friction,
-            viscous_friction=part.viscous_friction,
-        )
-        for part in exercise.layers
-    )
     return Scene(
         effects=tuple(
             EffectRequest(name, part.parameters, part.model, part.organ)
             for name, part in exercise.effects.items()
         ),
-        layers=layers or DEFAULT_LAYERS,
+        layers=tuple(part.layer() for part in exercise.layers) or DEFAULT_LAYERS,
         needle=Needle(profile.geometry.needle_length, OUTER_DIAMETER[exercise.needle.gauge]),
         R_world_patient=exercise.placement.placement().rotation,
         target_organ=exercise.target_organ,
@@ -114,7 +103,7 @@ def scene_of(exercise: Exercise, profile: DeviceProfile) -> Scene:
 def metric_consumers(exercise: Exercise) -> tuple[Consumer, ...]:
     """Return the metrics that the exercise scores, with the slots that they read."""
     found = [metrics.find(name) for name in exercise.tolerances]
-    return tuple(Consumer(f"metric {metric.name} scores it", metric.reads) for metric in found)
+    return tuple(Consumer(f"“{metric.title}” scores it", metric.reads) for metric in found)
 
 
 def compile_exercise(

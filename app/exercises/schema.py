@@ -22,6 +22,7 @@ from app.exercises.parts import (
     EffectPart,
     LawPart,
     LayerPart,
+    LayersFrom,
     NeedlePart,
     OwnPlan,
     PhantomCt,
@@ -39,6 +40,8 @@ from app.scoring.rows import ScoreRules
 from app.scoring.score import check_names
 from app.scoring.tolerance import Tolerance
 from app.simulation.effects import declaration
+from app.simulation.errors import SimulationError
+from app.simulation.scene import check_order
 
 
 class Exercise(Strict):
@@ -63,6 +66,8 @@ class Exercise(Strict):
         effects: name -> parameters of what is asked for; the scene compiler keeps what somebody
             consumes.
         layers: tissue along the path, from the skin inwards; empty for the simulation's own.
+        layers_from: `file` takes them as they are given; `ct` finds them in the CT along the path
+            when the attempt begins, in place of those given.
         needle: gauge, and length where it is not the device's own.
         target_organ: where the target lies; an effect on another organ is dropped.
         tolerances: metric -> bands and weight.
@@ -95,6 +100,7 @@ class Exercise(Strict):
     laws: Mapping[str, LawPart] = Field(default_factory=lambda: {"fixture": LawPart()})
     effects: Mapping[str, EffectPart] = Field(default_factory=dict)
     layers: tuple[LayerPart, ...] = ()
+    layers_from: LayersFrom = LayersFrom.FILE
     needle: NeedlePart = NeedlePart()
     target_organ: str = ""
     tolerances: Mapping[str, Tolerance] = Field(default_factory=lambda: dict(DEFAULT_TOLERANCES))
@@ -121,6 +127,15 @@ class Exercise(Strict):
             return {name: {} if part is None else part for name, part in parts.items()}
         return parts
 
+    @field_validator("layers")
+    @classmethod
+    def _layers_can_be(cls, parts: tuple[LayerPart, ...]) -> tuple[LayerPart, ...]:
+        try:
+            check_order([part.layer() for part in parts])
+        except SimulationError as error:
+            raise ValueError(str(error)) from error
+        return parts
+
     @field_validator("tolerances")
     @classmethod
     def _known_metrics(cls, tolerances: Mapping[str, Tolerance]) -> Mapping[str, Tolerance]:
@@ -143,7 +158,8 @@ class Exercise(Strict):
     @model_validator(mode="after")
     def _an_assessment_locks_all(self) -> Exercise:
         if self.purpose is Purpose.ASSESSMENT and self.locks is not None:
-            free = [lock.value for lock in Lock if lock not in self.locks]
+            later = Lock.MODELS  # younger than the lists that name the others
+            free = [lock.value for lock in Lock if lock not in (*self.locks, later)]
             if free:
                 raise ValueError(
                     f"locks: an assessment locks all controls, and {', '.join(free)} is missing: "

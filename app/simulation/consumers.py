@@ -16,6 +16,23 @@ DEVICE_AXES: Final[dict[str, tuple[str, ...]]] = {
 """What a device that can render along an axis reads."""
 
 
+IN_WORDS: Final[dict[str, str]] = {
+    "force": "the force across the needle",
+    "axial_force": "the force along the needle",
+    "target_shift": "the motion of the target",
+    "tip_offset": "the bend of the needle",
+    "tip_slope": "the bend of the needle",
+    "root_curvature": "the bend of the needle",
+    "bent_length": "the bend of the needle",
+    "indentation": "how far the tip dimples the tissue",
+    "punctures": "what the tip has punctured",
+    "bone_contact": "whether the tip stands on bone",
+    "potential": "",
+    "gain_work": "",
+}
+"""What a slot or vector holds, as the window says it; an account of energy is said nowhere."""
+
+
 @dataclass(frozen=True, slots=True)
 class Consumer:
     """Somebody who reads slots: `label` as it stands in a sentence, `reads` in lower case."""
@@ -52,5 +69,5 @@ class DevicePort:
             Consumer(f"device {self.name} renders {axis} force", DEVICE_AXES[axis])
             for axis in sorted(self.renders)
         ]
-        hand = [Consumer("the simulated hand feels it along the needle", ("axial_force",))]
+        hand = [Consumer("the simulated hand feels it", ("axial_force",))]
         return (*axes, *(hand if self.simulated else []))

@@ -13,7 +13,7 @@ import numpy as np
 
 from app.core import state_vector as sv
 from app.core.parameters import Stage
-from app.simulation.consumers import Consumer, DevicePort
+from app.simulation.consumers import IN_WORDS, Consumer, DevicePort
 from app.simulation.effects import Effect, declaration, implementation, parameters_of
 from app.simulation.errors import SimulationError
 from app.simulation.scene import Binding, EffectRequest, Scene
@@ -35,6 +35,11 @@ class KeptEffect:
     def name(self) -> str:
         """Name of the effect."""
         return self.declaration.name
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """A sentence for each parameter outside its range in the literature."""
+        return self.declaration.unpublished(self.parameters)
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +77,7 @@ class SimulationPlan:
         from app.simulation.clearing import clear  # compiled; the plan itself is needed sooner
 
         first = Stage("clear_effects", clear, np.zeros(1))
-        return [first, *(self._stage(kept) for kept in self.kept)]
+        return [first, *(self.stage(kept) for kept in self.kept)]
 
     def energy_bound(self) -> float:
         """Return the most energy that the kept effects can store behind FORCE_* together [J].
@@ -85,19 +90,40 @@ class SimulationPlan:
         """
         return sum(self._bound(kept) for kept in self.kept)
 
+    def warnings(self) -> dict[str, tuple[str, ...]]:
+        """Return for each kept effect what to know of it before its forces are believed.
+
+        Parameters outside their range in the literature, and what its file says of this scene
+        (a function `warnings(values, binding)`).
+        """
+        found = {}
+        for kept in self.kept:
+            module, binding = implementation(kept.name), self._binding(kept, kept.model)
+            own = module.warnings(kept.parameters, binding) if hasattr(module, "warnings") else ()
+            found[kept.name] = (*kept.warnings, *own)
+        return found
+
     def _bound(self, kept: KeptEffect) -> float:
         module = implementation(kept.name)
         if not hasattr(module, "energy_bound"):
             return 0.0
-        bound = float(module.energy_bound(self._stage(kept)[2]))
+        bound = float(module.energy_bound(self.stage(kept)[2]))
         if not 0.0 <= bound < math.inf:
             raise SimulationError(
                 f"effect {kept.name}: energy_bound is {bound} J; give a finite number of 0 or more"
             )
         return bound
 
-    def _stage(self, kept: KeptEffect) -> Stage:
-        binding = Binding(self.scene, self.depth_slot, kept.model)
+    def _binding(self, kept: KeptEffect, model: str) -> Binding:
+        return Binding(self.scene, self.depth_slot, model)
+
+    def stage(self, kept: KeptEffect, model: str = "") -> Stage:
+        """Import a kept effect and return its stage with fresh memory, by its own or another model.
+
+        Raises:
+            SimulationError: if its file cannot be used.
+        """
+        binding = self._binding(kept, model or kept.model)
         array = parameters_of(kept.name, kept.parameters, binding)
         return Stage(kept.name, implementation(kept.name).step, array)
 
@@ -182,21 +208,24 @@ def _feeds(name: str) -> str:
 
 
 def _because(declared: Effect, consumers: tuple[str, ...]) -> str:
-    return f"simulated: it writes {_slots(declared.writes)}; {'; '.join(consumers)}"
+    return f"simulated: it gives {_in_words(declared.writes)}; {'; '.join(consumers)}"
 
 
 def _nobody(declared: Effect, device: DevicePort) -> str:
     axes = ", ".join(sorted(device.renders)) or "no"
     return (
-        f"dropped: it writes {_slots(declared.writes)}, which nobody reads: device {device.name} "
-        f"renders {axes} force, and no view, metric or other effect asks for it"
+        f"dropped: it gives {_in_words(declared.writes)}, and nobody asks for that: device "
+        f"{device.name} renders {axes} force, and no view that is shown, no metric that is scored "
+        "and no other effect needs it"
     )
 
 
-def _slots(names: Sequence[str]) -> str:
-    """`force_x, force_y, force_z` -> `force`; the axes of one vector are one thing."""
-    stems = [name[:-2] if name.endswith(("_x", "_y", "_z")) else name for name in names]
-    return ", ".join(dict.fromkeys(stems))
+def _in_words(slots: Sequence[str]) -> str:
+    """Say what slots hold, each thing once; the axes of one vector are one thing."""
+    stems = [name[:-2] if name.endswith(("_x", "_y", "_z")) else name for name in slots]
+    words = [IN_WORDS.get(stem, stem.replace("_", " ")) for stem in stems]
+    named = [word for word in dict.fromkeys(words) if word] or ["nothing but its own account"]
+    return " and ".join([", ".join(named[:-1]), named[-1]] if len(named) > 1 else named)
 
 
 def _ordered(kept: dict[str, Effect]) -> list[str]:

@@ -275,7 +275,8 @@ def _rest(speed: float) -> float:
     return speed if abs(speed) > _SNAP else 0.0
 
 
-SUBSTEP: Final = 0.5e-3  # [s]
+SUBSTEP: Final = 0.5e-3
+"""Longest substep [s]; by measurement: `acus study plant_substeps`."""
 LONGEST_STEP: Final = 5e-3  # [s] as the loop clamps it
 _TORQUE: Final = 5.0  # [N·m] far beyond any motor of this size
 _AXIAL: Final = 50.0  # [N]
@@ -341,15 +342,15 @@ def _move_hand(state: FloatArray, p: FloatArray, dt: float, pose: Pose) -> bool:
     return holds
 
 
-@stage
-def step(state: FloatArray, parameters: FloatArray) -> None:
-    """Move hand, robot and needle by DT (at most 5 ms) and write the forces of the hand."""
+@njit
+def move(state: FloatArray, parameters: FloatArray, substep: float) -> None:
+    """Do what `step` does, in substeps of at most `substep` [s]."""
     pose = _recover(state, parameters)
     dt = min(state[sv.DT], LONGEST_STEP) if state[sv.DT] > 0.0 else 0.0  # not for NaN
     holds = _move_hand(state, parameters, dt, pose)
     if dt > 0.0:
         gx, gy, gz = grip_direction(state)
-        substeps = int(np.ceil(dt / SUBSTEP - 1e-9))
+        substeps = int(np.ceil(dt / substep - 1e-9))
         h = dt / max(substeps, 1)
         t1 = _bounded(state[sv.TORQUE_LEFT], _TORQUE)
         t2 = _bounded(state[sv.TORQUE_RIGHT], _TORQUE)
@@ -358,6 +359,12 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
             slide(state, parameters, h, tissue, holds, pose)
             pose = swing(state, parameters, h, t1, t2, holds, gx, gy, gz, pose)
     _report(state, parameters, holds, pose)
+
+
+@stage
+def step(state: FloatArray, parameters: FloatArray) -> None:
+    """Move hand, robot and needle by DT (at most 5 ms) and write the forces of the hand."""
+    move(state, parameters, SUBSTEP)
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,8 @@ It runs on TIME since the attempt was armed, so a run is the same on every machi
 rate; it begins afresh with every attempt, from where the hand is: what the script's beginning lies
 off it is taken out along a minimum-jerk curve while the script hovers.
 
-Where the target breathes, its last moment waits for the rest between two breaths. With `holds` it
+Where the target breathes, it pushes in the rest between two breaths: while the tissue is away its
+time nearly stands still, and so it does at its last moment until the target rests. With `holds` it
 tells the patient to hold the breath before it inserts, waits until the target rests, aims where the
 target rests then, and lets breathe while it draws back.
 """
@@ -27,10 +28,12 @@ STEP: Final = 0.005  # [s] between rows of the script
 TREMOR_STEP: Final = 0.004  # [s] between rows of the tremor tile
 TREMOR_ROWS: Final = 1000  # the tile lasts 4 s and repeats without a seam
 ABOVE_SKIN: Final = -0.015  # [m] depth at which the hand hovers
-WAITING: Final = 0.4  # [s] at the end of the script, that last up to 8 s where the target moves
-_SLOWER: Final = 0.95  # of the time that passes then, this much is waited
+WAITING: Final = 0.4  # [s] at the end of the script, that last up to 80 s where the target moves
+_WAITED: Final = 0.995  # of the time that passes then while the target is away
+_CREPT: Final = 0.98  # of the time that passes so while it pushes
 _INSERT, _CORRECT, _WAIT = 3.0, 6.0, 8.0  # `ScriptPhase`, as compiled code compares them
 _AT_REST: Final = 3e-4  # [m] from its place at the end of a breath
+_NEAR: Final = 2e-3  # [m] from it, where it still pushes: 44 % of the time with the default breath
 _STILL: Final = 0.2  # [s] without any motion: the breath is held
 _AIMS: Final = 0.2  # [s] time constant with which the held target is aimed at
 
@@ -373,10 +376,10 @@ def _begin_where_the_hand_is(state: FloatArray, p: FloatArray) -> None:
 
 
 @njit
-def _breathes_away(state: FloatArray) -> bool:
-    """Whether the target is away from where it rests at the end of a breath."""
+def _breathes_away(state: FloatArray, near: float) -> bool:
+    """Whether the target is further than `near` [m] from where it rests at the end of a breath."""
     x, y, z = state[sv.TARGET_SHIFT_X], state[sv.TARGET_SHIFT_Y], state[sv.TARGET_SHIFT_Z]
-    return x * x + y * y + z * z > _AT_REST * _AT_REST
+    return x * x + y * y + z * z > near * near
 
 
 @njit
@@ -431,8 +434,11 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
     waited = 0.0
     if len(parameters) > told:
         waited = 1.0 if _waits_for_hold(state, parameters, told, phase) else 0.0
-    elif phase == _WAIT and _breathes_away(state):
-        waited = _SLOWER
+    elif phase == _INSERT or phase >= _CORRECT:
+        if phase == _WAIT:
+            waited = _WAITED if _breathes_away(state, _AT_REST) else 0.0
+        else:
+            waited = _CREPT if _breathes_away(state, _NEAR) else 0.0
     if waited > 0.0:
         parameters[_AT.start] += waited * state[sv.DT]
         elapsed = max(0.0, time - parameters[_AT.start])

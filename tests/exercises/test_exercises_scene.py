@@ -69,7 +69,7 @@ def test_an_exercise_without_layers_has_those_of_the_simulation() -> None:
 def test_scored_metrics_are_consumers_of_what_they_read() -> None:
     chosen = exercise(tolerances={"depth_error": {"expert": 1, "good": 2, "pass": 3}})
     (consumer,) = metric_consumers(chosen)
-    assert consumer.label == "metric depth_error scores it"
+    assert consumer.label == "“Depth error” scores it"
     assert "target_shift_x" in consumer.reads
 
 
@@ -82,7 +82,7 @@ def test_the_first_insertion_drops_breathing_of_an_organ_the_target_is_not_in() 
 def test_friction_along_the_needle_is_dropped_on_a_robot_that_cannot_push_that_way() -> None:
     kept, dropped = fate("first-insertion", simulated=False)
     assert kept == ["lateral_tissue"]
-    assert "nobody reads" in dropped["shaft_friction"]
+    assert "nobody asks for that" in dropped["shaft_friction"]
 
 
 def test_breathing_is_kept_where_view_and_metrics_consume_it() -> None:
@@ -90,15 +90,20 @@ def test_breathing_is_kept_where_view_and_metrics_consume_it() -> None:
     assert kept == ["breathing", "lateral_tissue"]
 
 
-def test_breathing_is_dropped_where_neither_view_nor_metric_consumes_it() -> None:
+def test_breathing_is_dropped_where_neither_hand_nor_view_nor_metric_consumes_it() -> None:
+    tolerances = {"planned_target_error": {"expert": 1, "good": 2, "pass": 3}}
+    chosen = exercise(effects={"breathing": {"organ": "liver"}}, tolerances=tolerances)
+    plan = compile_exercise(chosen, device_of(chosen), declared_views(), simulated=False)
+    assert plan.kept == ()
+    assert "nobody" in plan.dropped[0].why
     kept, dropped = fate("thick-tissue", simulated=False)
     assert kept == ["lateral_tissue", "shaft_friction"]
-    assert "nobody reads" in dropped["breathing"]
+    assert "acts on lung" in dropped["breathing"]
 
 
 def test_an_unknown_effect_or_parameter_is_refused_with_the_names_that_exist() -> None:
     chosen = exercise(effects={"earthquake": None})
-    with pytest.raises(SimulationError, match="no effect 'earthquake'; there are breathing"):
+    with pytest.raises(SimulationError, match="no effect 'earthquake'; there are bevel"):
         compile_exercise(chosen, device_of(chosen), declared_views())
     chosen = exercise(effects={"breathing": {"parameters": {"speed": 1.0}}})
     with pytest.raises(SimulationError, match=r"no parameter 'speed'; it has .*period"):

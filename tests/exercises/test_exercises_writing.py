@@ -85,7 +85,7 @@ def exercises(draw):
         "fading": draw(st.none() | st.just(fading)),
         "laws": draw(laws), "effects": draw(parts),
         "layers": draw(st.lists(st.builds(lambda name, mm: {"name": name, "thickness_mm": mm},
-                                          texts, st.floats(0.0, 1e3)), max_size=3)),
+                                          texts, st.floats(1e-3, 1e3)), max_size=3)),
         "needle": {"gauge": draw(st.sampled_from((17, 25)))},
         "target_organ": draw(texts),
         "tolerances": {"lateral_error": draw(knots()), "tracking_valid": draw(knots(falling=True))},

@@ -2,9 +2,11 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
+from app.simulation import effects
 from app.simulation.consumers import Consumer, DevicePort
 from app.simulation.effects import declaration, effect_names
 from app.simulation.errors import SimulationError
@@ -24,10 +26,10 @@ def names(scene: Scene, device: DevicePort, **asked: tuple[Consumer, ...]) -> se
 
 def test_a_device_that_pushes_sideways_gets_no_axial_friction() -> None:
     plan = compile(Scene(effects=ALL), REAL, views=(Consumer("view axial shows it", ()),))
-    assert [kept.name for kept in plan.kept] == ["lateral_tissue"]
-    assert {d.name for d in plan.dropped} == {"breathing", "shaft_friction"}
+    assert [kept.name for kept in plan.kept] == ["breathing", "lateral_tissue"]
+    assert {d.name for d in plan.dropped} == {"shaft_friction"}
     why = next(d.why for d in plan.dropped if d.name == "shaft_friction")
-    assert "axial_force" in why
+    assert "the force along the needle" in why
     assert "icube renders lateral force" in why
 
 
@@ -69,7 +71,7 @@ def test_an_effect_without_layers_or_on_another_organ_is_dropped() -> None:
 @pytest.mark.parametrize(
     ("request_", "message"),
     [
-        (EffectRequest("tissue"), "there are breathing, lateral_tissue, shaft_friction"),
+        (EffectRequest("tissue"), "there are bevel, bone_contact, breathing, "),
         (EffectRequest("../scene"), "there is no effect"),
         (EffectRequest("breathing", {"perod": 4.0}), "has no parameter 'perod'"),
         (EffectRequest("breathing", {"period": 0.0}), "period is 0.0; give 0.5 to 60 s"),
@@ -130,7 +132,8 @@ from app.simulation.consumers import DevicePort
 from app.simulation.scene import EffectRequest, Scene
 
 names = ("breathing", "shaft_friction", "lateral_tissue")
-scene = Scene(effects=tuple(EffectRequest(n) for n in names))
+asked = tuple(EffectRequest(n, organ="lung" if n == "breathing" else "") for n in names)
+scene = Scene(effects=asked, target_organ="liver")
 plan = compile(scene, DevicePort("icube"))
 compiled = [m for m in sys.modules if m.startswith("app.simulation.effects.")]
 stages = [name for name, _, _ in plan.stages()]
@@ -146,6 +149,73 @@ def test_a_dropped_effect_is_not_even_imported() -> None:
     assert done.stdout.strip() == (
         "[] ['clear_effects', 'lateral_tissue'] ['app.simulation.effects.lateral_tissue']"
     )
+
+
+POISONED = """
+raise RuntimeError("imported")
+
+def parameters(values, binding):
+    raise RuntimeError("asked for its parameters")
+
+def step(state, parameters):
+    raise RuntimeError("called")
+
+DECLARATION = {
+    "title": "Poison", "reads": (), "writes": ("axial_force",), "consumers": (), "needs": (),
+    "models": {"one": "raises"}, "energy": ("active", "a test"), "cost_class": "A",
+    "parameters": {"amount": (1.0, "N", 0.0, 2.0, "of poison")},
+    "published": {"amount": (0.5, 0.9, "Paracelsus 1538")},
+}
+"""
+
+
+@pytest.fixture
+def poison(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> EffectRequest:
+    (tmp_path / "poison.py").write_text(POISONED)
+    monkeypatch.setattr(effects, "__path__", [*effects.__path__, str(tmp_path)])
+    return EffectRequest("poison")
+
+
+def test_a_dropped_effect_that_raises_wherever_it_is_touched_is_never_touched(poison) -> None:
+    plan = compile(Scene(effects=(poison, EffectRequest("lateral_tissue"))), REAL)
+    assert [dropped.name for dropped in plan.dropped] == ["poison"]
+    assert [stage.name for stage in plan.stages()] == ["clear_effects", "lateral_tissue"]
+    assert plan.energy_bound() > 0.0
+    assert set(plan.warnings()) == {"lateral_tissue"}
+    kept = compile(Scene(effects=(poison,)), SIMULATED)
+    with pytest.raises(SimulationError, match="poison"):
+        kept.stages()
+
+
+def test_a_value_outside_its_published_range_is_said_with_its_source(poison) -> None:
+    (kept,) = compile(Scene(effects=(poison,)), SIMULATED).kept
+    assert kept.warnings == ("amount is 1 N; published are 0.5 to 0.9 (Paracelsus 1538)",)
+    deep = EffectRequest("breathing", {"superior_inferior": 0.05, "period": 3.0})
+    (kept,) = compile(Scene(effects=(deep,)), SIMULATED, views=(MOTION,)).kept
+    assert [text.split(";")[0] for text in kept.warnings] == ["superior_inferior is 0.05 m"]
+
+
+@pytest.mark.parametrize(
+    ("row", "words"),
+    [
+        ('"other": (0.5, 0.9, "a")', "published names 'other', which is no parameter"),
+        ('"amount": (0.9, 0.5, "a")', "published 'amount' is"),
+        ('"amount": (0.5, 0.9, "")', "published 'amount' is"),
+        ('"amount": (0.5, float, "a")', "not a literal"),
+    ],
+)
+def test_a_published_range_that_cannot_be_is_refused_by_line(tmp_path, row, words) -> None:
+    path = tmp_path / "poison.py"
+    path.write_text(POISONED.replace('"amount": (0.5, 0.9, "Paracelsus 1538")', row))
+    with pytest.raises(SimulationError, match=words) as caught:
+        effects.KIND.read(path)
+    assert "poison.py, line 1" in str(caught.value)
+
+
+@pytest.mark.parametrize("name", effect_names())
+def test_what_an_effect_sets_by_default_is_published(name: str) -> None:
+    declared = declaration(name)
+    assert declared.unpublished(declared.checked({})) == ()
 
 
 def test_stages_have_fresh_memory_each_time() -> None:

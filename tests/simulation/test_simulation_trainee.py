@@ -140,7 +140,7 @@ def breathing_run(shift: Callable[[float, bool], float], holds: bool) -> FloatAr
     _, step, parameters = trainee_stage(AXIS, DEPTH, "expert", 1, holds=holds)
     state, rows = sv.empty_state(), []
     state[sv.ENABLED], state[sv.DT] = 1.0, 0.002
-    for k in range(20_000):
+    for k in range(250_000):
         state[sv.TIME] = 100.0 + 0.002 * k
         state[sv.HOLD_BREATH] = 0.0
         step(state, parameters)
@@ -162,7 +162,17 @@ def test_its_end_waits_for_the_rest_between_two_breaths(period: float) -> None:
 
 def test_it_does_not_wait_for_a_rest_that_never_comes() -> None:
     rows = breathing_run(lambda _t, _a: 0.005, holds=False)
-    assert len(rows) * 0.002 < 22.0
+    still = breathing_run(lambda _t, _a: 0.0, holds=False)
+    pushing = np.count_nonzero(still[:, 3] >= ScriptPhase.INSERT) * 0.002
+    assert len(rows) * 0.002 < len(still) * 0.002 + 50.0 * pushing + 80.0
+
+
+def test_it_pushes_in_the_rest_between_two_breaths() -> None:
+    rows = breathing_run(lambda t, _: -0.012 * np.sin(np.pi * t / 4.0) ** 4, holds=False)
+    pushed = np.diff(rows[:, 2], prepend=rows[0, 2])
+    inside = (rows[:, 3] == ScriptPhase.INSERT) & (rows[:, 2] > 0.0)
+    away = np.abs(rows[:, 5]) > 2e-3
+    assert np.abs(pushed[inside & away]).sum() < 0.15 * np.abs(pushed[inside]).sum()
 
 
 def test_it_has_the_breath_held_waits_and_aims_where_the_target_rests() -> None:

@@ -51,6 +51,13 @@ DECLARATION: Final[dict[str, Any]] = {
         "spread": (0.003, "m", 0.0, 0.02, "standard deviation of where holds lie (on_command)"),
         "draws": (1.0, "-", 0.0, 1e6, "seed of where they lie (on_command)"),
     },
+    "published": {
+        "superior_inferior": (0.0051, 0.0171, "liver tracked in 14 patients, PMC5978939"),
+        "anterior_posterior": (0.0009, 0.0077, "liver tracked in 14 patients, PMC5978939"),
+        "left_right": (0.0004, 0.004, "liver tracked in 14 patients, PMC5978939"),
+        "period": (2.18, 6.67, "9 to 27.5 breaths a minute, doi 10.1186/1748-717X-8-248"),
+        "shape": (1.0, 3.0, "Lujan 1999"),
+    },
 }
 
 

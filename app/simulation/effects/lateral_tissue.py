@@ -52,8 +52,23 @@ The tip goes straight ahead through new tissue, which is laid down where the nee
 advancing adds no energy at all. Withdrawing frees tissue; what is left of the last bin is the
 straight line nearest to what was laid there. Energy falls by both, so the lateral port is passive.
 
+Tissue that breathing moves drags the needle. A layer shifts by its share w of the displacement δ
+(TARGET_SHIFT): what it holds is p - w δ, so new tissue is laid in coordinates that move with it. By
+superposition the place at an edge is G n + R δ + y. With P = R - (w, 0), the same filter gives
+
+    U = ½ a + n · D δ + ½ b |δ|² - n · m - δ · e + c,    D += Gᵀ (F - F C F) P,  C = (1 + S F)⁻¹ S,
+    b += Pᵀ (F - F C F) P,  e += Pᵀ (1 - F C)(q - F y),  R <- (1 + S F)⁻¹ P + (w, 0), led on,
+
+R, D and b once for all. The moment becomes m - D δ; of a rigid needle D δ = -Σ k_i w_i ∫ s ds δ. A
+breath held elsewhere than where the needle was inserted leaves a side force, and the tip goes with
+the tissue. What δ alone changes of U was supplied by the patient: it is counted in POTENTIAL and as
+GAIN_WORK, so no more than that comes out in a cycle. δ's part along the needle moves no force and
+no tip; its share of U (tissue that clings to the shaft) comes and goes through GAIN_WORK alone.
+Neglected are that tissue moves along the shaft and past the tip, and its motion within a layer.
+A bin of two layers moves with their mean share. Where no layer moves, the array has none of this.
+
 Array: heads, layers (end, k), then per edge: S, G and a, which no history changes; y, m, c; and the
-q of the bin below the edge.
+q of the bin below the edge; where layers move, δ, then per edge R, D, b, w and e.
 """
 
 from collections.abc import Mapping
@@ -116,11 +131,33 @@ class _EdgePlaces(NamedTuple):
     q1_z: int
 
 
+class _DraggedPlaces(NamedTuple):
+    """Of an edge, where layers move: R, D, b; share w of the bin below; e (vector)."""
+
+    r0: int
+    r1: int
+    d: int
+    b: int
+    share: int
+    e: int
+    e_y: int
+    e_z: int
+
+
 AT: Final = numbered(_BuriedPlaces)
 _EDGE: Final = numbered(_EdgePlaces)
+_DRAG: Final = numbered(_DraggedPlaces)
+FURTHEST: Final = 0.1
+"""Displacement of the tissue beyond which it is followed no further [m]."""
 
 
-def empty(ends: FloatArray, stiffness: FloatArray, flexibility: float, lever: float) -> FloatArray:
+def empty(
+    ends: FloatArray,
+    stiffness: FloatArray,
+    flexibility: float,
+    lever: float,
+    shares: FloatArray | None = None,
+) -> FloatArray:
     """Return the array of tissue not yet pierced.
 
     Args:
@@ -128,18 +165,49 @@ def empty(ends: FloatArray, stiffness: FloatArray, flexibility: float, lever: fl
         stiffness: side stiffness of each [N/m²], shape (n,).
         flexibility: 1 / EI of the needle [1/(N·m²)]; 0 for a rigid one.
         lever: shortest L_out [m].
+        shares: of the displacement of breathing that each goes along with, 0 to 1, shape (n,); None
+            where nothing moves.
     """
     bins = int(np.ceil(ends[-1] / BIN)) + 1
     pairs = np.column_stack([ends, stiffness]).ravel()
     edges = np.zeros(len(_EDGE) * (bins + 1))
     p = packed(AT, pairs, edges, layers=len(ends), bins=bins, lever=lever, flexibility=flexibility)
+    if shares is not None and shares.any():
+        p = np.concatenate([p, np.zeros(3 + len(_DRAG) * (bins + 1))])
+        for j in range(bins):
+            p[_drag(p, j) + _DRAG.share] = _mean_share(ends, stiffness, shares, j)
     _tabulate(p)
     return p
+
+
+def _mean_share(ends: FloatArray, stiffness: FloatArray, shares: FloatArray, j: int) -> float:
+    """Share of bin j: the mean over its tissue by stiffness; 0 without any."""
+    starts = np.concatenate([[0.0], ends[:-1]])
+    within = np.clip(np.minimum(ends, (j + 1) * BIN) - np.maximum(starts, j * BIN), 0.0, None)
+    held = within * stiffness
+    return float(held @ shares / held.sum()) if held.sum() > 0.0 else 0.0
 
 
 @njit
 def _edge(p: FloatArray, j: int) -> int:
     return len(AT) + 2 * int(p[AT.layers]) + len(_EDGE) * j
+
+
+@njit
+def _shift(p: FloatArray) -> int:
+    """Where δ stands in an array whose layers move."""
+    return _edge(p, int(p[AT.bins]) + 1)
+
+
+@njit
+def moves(p: FloatArray) -> bool:
+    """Whether layers move with breathing."""
+    return len(p) > _shift(p)
+
+
+@njit
+def _drag(p: FloatArray, j: int) -> int:
+    return _shift(p) + 3 + len(_DRAG) * j
 
 
 @njit
@@ -180,22 +248,54 @@ def _held(p: FloatArray, e: int, f0: float, f1: float, f2: float) -> Any:
 
 
 @njit
+def _coupled(x0: float, x1: float, z0: float, z1: float, f: Any, c: Any) -> float:
+    """xᵀ (F - F C F) z: energy of the tissue F below an edge between two free places there."""
+    r0, r1 = f[0] * x0 + f[1] * x1, f[1] * x0 + f[2] * x1
+    s0, s1 = f[0] * z0 + f[1] * z1, f[1] * z0 + f[2] * z1
+    lost = c[0] * r0 * s0 + (c[1] * r0 * s1 + c[1] * s0 * r1) + c[2] * r1 * s1
+    return x0 * s0 + x1 * s1 - lost
+
+
+@njit
 def _unit_moment(p: FloatArray, e: int, f: Any, c: Any) -> float:
     """Return `a`, the moment per unit of n, with the tissue F below the edge at `e`."""
     g0, g1 = p[e + _EDGE.g0], p[e + _EDGE.g1]
-    r0, r1 = f[0] * g0 + f[1] * g1, f[1] * g0 + f[2] * g1
-    lost = c[0] * r0 * r0 + 2.0 * c[1] * r0 * r1 + c[2] * r1 * r1
-    return p[e + _EDGE.a] + max(g0 * r0 + g1 * r1 - lost, 0.0)
+    return p[e + _EDGE.a] + max(_coupled(g0, g1, g0, g1, f, c), 0.0)
+
+
+@njit
+def _dragged(p: FloatArray, j: int, f: Any, c: Any) -> tuple[float, float]:
+    """D and b with the tissue F of bin j, as `_unit_moment` gives a."""
+    e, t = _edge(p, j), _drag(p, j)
+    g0, g1 = p[e + _EDGE.g0], p[e + _EDGE.g1]
+    p0, p1 = p[t + _DRAG.r0] - p[t + _DRAG.share], p[t + _DRAG.r1]
+    d = p[t + _DRAG.d] + _coupled(g0, g1, p0, p1, f, c)
+    return d, p[t + _DRAG.b] + max(_coupled(p0, p1, p0, p1, f, c), 0.0)
+
+
+@njit
+def _tabulate_drag(p: FloatArray, j: int, f: Any, held: Any) -> None:
+    """Fill R, D and b at the edge below bin j."""
+    t, below = _drag(p, j), _drag(p, j + 1)
+    p[below + _DRAG.d], p[below + _DRAG.b] = _dragged(p, j, f, held[4:])
+    p0, p1 = p[t + _DRAG.r0] - p[t + _DRAG.share], p[t + _DRAG.r1]
+    turn = held[2] * p0 + held[3] * p1
+    p[below + _DRAG.r0] = held[0] * p0 + held[1] * p1 + p[t + _DRAG.share] + BIN * turn
+    p[below + _DRAG.r1] = turn
 
 
 @njit
 def _tabulate(p: FloatArray) -> None:
-    """Fill what depends on layers and needle alone: S, G and a at every edge."""
+    """Fill what depends on layers and needle alone: S, G and a at every edge; R, D and b."""
+    dragged = moves(p)
     p[_edge(p, 0) + _EDGE.g1] = 1.0
     for j in range(int(p[AT.bins])):
         e, below = _edge(p, j), _edge(p, j + 1)
         f0, f1, f2 = _tissue(p, j, 0.0, BIN)
-        i11, i12, i21, i22, c11, c12, c22 = _held(p, e, f0, f1, f2)
+        held = _held(p, e, f0, f1, f2)
+        i11, i12, i21, i22, c11, c12, c22 = held
+        if dragged:
+            _tabulate_drag(p, j, (f0, f1, f2), held)
         p[below + _EDGE.a] = _unit_moment(p, e, (f0, f1, f2), (c11, c12, c22))
         g0, g1 = p[e + _EDGE.g0], p[e + _EDGE.g1]
         turn = i21 * g0 + i22 * g1
@@ -221,7 +321,7 @@ def rotational_stiffness(p: FloatArray, depth: float) -> float:
 
 @njit
 def at_tip(p: FloatArray, axis: int, n: float) -> Any:
-    """One coordinate of the solution: (place of the tip [m], its slope, m, its share of U - ½ a).
+    """One coordinate of the solution: (place of the tip [m], its slope, moment, share of U - ½ a).
 
     Args:
         p: the array.
@@ -249,6 +349,16 @@ def at_tip(p: FloatArray, axis: int, n: float) -> Any:
         - r0 * v0
         - r1 * v1
     )
+    if moves(p):
+        t, shift = _drag(p, j), p[_shift(p) + axis]
+        share = p[t + _DRAG.share]
+        p0, p1 = p[t + _DRAG.r0] - share, p[t + _DRAG.r1]
+        place += (i11 * p0 + i12 * p1 + share) * shift
+        slope += (i21 * p0 + i22 * p1) * shift
+        pulled = p0 * (r0 - f0 * v0 - f1 * v1) + p1 * (r1 - f1 * v0 - f2 * v1)
+        d, b = _dragged(p, j, (f0, f1, f2), (c11, c12, c22))
+        m -= d * shift
+        rest += shift * (0.5 * b * shift - p[t + _DRAG.e + axis] - pulled)
     return place + slope * length, slope, m, rest - n * m
 
 
@@ -274,6 +384,7 @@ def _finish_bin(p: FloatArray, j: int) -> None:
     s11, s12, s22 = p[e + _EDGE.s11], p[e + _EDGE.s12], p[e + _EDGE.s22]
     g0, g1 = p[e + _EDGE.g0], p[e + _EDGE.g1]
     total = p[e + _EDGE.c] + 0.5 * p[AT.square]
+    dragged = moves(p)
     for axis in range(3):
         q0, q1 = p[AT.q0 + axis], p[AT.q1 + axis]
         y0, y1 = p[e + _EDGE.y0 + axis], p[e + _EDGE.y1 + axis]
@@ -294,6 +405,11 @@ def _finish_bin(p: FloatArray, j: int) -> None:
         p[below + _EDGE.y0 + axis] = i11 * b0 + i12 * b1 + BIN * turn
         p[below + _EDGE.y1 + axis] = turn
         p[e + _EDGE.q0 + axis], p[e + _EDGE.q1 + axis] = q0, q1
+        if dragged:
+            t = _drag(p, j)
+            p0, p1 = p[t + _DRAG.r0] - p[t + _DRAG.share], p[t + _DRAG.r1]
+            pulled = p0 * (r0 - f0 * v0 - f1 * v1) + p1 * (r1 - f1 * v0 - f2 * v1)
+            p[_drag(p, j + 1) + _DRAG.e + axis] = p[t + _DRAG.e + axis] + pulled
         p[AT.q0 + axis] = p[AT.q1 + axis] = 0.0
     p[below + _EDGE.c] = total
     p[AT.square] = 0.0
@@ -313,11 +429,14 @@ def advance(p: FloatArray, depth: float, x: float, y: float, z: float) -> None:
     """Go on to `depth`, straight ahead from the tip of the needle along (x, y, z)."""
     tip = (at_tip(p, 0, x), at_tip(p, 1, y), at_tip(p, 2, z))
     old = p[AT.depth]
+    dragged = moves(p)
     for j in range(int(old / BIN), int(p[AT.bins])):
         upper = j * BIN
         begin, end = max(old - upper, 0.0), min(depth - upper, BIN)
         for axis in range(3):
             place, slope = tip[axis][0], tip[axis][1]
+            if dragged:
+                place -= p[_drag(p, j) + _DRAG.share] * p[_shift(p) + axis]
             _lay(p, j, begin, end, axis, place + slope * (upper - old), slope)
         if upper + BIN > depth:
             break
@@ -346,11 +465,61 @@ def retreat(p: FloatArray, depth: float) -> None:
     p[AT.depth] = depth
 
 
-__all__ = ["AT", "BIN", "energy_bound", "parameters", "rotational_stiffness", "step"]
+@njit
+def carry(old: FloatArray, new: FloatArray) -> None:
+    """Lay the channel that was cut in `old` down in `new`, of the same layers and another needle.
+
+    Of every bin the straight line nearest to what was laid there, as when a needle withdraws.
+    """
+    depth = old[AT.depth]
+    if depth <= 0.0:
+        return
+    tip = min(int(depth / BIN), int(old[AT.bins]) - 1)
+    for j in range(tip + 1):
+        e, end = _edge(old, j), (depth - tip * BIN if j == tip else BIN)
+        f0, f1, f2 = _tissue(old, j, 0.0, end)
+        det = f0 * f2 - f1 * f1
+        for axis in range(3):
+            q0 = old[AT.q0 + axis] if j == tip else old[e + _EDGE.q0 + axis]
+            q1 = old[AT.q1 + axis] if j == tip else old[e + _EDGE.q1 + axis]
+            at, on = (q0 / f0 if f0 > 0.0 else 0.0), 0.0
+            if det > 1e-9 * f0 * f2:
+                at, on = (f2 * q0 - f1 * q1) / det, (f0 * q1 - f1 * q0) / det
+            _lay(new, j, 0.0, end, axis, at, on)
+        if j < tip:
+            _finish_bin(new, j)
+    new[AT.depth] = depth
+    if moves(old) and moves(new):
+        for axis in range(3):
+            new[_shift(new) + axis] = old[_shift(old) + axis]
+
+
+@njit
+def _follow(state: FloatArray, p: FloatArray) -> None:
+    """Take the displacement δ from the state where layers move; what is no number moves nothing."""
+    x, y, z = state[sv.TARGET_SHIFT_X], state[sv.TARGET_SHIFT_Y], state[sv.TARGET_SHIFT_Z]
+    length = np.sqrt(x * x + y * y + z * z)
+    if not moves(p) or not np.isfinite(length):
+        return
+    near = FURTHEST / length if length > FURTHEST else 1.0
+    at = _shift(p)
+    p[at], p[at + 1], p[at + 2] = near * x, near * y, near * z
+
+
+__all__ = [
+    "AT",
+    "BIN",
+    "FURTHEST",
+    "carry",
+    "energy_bound",
+    "parameters",
+    "rotational_stiffness",
+    "step",
+]
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Side stiffness of layered tissue about the fulcrum",
-    "reads": ("axis", "depth", "depth_source", "l_out", "kinematics"),
+    "reads": ("axis", "depth", "depth_source", "l_out", "kinematics", "target_shift"),
     "writes": (
         "force",
         "potential",
@@ -368,7 +537,8 @@ DECLARATION: Final[dict[str, Any]] = {
     },
     "energy": (
         "potential",
-        "stored energy is never negative; advancing adds none, retreating loses it",
+        "stored energy is never negative; advancing adds none, retreating loses it, and what"
+        " breathing adds by moving layers is counted in gain_work",
     ),
     "cost_class": "A",
     "parameters": {
@@ -395,7 +565,8 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
     stiffness = np.array([scale * layer.side_stiffness for layer in scene.layers])
     rigid = binding.model == "winkler"
     flexibility = 0.0 if rigid else 1.0 / bending_stiffness(scene.needle.outer_diameter)
-    return empty(ends, stiffness, flexibility, values["shortest_lever"])
+    shares = np.array(scene.shares_moved)
+    return empty(ends, stiffness, flexibility, values["shortest_lever"], shares)
 
 
 @stage
@@ -413,15 +584,16 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
         depth = parameters[AT.depth]
     depth = min(max(depth, 0.0), parameters[AT.bins] * BIN - 0.5 * BIN)
     change = 0.0
-    if depth != parameters[AT.depth]:
+    if depth != parameters[AT.depth] or moves(parameters):
         change = -stored(parameters, x, y, z)
+        _follow(state, parameters)
         if depth > parameters[AT.depth]:
             advance(parameters, depth, x, y, z)
-        else:
+        elif depth < parameters[AT.depth]:
             retreat(parameters, depth)
         change += stored(parameters, x, y, z)
     state[sv.POTENTIAL] += stored(parameters, x, y, z)
-    state[sv.GAIN_WORK] += change  # by advancing and retreating
+    state[sv.GAIN_WORK] += change  # by advancing, retreating and breathing
     px, tx, mx, _ = at_tip(parameters, 0, x)
     py, ty, my, _ = at_tip(parameters, 1, y)
     pz, tz, mz, _ = at_tip(parameters, 2, z)
@@ -445,7 +617,7 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
     state[sv.ROOT_CURVATURE_X] += flexibility * mx
     state[sv.ROOT_CURVATURE_Y] += flexibility * my
     state[sv.ROOT_CURVATURE_Z] += flexibility * mz
-    state[sv.BENT_LENGTH] += depth
+    state[sv.BENT_LENGTH] = max(state[sv.BENT_LENGTH], depth)  # a bevel's bend is as long
 
 
 def stored_energy(parameters: FloatArray, axis: FloatArray) -> float:
@@ -457,6 +629,11 @@ def energy_bound(parameters: FloatArray) -> float:
     """Return the most energy that turning the needle can store [J]: 2 a at the deepest needle.
 
     With the channel's mean direction m / a, no longer than 1, U is ½ a |n - m / a|² and what the
-    channel's own windings hold, which no turning gives back.
+    channel's own windings hold, which no turning gives back. Where layers move, m - D δ is longer:
+    by 2 |D| δ at most, for tissue was laid with a displacement, too; and D² <= a b.
     """
-    return 2.0 * float(rotational_stiffness(parameters, parameters[AT.bins] * BIN - 0.5 * BIN))
+    a = float(rotational_stiffness(parameters, parameters[AT.bins] * BIN - 0.5 * BIN))
+    if not moves(parameters):
+        return 2.0 * a
+    b = float(parameters[_drag(parameters, int(parameters[AT.bins])) + _DRAG.b])
+    return 2.0 * (a**0.5 + FURTHEST * b**0.5) ** 2

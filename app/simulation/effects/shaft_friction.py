@@ -1,22 +1,35 @@
-"""Friction of the tissue along the inserted shaft: Dahl with Stribeck level, plus viscous.
+"""Friction of the tissue along the inserted shaft: dry with Stribeck level, plus viscous.
 
 Per inserted length [N/m]: kinetic level C, break-away level D, viscous b (values of the layers,
 Okamura, Simone, O'Leary 2004). With lengths L_i in the layers and speed v,
 
     g(v) = Σ L_i (C_i + (D_i - C_i) exp(-(v / v_s)²)),   F = f + Σ L_i b_i v,
 
-f follows Dahl's df/dx = σ (1 - f sgn(v) / g) with σ = s Σ L_i, s the presliding stiffness per
-length. Over a displacement Δx at constant g the solution is exact at any step:
+f is a spring of σ = s Σ L_i, s the presliding stiffness per length, that slides at the level g.
 
-    f ← g sgn(Δx) + (f - g sgn(Δx)) exp(-σ |Δx| / g),
+Models, over a displacement Δx:
+- `kikuuwe` (default): Coulomb friction in series with the spring by implicit Euler, in closed form
+  (Kikuuwe, Takesue, Sano, Mochiyama, Fujimoto 2006, T-RO 22(6):1176, without their damper),
 
-so |f| <= g always and no step size, stiffness or speed makes it unstable (explicit Euler diverges
-for |v| > 2 g / (σ T)). It integrates over space, so a needle at rest holds its force and does not
-creep, and a depth that flickers by one count moves f by at most σ times that count.
+      f ← max(-g, min(g, f + σ Δx)):
+
+  stuck, it is a spring and nothing else. A needle at rest whose depth flickers by a count Δ gives
+  back the same two forces, of one sign as long as σ Δ <= g.
+- `dahl`: df/dx = σ (1 - f sgn(v) / g), exact at any step for constant g,
+
+      f ← g sgn(Δx) + (f - g sgn(Δx)) exp(-σ |Δx| / g),
+
+  so |f| <= g always and no step size, stiffness or speed makes it unstable (explicit Euler diverges
+  for |v| > 2 g / (σ T)). A flicker makes f creep to zero and then change sign with every count.
+- `lugre`: the same bristle z = f / σ by the same exponential update, and its damping
+  σ₁ exp(-(v / v_s)²) dz/dt, the whole within ±g (falling with v, which keeps it passive).
+
+All integrate over space, so a needle at rest holds its force and does not creep.
 
 Energy: dissipative but for the presliding spring, which gives back at most g²/(2σ).
 """
 
+import math
 from collections.abc import Mapping
 from typing import Any, Final, NamedTuple
 
@@ -26,15 +39,20 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
 from app.core.parameters import numbered, packed
+from app.simulation.along_needle import SNAP, keep_memory, layer_rows, smoothed_speed, smoothing_of
 from app.simulation.scene import Binding
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Friction of the tissue along the inserted shaft",
-    "reads": ("depth", "dt"),
+    "reads": ("depth", "plant_depth", "dt"),
     "writes": ("axial_force",),
     "consumers": ("device axis axial", "simulated hand", "view force_gauge"),
     "needs": ("layers",),
-    "models": {"dahl": "Dahl with Stribeck level, exponential update exact at any step"},
+    "models": {
+        "kikuuwe": "a spring that slides at the Stribeck level; calm on a measured depth",
+        "dahl": "Dahl with Stribeck level, exponential update exact at any step",
+        "lugre": "the same with damped bristles, within the Stribeck level",
+    },
     "energy": ("dissipative", "the presliding spring returns at most g²/(2σ) of what it took"),
     "cost_class": "A",
     "parameters": {
@@ -59,12 +77,19 @@ DECLARATION: Final[dict[str, Any]] = {
             1.0,
             "time constant of a measured depth's speed",
         ),
+        "bristle_damping": (30.0, "N·s/m²", 0.0, 1e4, "per inserted length (lugre)"),
+    },
+    "published": {
+        "stribeck_speed": (0.0005, 0.0025, "speeds of fits to porcine organs, PMC13024575"),
     },
 }
 
 
 class _FrictionPlaces(NamedTuple):
-    """Constants, how many layers follow, and what is known from the tick before."""
+    """Constants, how many layers follow, and what is known from the tick before.
+
+    Behind the layers stand the law and the damping of its bristles; `dahl` alone has neither.
+    """
 
     slot: int
     presliding: int
@@ -87,8 +112,9 @@ class _LayerPlaces(NamedTuple):
 
 _AT: Final = numbered(_FrictionPlaces)
 _LAYER: Final = numbered(_LayerPlaces)
-_FASTEST: Final = 10.0  # [m/s]; faster is a jump of the measurement
-_SNAP: Final = 1e-12  # below this a decaying value becomes 0: subnormal numbers cost 20 times more
+_KIKUUWE, _LUGRE = 0.0, 2.0
+COUNT: Final = 33e-6
+"""Step of a measured depth that is warned of: that of the encoders of the thesis' device [m]."""
 
 
 def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
@@ -97,22 +123,40 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
     The true depth of a simulated needle is differenced as it is; a measured depth comes in steps
     of a camera frame, so its speed is smoothed over `speed_smoothing`.
     """
-    simulated = binding.depth_slot == sv.PLANT_DEPTH
-    smoothing = 0.0 if simulated else values["speed_smoothing"]
-    layers = []
-    ends = np.cumsum([layer.thickness for layer in binding.scene.layers])
-    for end, layer in zip(ends, binding.scene.layers, strict=True):
-        static = max(layer.static_friction, layer.friction)
-        layers.append((end, layer.friction, static, layer.viscous_friction))
+    rows = layer_rows(binding, "friction", "static_friction", "viscous_friction")
+    rows[:, 2] = np.maximum(rows[:, 1], rows[:, 2])
+    law = {"dahl": [], "lugre": [_LUGRE, values["bristle_damping"]]}
     return packed(
         _AT,
-        np.ravel(layers),
+        rows.ravel(),
+        law.get(binding.model, [_KIKUUWE, 0.0]),
         slot=binding.depth_slot,
         presliding=values["presliding_stiffness"],
         stribeck=values["stribeck_speed"],
-        smoothing=smoothing,
-        layers=len(ends),
+        smoothing=smoothing_of(binding, values["speed_smoothing"]),
+        layers=len(rows),
         depth=np.nan,
+    )
+
+
+def warnings(values: Mapping[str, float], binding: Binding) -> tuple[str, ...]:
+    """Return what a measured depth, which comes in counts, makes of a still hand's friction."""
+    if binding.depth_slot == sv.PLANT_DEPTH:
+        return ()
+    if binding.model in ("dahl", "lugre"):
+        return (
+            f"model {binding.model} changes sign with every count of a measured depth, here "
+            f"{1e6 * COUNT:g} µm; kikuuwe does not",
+        )
+    least = min(
+        (one.friction for one in binding.scene.layers if one.friction > 0.0), default=math.inf
+    )
+    if values["presliding_stiffness"] * COUNT <= least:
+        return ()
+    return (
+        f"presliding_stiffness {values['presliding_stiffness']:g} N/m² times a count of "
+        f"{1e6 * COUNT:g} µm is more than the friction of {least:g} N/m: a still hand feels it "
+        f"change sign with every count; give {least / COUNT:g} N/m² or less",
     )
 
 
@@ -147,6 +191,17 @@ def dahl(force: float, travel: float, level: float, stiffness: float) -> float:
     return end + (force - end) * np.exp(-stiffness * abs(travel) / level)
 
 
+@njit
+def kikuuwe(force: float, travel: float, level: float, stiffness: float) -> float:
+    """Friction force after `travel` [m]: a spring that slides at the level; |result| <= level."""
+    return min(max(force + stiffness * travel, -level), level)
+
+
+def carry(old: FloatArray, new: FloatArray) -> None:
+    """Go on by another model from the same force."""
+    keep_memory(_AT, old, new)
+
+
 @stage
 def step(state: FloatArray, parameters: FloatArray) -> None:
     """Add the friction to AXIAL_FORCE; it opposes the motion (positive pushes the tip out)."""
@@ -158,13 +213,30 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
         parameters[_AT.depth] = depth
     travel = depth - parameters[_AT.depth]
     parameters[_AT.depth] = depth
-    if dt > 0.0:
-        smoothing = parameters[_AT.smoothing]
-        keep = np.exp(-dt / smoothing) if smoothing > 0.0 else 0.0
-        now = min(max(travel / dt, -_FASTEST), _FASTEST)
-        speed = keep * parameters[_AT.speed] + (1.0 - keep) * now
-        parameters[_AT.speed] = speed if abs(speed) > _SNAP else 0.0
-    inserted, level, viscous = _level(parameters, depth, parameters[_AT.speed])
-    force = dahl(parameters[_AT.force], travel, level, parameters[_AT.presliding] * inserted)
-    parameters[_AT.force] = force if abs(force) > _SNAP else 0.0
-    state[sv.AXIAL_FORCE] += parameters[_AT.force] + viscous * parameters[_AT.speed]
+    speed = smoothed_speed(parameters[_AT.speed], travel, dt, parameters[_AT.smoothing])
+    parameters[_AT.speed] = speed
+    inserted, level, viscous = _level(parameters, depth, speed)
+    stiffness, before = parameters[_AT.presliding] * inserted, parameters[_AT.force]
+    behind = len(_AT) + len(_LAYER) * int(parameters[_AT.layers])
+    law = parameters[behind] if len(parameters) > behind else 1.0
+    if law == _KIKUUWE:
+        force = kikuuwe(before, travel, level, stiffness)
+    else:
+        force = dahl(before, travel, level, stiffness)
+    force = force if abs(force) > SNAP else 0.0
+    parameters[_AT.force] = force
+    if law == _LUGRE and dt > 0.0 and stiffness > 0.0:
+        ratio = speed / parameters[_AT.stribeck]
+        damping = parameters[behind + 1] * inserted * np.exp(-ratio * ratio)
+        force += damping * (force - min(max(before, -level), level)) / (stiffness * dt)
+        force = min(max(force, -level), level)
+    state[sv.AXIAL_FORCE] += force + viscous * speed
+
+
+def axial_energy_bound(parameters: FloatArray) -> float:
+    """Return the most that presliding gives back [J]: g²/(2σ) of the whole needle in the tissue."""
+    rows = parameters[len(_AT) :][: len(_LAYER) * int(parameters[_AT.layers])]
+    rows = rows.reshape(-1, len(_LAYER))
+    lengths = np.diff(rows[:, 0], prepend=0.0)
+    level, stiffness = lengths @ rows[:, 2], parameters[_AT.presliding] * rows[-1, 0]
+    return float(0.5 * level**2 / stiffness) if stiffness > 0.0 else 0.0

@@ -1,0 +1,58 @@
+"""The CT of an exercise as it is used: read in the exercise's way, its structures of risk on it."""
+
+from __future__ import annotations
+
+from app.core.progress import Progress
+from app.exercises.errors import ExerciseError
+from app.exercises.schema import Exercise
+from app.imaging.volume import Volume
+from app.session.risks import Risk
+
+
+def read_ct(exercise: Exercise, progress: Progress | None = None) -> Volume:
+    """Read the CT of an exercise in its way.
+
+    Raises:
+        AcusError: if it cannot be read; says why.
+        Cancelled: if `progress` was cancelled.
+    """
+    from app.imaging.phantom.series import phantom_series
+    from app.imaging.reading import choose, load_ct
+    from app.imaging.resampling import read_with
+    from app.imaging.scanning import scan_folder
+
+    progress, ct = progress or Progress(), exercise.ct
+    if ct.folder is None:
+        return load_ct(phantom_series(ct.phantom.seed if ct.phantom else 1, progress))
+    listing = scan_folder(ct.folder, progress.part(0.0, 0.3))
+    return read_with(choose(listing, ct.series, ct.remedy), ct.remedy, progress.part(0.3, 1.0))
+
+
+def load_risks(
+    exercise: Exercise, volume: Volume | None, progress: Progress | None = None
+) -> tuple[Risk, ...]:
+    """Read an exercise's files of structures onto its CT; seconds for large structures.
+
+    Raises:
+        ExerciseError: if there is no CT to place them on.
+        AcusError: if a file cannot be read, does not belong to the CT, or lacks a structure named.
+        Cancelled: if `progress` was cancelled.
+    """
+    parts = [part for part in exercise.structures if part.risks]
+    if not parts:
+        return ()
+    if volume is None:
+        raise ExerciseError(
+            f"exercise {exercise.id} has structures of risk, and no CT to place them on: open it"
+        )
+    from app.imaging.structures.distance import SignedDistance  # scipy
+    from app.imaging.structures.files import read_structures
+
+    progress, risks = progress or Progress(), []
+    for number, part in enumerate(parts):
+        step = progress.part(number / len(parts), (number + 1) / len(parts))
+        found = read_structures(part.file, volume, step.part(0.0, 0.5))
+        for name, limit in part.risks.items():
+            field = SignedDistance.of(found.find(name), step.part(0.5, 1.0))
+            risks.append(Risk(name, limit, field))
+    return tuple(risks)

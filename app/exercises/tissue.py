@@ -1,0 +1,73 @@
+"""Layers of tissue of an exercise from its CT, along its path."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import fields
+from typing import TYPE_CHECKING, Final
+
+from app.exercises.parts import KILOPASCAL, LayerPart, LayersFrom
+from app.imaging.tissue import Tissue, tissue_along
+from app.simulation.scene import BONE, FAT, LIVER, LUNG, MUSCLE, SKIN, TissueLayer
+
+if TYPE_CHECKING:
+    from app.exercises.schema import Exercise
+    from app.imaging.structures.structure import Structure
+    from app.imaging.volume import Volume
+    from app.planning.plan import Plan
+
+REACH_MM: Final = 200.0
+"""The last layer goes on to here: further than any needle [mm]."""
+
+_KINDS: Final = {
+    Tissue.SKIN: SKIN,
+    Tissue.FAT: FAT,
+    Tissue.MUSCLE: MUSCLE,
+    Tissue.ORGAN: LIVER,
+    Tissue.LUNG: LUNG,
+    Tissue.BONE: BONE,
+}
+
+
+def layers_along(
+    volume: Volume, plan: Plan, structures: Sequence[Structure] = ()
+) -> tuple[LayerPart, ...]:
+    """Return the layers that a needle meets, from the skin inwards, bone being the last.
+
+    Thickness is the CT's, to a tenth of a millimetre; all else is that of the kind of tissue
+    (`simulation.scene`), an organ being taken for liver.
+
+    Raises:
+        ImagingError: if the volume is no CT, or the entry lies outside it.
+    """
+    layers: list[LayerPart] = []
+    for run in tissue_along(volume, plan.entry_mm, plan.target_mm, structures=structures):
+        kind = _KINDS[run.tissue]
+        layers.append(_part(kind, run.name or run.tissue.value, round(run.thickness_mm, 1)))
+        if kind.rigid:
+            return tuple(layers)
+    missing = REACH_MM - sum(layer.thickness_mm for layer in layers)
+    if missing > 0.0:
+        thickness = round(layers[-1].thickness_mm + missing, 1)
+        layers[-1] = layers[-1].model_copy(update={"thickness_mm": thickness})
+    return tuple(layers)
+
+
+def with_tissue(
+    exercise: Exercise, volume: Volume | None, plan: Plan, structures: Sequence[Structure] = ()
+) -> Exercise:
+    """Return an exercise with the layers of its CT, if it takes them from there.
+
+    Raises:
+        ImagingError: if the volume is no CT, or the entry lies outside it.
+    """
+    if exercise.layers_from is not LayersFrom.CT or volume is None:
+        return exercise
+    return exercise.model_copy(update={"layers": layers_along(volume, plan, structures)})
+
+
+def _part(kind: TissueLayer, name: str, thickness_mm: float) -> LayerPart:
+    values = {one.name: getattr(kind, one.name) for one in fields(kind)}
+    stiffness = values.pop("side_stiffness") / KILOPASCAL
+    del values["name"], values["thickness"]
+    return LayerPart(name=name, thickness_mm=thickness_mm, side_stiffness_kpa=stiffness, **values)
