@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.compose.desktop import load_risks
+from app.compose.exercise_ct import load_risks
 from app.compose.trainer import _anonymous
 from app.exercises.errors import ExerciseError
 from app.exercises.library import load_exercise

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.compose import trial
-from app.compose.desktop import load_risks
+from app.compose.exercise_ct import load_risks
 from app.compose.trainer import TrainerSetup, build_loop
 from app.compose.trial import (
     SkillOutcome,

@@ -20,6 +20,7 @@ from app.compose.trainer import TrainerSetup, _context, build_loop, device_of, r
 from app.core import state_vector as sv
 from app.core.build import BUILD
 from app.core.clock import Clock, SystemClock, VirtualClock
+from app.core.paths import resources
 from app.exercises.library import library, load_exercise
 from app.exercises.scene import placed_plan_of
 from app.planning.plan import Plan
@@ -156,6 +157,31 @@ def test_a_breath_held_on_command_is_told_recorded_and_recomputed(tmp_path: Path
     assert min(left) < 0.2
     shift = recording.samples.target - recording.samples.target[0]
     assert np.linalg.norm(shift, axis=1).max() > 0.011
+    report = replay_recording(recording)
+    assert report.identical
+    assert report.every_slot
+
+
+def test_a_bevelled_needle_that_is_turned_is_recorded_and_recomputed(tmp_path: Path) -> None:
+    text = (resources() / "exercises" / "thick-tissue.yaml").read_text(encoding="utf-8")
+    file = tmp_path / "bevelled.yaml"
+    effects = "needle: {gauge: 20}\neffects:\n  bevel: {model: drifting}"
+    file.write_text(text.replace("effects:", effects, 1), encoding="utf-8")
+    rolls = []
+
+    def tell(trainer: Trainer, elapsed: float) -> None:
+        if elapsed > 2.0:
+            trainer.roll(0.02)
+        rolls.append(trainer.snapshot().roll)
+
+    recording = attempt(tmp_path, VirtualClock(50.0), 5.0, str(file), tell=tell)
+    roll = recording.inputs.column("needle_roll")
+    assert rolls[0] == roll[0] == 0.0
+    assert roll[-1] == pytest.approx(0.02 * 149)
+    assert rolls[-1] == pytest.approx(roll[-1], abs=0.021)  # the snapshot of the tick before
+    assert recording.samples.bend is not None
+    offset = np.linalg.norm(recording.samples.bend[-1, :3])
+    assert offset > 1e-4
     report = replay_recording(recording)
     assert report.identical
     assert report.every_slot

@@ -18,6 +18,7 @@ from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.core.progress import Progress
 from app.exercises.guidance import GuidanceMode
+from app.exercises.schema import Exercise
 from app.planning.placement import PlacedPlan
 from app.session.pad.view import rings
 from app.session.shown_views import Shown
@@ -87,6 +88,15 @@ class StillRun:
             guidance=exercise.guidance,
             shown=Shown(live=exercise.guidance_mode is GuidanceMode.LIVE),
         )
+
+    @property
+    def exercise(self) -> Exercise:
+        """The exercise as it is computed."""
+        return self._setup.exercise
+
+    def compute_by(self, effect: str, model: str) -> Exercise:
+        """Leave the exercise as it is."""
+        return self._setup.exercise
 
     def place(self, placed: PlacedPlan) -> ExerciseRun:
         """Keep still: nothing is planned while a picture is taken."""

@@ -58,5 +58,5 @@ def declared_views(folder: Path = VIEWS) -> Mapping[str, Consumer]:
         name = declared.view
         if name in found:
             raise ConfigurationError(f"view {name!r} is declared twice: {files[name]} and {path}")
-        found[name], files[name] = Consumer(f"view {name} shows it", declared.reads), path
+        found[name], files[name] = Consumer(f"“{declared.title}” shows it", declared.reads), path
     return MappingProxyType(found)

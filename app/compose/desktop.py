@@ -12,13 +12,11 @@ from app.core import paths
 from app.core.loading import load_modules, turn
 from app.core.progress import Progress
 from app.device.errors import LoopError
-from app.exercises.errors import ExerciseError
 from app.exercises.library import library
 from app.exercises.portrait import Portrait, find_portrait
 from app.exercises.schema import Exercise
 from app.imaging.volume import Volume
 from app.planning.placement import PlacedPlan
-from app.session.risks import Risk
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -37,55 +35,6 @@ if TYPE_CHECKING:
     from app.tracking.tracker import Tracker
     from app.views.exercise.run import ExerciseRun
     from app.views.shell.services import RobotPort, RunSetup
-
-
-def read_ct(exercise: Exercise, progress: Progress | None = None) -> Volume:
-    """Read the CT of an exercise in its way.
-
-    Raises:
-        AcusError: if it cannot be read; says why.
-        Cancelled: if `progress` was cancelled.
-    """
-    from app.imaging.phantom.series import phantom_series
-    from app.imaging.reading import choose, load_ct
-    from app.imaging.resampling import read_with
-    from app.imaging.scanning import scan_folder
-
-    progress, ct = progress or Progress(), exercise.ct
-    if ct.folder is None:
-        return load_ct(phantom_series(ct.phantom.seed if ct.phantom else 1, progress))
-    listing = scan_folder(ct.folder, progress.part(0.0, 0.3))
-    return read_with(choose(listing, ct.series, ct.remedy), ct.remedy, progress.part(0.3, 1.0))
-
-
-def load_risks(
-    exercise: Exercise, volume: Volume | None, progress: Progress | None = None
-) -> tuple[Risk, ...]:
-    """Read an exercise's files of structures onto its CT; seconds for large structures.
-
-    Raises:
-        ExerciseError: if there is no CT to place them on.
-        AcusError: if a file cannot be read, does not belong to the CT, or lacks a structure named.
-        Cancelled: if `progress` was cancelled.
-    """
-    parts = [part for part in exercise.structures if part.risks]
-    if not parts:
-        return ()
-    if volume is None:
-        raise ExerciseError(
-            f"exercise {exercise.id} has structures of risk, and no CT to place them on: open it"
-        )
-    from app.imaging.structures.distance import SignedDistance  # scipy
-    from app.imaging.structures.files import read_structures
-
-    progress, risks = progress or Progress(), []
-    for number, part in enumerate(parts):
-        step = progress.part(number / len(parts), (number + 1) / len(parts))
-        found = read_structures(part.file, volume, step.part(0.0, 0.5))
-        for name, limit in part.risks.items():
-            field = SignedDistance.of(found.find(name), step.part(0.5, 1.0))
-            risks.append(Risk(name, limit, field))
-    return tuple(risks)
 
 
 HEAVY_MODULES: Final = (
@@ -226,10 +175,11 @@ class Desktop:
     def open_run(self, setup: RunSetup, progress: Progress) -> DesktopRun:
         """Build and start a trainer; called beside the window, may take seconds."""
         with turn(progress):  # kernels and OpenCV: behind the window, not before it
-            from app.compose.desktop import load_risks
+            from app.compose.exercise_ct import load_risks
             from app.compose.pen import pen_settings
             from app.compose.trainer import TrainerSetup, build_rig
             from app.core.temporary import temporary_folder
+            from app.exercises.tissue import with_tissue
             from app.session.motion import ShownMotion
         risks = load_risks(setup.exercise, setup.volume, progress.part(0.0, 0.1))
         progress.report(0.1, "compiling the loop")
@@ -240,10 +190,10 @@ class Desktop:
         shows = setup.demonstrates
         skill = DEMONSTRATOR if shows else self._skill
         kept = temporary_folder("demonstration") if shows else self._sessions
-        exercise = setup.exercise
+        exercise = with_tissue(setup.exercise, setup.volume, setup.placed.plan)
         shown = ShownMotion.kept(exercise.id, exercise.version) if shows else None
         trainer = TrainerSetup(
-            setup.exercise,
+            exercise,
             setup.placed,
             ct,
             skill,
@@ -360,6 +310,16 @@ class DesktopRun:
             shown=Shown.of_exercise(setup.exercise),
             demonstrates=self._passing is not None,
         )
+
+    @property
+    def exercise(self) -> Exercise:
+        """The exercise as it is computed now."""
+        return self._rig.setup.exercise
+
+    def compute_by(self, effect: str, model: str) -> Exercise:
+        """Compute an effect by another of its models from the next tick on."""
+        self._rig = self._rig.compute_by(effect, model)
+        return self.exercise
 
     def place(self, placed: PlacedPlan) -> ExerciseRun:
         """Take another plan and return the run with it."""

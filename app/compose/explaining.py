@@ -7,7 +7,8 @@ from typing import Any
 from app.compose.declared_views import declared_views
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
-from app.exercises.scene import compile_exercise, device_of, law_requests
+from app.exercises.parts import LayersFrom, OwnPlan
+from app.exercises.scene import compile_exercise, device_of, law_requests, plan_of
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
 from app.simulation.plan import SimulationPlan
@@ -22,11 +23,26 @@ def explanation(exercise: Exercise, simulated: bool = True) -> dict[str, Any]:
         AcusError: for a device, law, effect or parameter that there is not; names what is valid.
     """
     profile = device_of(exercise)
+    exercise = _with_tissue(exercise)
     plan = compile_exercise(exercise, profile, declared_views(), simulated)
     document = _document(exercise.id, exercise.device, simulated, plan)
     document["assistance"] = exercise.assistance
     document["laws"] = _laws(law_requests(exercise), profile)
     return document
+
+
+def _with_tissue(exercise: Exercise) -> Exercise:
+    """Find the layers of the exercise's CT, if it takes them from there; nobody's own plan has any.
+
+    Raises:
+        AcusError: if the CT cannot be read, or the path does not begin in it.
+    """
+    if exercise.layers_from is not LayersFrom.CT or isinstance(exercise.plan, OwnPlan):
+        return exercise
+    from app.compose.exercise_ct import read_ct
+    from app.exercises.tissue import with_tissue
+
+    return with_tissue(exercise, read_ct(exercise), plan_of(exercise))
 
 
 def quick_explanation(exercise: Exercise) -> tuple[dict[str, str], tuple[tuple[str, str], ...]]:
@@ -42,7 +58,10 @@ def quick_explanation(exercise: Exercise) -> tuple[dict[str, str], tuple[tuple[s
         return {}, (("joint" if exercise.joint else "device", str(error)),)
     try:
         plan = compile_exercise(exercise, profile, declared_views())
-        why = {kept.name: f"✔ {kept.why}" for kept in plan.kept}
+        why = {
+            kept.name: "; ".join((f"✔ {kept.why}", *(f"note: {text}" for text in kept.warnings)))
+            for kept in plan.kept
+        }
         why |= {dropped.name: f"✖ {dropped.why}" for dropped in plan.dropped}
     except AcusError as error:
         wrong.append(("effects", str(error)))
@@ -65,7 +84,7 @@ def _check_laws(exercise: Exercise, profile: DeviceProfile) -> None:
 
 
 def _document(exercise: str, device: str, simulated: bool, plan: SimulationPlan) -> dict[str, Any]:
-    costs = _costs(plan)
+    costs, warnings = _costs(plan), plan.warnings()
     return {
         "exercise": exercise,
         "device": device,
@@ -76,12 +95,15 @@ def _document(exercise: str, device: str, simulated: bool, plan: SimulationPlan)
                 "title": kept.declaration.title,
                 "model": kept.model,
                 "model_description": kept.declaration.models[kept.model],
+                "model_descriptions": dict(kept.declaration.models),
                 "other_models": [name for name in kept.declaration.models if name != kept.model],
                 "parameters": kept.parameters,
                 "consumers": list(kept.consumers),
                 "why": kept.why,
                 "energy": kept.declaration.energy[0],
-                "cost_ns": round(costs[kept.name] * 1e9, 1),
+                "cost_ns": round(costs[kept.name][kept.model] * 1e9, 1),
+                "model_costs_ns": {m: round(s * 1e9, 1) for m, s in costs[kept.name].items()},
+                "warnings": list(warnings[kept.name]),
             }
             for kept in plan.kept
         ],
@@ -111,14 +133,17 @@ def _laws(requests: dict[str, dict[str, float]], profile: DeviceProfile) -> list
     return rows
 
 
-def _costs(plan: SimulationPlan) -> dict[str, float]:
-    """Measured time of each effect in a tick [s], with the needle 60 mm deep in the tissue."""
+def _costs(plan: SimulationPlan) -> dict[str, dict[str, float]]:
+    """Measured time of each effect in a tick by each of its models [s], the needle 60 mm deep."""
     from app.device.control.cost import stage_cost
 
-    state, costs = _working_state(), {}
-    for name, function, parameters in plan.stages():
-        function(state.copy(), parameters)  # the first tick lays the tissue down to this depth
-        costs[name] = stage_cost(function, parameters, state)
+    state = _working_state()
+    costs: dict[str, dict[str, float]] = {kept.name: {} for kept in plan.kept}
+    for kept in plan.kept:
+        for model in kept.declaration.models:
+            _, function, parameters = plan.stage(kept, model)
+            function(state.copy(), parameters)  # the first tick lays the tissue to this depth
+            costs[kept.name][model] = stage_cost(function, parameters, state)
     return costs
 
 

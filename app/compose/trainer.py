@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from typing import Any, Final
 
+from app.compose import effect_models
 from app.compose.cameras import AttachedCameras, real_cameras, simulated_on
 from app.compose.declared_views import declared_views
 from app.compose.needle import UPRIGHT, felt_force, measured_axis, needle_scene
@@ -27,14 +28,17 @@ from app.device.control import Loop, Table, laws, pantograph_stages
 from app.device.links.link import Link
 from app.device.links.simulated import simulated_link
 from app.exchange.markups import plan_document
+from app.exercises.errors import ExerciseError
+from app.exercises.parts import LayersFrom
 from app.exercises.scene import compile_exercise, device_of, law_requests
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
 from app.planning.registration.record import Registrations
-from app.session.conditions import CONDITIONS, TRAINEE
+from app.session.conditions import CONDITIONS, EXERCISE_FILE, TRAINEE
 from app.session.context import RunContext
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
+from app.session.effect_models import ModelChoice
 from app.session.errors import ReplayError
 from app.session.fixes import DepthTrust
 from app.session.header import Attachment
@@ -121,9 +125,10 @@ def agreement_of(
 
 def _conditions(exercise: Exercise) -> dict[str, str]:
     """Return what the exercise sets, as a score is told with it, and a digest of its content."""
-    content = exercise.model_dump(
-        mode="json", exclude_defaults=True, exclude={"title", "description", "views", "assistance"}
-    )
+    left_out = {"title", "description", "views", "assistance"}
+    if exercise.layers_from is LayersFrom.CT:  # what they are follows from CT and path
+        left_out.add("layers")
+    content = exercise.model_dump(mode="json", exclude_defaults=True, exclude=left_out)
     text = json.dumps(content, sort_keys=True)
     return {
         "level": str(exercise.level),
@@ -141,6 +146,17 @@ def _anonymous(exercise: Exercise) -> Exercise:
         for number, part in enumerate(exercise.structures, 1)
     )
     return exercise.model_copy(update={"ct": ct, "structures": structures})
+
+
+def _saying(context: RunContext, exercise: Exercise) -> RunContext:
+    """Return a context whose records say that this was the exercise."""
+    anonymous = _anonymous(exercise)
+    said = _attachment(EXERCISE_FILE, anonymous.model_dump(mode="json"))
+    return replace(
+        context,
+        metadata={**context.metadata, CONDITIONS: _conditions(anonymous)},
+        attachments=tuple(said if a.name == EXERCISE_FILE else a for a in context.attachments),
+    )
 
 
 def _attachment(name: str, document: Any) -> Attachment:
@@ -227,6 +243,35 @@ class Rig:
         finally:
             if self.robot is not None:
                 self.robot.close()
+
+    def compute_by(self, effect: str, model: str) -> Rig:
+        """Compute an effect by another of its models from the next tick on, in an attempt too.
+
+        Takes some milliseconds once the model's kernels are compiled.
+
+        Raises:
+            ControlLockedError: if the exercise keeps its models; an assessment does.
+            AcusError: for an effect or model that there is not, or a loop that does not run.
+        """
+        if self.pen is not None:
+            raise TrackingError("a pen has no robot that could push: no effect is computed")
+        exercise = effect_models.with_model(self.setup.exercise, effect, model)
+        if effect not in self.loop.names:
+            raise ExerciseError(
+                f"effect {effect} is not simulated in {exercise.id}: nobody needs what it gives;"
+                f" `acus explain {exercise.id}` says why"
+            )
+        setup = replace(self.setup, exercise=exercise)
+
+        def change(loop: Loop) -> int:
+            fresh = loop_table(setup, self.profile, self.robot is None, self.robot)
+            table, carry = effect_models.exchange(loop.table, fresh, effect)
+            return loop.exchange(table, carry)
+
+        self.trainer.compute_by(
+            exercise, effect, model, change, lambda context: _saying(context, exercise)
+        )
+        return replace(self, setup=setup)
 
     def place(self, placed: PlacedPlan) -> Rig:
         """Take another plan: the trainer's aim, the effects' directions, the trainee's script.
@@ -405,20 +450,30 @@ def _context(
 
 def replay_recording(recording: Recording) -> ReplayReport:
     """Recompute an attempt and compare it with its record; see `session.replay.replay`."""
-    return replay(recording, replay_table)
+    return replay(recording, replay_table, _changed_table)
 
 
-def replay_table(recording: Recording) -> Table:
+def _changed_table(
+    recording: Recording, running: Table, choices: Sequence[ModelChoice]
+) -> effect_models.Exchange:
+    """Build the table that a replay goes on with after the last of `choices`."""
+    fresh = replay_table(recording, choices)
+    return effect_models.exchange(running, fresh, choices[-1].effect)
+
+
+def replay_table(recording: Recording, choices: Sequence[ModelChoice] = ()) -> Table:
     """Build the table of a record's loop; its numbers are taken from the checkpoint later.
 
     Of a real robot the stages of its link are left out: what they read is given from the record,
-    and nothing is sent.
+    and nothing is sent. `choices` are models of effects that were chosen while it ran.
 
     Raises:
         ReplayError: if an attachment is missing; names it.
         AcusError: if one cannot be used by this version.
     """
-    exercise = parse(_exercise(recording), Exercise, "the record's exercise")
+    exercise = as_then(parse(_exercise(recording), Exercise, "the record's exercise"), recording)
+    for choice in choices:
+        exercise = effect_models.with_model(exercise, choice.effect, choice.model)
     profile = parse(_attached(recording, "device.json"), DeviceProfile, "the record's device")
     setup = TrainerSetup(
         exercise,
@@ -433,6 +488,20 @@ def replay_table(recording: Recording) -> Table:
             exercise, setup.placed, profile, [], setup.skill, setup.seed, simulated=simulated
         )
     return loop_table(setup, profile, simulated=is_simulated(recording))
+
+
+_BEFORE: Final = {"punctures": {"shaft_friction": "dahl"}}
+"""Slot -> effects whose default model was another one before there was that slot."""
+
+
+def as_then(exercise: Exercise, recording: Recording) -> Exercise:
+    """Return a record's exercise with the models that its effects had by default then."""
+    start, effects = recording.inputs.checkpoint, dict(exercise.effects)
+    for slot, models in _BEFORE.items():
+        for name in models.keys() & effects.keys():
+            if start is not None and slot not in start.slots and not effects[name].model:
+                effects[name] = effects[name].model_copy(update={"model": models[name]})
+    return exercise.model_copy(update={"effects": effects})
 
 
 def _exercise(recording: Recording) -> Any:

@@ -20,12 +20,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from math import inf
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.compose.desktop import load_risks, read_ct
+from app.compose.exercise_ct import load_risks, read_ct
 from app.compose.needle import UPRIGHT, measured_axis, needle_scene
 from app.compose.trainer import START_DEPTH, TrainerSetup, build_loop, loop_table
 from app.core import state_vector as sv
@@ -37,8 +38,9 @@ from app.core.progress import Progress
 from app.core.staleness import TRACKER_HOLD
 from app.core.units import MILLIMETRE, MILLISECOND
 from app.device.control import Loop, Table
-from app.exercises.parts import OwnPlan
+from app.exercises.parts import LayersFrom, OwnPlan
 from app.exercises.scene import device_of, placed_plan_of, plan_of
+from app.exercises.tissue import with_tissue
 from app.planning.plan import Plan
 from app.session import machine
 from app.session.context import RunContext
@@ -59,8 +61,10 @@ from app.simulation.plant import initial_plant
 from app.simulation.skills import SKILLS
 from app.simulation.trainee import ScriptPhase, trainee_stage
 from app.tracking.optics.rig import RigProfile, load_rig
+from app.tracking.simulated.cameras import simulated_cameras
 from app.tracking.simulated.sampled import BOTH, PROCESSING, SampledDepth, SampledTracker
 from app.tracking.simulated.scene import MarkerScene
+from app.tracking.tracker import Tracker
 
 if TYPE_CHECKING:
     from app.exercises.schema import Exercise
@@ -68,6 +72,8 @@ if TYPE_CHECKING:
     from app.scoring.result import Score
     from app.session.result import AttemptResult
     from app.session.risks import Risk
+    from app.tracking.cameras.camera import Camera
+    from app.tracking.fix import NeedleFix
 
 STEP_TICKS: Final = 20
 """Ticks of the loop between two looks of the trainer, as in the program at 1 kHz."""
@@ -101,6 +107,32 @@ class _NoRecords(RunContext):
         return _Unrecorded(self.folder, header, clock=clock)
 
 
+class _RenderedTracker:
+    """Fixes by rendered pictures, taken at the looks of a trainer; late as those of `tracker`."""
+
+    def __init__(self, cameras: tuple[Camera, Camera], rig: RigProfile, *how: Any) -> None:
+        self._tracker, self._next = Tracker(cameras, rig, *how), inf
+        self._cameras, self._rig = cameras, rig
+        self._late: list[tuple[float, NeedleFix]] = []
+
+    def begin(self, now: float) -> None:
+        """Take the first pictures now."""
+        self._next = now
+        for camera in self._cameras:
+            camera.open()
+
+    def due(self, now: float) -> list[NeedleFix]:
+        """Take pictures if it is time, and return the fixes that are there by now."""
+        if now >= self._next:
+            self._next += 1.0 / self._rig.rate_hz
+            left, right = (camera.read() for camera in self._cameras)
+            fix = self._tracker.process(left, right)
+            self._late.append((now + self._rig.latency_ms * MILLISECOND + PROCESSING, fix))
+        there = [fix for time, fix in self._late if time <= now]
+        self._late = [one for one in self._late if one[0] > now]
+        return there
+
+
 def trial_plan(exercise: Exercise) -> Plan:
     """Return the plan that trials follow; where the student plans, the phantom's own entry.
 
@@ -132,6 +164,7 @@ def attempt(
     skill: str,
     seed: int,
     risks: tuple[Risk, ...] = (),
+    pictures: bool = False,
 ) -> AttemptResult:
     """Let a scripted trainee do one attempt in virtual time; nothing is written.
 
@@ -141,6 +174,7 @@ def attempt(
         skill: a name of `skills.SKILLS`.
         seed: of the trainee and of the tracker's noise.
         risks: structures that the needle has to keep away from.
+        pictures: whether both cameras' pictures are rendered and tracked: seven times the work.
 
     Raises:
         AcusError: if a profile, an effect or the path cannot be used; says which and why.
@@ -150,7 +184,12 @@ def attempt(
     loop, rig = build_loop(setup, profile), load_rig(exercise.rig)
     scene = needle_scene(loop, profile, rig.needle.marker_offset)
     fulcrum = profile.pantograph.fulcrum
-    tracker = SampledTracker(rig, fulcrum, scene, measured_axis(loop), seed)
+    axis = measured_axis(loop)
+    tracker = (
+        _RenderedTracker(simulated_cameras(rig, scene, clock, seed), rig, clock, axis, fulcrum)
+        if pictures
+        else SampledTracker(rig, fulcrum, scene, axis, seed)
+    )
 
     def measure(now: float) -> None:
         for fix in tracker.due(now):
@@ -440,6 +479,8 @@ def run_trial(
     """
     progress = progress or Progress()
     placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
+    if exercise.layers_from is LayersFrom.CT:
+        exercise = with_tissue(exercise, read_ct(exercise), placed.plan)
     trials, outcomes = Trials(exercise, placed, risks), []
     for number, skill in enumerate(skills):
         part = progress.part(number / len(skills), (number + 1) / len(skills))

@@ -66,6 +66,7 @@ class Conditions:
         agreement_mm: distance within which screen and needle agreed at the target with 95 % when
             the attempt began; None where nobody had checked.
         scoring_version: of the rules that the score follows; 0 without a score.
+        models: `effect: model`, each that was chosen while the attempt ran, sorted.
     """
 
     exercise: str
@@ -84,12 +85,14 @@ class Conditions:
     calibration: str = ""
     agreement_mm: float | None = None
     scoring_version: int = field(default=0)
+    models: tuple[str, ...] = ()
 
     def document(self) -> dict[str, Any]:
         """JSON-ready mapping; the keys stand in docs/json.md."""
         document = asdict(self)
         document["kind"] = self.kind.value
         document["views"] = None if self.views is None else list(self.views)
+        document["models"] = list(self.models)
         return document
 
     @classmethod
@@ -105,6 +108,7 @@ class Conditions:
         known["kind"] = DeviceKind(known.get("kind", DeviceKind.UNKNOWN))
         known["assistance"] = None if dial is None else _assistance(dial)
         known["views"] = None if views is None else tuple(str(view) for view in views)
+        known["models"] = tuple(str(model) for model in known.get("models", ()))
         for name in ("version", "level", "scoring_version"):
             known[name] = int(known.get(name, 0))
         for name in ("content", "hand", "scripted", "device", "ct", "software", "calibration"):
@@ -173,6 +177,7 @@ def _reasons(a: Conditions, b: Conditions) -> tuple[str, ...]:
         if DeviceKind.UNKNOWN in (a.kind, b.kind)
         else _differ("robot", a.kind.value, b.kind.value),
         _differ("device", a.device, b.device),
+        _differ("models chosen meanwhile", ", ".join(a.models), ", ".join(b.models)),
         "another CT" if a.ct and b.ct and a.ct != b.ct else "",
     )
 

@@ -15,7 +15,7 @@ from app.scoring.trajectory import Trajectory
 from app.scoring.uncertainty import picture_errors
 
 RATE = 50.0
-"""Speeds of an attempt are sampled evenly at this rate [Hz]."""
+"""Speeds of an attempt are sampled evenly at this rate [Hz]; `acus study scoring_rate`."""
 
 SMOOTHING = 0.1
 """Standard deviation of the Gaussian that positions are smoothed with first [s]."""
@@ -97,7 +97,7 @@ def insertion_speed(trajectory: Trajectory) -> FloatArray:
             f"the insertion was measured for {time[-1] - time[0]:.2f} s; smoothness needs "
             f"{SHORTEST:g} to {LONGEST:g} s"
         )
-    speed = _speed(time, trajectory.tip[last])
+    speed = even_speed(time, trajectory.tip[last])
     if float(np.ptp(speed)) <= 1e-9:
         raise MetricUnavailableError("the tip's speed never changed: it has no smoothness")
     return speed
@@ -116,14 +116,14 @@ def repeated_speeds(trajectory: Trajectory) -> tuple[FloatArray, ...]:
     last = trajectory.measured_stays()[-1]
     errors = picture_errors(trajectory, last, np.random.default_rng(SEED))
     time, tip = trajectory.time[last], trajectory.tip[last]
-    return tuple(_speed(time, tip + next(errors)) for _ in range(REPEATS))
+    return tuple(even_speed(time, tip + next(errors)) for _ in range(REPEATS))
 
 
-def _speed(time: FloatArray, points: FloatArray) -> FloatArray:
-    """Speed along sampled points [m/s], evenly sampled and smoothed, shape (n,)."""
-    at = np.arange(time[0], time[-1], 1.0 / RATE)
-    reach = round(4.0 * SMOOTHING * RATE)
-    kernel = np.exp(-0.5 * (np.arange(-reach, reach + 1) / (SMOOTHING * RATE)) ** 2)
+def even_speed(time: FloatArray, points: FloatArray, rate: float = RATE) -> FloatArray:
+    """Speed along sampled points [m/s], smoothed and evenly sampled at a rate [Hz], shape (n,)."""
+    at = np.arange(time[0], time[-1], 1.0 / rate)
+    reach = round(4.0 * SMOOTHING * rate)
+    kernel = np.exp(-0.5 * (np.arange(-reach, reach + 1) / (SMOOTHING * rate)) ** 2)
     kernel /= kernel.sum()
     smooth = np.column_stack(
         [
@@ -131,5 +131,5 @@ def _speed(time: FloatArray, points: FloatArray) -> FloatArray:
             for one in points.T
         ]
     )
-    result: FloatArray = np.linalg.norm(np.diff(smooth, axis=0), axis=1) * RATE
+    result: FloatArray = np.linalg.norm(np.diff(smooth, axis=0), axis=1) * rate
     return result

@@ -185,6 +185,7 @@ class AttemptLog:
                 {a.name: a.data for a in header.attachments},
                 samples,
                 score.version if score is not None else 0,
+                self.events,
             ),
         )
         return self._write(summary, files)

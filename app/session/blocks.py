@@ -57,7 +57,7 @@ WIRE: Final = (
 OUTPUTS: Final = ("kinematics", "depth", "depth_source", "torque_left", "torque_right", "fault")
 """What a tick computes and every row of a record holds; all else is in its digest."""
 
-LATER: Final = ("hold_breath",)
+LATER: Final = ("hold_breath", "needle_roll")
 """Inputs that records did not always have: behind all others, so that those blocks read alike."""
 
 COLUMNS: Final = (*(n for n in INPUTS if n not in LATER), *CLOCK, *WIRE, *OUTPUTS, *LATER)

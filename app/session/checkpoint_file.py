@@ -20,6 +20,10 @@ from app.session.errors import BrokenRecordingError
 MAGIC: Final = b"ACUC"
 VERSION: Final = 1
 _HEADER: Final = struct.Struct("<4sHI")
+_BY_SLOT: Final = frozenset(
+    {"shaft_friction", "puncture", "cutting", "dimpling", "relaxation", "bone_contact"}
+)
+"""Stages whose first number is the place of a slot, the depth that they take."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -35,9 +39,21 @@ class RecordedCheckpoint:
     slots: tuple[str, ...]
 
     def in_order_of(self, slots: tuple[str, ...]) -> Checkpoint:
-        """Return the checkpoint with its state in another order of the same slots."""
-        order = [self.slots.index(name) for name in slots]
-        return replace(self.checkpoint, state=read_only(self.checkpoint.state[order]))
+        """Return the checkpoint with its state in another order; slots it has not are zero.
+
+        What names a slot by its place in a stage's array names it by its new place.
+        """
+        state, parameters = self.checkpoint.state, np.array(self.checkpoint.parameters)
+        ordered = [state[self.slots.index(name)] if name in self.slots else 0.0 for name in slots]
+        start = 0
+        for stage, size in zip(self.checkpoint.names, self.checkpoint.sizes, strict=True):
+            if stage in _BY_SLOT and size > 0:
+                named = self.slots[int(parameters[start])]
+                parameters[start] = slots.index(named)
+            start += size
+        return replace(
+            self.checkpoint, state=read_only(np.array(ordered)), parameters=read_only(parameters)
+        )
 
 
 def pack(checkpoint: Checkpoint) -> bytes:

@@ -5,12 +5,14 @@ What held the needle is one of them; it stands in every record.
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, Final
 
 import numpy as np
 
+from app.core.events import Event
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
+from app.session.effect_models import choices_of
 from app.session.errors import SessionError
 from app.session.machine import State
 from app.session.samples import Samples
@@ -62,7 +64,11 @@ Metadata = Mapping[str, Mapping[str, str]]
 
 
 def conditions_of(
-    metadata: Metadata, attachments: Mapping[str, bytes], samples: Samples, scoring_version: int
+    metadata: Metadata,
+    attachments: Mapping[str, bytes],
+    samples: Samples,
+    scoring_version: int,
+    events: Iterable[Event] = (),
 ) -> Conditions:
     """Gather the conditions of one attempt; what an old or damaged record does not say is empty.
 
@@ -71,6 +77,7 @@ def conditions_of(
         attachments: attached files by name; `exercise.json` stands in for what old heads lack.
         samples: the attempt over time.
         scoring_version: of its score; 0 without one.
+        events: of the attempt, which tell what was chosen while it ran.
     """
     exercise = metadata.get("exercise", {})
     said = _said(metadata.get(CONDITIONS, {}), attachments)
@@ -95,6 +102,7 @@ def conditions_of(
         calibration=metadata.get("cameras", {}).get("calibration", ""),
         agreement_mm=agreement,
         scoring_version=scoring_version,
+        models=tuple(sorted({f"{c.effect}: {c.model}" for c in choices_of(events)})),
     )
 
 

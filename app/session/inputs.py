@@ -25,10 +25,12 @@ class LoopInputs:
     Attributes:
         assistance: dial as last set, -1...1.
         armed: whether forces are armed.
+        rolled: roll of the needle as last set [rad].
     """
 
     def __init__(self, inbox: Inbox) -> None:
         self._inbox = inbox
+        self.rolled = 0.0
         self.assistance = 0.0
         self.armed = False
         self._beat = -inf
@@ -85,6 +87,15 @@ class LoopInputs:
     def hold_breath(self, held: bool) -> None:
         """Ask the simulated patient to hold the breath, or to breathe."""
         self._inbox.write(hold_breath=float(held))
+
+    def roll(self, angle: float) -> None:
+        """Set the roll of the needle [rad], clockwise seen from the hub.
+
+        Raises:
+            NumericalError: if it is not a number.
+        """
+        self.rolled = float(frozen(angle, (), "roll"))
+        self._inbox.write(needle_roll=self.rolled)
 
     def tracked(self, depth: float, time: float, variance: float) -> None:
         """Hand over a depth that the cameras measured [m], its time [s] and variance [m²]."""

@@ -9,20 +9,23 @@ It is told where they first differ, and where most. What a record holds for a re
 without computing anything.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import isfinite
 from typing import Any, Final
 
 import numpy as np
 
+from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.build import BUILD, build, changes
 from app.scoring.risks import RiskMark
-from app.session.blocks import CLOCK, INPUTS, SLOT_NAMES, WIRE
+from app.session.blocks import CLOCK, INPUTS, LATER, SLOT_NAMES, WIRE
 from app.session.control_scan import ControlScan
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.session.digest import MEASURED, digests
+from app.session.effect_models import ModelChoice, choices_of
 from app.session.errors import ReplayError
 from app.session.recording import Recording
 from app.session.risks import event_of, risk_marks, sentence
@@ -74,7 +77,8 @@ class Comparison:
     def __init__(self, inputs: Inputs, given: tuple[str, ...]) -> None:
         self.first: Difference | None = None
         self.largest: Difference | None = None
-        self.every_slot = inputs.slots == SLOT_NAMES and len(inputs.digests) == len(inputs.values)
+        known = bool(inputs.slots) and set(inputs.slots) <= set(_INDEX)
+        self.every_slot = known and len(inputs.digests) == len(inputs.values)
         self._inputs = inputs
         self._tick = inputs.column("tick")
         self._time = inputs.column("time")
@@ -90,7 +94,7 @@ class Comparison:
         found = self._by_value(rows, states) + self._by_state(first_row, states)
         wrong = [d.tick for d in found]
         if self.every_slot:
-            bad = np.flatnonzero(digests(states) != self._inputs.digests[rows])
+            bad = np.flatnonzero(digests(states, self._inputs.slots) != self._inputs.digests[rows])
             wrong += [int(self._tick[rows[k]]) for k in bad[:1]]
         for difference in found:
             self._measure(difference)
@@ -271,6 +275,10 @@ def _document(difference: Difference | None) -> dict[str, Any] | None:
 TableOf = Callable[[Recording], Any]
 """Builds the loop's table (`device.control.Table`) of a recorded attempt: `compose` knows how."""
 
+ChangedTableOf = Callable[[Recording, Any, Sequence[ModelChoice]], tuple[Any, Callable[[], None]]]
+"""Builds the table that a replay goes on with once models were chosen, and how memory moves; takes
+the running table and all choices made so far, the newest last."""
+
 _CHUNK: Final = 4096
 
 
@@ -284,8 +292,15 @@ def given_slots(recording: Recording) -> tuple[str, ...]:
     return (*INPUTS, *CLOCK, *(() if is_simulated(recording) else WIRE))
 
 
-def replay(recording: Recording, table_of: TableOf) -> ReplayReport:
+def replay(
+    recording: Recording, table_of: TableOf, change: ChangedTableOf | None = None
+) -> ReplayReport:
     """Recompute an attempt and say where it first differs from its record.
+
+    Args:
+        recording: the attempt.
+        table_of: builds its table.
+        change: builds the table after a choice of models; None replays records without any.
 
     Raises:
         ReplayError: if the record cannot be replayed; says why.
@@ -295,7 +310,7 @@ def replay(recording: Recording, table_of: TableOf) -> ReplayReport:
     rows = _replayable(inputs)
     given = given_slots(recording)
     comparison = Comparison(inputs, given)
-    for first, states in _states(recording, table_of, given, rows):
+    for first, states in _states(recording, table_of, change, given, rows):
         comparison.compare(first, states)
     changed = changes(recording.metadata.get(BUILD, {}), build())
     return ReplayReport(
@@ -324,6 +339,8 @@ def why_not(inputs: Inputs) -> str:
     if tick != start + 1:
         return f"ticks {start + 1} to {tick - 1} are missing at its beginning"
     missing = set(inputs.checkpoint.slots) ^ set(SLOT_NAMES)
+    missing -= {SLOT_NAMES[slot] for slot in sv.SUMS + sv.SCENE}  # later ones: nobody wrote them
+    missing -= set(LATER)  # nor gave these
     if missing:
         return f"its program's state had other slots than this one's: {', '.join(sorted(missing))}"
     return ""
@@ -340,7 +357,11 @@ def _replayable(inputs: Inputs) -> int:
 
 
 def _states(
-    recording: Recording, table_of: TableOf, given: tuple[str, ...], rows: int
+    recording: Recording,
+    table_of: TableOf,
+    change: ChangedTableOf | None,
+    given: tuple[str, ...],
+    rows: int,
 ) -> Iterator[tuple[int, FloatArray]]:
     """Recompute the ticks in pieces: number of the first row, and states, shape (n, SLOTS)."""
     from app.device.control.checkpoints import Rerun  # compiles or loads kernels
@@ -354,8 +375,18 @@ def _states(
         if name in inputs.columns:
             values[:, place] = inputs.column(name)
     rerun = Rerun(table_of(recording), recorded.in_order_of(SLOT_NAMES), given)
-    for first in range(0, rows, _CHUNK):
-        yield first, rerun.run(values[first : min(first + _CHUNK, rows)])
+    choices = choices_of(recording.events)
+    if choices and change is None:
+        raise ReplayError("this record cannot be replayed: models were chosen while it ran")
+    begin = int(inputs.column("tick")[0])
+    at = [min(max(choice.tick - begin, 0), rows) for choice in choices]
+    edges = sorted({0, rows, *at})
+    for start, end in pairwise(edges):
+        for made, place in enumerate(at, 1):
+            if place == start and change is not None:
+                rerun.exchange(*change(recording, rerun.table, choices[:made]))
+        for first in range(start, end, _CHUNK):
+            yield first, rerun.run(values[first : min(first + _CHUNK, end)])
 
 
 @dataclass(frozen=True, slots=True)

@@ -71,6 +71,7 @@ class Snapshot:
             of the skin; empty otherwise.
         may_confirm: whether the student may say that the needle is out.
         breath: how the breath-hold stands; None where the patient is not told.
+        roll: of a bevelled needle [rad], clockwise seen from the hub; None where none is bevelled.
         measured_pose: the pose as measured, behind by its age; None in snapshots made by hand.
     """
 
@@ -97,6 +98,7 @@ class Snapshot:
     withdrawal: str = ""
     may_confirm: bool = False
     breath: BreathHold | None = None
+    roll: float | None = None
 
 
 _FIX_TEXT = {

@@ -15,6 +15,7 @@ from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
 from app.session.attempt_log import AttemptLog
 from app.session.context import RunContext
+from app.session.effect_models import KIND, ModelChoice
 from app.session.errors import ControlLockedError, SessionError
 from app.session.fixes import TRUST, DepthTrust
 from app.session.inputs import Arming, ClearanceOf, LoopInputs
@@ -170,6 +171,7 @@ class Trainer:
             self._arming.require()
             self._inputs.prepare(self._placed, self._dial)
             self._inputs.hold_breath(False)
+            self._inputs.roll(0.0)
             self._inputs.assist(self._dial)  # whatever the dial was turned to before
             now = self._clock.now()
             header = self._context.header(self._exercise, self._placed, student, now, hand)
@@ -232,6 +234,16 @@ class Trainer:
         if not self._withdrawal.moves_hand:
             self._inputs.hand(x, y, depth, holds)
 
+    def roll(self, step: float) -> None:
+        """Turn the needle about its axis by `step` [rad], clockwise seen from the hub.
+
+        Who measures the roll of a real needle writes the same input (`LoopInputs.roll`).
+
+        Raises:
+            NumericalError: if it is not a number.
+        """
+        self._inputs.roll(self._inputs.rolled + step)
+
     def assistance(self, value: float) -> None:
         """Set the assistance: 1 full guidance, 0 nothing, -1 full repulsion.
 
@@ -244,6 +256,37 @@ class Trainer:
                 "turned in exercises that do not lock it"
             )
         self._inputs.assist(value)
+
+    def compute_by(
+        self,
+        exercise: Exercise,
+        effect: str,
+        model: str,
+        change: Callable[[Loop], int],
+        said: Callable[[RunContext], RunContext],
+    ) -> None:
+        """Compute an effect by another of its models from the next tick on.
+
+        Args:
+            exercise: the exercise with that model, for attempts that follow.
+            effect: its name.
+            model: one of its models.
+            change: changes the loop; returns the first tick that computes so.
+            said: puts that exercise into the heads of the records that follow.
+
+        Raises:
+            ControlLockedError: if the exercise keeps its models; nothing has changed then.
+            AcusError: whatever keeps the loop from changing; it goes on as it was.
+        """
+        if Lock.MODELS in self._exercise.locked:
+            raise ControlLockedError(
+                f"exercise {self._exercise.id} keeps the models by which its effects are computed; "
+                "they can be chosen in exercises that do not lock them"
+            )
+        with self._lock:
+            choice = ModelChoice(change(self._loop), effect, model)
+            self._exercise, self._context = exercise, said(self._context)
+            self._running.say(KIND, choice.words(), self._clock.now(), choice.data())
 
     def hold_breath(self, held: bool) -> None:
         """Tell the patient to hold the breath, or to breathe; the next ticks tell how he stands.
@@ -382,6 +425,7 @@ class Trainer:
             withdrawal=withdrawal.words,
             may_confirm=withdrawal.asks,
             breath=None if self._breath is None else self._breath.now,
+            roll=self._inputs.rolled if "bevel" in self._exercise.effects else None,
         )
         self._latest.publish(snapshot, now)
         return snapshot

@@ -161,7 +161,9 @@ def verify(recording: Recording) -> Verification:
 def conditions(recording: Recording, standing: Score | None) -> Conditions:
     """Gather what a recorded attempt was made under, with the version of the score that stands."""
     version = standing.version if standing is not None else 0
-    return conditions_of(recording.metadata, recording.attachments, recording.samples, version)
+    return conditions_of(
+        recording.metadata, recording.attachments, recording.samples, version, recording.events
+    )
 
 
 def state_of(recording: Recording) -> str:

@@ -8,7 +8,7 @@ bits.
 
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import isfinite
 from typing import Final
 
@@ -30,7 +30,7 @@ from app.device.control.kernel import (
     compiled,
     run_stages,
 )
-from app.device.control.table import Table
+from app.device.control.table import SCRATCH, Table
 from app.device.errors import LoopError, RerunError
 
 from numba import types  # isort: skip  (after core.compiled)
@@ -115,6 +115,9 @@ class Rerun:
         checkpoint: where it continues from. Constants are taken from it as well as memory.
         slots: names of what every tick is given.
 
+    Attributes:
+        table: the stages with the memory that they have now.
+
     Raises:
         RerunError: if the table does not fit the checkpoint; says which stage.
     """
@@ -126,9 +129,22 @@ class Rerun:
             raise RerunError(
                 f"the checkpoint's state has {self._state.size} slots, this program's {sv.SLOTS}"
             )
+        self.table = Table.of(
+            Stage(stage.name, stage.function, values)
+            for stage, values in _memories(table, checkpoint)
+        )
+        self._pack()
+
+    def exchange(self, table: Table, carry: Callable[[], None]) -> None:
+        """Go on with another table, as `Loop.exchange` does."""
+        carry()
+        self.table = table
+        self._pack()
+
+    def _pack(self) -> None:
         self._stages, self._parameters = kernel.no_stages(), kernel.no_parameters()
-        for stage, values in _memories(table, checkpoint):
-            kernel.append(self._stages, self._parameters, stage.function, values)
+        for stage in self.table:
+            kernel.append(self._stages, self._parameters, stage.function, stage.parameters)
 
     def run(self, given: FloatArray) -> FloatArray:
         """Run n ticks on their inputs, shape (n, slots); returns their states, (n, SLOTS)."""
@@ -165,6 +181,8 @@ def _memories(table: Table, checkpoint: Checkpoint) -> list[tuple[Stage, FloatAr
                 f"{', '.join(checkpoint.names)}"
             )
         values = np.array(left.pop(0)[1])
+        if stage.name in SCRATCH:  # as large as the state, which may have grown since
+            values = np.zeros_like(stage.parameters)
         if len(values) != len(stage.parameters):
             raise RerunError(
                 f"stage {stage.name!r} has {len(values)} numbers in the record and "

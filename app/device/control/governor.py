@@ -73,6 +73,7 @@ _BEYOND = 1.2  # times the speed that the force can have caused: a hand
 _HAND_STAYS = 0.2  # [s] for which a hand that was seen is taken to hold on
 _JUMP = 0.5  # [rad] between two readings: no motion, a fresh start
 _PEAK_LASTS = 0.1  # [s] over which the largest push of late is forgotten
+_NOTHING = 1e-100  # [rad/s²] far below all that counts, far above subnormal numbers
 _WINDOW = 24
 
 
@@ -119,6 +120,8 @@ def _remember(state: FloatArray, p: FloatArray) -> None:
     pushed = sent / p[_AT.governed] * p[_AT.acceleration] if p[_AT.governed] > 0.0 else 0.0
     p[_AT.caused] = snapped(p[_AT.caused] + (pushed - p[_AT.caused] / p[_AT.cause]) * state[sv.DT])
     p[_AT.peak] = max(pushed, p[_AT.peak] * (1.0 - min(state[sv.DT] / _PEAK_LASTS, 1.0)))
+    if p[_AT.peak] < _NOTHING:
+        p[_AT.peak] = 0.0
     row = _RING + 4 * head
     p[row + 3] = max(p[row + 3], pushed)
     if p[_AT.samples] > 0.0:

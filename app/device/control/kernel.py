@@ -47,9 +47,11 @@ MISSED: Final = 2
 ASKED: Final = 3
 ANSWERED: Final = 4
 RUNNING: Final = 5
-COUNTERS: Final = 6
+EXCHANGE: Final = 6
+COUNTERS: Final = 7
 """Entries of `counters` (int64): rows published, request to stop, deadlines missed, checkpoints
-asked for and taken, number of the stage that runs now (from 1; 0 between two ticks)."""
+asked for and taken, number of the stage that runs now (from 1; 0 between two ticks), request to
+give the table back for an exchange."""
 
 _FLOATS = types.float64[::1]
 _INTEGERS = types.int64[::1]

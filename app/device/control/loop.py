@@ -6,7 +6,7 @@ import atexit
 import sys
 import threading
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from enum import StrEnum
 from typing import Any
 
@@ -17,7 +17,7 @@ from app.core.parameters import Stage
 from app.device.checkpoint import Checkpoint
 from app.device.control import kernel
 from app.device.control.checkpoints import CheckpointRequests
-from app.device.control.kernel import MISSED, STOP, ArrayList, StageList
+from app.device.control.kernel import EXCHANGE, MISSED, STOP, ArrayList, StageList
 from app.device.control.shared import Inbox, TickHistory
 from app.device.control.table import Table
 from app.device.control.timing import TickWatch, Timing, measure
@@ -57,7 +57,19 @@ def default_host(clock: Clock) -> Host:
 
 
 _STOP_TIMEOUT = 5.0
+_EXCHANGE_TIMEOUT = 1.0
 _POLL = 0.02
+
+
+class _Exchange:
+    """Another table for a running loop: packed by who asks, taken by the loop between two ticks."""
+
+    def __init__(self, table: Table, carry: Callable[[], None]) -> None:
+        self.table, self.carry = table, carry
+        self.packed, self.packed_write = _pack(table), _pack(table.write)
+        self.taken = threading.Event()
+        self.first_tick = 0
+        self.error: BaseException | None = None
 
 
 class Loop(Lifetime):
@@ -105,6 +117,8 @@ class Loop(Lifetime):
         self._is_open = False
         self._realtime = False
         self._failure: BaseException | None = None
+        self._exchange: _Exchange | None = None
+        self._asking = threading.Lock()
 
     @property
     def is_open(self) -> bool:
@@ -130,7 +144,7 @@ class Loop(Lifetime):
         if self.link is not None:
             self.link.open()
         self._failure = None
-        self._history.counters[STOP] = 0
+        self._history.counters[STOP] = self._history.counters[EXCHANGE] = 0
         self.inbox.write(enabled=0.0)
         self._packed = _pack(self.table)
         self._packed_write = _pack(self.table.write)
@@ -198,8 +212,9 @@ class Loop(Lifetime):
         """
         if not self._is_open:
             raise LoopError("the loop is closed; call open() before checkpoint()")
-        idle = (self._state, self._packed[1]) if self._thread is None else None
-        return self._requests.checkpoint(idle)
+        with self._asking:
+            idle = (self._state, self._packed[1]) if self._thread is None else None
+            return self._requests.checkpoint(idle)
 
     def timing(self, count: int = 10_000) -> Timing:
         """Lateness over the last `count` ticks."""
@@ -230,6 +245,62 @@ class Loop(Lifetime):
             )
         self.table = stages if isinstance(stages, Table) else Table.of(stages)
 
+    def exchange(self, table: Table, carry: Callable[[], None] = lambda: None) -> int:
+        """Replace the table of an open loop between two ticks; state, inputs and forces go on.
+
+        Arrays that both tables have keep their memory (`Table.continued`). The loop waits for the
+        interpreter and for `carry`, some milliseconds; what it misses meanwhile is counted.
+
+        Args:
+            table: the new one.
+            carry: moves memory from stages that end to those that begin; run between the two
+                ticks. If it raises, the loop goes on with the table that it has.
+
+        Returns:
+            Number of the first tick of the new table.
+
+        Raises:
+            LoopError: if the loop is closed, ends meanwhile, or does not answer within a second.
+        """
+        if not self._is_open:
+            raise LoopError("the loop is closed; a table is exchanged while it runs, see swap()")
+        wanted = _Exchange(table, carry)
+        with self._asking:
+            if self._thread is None:
+                self._take(wanted)
+            else:
+                self._exchange = wanted
+                self._history.counters[EXCHANGE] = 1
+                self._await(wanted, self._thread)
+        if wanted.error is not None:
+            raise wanted.error
+        return wanted.first_tick
+
+    def _await(self, wanted: _Exchange, thread: threading.Thread) -> None:
+        end = time.monotonic() + _EXCHANGE_TIMEOUT
+        while not wanted.taken.wait(_POLL):
+            if time.monotonic() > end or not thread.is_alive():
+                self._history.counters[EXCHANGE] = 0
+                self._raise_failure()
+                raise LoopError("the loop does not tick: the way it computes stays as it was")
+
+    def _take(self, wanted: _Exchange) -> None:
+        """Go on with another table; called by the loop's host, or while nobody runs it."""
+        history = self._history
+        try:
+            wanted.carry()
+        except Exception as error:  # told to who asked; the ticks go on as they were
+            wanted.error = error
+        else:
+            self.table = wanted.table
+            self._packed, self._packed_write = wanted.packed, wanted.packed_write
+            self._requests = CheckpointRequests(history.counters, self.table)
+            self._watch = TickWatch(history.counters, self.table)
+            wanted.first_tick = history.head + 1
+        self._exchange = None
+        history.counters[EXCHANGE] = 0
+        wanted.taken.set()
+
     def _host(self) -> None:
         try:
             if self.host is Host.COMPILED:
@@ -247,7 +318,11 @@ class Loop(Lifetime):
         realtime.ask_for_precise_timers()
         if self.priority is Priority.REALTIME:
             self._realtime = realtime.ask_for_realtime_priority()
-        realtime.run(*self._arguments(), round(1e9 / self.rate_hz))
+        deadline = 0
+        while not self._history.counters[STOP]:
+            deadline = realtime.run(*self._arguments(), round(1e9 / self.rate_hz), deadline)
+            if self._exchange is not None:
+                self._take(self._exchange)
 
     def _run_thread(self) -> None:
         period, counters = 1.0 / self.rate_hz, self._history.counters
@@ -260,6 +335,8 @@ class Loop(Lifetime):
             self._state[sv.LATENESS] = max(now - deadline, 0.0)
             self._tick(now - period, 1)
             deadline += (1 + skipped) * period
+            if self._exchange is not None:
+                self._take(self._exchange)
 
     def _tick(self, time: float, ticks: int) -> None:
         kernel.step(*self._arguments(), time, 1.0 / self.rate_hz, ticks)

@@ -79,6 +79,15 @@ class Places(NamedTuple):
 
 AT: Final = numbered(Places)
 
+
+def carry_accounts(old: FloatArray, new: FloatArray) -> None:
+    """Keep readings and accounts in a guard of another bound; its tank holds no more than that."""
+    for name in Places._field_defaults:
+        place = getattr(AT, name)
+        new[place] = old[place]
+    new[AT.tank] = min(new[AT.tank], new[AT.bound])
+
+
 _KEEPS = 0.98  # of the largest torque, per reading that is many ticks old
 _JUMP = 0.5  # [rad] between two readings: no motion
 _A_TICK = 1.5  # ticks: an ordinary age on a wire

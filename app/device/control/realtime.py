@@ -10,6 +10,7 @@ from typing import Final
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, IntArray
 from app.device.control.kernel import (
+    EXCHANGE,
     HEAD,
     MISSED,
     STOP,
@@ -56,7 +57,7 @@ def _sleep_until(deadline: int, timespec: IntArray) -> None:
             return
 
 
-@compiled(types.void(*TICK_TYPES, types.int64))
+@compiled(types.int64(*TICK_TYPES, types.int64, types.int64))
 def run(
     state: FloatArray,
     stages: StageList,
@@ -68,16 +69,19 @@ def run(
     counters: IntArray,
     checkpoint: FloatArray,
     period: int,
-) -> None:
-    """Tick every `period` [ns] until `counters[STOP]`.
+    begin: int,
+) -> int:
+    """Tick every `period` [ns] until `counters[STOP]`, or until `counters[EXCHANGE]`.
 
     Deadlines lie on one grid. A tick that wakes a period or more late counts the deadlines it
-    missed, goes on from the next one, and integrates at most `LATE_TICKS` periods.
+    missed, goes on from the next one, and integrates at most `LATE_TICKS` periods. The first one is
+    `begin` [ns of the monotonic clock], or a period from now if that is 0; returned is the one to
+    go on with.
     """
     timespec = np.zeros(2, np.int64)
-    deadline = _now(timespec) + period
+    deadline = begin if begin > 0 else _now(timespec) + period
     last = deadline - period
-    while counters[STOP] == 0:
+    while counters[STOP] == 0 and counters[EXCHANGE] == 0:
         _sleep_until(deadline, timespec)
         now = _now(timespec)
         late = max(now - deadline, 0)
@@ -96,6 +100,7 @@ def run(
         answer(state, parameters, counters, checkpoint)
         last = deadline
         deadline += period
+    return deadline
 
 
 def ask_for_precise_timers() -> None:

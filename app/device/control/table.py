@@ -8,7 +8,7 @@ therefore the loop's own when the stages behind them look. What laws may write g
 limits behind them; a value there that is not finite holds the force at zero.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Final
 
@@ -31,6 +31,9 @@ from app.mechanisms.profile import DeviceProfile
 
 _THEIRS: Final = sv.SUMS + sv.SCENE
 _SIZE: Final = sv.SLOTS + len(_THEIRS)
+
+SCRATCH: Final = ("keep", "give back")
+"""Names of stages whose arrays hold nothing from one tick to the next."""
 
 
 @stage
@@ -59,7 +62,10 @@ def protected(stages: Iterable[Stage]) -> list[Stage]:
     """Return laws and effects between the two stages, which share one array; none stay none."""
     inner = list(stages)
     memory = np.zeros(_SIZE)
-    keep, back = Stage("keep", keep_stage, memory), Stage("give back", give_back_stage, memory)
+    keep, back = (
+        Stage(name, function, memory)
+        for name, function in zip(SCRATCH, (keep_stage, give_back_stage), strict=True)
+    )
     return [keep, *inner, back] if inner else []
 
 
@@ -79,6 +85,41 @@ class Table:
     def of(cls, compute: Iterable[Stage], write: Iterable[Stage] = ()) -> "Table":
         """Build a table from (name, function, parameters) triples."""
         return cls(tuple(Stage(*s) for s in compute), tuple(Stage(*s) for s in write))
+
+    def continued(
+        self, fresh: "Table", changed: Collection[str] = ()
+    ) -> tuple["Table", tuple[tuple[Stage, Stage], ...]]:
+        """Return `fresh` with the memory of this table, so that a run can go on with it.
+
+        A stage of one name, one function and one length of array in both keeps its array, unless
+        `changed` names it.
+
+        Args:
+            fresh: the table to go on with.
+            changed: names of stages that begin anew although they look the same.
+
+        Returns:
+            The table; and of stages of one name whose array is not kept, the old and the new one.
+        """
+        old = {stage.name: stage for stage in self}
+        ended: list[tuple[Stage, Stage]] = []
+
+        def kept(stage: Stage) -> Stage:
+            before = old.get(stage.name)
+            if before is None:
+                return stage
+            same = before.function is stage.function or before.function == stage.function
+            if (
+                same
+                and stage.name not in changed
+                and len(before.parameters) == len(stage.parameters)
+            ):
+                return before
+            ended.append((before, stage))
+            return stage
+
+        compute = tuple(kept(stage) for stage in fresh.compute)
+        return Table(compute, tuple(kept(stage) for stage in fresh.write)), tuple(ended)
 
     def __iter__(self) -> Iterator[Stage]:
         """All stages in the order of the tick."""
