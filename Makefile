@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constr
 TRAINER := $(VENV)/.trainer
 TESTS := $(VENV)/.tests
 
-.PHONY: setup demo run test by-hand careless check bench trial fuzz docs docs-pictures wheel clean
+.PHONY: setup demo run test by-hand careless soak check bench trial fuzz accuracy docs docs-pictures wheel clean
 
 setup: $(TESTS)  ## make .venv with all that tests and checks need, and install what the system lacks
 
@@ -51,6 +51,10 @@ SEED ?= 1
 careless: setup  ## the real window used at random by mouse and keyboard, and checked after every action
 	$(BIN)/python -m tests.careless --minutes $(MINUTES) --seed $(SEED) $(CARELESS)
 
+SOAK ?= 60
+soak: setup  ## an hour of random motion in virtual time, another scene every 5 s, then ten minutes of rest
+	$(BIN)/python -m tests.soak --minutes $(SOAK) --seed $(SEED)
+
 check: setup  ## style, types, structure
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
@@ -69,6 +73,9 @@ fuzz: setup  ## ten thousand mutated files of every kind through their readers
 
 docs-pictures: setup  ## the pictures of README and docs
 	./tools/with-display $(BIN)/python -m tools.docs_pictures
+
+accuracy: setup  ## docs/accuracy from the tables that `acus study all --write` keeps
+	$(BIN)/python -m tools.accuracy_pages
 
 docs: setup  ## the user guide as a site, in app/site: Help and F1 open it
 	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict

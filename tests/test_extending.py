@@ -19,6 +19,7 @@ from app.mechanisms.pantograph import forward, inverse
 from app.mechanisms.profile import VelocityMethod, load_profile
 
 TESTED_ELSEWHERE = {
+    "How to add a hard case": "tests/hard/test_hard_register.py",
     "How to add a language": "tests/views/test_adding_a_language.py",
     "How to add a panel": "tests/views/test_adding_a_panel.py",
     "How to add a view": "tests/views/test_views_shown.py",

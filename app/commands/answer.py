@@ -33,12 +33,14 @@ class Answer:
         facts: the keys of its JSON, as docs/json.md lists them.
         lines: the same for people, a line each; or a function that prints them.
         yes: the answer where the command asks a question; False ends it with exit code 3.
+        crashed: something broke that the command went on after; ends it with exit code 1.
         first_form: what `--json=1` prints where that is no object, or has other keys.
     """
 
     facts: Mapping[str, Any]
     lines: Sequence[str] | Callable[[], object] = ()
     yes: bool | None = None
+    crashed: bool = False
     first_form: Any = ...
 
 
@@ -79,6 +81,8 @@ class AnsweringCommand(TyperCommand):
         else:
             for line in found.lines:
                 typer.echo(line)
+        if found.crashed:
+            raise SystemExit(Exit.CRASHED)
         if found.yes is False:
             raise SystemExit(Exit.NO)
 

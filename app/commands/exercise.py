@@ -188,7 +188,7 @@ def pack(
 ) -> Answer:
     """Make one file of an exercise. Plan, structures, the CT's digest, on request the CT."""
     from app.commands.calibrate_parts import with_progress
-    from app.compose.desktop import read_ct
+    from app.compose.exercise_ct import read_ct
     from app.exchange.acusx import SUFFIX
     from app.exchange.acusx import pack as write
     from app.exercises.library import load_exercise

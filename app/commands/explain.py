@@ -71,6 +71,7 @@ def _lines(document: dict[str, Any]) -> list[str]:
             f"    why      {kept['why']}",
             f"    energy   {kept['energy']}",
             f"    cost     {_cost(kept['cost_ns'])}",
+            *(f"    note     {warning}" for warning in kept["warnings"]),
         ]
     lines += [f"\n  {dropped['effect']}\n    {dropped['why']}" for dropped in document["dropped"]]
     if not document["simulated"] and not document["dropped"]:

@@ -25,20 +25,34 @@ def register(app: typer.Typer) -> None:
 
 def study(
     name: Annotated[
-        str, typer.Argument(help="name of a study, or `list`", autocompletion=completion.studies)
+        str,
+        typer.Argument(help="name of a study, `list` or `all`", autocompletion=completion.studies),
     ],
     inputs: Annotated[
         list[Path] | None,
         typer.Argument(metavar="[DIR]...", help="folders, for a study that reads some"),
     ] = None,
     out: Annotated[
-        Path | None, typer.Option(help="folder for table (CSV, JSON) and picture")
+        Path | None, typer.Option(help="folder for tables (CSV, JSON) and pictures (PNG, SVG)")
     ] = None,
     repeats: Annotated[int, typer.Option(min=1, help="timings per way and setting")] = 9,
+    quick: Annotated[bool, typer.Option("--quick", help="two timings only")] = False,
+    fresh: Annotated[
+        bool, typer.Option("--fresh", help="`all`: keep nothing of a run that was broken off")
+    ] = False,
+    write: Annotated[
+        bool, typer.Option("--write", help="keep the table with the program (app/studies/tables)")
+    ] = False,
 ) -> Answer:
-    """Run a study, or `list` them: error against time."""
+    """Run a study, or `all`, or `list` them: error against time."""
     if name == "list":
         return _list()
+    if quick:
+        from app.studies.batch import QUICK
+
+        repeats = QUICK
+    if name == "all":
+        return _all(out, repeats, fresh, write)
     from rich.console import Console
 
     from app.studies.errors import StudyError
@@ -55,15 +69,22 @@ def study(
     elif given:
         raise StudyError(f"study {name} takes no folders; leave {given[0]} out")
     else:
-        result = run(chosen, repeats)
+        result = run(chosen, repeats, lend=lent)
+    if write and isinstance(result, Result):
+        from app.studies.kept import folder, keep
+
+        typer.echo(f"wrote {keep(result, repeats, folder() / f'{name}.json')}", err=True)
     data = document(result) if isinstance(result, Result) else survey_document(result)
     if out is not None:
-        for path in _write(name, result, data, out):
+        from app.studies.files import write as write_files
+
+        for path in write_files(result, out, repeats):
             typer.echo(f"wrote {path}", err=True)
     console = Console()
     if not console.is_terminal:  # a pipe or a file has no edge at which figures must be cut
         console = Console(width=max(console.width, PIPE_WIDTH))
-    return Answer(data, lambda: _print(result, console))
+    passed = result.findings.passed if result.findings is not None else None
+    return Answer(data, lambda: _print(result, console), yes=passed)
 
 
 def _print(result: "Result | SurveyResult", console: "Console") -> None:
@@ -79,6 +100,39 @@ def _print(result: "Result | SurveyResult", console: "Console") -> None:
             console.print(line)
 
 
+def lent(name: str) -> Any:
+    """Return what a study borrows from a room above it, by `module:name`."""
+    from importlib import import_module
+
+    module, _, attribute = name.partition(":")
+    return getattr(import_module(module), attribute)
+
+
+def _all(out: Path | None, repeats: int, fresh: bool, write: bool) -> Answer:
+    from app.commands.calibrate_parts import with_progress
+    from app.core import paths
+    from app.studies.batch import Done, StudyOutcome, run_all
+    from app.studies.kept import folder, keep
+    from app.studies.runner import study_names
+    from app.studies.study import Result
+
+    where = out or paths.data() / "studies"
+
+    def told(done: Done) -> None:
+        typer.echo(f"{done.name}: {done.outcome}{done.text and ': ' + done.text}", err=True)
+        if write and isinstance(done.result, Result):
+            keep(done.result, repeats, folder() / f"{done.name}.json")
+
+    found = with_progress(
+        lambda progress: run_all(study_names(), where, repeats, fresh, progress, told, lent)
+    )
+    broken = [done for done in found if done.outcome is StudyOutcome.BROKEN]
+    rows = [{"study": d.name, "outcome": d.outcome.value, "text": d.text} for d in found]
+    lines = [f"{row['study']:24} {row['outcome']:10} {row['text']}" for row in rows]
+    lines.append(f"tables and pictures are in {where}")
+    return Answer({"studies": rows, "folder": str(where)}, lines, crashed=bool(broken))
+
+
 def _list() -> Answer:
     from app.studies.errors import StudyError
     from app.studies.runner import declaration, study_names
@@ -92,27 +146,3 @@ def _list() -> Answer:
         rows.append({"name": name, "title": title, "question": question})
     lines = [f"{row['name']:24} {row['question']}" for row in rows]
     return Answer({"studies": rows}, lines, first_form=rows)
-
-
-def _write(
-    name: str, result: "Result | SurveyResult", data: dict[str, Any], out: Path
-) -> list[Path]:
-    from json import dumps
-
-    from app.core.files import write_atomically
-    from app.studies.plot import draw, draw_figure
-    from app.studies.study import Result
-    from app.studies.table import csv_text, sheet_csv
-
-    tables = {name: csv_text(result)} if isinstance(result, Result) else {}
-    figures = result.findings.figures if result.findings is not None else ()
-    for sheet in result.findings.sheets if result.findings is not None else ():
-        tables[f"{name}-{sheet.name}"] = sheet_csv(sheet)
-    written = [out / f"{stem}.csv" for stem in tables]
-    for path, text in zip(written, tables.values(), strict=True):
-        write_atomically(path, text)
-    write_atomically(out / f"{name}.json", dumps(data, indent=2))
-    written.append(out / f"{name}.json")
-    if isinstance(result, Result):
-        written.append(draw(result, out / f"{name}.png"))
-    return written + [draw_figure(f, out / f"{name}-{f.name}.png") for f in figures]

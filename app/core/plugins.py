@@ -16,7 +16,7 @@ import math
 import sys
 import threading
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import lru_cache
 from operator import attrgetter
@@ -55,6 +55,14 @@ class Parameter:
     meaning: str
 
 
+class Published(NamedTuple):
+    """Range of a parameter in the literature: lower and upper end, in its unit, and who says so."""
+
+    least: float
+    most: float
+    source: str
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Declaration:
     """What every plug-in says about itself; kinds add fields of their own.
@@ -78,12 +86,23 @@ class StageDeclaration(Declaration):
         reads, writes: slots of the state vector, lower case; vectors by their components.
         energy: one of `ENERGIES`, and the statement behind it.
         parameters: name -> Parameter.
+        published: name of a parameter -> its range in the literature, where there is one.
     """
 
     reads: tuple[str, ...]
     writes: tuple[str, ...]
     energy: tuple[str, str]
     parameters: Mapping[str, Parameter]
+    published: Mapping[str, Published] = field(default_factory=lambda: MappingProxyType({}))
+
+    def unpublished(self, values: Mapping[str, float]) -> tuple[str, ...]:
+        """Return a sentence for each of `values` outside its range in the literature."""
+        return tuple(
+            f"{name} is {values[name]:g} {self.parameters[name].unit}; published are "
+            f"{known.least:g} to {known.most:g} ({known.source})"
+            for name, known in self.published.items()
+            if name in values and not known.least <= values[name] <= known.most
+        )
 
 
 class Field(NamedTuple):
@@ -109,7 +128,8 @@ class PluginKind(Generic[D]):
     Attributes:
         noun: what it is, with its article, as the documentation says it: `an effect`.
         declares: made of a file's declaration.
-        fields: key -> what must stand there; exactly these keys.
+        fields: key -> what must stand there; all of these keys.
+        optional: key -> what must stand there if the key does.
         error: makes the error of the room that asks.
         package: whose folders hold such files; empty if they are found otherwise.
         folder: name of the user's own folder; empty if there is none.
@@ -128,6 +148,7 @@ class PluginKind(Generic[D]):
     functions: tuple[str, ...] = ()
     older: Callable[[Path, PluginText], PluginText] | None = None
     marks: tuple[bytes, ...] = ()
+    optional: Mapping[str, Field] = field(default_factory=lambda: MappingProxyType({}))
 
     @property
     def word(self) -> str:
@@ -294,15 +315,24 @@ def _read(kind: PluginKind[Any], path: Path, text: str) -> Any:
         source = kind.older(path, source)
     if source.document is None:
         raise kind.error(f"{path} has no {_NAME} = {{...}}; see 'How to add {kind.noun}'")
-    if set(source.document) != set(kind.fields):
+    given = set(source.document) - set(kind.optional)
+    if given != set(kind.fields):
+        may = f", and may have {', '.join(kind.optional)}" if kind.optional else ""
         raise kind.error(
             f"{path}, line {source.lines.get('', 1)}: {_NAME} must have exactly the keys"
-            f" {', '.join(kind.fields)}; check {sorted(set(source.document) ^ set(kind.fields))}"
+            f" {', '.join(kind.fields)}{may}; check {sorted(given ^ set(kind.fields))}"
         )
     defined = {node.name for node in body if isinstance(node, ast.FunctionDef)}
     if missing := [name for name in kind.functions if name not in defined]:
         raise kind.error(f"{path} has no function {missing[0]}(); see 'How to add {kind.noun}'")
-    values = {key: _value(kind, key, source, path) for key in kind.fields}
+    keys = (*kind.fields, *(key for key in kind.optional if key in source.document))
+    values = {key: _value(kind, key, source, path) for key in keys}
+    unknown = sorted(set(values.get("published", {})) - set(values.get("parameters", {})))
+    if unknown:
+        raise kind.error(
+            f"{path}, line {source.lines.get(f'published {unknown[0]!r}', 1)}: published names "
+            f"{unknown[0]!r}, which is no parameter; it has {', '.join(values['parameters'])}"
+        )
     return kind.declares(name=path.stem, path=path, **values)
 
 
@@ -328,24 +358,26 @@ def _lines(node: ast.Dict) -> dict[str, int]:
     for key, value in zip(node.keys, node.values, strict=True):
         if isinstance(key, ast.Constant) and isinstance(key.value, str):
             found.setdefault(key.value, value.lineno)
-            if key.value == "parameters" and isinstance(value, ast.Dict):
+            part = {"parameters": "parameter", "published": "published"}.get(key.value)
+            if part is not None and isinstance(value, ast.Dict):
                 rows = _lines(value)
-                found |= {f"parameter {name!r}": line for name, line in rows.items()}
+                found |= {f"{part} {name!r}": line for name, line in rows.items()}
     return found
 
 
 def _value(kind: PluginKind[Any], key: str, source: PluginText, path: Path) -> Any:
     document = source.document or {}
-    field, value = kind.fields[key], document[key]
+    wanted = kind.fields[key] if key in kind.fields else kind.optional[key]
+    value = document[key]
     line = source.lines.get(key, 1)
     try:
-        return field.read(value)
+        return wanted.read(value)
     except _WrongPartError as wrong:
         line = source.lines.get(wrong.part or key, line)
         what = wrong if wrong.part else f"{key}: {wrong}"
-        raise kind.error(f"{path}, line {line}: {what}; give {field.valid}") from wrong
+        raise kind.error(f"{path}, line {line}: {what}; give {wanted.valid}") from wrong
     except (TypeError, ValueError, AttributeError, KeyError) as wrong:
-        raise kind.error(f"{path}, line {line}: {key} is {value!r}; give {field.valid}") from wrong
+        raise kind.error(f"{path}, line {line}: {key} is {value!r}; give {wanted.valid}") from wrong
 
 
 class _WrongPartError(ValueError):
@@ -415,6 +447,22 @@ def _parameter(name: str, row: Any) -> Parameter:
     return found
 
 
+def _published(value: Any) -> Mapping[str, Published]:
+    return MappingProxyType({_text(name): _range(name, row) for name, row in value.items()})
+
+
+def _range(name: str, row: Any) -> Published:
+    try:
+        least, most, source = row
+        found = Published(float(least), float(most), _text(source))
+        usable = math.isfinite(found.least) and found.least <= found.most < math.inf
+    except (TypeError, ValueError):
+        usable = False
+    if not usable:
+        raise _WrongPartError(f"published {name!r}", f"published {name!r} is {row!r}")
+    return found
+
+
 TEXT: Final = Field("a text that is not empty", _text)
 FLAG: Final = Field("True or False", _flag)
 TEXTS: Final = Field("a tuple of texts", _texts)
@@ -429,6 +477,11 @@ PARAMETERS: Final = Field(
     "{name: (default, unit, least, most, meaning), ...}, the default a number, None if it must be"
     " given, or for a force law a field of the device profile",
     _parameters,
+)
+PUBLISHED: Final = Field(
+    "{name of a parameter: (least, most, source), ...}, the range in the literature and who says"
+    " so",
+    _published,
 )
 
 

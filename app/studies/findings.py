@@ -51,11 +51,16 @@ class Figure:
 
 @dataclass(frozen=True, slots=True)
 class Findings:
-    """Tables, pictures, and what they say, line by line."""
+    """Tables, pictures, and what they say, line by line.
+
+    Attributes:
+        passed: whether what had to hold does; None where nothing had to.
+    """
 
     sheets: tuple[Sheet, ...]
     figures: tuple[Figure, ...] = ()
     lines: tuple[str, ...] = ()
+    passed: bool | None = None
 
 
 def _nothing(*_: Any) -> Findings:

@@ -11,10 +11,14 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
-from app.mechanisms.pantograph import inverse, jacobian, joint_torques, needle_at
+from app.device.control.table import pantograph_stages
+from app.device.control.transmission import Transmission, transmission_stage
+from app.device.links.link import Link
+from app.mechanisms.pantograph import ForceLaw, inverse, jacobian, joint_torques, needle_at
 from app.mechanisms.pantograph.kernels import force_map_kernel, printed_force_kernel
 from app.mechanisms.profile import DeviceProfile, load_profile
 from app.studies.findings import Cell, Figure, Findings, Sheet
+from app.studies.in_use import called
 from app.studies.references.mujoco_pantograph import felt_in_mujoco
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 
@@ -120,7 +124,16 @@ def _way(name: str, printed: bool) -> Way:
     def prepare(case: Case) -> Prepared:
         return Prepared(lambda: tool_force(case.data, printed, _CALLS), _CALLS)
 
-    return Way(name, name, prepare)
+    return Way(name, name, prepare, used=printed_force_kernel if printed else force_map_kernel)
+
+
+def _in_use() -> object:
+    profile = load_profile(_DEVICE)
+    table = pantograph_stages(profile, [], [], Link.of([], []))
+    chosen = next(stage for stage in table if stage.name == "transmission")
+    virtual_work = Transmission.of(profile, ForceLaw.VIRTUAL_WORK).stage().parameters
+    kernel = "force_map_kernel" if (chosen[2] == virtual_work).all() else "printed_force_kernel"
+    return called(transmission_stage, kernel)
 
 
 def _findings() -> Findings:
@@ -180,6 +193,8 @@ STUDY: Final = Study(
     case=_case,
     deadline=Limit(1e-6, "1 µs: a third of the 3 µs that a whole tick may take"),
     perception=Limit(max(_FELT, _SHARE * _WANTED), "0.2 N: 10 % of the force, felt"),
-    default="virtual work: the printed law is felt to be wrong from a tilt of 18°",
+    default="virtual work",
+    because="the printed law is felt to be wrong from a tilt of 18°",
+    in_use=_in_use,
     findings=_findings,
 )

@@ -6,16 +6,23 @@ at 100 mm above it. Rigid needle on springs against a beam on an elastic foundat
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import cos, cosh, sin, sinh
+from math import asin, cos, cosh, sin, sinh
 from typing import Any, Final
 
 import numpy as np
 
+from app.core import state_vector as sv
 from app.core.arrays import FloatArray
-from app.core.compiled import njit
+from app.core.compiled import STAGE_TYPE, njit
+from app.simulation.consumers import DevicePort
+from app.simulation.effects import lateral_tissue as effect
 from app.simulation.errors import SimulationError
 from app.simulation.needles import OUTER_DIAMETER, bending_stiffness
+from app.simulation.plan import compile as compile_scene
+from app.simulation.scene import EffectRequest, Scene
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
+
+from numba import types  # isort: skip  (after core.compiled)
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Lateral tissue: rigid needle on springs against a beam on an elastic foundation",
@@ -280,6 +287,48 @@ def _hermite(n: int) -> Callable[[Case], Prepared]:
     return prepare
 
 
+_PUSH: Final = 0.05e-3  # [m] a tick: 50 mm/s at 1 kHz
+
+
+_ARRAY: Final = types.float64[::1]
+
+
+@njit(types.float64(STAGE_TYPE, _ARRAY, _ARRAY, types.float64, types.float64, types.int64))
+def _insert_and_turn(
+    step: Any, state: FloatArray, parameters: FloatArray, depth: float, turn: float, ticks: int
+) -> float:
+    """Push in straight in equal steps, a tick each, turn in the last; moment then [N·m]."""
+    for tick in range(1, ticks + 1):
+        angle = turn if tick == ticks else 0.0
+        state[sv.AXIS_X], state[sv.AXIS_Z] = sin(angle), -cos(angle)
+        state[sv.DEPTH] = depth * min(1.0, tick / (ticks - 1))
+        state[sv.FORCE_X] = state[sv.FORCE_Y] = state[sv.FORCE_Z] = 0.0
+        step(state, parameters)
+    force = (state[sv.FORCE_X] ** 2 + state[sv.FORCE_Y] ** 2 + state[sv.FORCE_Z] ** 2) ** 0.5
+    return force * state[sv.L_OUT]
+
+
+def _filter(case: Case) -> Prepared:
+    depth, ei = case.data.depth, case.data.ei
+    fresh = effect.empty(np.array([depth + 0.05]), np.array([_STIFFNESS]), 1.0 / ei, 1e-3)
+    ticks, state = round(depth / _PUSH) + 1, sv.empty_state()
+    state[sv.L_OUT], state[sv.DEPTH_SOURCE] = _LEVER, 1.0
+    state[sv.KINEMATICS] = 0.0
+    turn = asin(_TURN)  # the same displacement beside the channel as in the linear theory
+
+    def run() -> float:
+        found: float = _insert_and_turn(effect.step, state, fresh.copy(), depth, turn, ticks)
+        return found
+
+    return Prepared(run, ticks)
+
+
+def _in_use() -> object:
+    scene = Scene((EffectRequest("lateral_tissue"),))
+    plan = compile_scene(scene, DevicePort("any"))
+    return plan.stages()[1].function, plan.kept[0].model
+
+
 _WAYS: Final = (
     Way("rigid", "rigid, closed form", _rigid, "k d³/3 · θ"),
     *(
@@ -293,6 +342,13 @@ _WAYS: Final = (
     *(
         Way(f"elements {n}", "beam, elements", _hermite(n), "cubic Hermite, order 4")
         for n in (2, 4, 8, 16, 32)
+    ),
+    Way(
+        "filter",
+        "beam, filter from the fulcrum inwards",
+        _filter,
+        "exact between edges 1 mm apart, with what the tissue remembers: a tick of an insertion",
+        used=(effect.step, "beam"),
     ),
 )
 
@@ -309,8 +365,11 @@ STUDY: Final = Study(
     case=_case,
     deadline=Limit(50e-6, "50 µs: 5 % of the 1 ms tick"),
     perception=Limit(_FELT, "0.1 N (or 10 % of the force, if more): felt"),
-    default=(
-        "model `beam`: elements of 1 mm, solved when the scene is compiled and looked up in the "
-        "tick; a rigid needle feels wrong for every gauge from 60 mm"
+    default="filter",
+    because="model `beam`; a rigid needle feels wrong for every gauge from 60 mm",
+    exception=(
+        "Elements solve one straight insertion into one tissue; the filter has layers, tissue that "
+        "was pierced along any path and remembers it, and the needle's shape in the same tick."
     ),
+    in_use=_in_use,
 )

@@ -31,6 +31,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
 from app.studies.findings import Findings, Sheet
+from app.studies.in_use import called
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 from app.tracking.band.equations import REST
 from app.tracking.band.fit import SHADING_PRIOR, STRETCH_SD, rest_prior
@@ -47,6 +48,7 @@ from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape, RigProfile, load_rig
 from app.tracking.simulated.cameras import NeedleRenderer
 from app.tracking.simulated.scene import MarkerScene
+from app.tracking.tracker import Tracker
 
 _STEP_PX = 0.3
 """Of the central differences: small beside the point spread, large beside a grey level."""
@@ -403,6 +405,15 @@ def _way(name: ExtractorName) -> Callable[[Case], Prepared]:
     return prepare
 
 
+def _used(name: ExtractorName) -> object:
+    return type(extractors(load_rig(_RIG), name)[0])
+
+
+def _in_use() -> object:
+    built: Any = called(Tracker.__init__, "default_extractors")
+    return type(built(load_rig(_RIG))[0])
+
+
 def _findings() -> Findings:
     rows = []
     for background in _BACKGROUNDS:
@@ -485,14 +496,17 @@ def _findings() -> Findings:
 STUDY: Final = Study(
     error_label="RMS distance from the band's centre [mm at its distance]",
     ways=tuple(
-        Way(name.value, name.value, _way(name), "one find near a predicted pixel")
+        Way(name.value, name.value, _way(name), "one find near a predicted pixel", _used(name))
         for name in ExtractorName
     ),
     settings=tuple(Setting(name, {}) for name in _BACKGROUNDS),
     case=_case,
     deadline=Limit(1.5e-3, "1.5 ms: half of 3 ms for a pair of pictures"),
     perception=Limit(_SEEN, "0.1 mm beside the needle"),
-    default="model_fit: a fraction of the others' error, and it notices what covers the marker",
+    default="model_fit",
+    because="a fraction of the others' error, and it notices what covers the marker",
+    exception="The only way that notices fingers and highlights over the marker.",
+    in_use=_in_use,
     findings=_findings,
 )
 """Four ways to find the marker, against the bound."""

@@ -7,7 +7,7 @@ from typing import Any, Final
 from app.studies.errors import StudyError
 from app.studies.findings import Figure
 from app.studies.study import Point, Result
-from app.studies.table import failure_lines
+from app.studies.table import default_line, failure_lines
 
 _COLOURS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
 """Okabe and Ito: told apart by colour-blind eyes; markers differ as well."""
@@ -31,6 +31,7 @@ def draw(result: Result, path: Path) -> Path:
         style = number % len(_COLOURS)
         members = _members(result, family)
         notes += _family(axes, family, members, _COLOURS[style], _MARKERS[style])
+    _ring(axes, result)
     limits = _limits(axes, result)
     _dress(figure, axes, result)
     _set_apart(figure, axes, notes, limits)
@@ -53,9 +54,11 @@ def _empty(size: tuple[float, float]) -> Any:
 
 
 def _save(figure: Any, path: Path) -> Path:
+    own = {"svg.fonttype": "none", "svg.hashsalt": path.stem}  # text stays text, ids stay the same
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        figure.savefig(path)
+        with _matplotlib()[1].rc_context(own):
+            figure.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)
     except (OSError, ValueError) as error:
         raise StudyError(f"cannot write the picture {path}: {error}") from error
     return path
@@ -101,6 +104,14 @@ def _family(
         if few or number in ends:
             notes.append(_note(axes, label, (x, y), -11, colour, 6))
     return notes
+
+
+def _ring(axes: Any, result: Result) -> None:
+    """Draw a ring round the default where it is at its worst."""
+    for worst in result.summary():
+        if worst.way == result.study.default:
+            at = [max(worst.error, _LEAST)], [worst.seconds]
+            axes.plot(*at, marker="o", markersize=13, fillstyle="none", color=_INK)
 
 
 def _note(axes: Any, text: str, at: tuple[float, float], above: int, colour: str, size: int) -> Any:
@@ -201,7 +212,7 @@ def _dress(figure: Any, axes: Any, result: Result) -> None:
     axes.set_ylabel("time of one call [s]", color=_INK)
     axes.grid(True, which="major", color="#DDDDDD", linewidth=0.6)
     axes.set_axisbelow(True)
-    foot = [f"Reference: {study.reference}", f"Default: {study.default}"]
+    foot = [f"Reference: {study.reference}", default_line(result)]
     foot += [f"Fails: {line}" for line in failure_lines(result)] or ["No way fails."]
     figure.text(0.02, 0.015, _wrapped(foot), fontsize=6.5, color=_INK, va="bottom")
 

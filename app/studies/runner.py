@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from app.core.errors import AcusError
 from app.core.plugins import TEXT, Declaration, PluginKind, PluginText
@@ -106,6 +106,7 @@ def run(
     repeats: int = REPEATS,
     progress: Progress | None = None,
     clock: Callable[[], float] = time.thread_time,
+    lend: Callable[[str], Any] | None = None,
 ) -> Result:
     """Run every way in every setting, after a warm-up, and take medians of repeated timing.
 
@@ -115,20 +116,28 @@ def run(
         progress: told how far it is; may cancel.
         clock: source of time [s]; by default the processor's time of this thread, so that what
             other programs take from the machine is not counted.
+        lend: gives what a study borrows, by `module:name`.
 
     Raises:
-        StudyError: for an unknown study, or a survey (see `examine`).
+        StudyError: for an unknown study, a survey (see `examine`), or one that borrows what nobody
+            lends.
         Cancelled: when the progress says so.
     """
     chosen = find_study(study) if isinstance(study, str) else study
     if not isinstance(chosen, Study):
         raise StudyError(f"study {chosen.name} has no ways to time; examine() runs a survey")
+    if chosen.borrows and lend is None:
+        raise StudyError(
+            f"study {chosen.name} needs {', '.join(chosen.borrows)} from a room above; "
+            f"run it by: acus study {chosen.name}"
+        )
+    lent = tuple(lend(name) for name in chosen.borrows) if lend is not None else ()
     points: list[Point] = []
     failures: list[Failure] = []
     for number, setting in enumerate(chosen.settings):
         if progress is not None:
-            progress.report(number / len(chosen.settings), setting.name)
-        case = chosen.case(setting)
+            progress.report(number / len(chosen.settings), f"{chosen.name}: {setting.name}")
+        case = chosen.case(setting, *lent)
         for way in chosen.ways:
             try:
                 points.append(_point(chosen, way, setting, case, max(1, repeats), clock))
@@ -177,6 +186,7 @@ def _point(
         seconds,
         error <= case.perception,
         seconds <= study.deadline.value,
+        case.perception,
     )
 
 

@@ -15,6 +15,7 @@ from app.imaging.interpolation import Interpolation
 from app.imaging.oblique import Plane, oblique_image
 from app.imaging.series import Series
 from app.imaging.volume import Volume
+from app.studies.in_use import default_of
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -96,7 +97,8 @@ def _way(interpolation: Interpolation) -> Callable[[Case], Prepared]:
 
 
 _WAYS: Final = tuple(
-    Way(way.value, way.value, _way(way), "one 512 x 512 oblique slice") for way in Interpolation
+    Way(way.value, way.value, _way(way), "one 512 x 512 oblique slice", way)
+    for way in Interpolation
 )
 
 STUDY: Final = Study(
@@ -109,5 +111,7 @@ STUDY: Final = Study(
     case=_case,
     deadline=Limit(16e-3, "16 ms: one frame"),
     perception=Limit(_SEEN_HU, "10 HU: noise of a diagnostic CT"),
-    default="trilinear: below the noise down to structures of 5 mm, and within a frame",
+    default="trilinear",
+    because="below the noise down to structures of 5 mm, and within a frame",
+    in_use=lambda: default_of(oblique_image, "interpolation"),
 )

@@ -12,11 +12,14 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
 from app.studies.findings import Figure, Findings, Sheet
+from app.studies.in_use import called
 from app.studies.printed_formulas import printed_stereo_error
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
+from app.tracking import solver
 from app.tracking.confidence import covariance_radius
 from app.tracking.optics.rig import RigProfile, load_rig
-from app.tracking.stereo import triangulation
+from app.tracking.stereo import kernels, triangulation
+from app.tracking.stereo.closed_form import linear
 from app.tracking.stereo.epipolar import normalised
 from app.tracking.stereo.reprojection import reprojection
 
@@ -130,6 +133,18 @@ def _way(way: triangulation.Way) -> Callable[[Case], Prepared]:
     return prepare
 
 
+_USED: Final[dict[triangulation.Way, object]] = {
+    triangulation.Way.LINEAR: linear,
+    triangulation.Way.MIDPOINT: (kernels.optimum, 0),
+    triangulation.Way.REPROJECTION: (kernels.optimum, 10),
+}
+
+
+def _in_use() -> object:
+    steps = called(solver.locate, "_STEPS")
+    return called(called(solver.locate, "_triangulate"), "optimum"), steps  # type: ignore[arg-type]
+
+
 def _findings() -> Findings:
     rows = []
     for name in RIGS:
@@ -192,14 +207,16 @@ def draw(figure: Any) -> None:
 STUDY: Final = Study(
     error_label="RMS distance from the true point [mm]",
     ways=tuple(
-        Way(way.value, way.value, _way(way), "one point from two pictures")
+        Way(way.value, way.value, _way(way), "one point from two pictures", _USED[way])
         for way in triangulation.Way
     ),
     settings=tuple(Setting(name, {}) for name in RIGS),
     case=_case,
     deadline=Limit(3e-3, "3 ms for a pair of pictures"),
     perception=Limit(_SEEN, "0.25 mm: a third of a pixel of the CT"),
-    default="reprojection: its covariance is the one that is stated, at any geometry",
+    default="reprojection",
+    because="its covariance is the one that is stated, at any geometry",
+    in_use=_in_use,
     findings=_findings,
 )
 """Three ways of triangulation, and the thesis' figure 42."""

@@ -56,12 +56,15 @@ class Way:
         family: ways of one family differ by their resolution only, and share colour and marker.
         prepare: makes the way ready for a case.
         description: one line.
+        used: what the program would call were this its way: a function, class or name, or a tuple
+            of these and what it is set to; None for what only the study has.
     """
 
     name: str
     family: str
     prepare: Callable[[Case], Prepared]
     description: str = ""
+    used: object = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,10 +83,17 @@ class Study:
         name, title, question, reference: as the file's declaration says; the runner fills them in.
         error_label: of the axis, with unit.
         ways, settings: what is run; names are unique.
-        case: makes a setting ready.
+        case: makes a setting ready; of a study that borrows, `case(setting, *lent)`.
         deadline: time that the work may take [s].
         perception: error that a person notices.
-        default: the way that the program uses, and why.
+        default: name of the way that the program uses. `NAME: why`, the form before, is read as
+            name and `because`.
+        because: why, in a sentence.
+        exception: why the default is not what `rule.sweet_spot` finds; empty where it is.
+        in_use: finds what the program really calls, to be compared with the default's `used`; None
+            for a study of the user's own. Of one that borrows, `in_use(*lent)`.
+        borrows: what it needs from rooms above, which it may not import: `module:name` each.
+            Whoever runs it lends them (`acus study` does).
         findings: further tables and pictures, made after the points; none if left out.
     """
 
@@ -94,10 +104,14 @@ class Study:
     error_label: str
     ways: tuple[Way, ...]
     settings: tuple[Setting, ...]
-    case: Callable[[Setting], Case]
+    case: Callable[..., Case]
     deadline: Limit
     perception: Limit
     default: str
+    because: str = ""
+    exception: str = ""
+    in_use: Callable[..., object] | None = None
+    borrows: tuple[str, ...] = ()
     findings: Callable[[], Findings] | None = None
 
     def __post_init__(self) -> None:
@@ -105,11 +119,27 @@ class Study:
             names = [item.name for item in items]
             if not names or len(set(names)) != len(names):
                 raise StudyError(f"study {self.name}: each {kind} needs a name of its own: {names}")
+        ways = [way.name for way in self.ways]
+        if self.default not in ways:
+            name, _, because = self.default.partition(": ")
+            if name not in ways:
+                raise StudyError(
+                    f"study {self.name}: its default {name!r} is no way; "
+                    f"there are {', '.join(ways)}"
+                )
+            object.__setattr__(self, "default", name)
+            object.__setattr__(self, "because", self.because or because)
 
 
 @dataclass(frozen=True, slots=True)
 class Point:
-    """One way in one setting: error in the study's unit, median time of one call [s]."""
+    """One way in one setting.
+
+    Attributes:
+        error: in the study's unit.
+        seconds: median processor time of one call.
+        noticed: the error from which on a person notices it in this setting.
+    """
 
     way: str
     family: str
@@ -118,6 +148,7 @@ class Point:
     seconds: float
     within_perception: bool
     within_deadline: bool
+    noticed: float = float("nan")
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,4 +198,13 @@ def _worst(points: list[Point]) -> Point:
         max(p.seconds for p in points),
         all(p.within_perception for p in points),
         all(p.within_deadline for p in points),
+        worst.noticed,
     )
+
+
+def duration(seconds: float) -> str:
+    """Write a time in the unit that suits it: `1.40 µs`."""
+    for scale, unit in ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs")):
+        if seconds >= scale:
+            return f"{seconds / scale:.3g} {unit}"
+    return f"{seconds / 1e-9:.3g} ns"

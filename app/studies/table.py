@@ -8,7 +8,8 @@ from rich.markup import escape
 from rich.table import Table
 
 from app.studies.findings import Findings, Sheet, SurveyResult
-from app.studies.study import Point, Result
+from app.studies.rule import departure, sweet_spot
+from app.studies.study import Point, Result, duration
 
 _COLUMNS = (
     "way",
@@ -18,6 +19,7 @@ _COLUMNS = (
     "seconds",
     "within_perception",
     "within_deadline",
+    "noticed",
     "failure",
 )
 
@@ -53,10 +55,17 @@ def _caption(result: Result) -> str:
     lines = [
         f"Reference: {study.reference}",
         f"Deadline: {study.deadline.label}. Noticed from: {study.perception.label}.",
-        f"Default: {study.default}",
+        default_line(result),
     ]
     lines += [f"Failed: {line}" for line in failure_lines(result)]
     return "\n".join(lines)
+
+
+def default_line(result: Result) -> str:
+    """Return which way the program uses and why; and why it is not the sweet spot, if so."""
+    study, apart = result.study, departure(result)
+    text = f"Default: {study.default}" + (f", {study.because}" if study.because else "")
+    return text + (f". Exception: {apart}" if apart else "")
 
 
 def failure_lines(result: Result) -> list[str]:
@@ -69,25 +78,27 @@ def failure_lines(result: Result) -> list[str]:
     return lines
 
 
-def duration(seconds: float) -> str:
-    """Write a time in the unit that suits it: `1.40 µs`."""
-    for scale, unit in ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs")):
-        if seconds >= scale:
-            return f"{seconds / scale:.3g} {unit}"
-    return f"{seconds / 1e-9:.3g} ns"
-
-
 def document(result: Result) -> dict[str, Any]:
     """Return the result for JSON; the keys stand in docs/json.md."""
     study = result.study
     return {
         "study": study.name,
         "title": study.title,
+        "question": study.question,
         "reference": study.reference,
         "error_label": study.error_label,
         "default": study.default,
+        "because": study.because,
+        "sweet_spot": sweet_spot(result),
+        "exception": departure(result),
         "deadline_s": study.deadline.value,
+        "deadline_label": study.deadline.label,
         "perception": study.perception.value,
+        "perception_label": study.perception.label,
+        "ways": [
+            {"way": way.name, "family": way.family, "description": way.description}
+            for way in study.ways
+        ],
         "points": [
             {name: getattr(point, name) for name in _COLUMNS[:-1]} for point in result.points
         ],

@@ -29,7 +29,7 @@ def test_a_study_prints_json_and_writes_table_and_picture(tmp_path: Path) -> Non
     done = RUN.invoke(build(), arguments)
     assert done.exit_code == 0
     assert json.loads(done.stdout)["study"] == "lateral_tissue"
-    assert {path.suffix for path in tmp_path.iterdir()} == {".csv", ".json", ".png"}
+    assert {path.suffix for path in tmp_path.iterdir()} == {".csv", ".json", ".png", ".svg"}
 
 
 def test_an_unknown_study_or_exercise_is_refused_with_the_known_names() -> None:
@@ -55,7 +55,7 @@ def test_explain_says_what_is_simulated_why_and_at_what_cost() -> None:
 def test_explain_for_the_real_robot_drops_what_it_cannot_render() -> None:
     done = RUN.invoke(build(), ["explain", "first-insertion", "--real"])
     assert done.exit_code == 0
-    assert "shaft_friction\n    dropped: it writes axial_force" in done.stdout
+    assert "shaft_friction\n    dropped: it gives the force along the needle" in done.stdout
 
 
 def test_explain_does_not_compile_the_loop_that_it_does_not_run() -> None:

@@ -58,18 +58,6 @@ def test_ten_minutes_at_rest_after_a_movement_leave_no_subnormal_number(method):
 
 
 @every_method
-def test_a_decaying_velocity_ends_in_exact_zero_not_in_subnormal_numbers(method):
-    state, function, memory = fresh(method)
-    smallest = 1.0
-    for k in range(20_000):
-        tick(state, function, memory, 1.0 + 1e-3 * k, 1e-3, 2.5 if k == 0 else 2.6)
-        if state[sv.QD_LEFT] != 0.0:
-            smallest = min(smallest, abs(state[sv.QD_LEFT]))
-    assert state[sv.QD_LEFT] == 0.0
-    assert smallest >= 1e-12
-
-
-@every_method
 @pytest.mark.parametrize("wrap", [2.0 * pi, -2.0 * pi, 65536 * COUNT, 1e308, -1e308])
 def test_an_encoder_that_wraps_is_no_movement(method, wrap):
     state, function, memory = fresh(method)

@@ -19,11 +19,10 @@ from app.studies.findings import Figure, Findings, Sheet, Survey
 from app.studies.plot import draw, draw_figure
 from app.studies.runner import examine, find_study, run, study_names
 from app.studies.slice_interpolation import field, oblique_plane, sampled
-from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
+from app.studies.study import Case, Limit, Prepared, Setting, Study, Way, duration
 from app.studies.table import (
     csv_text,
     document,
-    duration,
     failure_lines,
     sheet_csv,
     sheet_table,
@@ -54,7 +53,7 @@ def small(ways: tuple[Way, ...] | None = None) -> Study:
         case=lambda s: Case(s.values["x"], lambda value: abs(value - 2.0), 0.2),
         deadline=Limit(0.5, "half a second"),
         perception=Limit(0.2, "0.2 m"),
-        default="exact",
+        default=(ways[0].name if ways else "exact"),
     )
 
 

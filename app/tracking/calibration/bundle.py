@@ -205,7 +205,13 @@ class _Problem:
         return AdjustedState(parameters, pose, poses)
 
     def result(self, state: AdjustedState, system: _System) -> Adjusted:
-        weights = np.linalg.solve(system.bb, np.swapaxes(system.gb, 1, 2))
+        try:
+            weights = np.linalg.solve(system.bb, np.swapaxes(system.gb, 1, 2))
+        except np.linalg.LinAlgError as reason:
+            raise CalibrationError(
+                "the views do not determine where a board was; tilt the board to different sides by"
+                " 20 to 45 degrees"
+            ) from reason
         reduced = system.gg - np.einsum("kgi,kih->gh", system.gb, weights)
         variance = system.cost / self.dof
         inverse, condition = _inverse(reduced)
@@ -222,7 +228,7 @@ def _inverse(matrix: FloatArray) -> tuple[FloatArray, float]:
     """
     if not matrix.size:
         return matrix, 1.0
-    scale = 1.0 / np.sqrt(np.maximum(np.diag(matrix), 1e-300))
+    scale = 1.0 / np.sqrt(np.maximum(np.diag(matrix), 1e-200))  # its square is finite
     values, vectors = np.linalg.eigh(matrix * np.outer(scale, scale))
     safe = np.maximum(values, 1e-14)
     inverse = (vectors / safe) @ vectors.T * np.outer(scale, scale)

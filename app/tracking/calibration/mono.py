@@ -24,6 +24,9 @@ from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import PARAMETERS, CameraCalibration
 
 LEAST_VIEWS = 3
+LEAST_CONDITION = 1e-12
+"""Smallest eigenvalue, see `Adjusted.condition`, of views that determine a camera."""
+
 MOST_FOCAL_SPREAD = 0.05
 """Standard deviation of the focal length over itself beyond which views are refused."""
 
@@ -197,7 +200,8 @@ def _without_outliers(
 def _require_determined(adjusted: Adjusted, name: str) -> None:
     focal, spread = adjusted.state.parameters[0, :2], adjusted.sd()[:2]
     worst = float((spread / focal).max())
-    if not np.isfinite(worst) or worst > MOST_FOCAL_SPREAD:
+    undetermined = adjusted.condition < LEAST_CONDITION  # exact corners leave no spread to see it
+    if undetermined or not np.isfinite(worst) or worst > MOST_FOCAL_SPREAD:
         raise CalibrationError(
             f"camera {name}: the views do not determine the focal length ({focal[0]:.0f} ± "
             f"{spread[0]:.0f} px; at most {MOST_FOCAL_SPREAD:.0%} is taken); boards that are all "

@@ -115,7 +115,7 @@ class ConstantVelocity(DepthFilter):
 
     def __init__(self, agility: float = 2e-4) -> None:
         super().__init__()
-        self._agility = agility
+        self.agility = agility
         self._state = np.zeros(2)
         self._spread = np.zeros((2, 2))
         self._surprise = 1.0
@@ -146,5 +146,5 @@ class ConstantVelocity(DepthFilter):
 
     def _predict(self, dt: float) -> tuple[FloatArray, FloatArray]:
         step = np.array([[1.0, dt], [0.0, 1.0]])
-        noise = self._agility * np.array([[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]])
+        noise = self.agility * np.array([[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]])
         return step @ self._state, step @ self._spread @ step.T + noise

@@ -53,7 +53,19 @@ def _square_poses(marker: Marker, rays: FloatArray) -> list[RigidTransform]:
         np.column_stack([right, up, marker.normal]), marker.corners.mean(axis=0)
     )
     poses = _ippe(square, rays, cv2.SOLVEPNP_IPPE_SQUARE)
+    if not any(_explains(pose, square, rays) for pose in poses):
+        # Of a square turned exactly about one of its own axes IPPE tells neither pose.
+        poses = _ippe(square, rays + _NUDGE, cv2.SOLVEPNP_IPPE_SQUARE)
     return [pose @ T_board_marker.inverse() for pose in poses]
+
+
+def _explains(pose: RigidTransform, points: FloatArray, rays: FloatArray) -> bool:
+    """Whether a pose shows points within a fifth of their rays' spread of where they are seen."""
+    seen = pose @ points
+    if not (seen[:, 2] > 0.0).all():
+        return False
+    off = np.abs(seen[:, :2] / seen[:, 2:] - rays).max()
+    return bool(off < 0.2 * np.ptp(rays, axis=0).max())
 
 
 def _plane_poses(model: CameraModel, problem: BoardProblem) -> list[RigidTransform]:
@@ -84,6 +96,9 @@ DECISIVE = 16.0
 
 _BESIDE = 0.05
 """Angle [rad] from a known minimum within which a start would only lead there."""
+
+_NUDGE = np.array([[1e-7, 0.0], [0.0, 1e-7], [0.0, 0.0], [0.0, 0.0]])
+"""Of normalised corners: far below a pixel, and enough to take the symmetry away."""
 
 _ONE_PLANE = 0.99
 """Cosine between two faces' normals above which they are one plane."""

@@ -1,0 +1,28 @@
+"""All hard cases: those of every file of this folder that defines `CASES`."""
+
+from functools import cache
+from importlib import import_module
+from pkgutil import iter_modules
+
+from app.studies import hard_cases
+from app.studies.errors import StudyError
+from app.studies.hard_cases.case import SUBSYSTEMS, HardCase
+
+
+@cache
+def cases() -> tuple[HardCase, ...]:
+    """Return the cases, in the order of the subsystems.
+
+    Raises:
+        StudyError: if a subsystem has no case, or two cases have one name.
+    """
+    found: list[HardCase] = []
+    for info in iter_modules(hard_cases.__path__):
+        module = import_module(f"{hard_cases.__name__}.{info.name}")
+        found += getattr(module, "CASES", ())
+    names = [case.name for case in found]
+    if twice := sorted({name for name in names if names.count(name) > 1}):
+        raise StudyError(f"two hard cases are called {twice[0]!r}; rename one")
+    if bare := set(SUBSYSTEMS) - {case.subsystem for case in found}:
+        raise StudyError(f"subsystems without a hard case: {', '.join(sorted(bare))}")
+    return tuple(sorted(found, key=lambda case: SUBSYSTEMS.index(case.subsystem)))

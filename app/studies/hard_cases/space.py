@@ -1,0 +1,530 @@
+"""Hard cases of rotations, distances and planning: opposite directions, half turns, far origins."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from math import acos, pi
+from typing import Any, Final
+
+import numpy as np
+
+from app.core.arrays import FloatArray, angle_between, unit
+from app.core.errors import NumericalError
+from app.core.rotation import closest_rotation, rotation_exp, rotation_log, skew
+from app.core.transform import RigidTransform, rotation_between
+from app.mechanisms.profile import load_profile
+from app.planning.errors import PlanError
+from app.planning.limits import cone, tilt_of
+from app.planning.measurements import Angle
+from app.planning.measuring import measured
+from app.planning.needle_planes import frame_of
+from app.planning.off_path import angles, offset
+from app.planning.placement import PatientOrientation, PlacedPlan, Placement
+from app.planning.plan import Plan
+from app.planning.reach import Obstacle, reach, smallest_turn
+from app.planning.registration.errors import DegenerateFiducialsError
+from app.planning.registration.rigid import rigid_fit
+from app.studies.hard_cases.case import (
+    Beyond,
+    Defect,
+    HardCase,
+    analytic,
+    answers,
+    digits,
+    named,
+)
+from app.studies.hard_cases.volumes import volume_of
+
+DOWN: Final = np.array([0.0, 0.0, -1.0])
+PROFILE: Final = load_profile("icube")
+FULCRUM: Final = PROFILE.pantograph.fulcrum
+
+_Way = Callable[..., Any]
+
+
+def _angle_by_acos(a: Any, b: Any) -> float:
+    return acos(float(np.clip(unit(a) @ unit(b), -1.0, 1.0)))
+
+
+def _log_by_trace(r: Any) -> FloatArray:
+    """Angle by the trace, axis by the antisymmetric part: wrong near zero and half a turn."""
+    r = np.asarray(r)
+    angle = acos(float(np.clip((np.trace(r) - 1.0) / 2.0, -1.0, 1.0)))
+    aside = np.array([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]])
+    sine = 2.0 * np.sin(angle)
+    return np.asarray(angle / sine * aside if sine > 1e-12 else np.zeros(3))
+
+
+def _turned() -> HardCase:
+    reference = digits("rotation by 1e-9 short of half a turn")
+    vector = np.array(reference.given)
+
+    def half_forgotten(v: Any) -> FloatArray:
+        angle = float(np.linalg.norm(v))
+        k = skew(np.asarray(v) / angle)
+        return np.eye(3) + np.sin(angle) * k + 0.5 * (1.0 - np.cos(angle)) * (k @ k)
+
+    return HardCase(
+        subsystem="rotations",
+        case="rotation matrix of a turn by 1e-9 short of half a turn",
+        given="axis (0.36, -0.48, 0.8)",
+        way=rotation_exp,
+        found=lambda way: way(vector),
+        reference=reference,
+        unit="1",
+        bound=1e-15,
+        beyond=_identity(),
+        defect=Defect("half of 1 - cos forgotten", half_forgotten),
+    )
+
+
+def _barely_turned() -> tuple[HardCase, ...]:
+    # What a small turn leaves beside the ones of the diagonal must keep its own digits.
+    found = []
+    for words in ("1e-8", "1e-160"):
+        kept = digits(f"rotation by {words}")
+        r = kept.value
+        reference = replace(kept, value=(r[7] - r[5], r[2] - r[6], r[3] - r[1]))
+        found.append(
+            HardCase(
+                subsystem="rotations",
+                case=f"rotation matrix of a turn by {words} rad, its antisymmetric part",
+                given="axis (0.36, -0.48, 0.8)",
+                way=rotation_exp,
+                found=lambda way, v=kept.given: _antisymmetric(way(np.array(v))),
+                reference=reference,
+                unit="1",
+                bound=1e-15,
+                relative=True,
+                beyond=_identity(),
+                defect=Defect("no turn at all where cos is 1", lambda v: np.eye(3)),
+            )
+        )
+    return tuple(found)
+
+
+def _identity() -> Beyond:
+    return answers(
+        "exactly the identity at 0",
+        lambda: bool((rotation_exp(np.zeros(3)) == np.eye(3)).all()),
+    )
+
+
+def _antisymmetric(r: Any) -> FloatArray:
+    return np.array([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]])
+
+
+def _logs() -> tuple[HardCase, ...]:
+    found = []
+    for words, angle, bound in (
+        ("1e-9 short of half a turn", pi - 1e-9, 1e-15),
+        ("1e-10 rad", 1e-10, 1e-16),
+        ("3 rad", 3.0, 2e-15),
+    ):
+        axis = np.array([0.36, -0.48, 0.8])
+        turn = angle * axis
+        found.append(
+            HardCase(
+                subsystem="rotations",
+                case=f"rotation vector of a turn by {words}",
+                given="matrix of the turn about (0.36, -0.48, 0.8)",
+                way=rotation_log,
+                found=lambda way, v=turn: way(rotation_exp(v)),
+                reference=analytic("the vector that the matrix was made of", turn),
+                unit="rad",
+                bound=bound,
+                beyond=answers(
+                    "at half a turn either axis, and its length is π",
+                    lambda: (
+                        abs(float(np.linalg.norm(rotation_log(np.diag([-1.0, -1.0, 1.0])))) - pi)
+                        < 1e-15
+                    ),
+                ),
+                defect=Defect("angle by the trace, axis by the antisymmetric part", _log_by_trace)
+                if angle != 3.0
+                else Defect("half the angle", lambda r: 0.5 * rotation_log(r)),
+            )
+        )
+    return tuple(found)
+
+
+def _between() -> HardCase:
+    end = unit([1e-9, 2e-9, 1.0])
+
+    def naive(u: Any, v: Any) -> FloatArray:
+        w = skew(np.cross(u, v))
+        return np.asarray(np.eye(3) + w + w @ w / max(1.0 + float(u @ v), 1e-300))
+
+    return HardCase(
+        subsystem="rotations",
+        case="turn of a direction onto one 2e-9 rad short of its opposite",
+        given="(0, 0, -1) onto (1e-9, 2e-9, 1)",
+        way=rotation_between,
+        found=lambda way: way(DOWN, end) @ DOWN,
+        reference=analytic("the end itself", end),
+        unit="1",
+        bound=1e-15,
+        beyond=named(NumericalError, lambda: rotation_between(DOWN, np.zeros(3))),
+        defect=Defect("1 + cos in the denominator", naive),
+    )
+
+
+def _twist() -> HardCase:
+    reference = digits("left jacobian at 2e-4 rad")
+    twist = np.array(reference.given)
+    return HardCase(
+        subsystem="rotations",
+        case="shift of a screw of 2e-4 rad, just beyond where the series ends",
+        given="ρ = (1, -2, 3) m",
+        way=RigidTransform.exp,
+        found=lambda way: way(twist).translation,
+        reference=reference,
+        unit="m",
+        bound=1e-13,
+        beyond=answers(
+            "the series goes on without a jump",
+            lambda: bool(
+                np.abs(
+                    RigidTransform.exp([1, -2, 3, 1.0000001e-4, 0, 0]).translation
+                    - RigidTransform.exp([1, -2, 3, 0.9999999e-4, 0, 0]).translation
+                ).max()
+                < 1e-10
+            ),
+        ),
+        defect=Defect(
+            "the shift as it is",
+            lambda xi: RigidTransform(rotation_exp(xi[3:]), xi[:3]),
+        ),
+    )
+
+
+def _screw_and_back() -> HardCase:
+    twist = np.array([0.1, -0.2, 0.3, *((pi - 1e-7) * np.array([0.36, -0.48, 0.8]))])
+    return HardCase(
+        subsystem="rotations",
+        case="screw of a transform 1e-7 rad short of half a turn",
+        given="exponential of a screw",
+        way=RigidTransform.log,
+        found=lambda way: way(RigidTransform.exp(twist)),
+        reference=analytic("the screw that it was made of", twist),
+        unit="m, rad",
+        bound=1e-14,
+        beyond=named(NumericalError, lambda: RigidTransform(-np.eye(3), np.zeros(3))),
+        defect=Defect(
+            "rotation vector by the trace",
+            lambda t: np.concatenate([t.log()[:3], _log_by_trace(t.rotation)]),
+        ),
+    )
+
+
+def _angles() -> tuple[HardCase, ...]:
+    found = []
+    for words, name, bound, relative in (
+        ("1e-9 apart", "1e-9 apart", 1e-15, True),
+        ("1e-150 apart", "1e-150 apart", 1e-15, True),
+        ("1e-9 short of opposite", "1e-9 short of opposite", 1e-15, False),
+    ):
+        reference = digits(f"angle of directions {name}")
+        found.append(
+            HardCase(
+                subsystem="rotations",
+                case=f"angle between directions {words}",
+                given="both in double precision",
+                way=angle_between,
+                found=lambda way, v=reference.given: way(v, DOWN),
+                reference=reference,
+                unit="1" if relative else "rad",
+                bound=bound,
+                relative=relative,
+                beyond=named(NumericalError, lambda: angle_between(np.zeros(3), DOWN)),
+                defect=Defect("acos of the dot product", _angle_by_acos),
+            )
+        )
+    return tuple(found)
+
+
+# --- distances ------------------------------------------------------------------------------------
+def _placed(length_mm: float = 80.0, origin_mm: float = 0.0) -> PlacedPlan:
+    entry = np.full(3, origin_mm)
+    return PlacedPlan.of(Plan(entry, np.add(entry, (0.0, length_mm, 0.0))), Placement(), FULCRUM)
+
+
+def _aside() -> HardCase:
+    placed = _placed()
+    off = 1e-9
+    tip = placed.p_target + off * np.array([1.0, 0.0, 0.0])
+
+    def by_pythagoras(p_tip: Any, axis: Any, placed: Any, p_target: Any) -> Any:
+        beyond = p_tip - placed.p_entry
+        along = beyond @ placed.axis
+        return np.sqrt(max(beyond @ beyond - along * along, 0.0))
+
+    def lateral(way: _Way) -> Any:
+        found = way(tip, placed.axis, placed, placed.p_target)
+        return found if np.isscalar(found) else found.lateral
+
+    return HardCase(
+        subsystem="distances",
+        case="a tip 1 nm off a path of 80 mm, at its end",
+        given="tip = target + (1e-9, 0, 0) m",
+        way=offset,
+        found=lateral,
+        reference=analytic("what it was moved by", tip[0] - placed.p_target[0]),
+        unit="m",
+        bound=1e-17,
+        beyond=answers(
+            "exactly 0 on the path",
+            lambda: offset(placed.p_target, placed.axis, placed, placed.p_target).lateral == 0.0,
+        ),
+        defect=Defect("Pythagoras with the way along the path", by_pythagoras),
+    )
+
+
+def _needle_and_path() -> HardCase:
+    reference = digits("angle of directions 1e-9 apart")
+    axis = np.array(reference.given)
+    return HardCase(
+        subsystem="distances",
+        case="angle of a needle 1e-9 rad from its path",
+        given="needle (1e-9, -5e-10, -1), path straight down",
+        way=angles,
+        found=lambda way: way(axis, DOWN),
+        reference=reference,
+        unit="1",
+        bound=1e-15,
+        relative=True,
+        beyond=answers("π for opposite ones", lambda: float(angles(DOWN, -DOWN)) == pi),
+        defect=Defect("acos of the dot product", lambda a, b: _angle_by_acos(a, b)),
+    )
+
+
+def _drawn_angle() -> HardCase:
+    volume = volume_of(np.eye(3))
+    drawn = Angle((1.0, 0.0, 0.0), (0.0, 0.0, 0.0), (-1.0, 1e-9, 0.0))
+    flat = Angle((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
+
+    def by_acos(item: Angle, _: Any) -> Any:
+        a, v, b = (np.array(p) for p in item.points)
+        return np.degrees(_angle_by_acos(a - v, b - v))
+
+    def value(way: _Way) -> Any:
+        found = way(drawn, volume)
+        return found.quantities[0].value if hasattr(found, "quantities") else found
+
+    def untold() -> bool:
+        return measured(flat, volume).quantities[0].value is None
+
+    return HardCase(
+        subsystem="distances",
+        case="an angle drawn 1e-9 rad short of a straight line",
+        given="arms (1, 0, 0) and (-1, 1e-9, 0) mm",
+        way=measured,
+        found=value,
+        reference=analytic("180° - 1e-9 rad", 180.0 - np.degrees(1e-9)),
+        unit="°",
+        bound=3e-14,
+        beyond=answers("no number where an arm has no length", untold),
+        defect=Defect("acos of the dot product", by_acos),
+    )
+
+
+def _fitted() -> tuple[HardCase, ...]:
+    triangle = np.array([[0.0, 0.0, 0.0], [0.08, 0.0, 0.0], [0.02, 0.05, 0.0]])
+    half = RigidTransform(rotation_exp([0.0, pi, 0.0]), np.array([0.1, 0.2, 0.3]))
+    far = RigidTransform(rotation_exp([0.3, -0.2, 0.1]), np.array([9.0, -9.0, 9.0]))
+    line = np.outer([0.0, 1.0, 2.0, 5.0], [0.02, 0.01, -0.01])
+    thin = line + np.outer([0.0, 1.0, 0.0, 0.0], [0.0, 0.002, 0.002])
+
+    def without_centroids(x: Any, y: Any) -> Any:
+        rotation, _ = closest_rotation(x.T @ y)
+        transform = RigidTransform(rotation, y.mean(axis=0) - rotation @ x.mean(axis=0))
+        return type("Fit", (), {"T_measured_reference": transform})()
+
+    return tuple(
+        HardCase(
+            subsystem="distances",
+            case=f"registration of {words}",
+            given="reference points and the same moved",
+            way=rigid_fit,
+            found=lambda way, p=points, T=pose: way(p, T @ p).T_measured_reference.matrix(),
+            reference=analytic("the transform that moved them", pose.matrix()),
+            unit="m, 1",
+            bound=bound,
+            beyond=named(DegenerateFiducialsError, lambda: rigid_fit(line, line)),
+            defect=Defect("the centroids not taken off", without_centroids),
+        )
+        for words, points, pose, bound in (
+            ("three points turned by half a turn", triangle, half, 1e-14),
+            ("points 9 m from the origin", triangle, far, 2e-13),
+            ("points within 3 mm of one line", thin, half, 1e-12),
+        )
+    )
+
+
+# --- planning -------------------------------------------------------------------------------------
+def _plan(entry_mm: Any, target_mm: Any) -> Plan:
+    return Plan(np.array(entry_mm, dtype=np.float64), np.array(target_mm, dtype=np.float64))
+
+
+def _opposite_turn() -> HardCase:
+    end = unit([1e-7, 2e-7, 1.0])
+
+    def along_y(u: Any, v: Any) -> FloatArray:
+        return np.array([0.0, pi, 0.0])
+
+    return HardCase(
+        subsystem="planning",
+        case="smallest turn of a path 2e-7 rad short of straight up",
+        given="(0, 0, -1) onto (1e-7, 2e-7, 1)",
+        way=smallest_turn,
+        found=lambda way: rotation_exp(way(DOWN, end)) @ DOWN,
+        reference=analytic("the end itself", end),
+        unit="1",
+        bound=4e-9,  # of the axis ε / 2e-7, doubled by half a turn, twice over
+        beyond=answers(
+            "half a turn about the world's y between exact opposites",
+            lambda: bool(np.allclose(smallest_turn(DOWN, -DOWN), [0.0, pi, 0.0], atol=1e-15)),
+        ),
+        defect=Defect("always about the world's y", along_y),
+    )
+
+
+def _turned_over() -> HardCase:
+    direction = PatientOrientation.SUPINE.rotation.T @ unit([1e-9, -1e-9, 1.0])
+    plan = Plan(np.zeros(3), 80.0 * direction)
+
+    def angle(way: _Way) -> Any:
+        remedy = way(plan, Placement(), PROFILE).remedy
+        return remedy.angle
+
+    class _Half:
+        remedy = type("Half", (), {"angle": pi})()
+
+    return HardCase(
+        subsystem="planning",
+        case="remedy of a path that leads straight up, but for 1e-9",
+        given="80 mm along (1e-9, -1e-9, 1) in the world",
+        way=reach,
+        found=angle,
+        reference=analytic("180° less the tilt that is allowed, and 2°", pi - np.radians(37.0)),
+        unit="rad",
+        bound=3e-9,
+        beyond=answers(
+            "named UPWARD",
+            lambda: reach(plan, Placement(), PROFILE).reasons[0].obstacle is Obstacle.UPWARD,
+        ),
+        defect=Defect("half a turn, as the words would have it", lambda *_: _Half()),
+    )
+
+
+def _far_patient() -> HardCase:
+    far = 9.9e6 + 0.3
+    plan = _plan((far, -far, far), (far + 10.4, -far + 60.3, far - 20.2))
+    placement = Placement(rotation_deg=(3.0, 20.0, -7.0))
+    near = PlacedPlan.of(_plan((0.0, 0.0, 0.0), (10.4, 60.3, -20.2)), placement, FULCRUM)
+
+    def single(plan: Any, placement: Any, fulcrum: Any) -> Any:
+        rounded = _plan(np.float32(plan.entry_mm), np.float32(plan.target_mm))
+        return PlacedPlan.of(rounded, placement, fulcrum)
+
+    return HardCase(
+        subsystem="planning",
+        case="a patient 10 km from the scanner's origin",
+        given="entry at ±9900000.3 mm",
+        way=PlacedPlan.of,
+        found=lambda way: way(plan, placement, FULCRUM).p_target,
+        reference=analytic("the target of the same plan at the origin", near.p_target),
+        unit="m",
+        bound=8e-12 * 2,  # 8 roundings of 10 km
+        beyond=named(PlanError, lambda: _plan((1.0000001e7, 0.0, 0.0), (0.0, 0.0, 0.0))),
+        defect=Defect("points in single precision", single),
+    )
+
+
+def _short_path() -> HardCase:
+    plan = _plan((1e6, 1e6, 1e6), (1e6, 1e6 + 1.0, 1e6))
+    return HardCase(
+        subsystem="planning",
+        case="direction of the shortest path that may be planned, 1 km off",
+        given="1 mm along y at (1e6, 1e6, 1e6) mm",
+        way=Plan.direction.__get__,
+        found=lambda way: way(plan),
+        reference=analytic("(0, 1, 0)", (0.0, 1.0, 0.0)),
+        unit="1",
+        bound=0.0,
+        beyond=named(PlanError, lambda: _plan((0.0, 0.0, 0.0), (0.999, 0.0, 0.0))),
+        defect=Defect(
+            "difference of unit vectors from the origin",
+            lambda p: unit(unit(p.target_mm) - unit(p.entry_mm)),
+        ),
+    )
+
+
+def _small_cone() -> HardCase:
+    def by_acos(axis: Any, angle: float) -> Any:
+        aside = np.sqrt(max(1.0 - np.cos(angle) ** 2, 0.0))
+        return [axis, np.array([aside, 0.0, -np.cos(angle)])]
+
+    return HardCase(
+        subsystem="planning",
+        case="directions on a cone of 1e-9 rad about the vertical",
+        given="axis (0, 0, -1)",
+        way=cone,
+        found=lambda way: tilt_of(way(DOWN, 1e-9)[1]),
+        reference=analytic("the cone's own angle", 1e-9),
+        unit="1",
+        bound=1e-15,
+        relative=True,
+        beyond=answers("the axis itself at 0", lambda: tilt_of(cone(DOWN, 0.0)[1]) == 0.0),
+        defect=Defect("sine by √(1 - cos²)", by_acos),
+    )
+
+
+def _planes_along_the_head() -> HardCase:
+    axis = unit([1e-9, -2e-9, 1.0])
+
+    def by_superior(tip: Any, axis: Any) -> Any:
+        """Roll by the superior direction alone, which a needle along the body has none of."""
+        y = np.array([0.0, 0.0, 1.0]) - axis[2] * axis
+        length = max(float(np.linalg.norm(y)), 1e-6)
+        y = y / length
+        return type("Frame", (), {"axis": axis, "x": np.cross(axis, y), "y": y})()
+
+    def square(way: _Way) -> Any:
+        frame = way(np.zeros(3), axis)
+        axes = np.stack([frame.axis, frame.x, frame.y])
+        return axes @ axes.T
+
+    return HardCase(
+        subsystem="planning",
+        case="the needle's planes along the body, 2e-9 rad off",
+        given="axis (1e-9, -2e-9, 1) in LPS",
+        way=frame_of,
+        found=square,
+        reference=analytic("three unit vectors at right angles", np.eye(3)),
+        unit="1",
+        bound=1e-14,
+        beyond=named(NumericalError, lambda: frame_of(np.zeros(3), np.zeros(3))),
+        defect=Defect("roll by the superior direction alone", by_superior),
+    )
+
+
+CASES: Final = (
+    _turned(),
+    *_barely_turned(),
+    *_logs(),
+    _between(),
+    _twist(),
+    _screw_and_back(),
+    *_angles(),
+    _aside(),
+    _needle_and_path(),
+    _drawn_angle(),
+    *_fitted(),
+    _opposite_turn(),
+    _turned_over(),
+    _far_patient(),
+    _short_path(),
+    _small_cone(),
+    _planes_along_the_head(),
+)
+"""Rotations, distances, planning."""
