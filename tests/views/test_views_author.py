@@ -407,6 +407,24 @@ def edit_cell(box, row, place, text):
     box.table.item(row, place).setText(text)
 
 
+def test_the_ct_fills_the_layers_along_the_path_and_undo_takes_it_back(author, form):
+    write(form.task.name, "Layered")
+    form.show_page(4)
+    form.effects.layers.from_ct.click()
+    layers = author.editor.exercise.layers
+    assert layers[0].name == "skin"
+    assert layers[0].puncture_force == 1.5
+    assert len(layers) >= 2
+    assert "layers along the path: skin" in said(form)
+    assert form.effects.layers.table.rowCount() == len(layers)
+    form.undo.click()
+    assert author.editor.exercise.layers == ()
+    box = form.effects.fields["layers_from",]
+    box.setCurrentIndex(1)
+    box.activated.emit(1)
+    assert author.editor.exercise.layers_from == "ct"
+
+
 def test_layers_of_tissue_are_a_table_each_change_of_which_undo_takes_back(author, form):
     write(form.task.name, "Layered")
     form.show_page(4)

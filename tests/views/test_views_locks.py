@@ -234,6 +234,6 @@ def test_an_assessment_locks_all_and_an_old_file_in_practice_nothing():
         Exercise.model_validate(
             {"id": "a", "title": "A", "purpose": "assessment", "locks": ["assistance", "reading"]}
         )
-    with pytest.raises(ValueError, match="'assistance', 'views', 'reading' or 'hand'"):
+    with pytest.raises(ValueError, match="'assistance', 'views', 'reading', 'hand' or 'models'"):
         Exercise.model_validate({"id": "a", "title": "A", "locks": ["dial"]})
     assert Lock.ASSISTANCE in load_exercise("against-repulsion").locked

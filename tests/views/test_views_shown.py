@@ -225,8 +225,9 @@ def test_with_a_view_off_an_effect_that_only_it_consumes_is_dropped(view):
     ):
         assert on[effect].startswith("simulated")
         assert off[effect].startswith("dropped" if view is consumer else "simulated")
-        assert f"view {consumer} shows it" in on[effect]
-        assert (f"view {view} shows it" in on[effect]) == (view is consumer)
+        words = declared_views()[consumer.value].label
+        assert words in on[effect]
+        assert (declared_views()[view.value].label in on[effect]) == (view is consumer)
 
 
 def test_the_control_scans_consume_the_motion_of_the_target_themselves():
@@ -235,7 +236,7 @@ def test_the_control_scans_consume_the_motion_of_the_target_themselves():
     )
     assert fate(exercise)["breathing"].startswith("dropped")
     guided = replace_mode(exercise, GuidanceMode.CONTROL_CT)
-    assert "view control_scan shows it" in fate(guided)["breathing"]
+    assert "“Control scans” shows it" in fate(guided)["breathing"]
 
 
 def replace_mode(exercise: Exercise, mode: GuidanceMode) -> Exercise:

@@ -8,23 +8,28 @@ from types import MappingProxyType, SimpleNamespace
 import numpy as np
 from views_robot_fakes import FakeBench
 
+from app.compose.effect_models import with_model
 from app.compose.explaining import quick_explanation
 from app.core import paths
 from app.core.errors import AcusError
 from app.core.events import EventQueue
 from app.core.state_vector import empty_state
 from app.exercises.library import library
+from app.exercises.locks import Lock
 from app.exercises.scene import device_of
 from app.session.curves import offset
+from app.session.errors import ControlLockedError
 from app.session.machine import State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.shown_views import Shown
 from app.session.snapshot import Snapshot
+from app.simulation.effects import declaration
 from app.tracking.cameras.camera import CameraFrame
 from app.tracking.cameras.watch import CameraHealth, CameraState
 from app.tracking.pen.webcam import guessed_webcam
 from app.tracking.statistics import TrackerMeter
 from app.views.exercise.run import ExerciseRun
+from app.views.reading.lock_words import why_locked
 from app.views.shell.services import RobotPort
 from app.views.slices.viewing import Tool
 
@@ -72,6 +77,17 @@ class FakeOpen:
             shown=Shown.of_exercise(setup.exercise), demonstrates=setup.demonstrates,
         )  # fmt: skip
         self.run.trainer.dial = setup.exercise.assistance
+
+    @property
+    def exercise(self):
+        return self.setup.exercise
+
+    def compute_by(self, effect, model):
+        why = why_locked(self.exercise, Lock.MODELS)
+        if why:
+            raise ControlLockedError(why)
+        self.setup = replace(self.setup, exercise=with_model(self.exercise, effect, model))
+        return self.exercise
 
     def place(self, placed):
         self.run.trainer.placed = placed
@@ -194,8 +210,20 @@ class FakeServices:
         return quick_explanation(exercise)
 
     def explain_exercise(self, exercise):
-        effects = [{"effect": name, "cost_ns": 100.0} for name in exercise.effects]
-        return {"simulated": effects, "laws": [{"law": "fixture", "cost_ns": 150.0}]}
+        kept = ("lateral_tissue", "shaft_friction")
+        effects = [
+            {
+                "effect": name, "title": declaration(name).title, "model": part.model or first,
+                "model_descriptions": dict(models), "why": "simulated: it is felt",
+                "warnings": [], "cost_ns": 100.0,
+                "model_costs_ns": {model: 100.0 / k for k, model in enumerate(models, 1)},
+            }
+            for name, part in exercise.effects.items() if name in kept
+            for models in [declaration(name).models] for first in [next(iter(models))]
+        ]  # fmt: skip
+        dropped = [{"effect": n, "why": "dropped"} for n in exercise.effects if n not in kept]
+        laws = [{"law": "fixture", "cost_ns": 150.0}]
+        return {"simulated": effects, "dropped": dropped, "laws": laws}
 
     def sessions(self):
         return self.folder

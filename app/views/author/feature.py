@@ -36,7 +36,9 @@ from app.core.units import MILLIMETRE
 from app.exchange.acusx import SUFFIX, CtMissingError, TakenError, UnpackedExercise, pack, unpack
 from app.exercises.errors import ExerciseError
 from app.exercises.library import folders
+from app.exercises.scene import plan_of
 from app.exercises.schema import Exercise
+from app.exercises.tissue import layers_along
 from app.exercises.writing import exercise_document, exercise_text, free_id, taken_ids
 from app.session.pad.view import rings
 from app.views.author.editing import (
@@ -435,6 +437,7 @@ class AuthorFeature(Feature):
         dialog.export.clicked.connect(self.export)
         dialog.task.kind_wanted.connect(self.set_kind)
         dialog.patient.plan_wanted.connect(self.take_plan)
+        dialog.effects.layers.ct_wanted.connect(self.take_tissue)
         dialog.sight.reading_wanted.connect(self.take_reading)
         dialog.score.looked_at.connect(self._trial_timer.start)
         self.editor.begin(document, saved)
@@ -485,6 +488,24 @@ class AuthorFeature(Feature):
             }
         )
         self._say(tr("Path and position taken from the window."))
+
+    def take_tissue(self) -> None:
+        """Fill the layers with what the CT holds along the exercise's path."""
+        patient, exercise = self._conductor.patient, self.editor.exercise
+        if patient is None or exercise is None:
+            why = tr("It takes a CT that is open, and an exercise without mistakes.")
+            self._say(why, Verdict.BAD)
+            return
+        try:
+            marked = self.context.editors.structures.structures
+            layers = layers_along(patient.volume, plan_of(exercise), tuple(marked))
+        except AcusError as error:
+            self._say(str(error), Verdict.BAD)
+            return
+        found = [layer.model_dump(mode="json", exclude_defaults=True) for layer in layers]
+        self.editor.put("layers", value=found)
+        names = ", ".join(layer.name for layer in layers)
+        self._say(tr("{count} layers along the path: {names}", count=len(layers), names=names))
 
     def take_reading(self) -> None:
         """Take window and slab from the axial pane."""

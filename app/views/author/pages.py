@@ -559,6 +559,7 @@ class SightPage(Form):
             Lock.VIEWS: tr("What is shown"),
             Lock.READING: tr("Window, slab and layout"),
             Lock.HAND: tr("What moves the hand"),
+            Lock.MODELS: tr("The way effects are computed"),
         }
         self.flags(
             "locks",
@@ -650,13 +651,21 @@ class EffectsPage(Form):
     """Effects with the live plan of what is simulated, why, and at what cost."""
 
     def __init__(self, editor: ExerciseEditor) -> None:
-        super().__init__(editor, tr("Effects"), ("effects", "layers"))
+        super().__init__(editor, tr("Effects"), ("effects", "layers", "layers_from"))
         self.parts = PartsBox(editor, "effects", "")
         self.rows.addWidget(self.parts)
         self.note(("effects",))
         self.layers = LayersBox(editor)
         name = tr("Layers of tissue, from the skin inwards")
         self.add(("layers",), name, self.layers, self.layers.load)
+        self.choice(
+            "layers_from",
+            name=tr("Where they come from"),
+            among=(
+                ("file", tr("this table")),
+                ("ct", tr("the CT along the path, found when an attempt begins")),
+            ),
+        )
         self.cost = label("", "dim")
         self.rows.addWidget(self.cost)
         self._loads.append(self.parts.load)
@@ -679,6 +688,8 @@ class EffectsPage(Form):
 
 LAYER_NUMBERS = (
     *("thickness_mm", "side_stiffness_kpa", "friction", "static_friction", "viscous_friction"),
+    *("puncture_force", "toughness", "indentation_stiffness", "indentation_hardening"),
+    *("relaxation_share", "relaxation_time", "rigid"),
 )
 """Columns of the table of layers after the name, as `LayerPart` has them."""
 
@@ -686,7 +697,13 @@ NEW_LAYER = {"name": "tissue", "thickness_mm": 20.0}
 
 
 class LayersBox(QWidget):
-    """The layers of tissue as a table: each cell, row and move is a step that undo takes back."""
+    """The layers of tissue as a table: each cell, row and move is a step that undo takes back.
+
+    Signals:
+        ct_wanted(): fill it with what the CT holds along the path.
+    """
+
+    ct_wanted = Signal()
 
     def __init__(self, editor: ExerciseEditor) -> None:
         super().__init__()
@@ -703,6 +720,13 @@ class LayersBox(QWidget):
                 tr("friction\n[N/m]"),
                 tr("break-away\n[N/m]"),
                 tr("viscous\n[N·s/m²]"),
+                tr("puncture,\n18 G [N]"),
+                tr("toughness\n[J/m²]"),
+                tr("dimple\n[N/m]"),
+                tr("dimple\n[N/m²]"),
+                tr("relaxing\nshare"),
+                tr("relaxing\n[s]"),
+                tr("bone"),
             ]
         )
         self.table.setAccessibleName(tr("Layers of tissue, from the skin inwards"))
@@ -711,12 +735,15 @@ class LayersBox(QWidget):
         self.table.itemSelectionChanged.connect(self._allow)
         self.more, self.less = button(tr("Add a layer")), button(tr("Remove"))
         self.up, self.down = button(tr("Outwards")), button(tr("Inwards"))
+        self.from_ct = button(tr("From the CT"))
+        self.from_ct.setToolTip(tr("Fills the table with what the needle meets on its path."))
         buttons = QHBoxLayout()
         for one, command in (
             (self.more, self._add),
             (self.less, self._remove),
             (self.up, lambda: self._move(-1)),
             (self.down, lambda: self._move(1)),
+            (self.from_ct, self.ct_wanted.emit),
         ):
             one.clicked.connect(command)
             buttons.addWidget(one)
@@ -736,6 +763,8 @@ class LayersBox(QWidget):
                     default = LayerPart.model_fields[key].default if place > 1 else ""
                     value = layer.get(key, default)
                     text = f"{value:g}" if isinstance(value, int | float) else str(value)
+                    if isinstance(value, bool):
+                        text = tr("yes") if value else ""
                     item = self.table.item(row, place) or QTableWidgetItem()
                     if item.tableWidget() is None:
                         self.table.setItem(row, place, item)
@@ -754,7 +783,9 @@ class LayersBox(QWidget):
         layers, text = self._given(), item.text().strip()
         key = ("name", *LAYER_NUMBERS)[item.column()]
         value: Any = text
-        if key != "name":
+        if key == "rigid":
+            value = text.casefold() in ("yes", "true", "1", tr("yes").casefold())
+        elif key != "name":
             with suppress(ValueError):  # the reader says what is wrong with it
                 value = float(text.replace(",", "."))
         if text or key in ("name", "thickness_mm"):

@@ -93,6 +93,7 @@ def locked_words(exercise: Exercise) -> list[str]:
         Lock.VIEWS: tr("what is shown"),
         Lock.READING: tr("window, slab and layout"),
         Lock.HAND: tr("what moves the hand"),
+        Lock.MODELS: tr("the way effects are computed"),
     }
     locked = [words for lock, words in names.items() if lock in exercise.locked]
     if not locked:

@@ -138,6 +138,8 @@ class ExerciseDisplay:
         views.panel.withdrawal.show_snapshot(snapshot)
         commands = interactive and snapshot.state in RUNNING
         views.panel.breath.show_breath(snapshot.breath, commands)
+        views.panel.bevel.show_roll(snapshot.roll, commands)
+        views.bullseye.pad.rolls = commands and snapshot.roll is not None
         views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))
         figured = snapshot.state, hidden
         if figured == self._figured and 0.0 <= now - self._figures_time < FIGURES_PERIOD:
@@ -379,6 +381,11 @@ class ExerciseController(QObject):
             except AcusError as error:
                 self._fail(str(error))
 
+    def roll(self, step: float) -> None:
+        """Turn the needle about itself by `step` [rad], clockwise seen from the hub."""
+        if self._run is not None:
+            self._run.trainer.roll(step)
+
     def scan(self) -> None:
         """Take a control scan: of the slices that are set, where scans guide; else count one."""
         run = self._run
@@ -463,6 +470,7 @@ class ExerciseController(QObject):
         panel.enable.held.connect(self.set_held)
         panel.withdrawal.confirmed.connect(self.confirm_outside)
         panel.breath.asked.connect(self.hold_breath)
+        self._views.bullseye.pad.rolled.connect(self.roll)
         panel.buttons.scan_requested.connect(self.scan)
         panel.buttons.end_requested.connect(self.end)
         panel.buttons.abort_requested.connect(self.abort)

@@ -25,7 +25,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.session.pad.view import PadScene, PadView
-from app.views.exercise.hands.feed import DEPTH_STEP, FINE_DEPTH_STEP, GONE, Feed
+from app.views.exercise.hands.feed import DEPTH_STEP, FINE_DEPTH_STEP, GONE, SPEED, Feed
 from app.views.kit import theme
 from app.views.kit.text import tr
 
@@ -329,6 +329,12 @@ _FEEDING: Final[dict[Qt.Key | Qt.MouseButton, bool]] = {
 }
 """Keys and buttons that feed while they are held, and whether they feed inwards."""
 
+_TURNING: Final = {Qt.Key.Key_E: True, Qt.Key.Key_Q: False}
+"""Keys that turn a bevelled needle while they are held, and whether clockwise."""
+
+TURN: Final = radians(90.0) / SPEED
+"""Roll of the needle [rad] for what would push by a metre: a press turns by 4.5°."""
+
 
 class PadCanvas(QWidget):
     """Shows the pad and reports what the user does on it.
@@ -338,15 +344,19 @@ class PadCanvas(QWidget):
         tilted(right, up): key step [rad].
         advanced(step): depth step [m], positive inwards.
         homed(): the hand shall go to where the needle is.
+        rolled(step): the needle is turned about itself [rad], clockwise seen from the hub.
 
     Attributes:
         feed: what is held to push or pull.
+        turn: what is held to roll the needle.
+        rolls: whether the keys Q and E do; else they are the menus'.
     """
 
     dragged = Signal(float, float)
     tilted = Signal(float, float)
     advanced = Signal(float)
     homed = Signal()
+    rolled = Signal(float)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -358,6 +368,8 @@ class PadCanvas(QWidget):
         self._hides_needle = False
         self.feed = Feed(self)
         self.feed.advanced.connect(self.advanced)
+        self.turn, self.rolls = Feed(self), False
+        self.turn.advanced.connect(lambda step: self.rolled.emit(TURN * step))
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMinimumSize(180, 180)
@@ -413,13 +425,18 @@ class PadCanvas(QWidget):
     def let_go(self) -> None:
         """End a drag and what is held to push or pull; idempotent."""
         self.feed.let_go()
+        self.turn.let_go()
         self._last = None
         self.unsetCursor()
 
     def event(self, event: QEvent) -> bool:
-        """Let go where no release of key or mouse will come."""
+        """Let go where no release of key or mouse will come; take Q and E from the menus."""
         if event.type() in GONE:
             self.let_go()
+        asks = event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent)
+        if asks and self._turns(event):
+            event.accept()
+            return True
         return super().event(event)
 
     def focusOutEvent(self, event: QFocusEvent) -> None:
@@ -472,6 +489,10 @@ class PadCanvas(QWidget):
             self.tilted.emit(step * _ARROWS[key][0], step * _ARROWS[key][1])
         elif key == Qt.Key.Key_Shift:
             self.feed.set_fine(True)
+            self.turn.set_fine(True)
+        elif self._turns(event):
+            if not event.isAutoRepeat():
+                self.turn.press(key, _TURNING[key], fine)
         elif key in _FEEDING:
             if not event.isAutoRepeat():  # what is held goes on by itself, or was let go by others
                 self.feed.press(key, _FEEDING[key], fine)
@@ -485,11 +506,25 @@ class PadCanvas(QWidget):
         key = Qt.Key(event.key())
         if key == Qt.Key.Key_Shift:
             self.feed.set_fine(False)
+            self.turn.set_fine(False)
+        elif key in _TURNING:
+            if not event.isAutoRepeat():
+                self.turn.release(key)
         elif key in _FEEDING:
             if not event.isAutoRepeat():
                 self.feed.release(key)
         else:
             super().keyReleaseEvent(event)
+
+    def _turns(self, event: QEvent) -> bool:
+        """Whether a key event turns the needle."""
+        if not (self.rolls and isinstance(event, QKeyEvent)):
+            return False
+        plain = event.modifiers() in (
+            Qt.KeyboardModifier.NoModifier,
+            Qt.KeyboardModifier.ShiftModifier,
+        )
+        return plain and event.key() in _TURNING
 
 
 def _is_fine(modifiers: Qt.KeyboardModifier) -> bool:

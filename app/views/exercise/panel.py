@@ -3,6 +3,7 @@ goes.
 """
 
 from collections.abc import Sequence
+from math import degrees, remainder, tau
 from typing import Final
 
 from PySide6.QtCore import QEvent, QObject, QRegularExpression, QSignalBlocker, Qt, QTimer, Signal
@@ -202,6 +203,18 @@ class WithdrawalNote(QWidget):
         self.button.setVisible(snapshot.may_confirm)
 
 
+class BevelNote(QLabel):
+    """Says which way a bevelled tip cuts, and how to turn it; nothing where there is no bevel."""
+
+    def show_roll(self, roll: float | None, commands: bool) -> None:
+        """Show the roll [rad]; `commands`: whether it can be turned now."""
+        self.setVisible(roll is not None)
+        if roll is None:
+            return
+        words = tr("Bevel turned by {angle:.0f}°", angle=degrees(remainder(roll, tau)))
+        self.setText(f"{words}  ·  {tr('Q, E in the pad turn it')}" if commands else words)
+
+
 class BreathCommand(QWidget):
     """Tells a patient who holds the breath on command to hold it, or to breathe; says how he is.
 
@@ -287,6 +300,8 @@ class ExercisePanel(QWidget):
         self.withdrawal = WithdrawalNote(self)
         self.enable = EnableSwitch(self)
         self.breath = BreathCommand(self)
+        self.bevel = BevelNote(self)
+        self.bevel.hide()
         self.scan = ScanPanel(self)
         self.readouts = AttemptReadouts(self)
         self.energy = EnergyGauge(self)
@@ -421,6 +436,7 @@ class ExercisePanel(QWidget):
             self.buttons,
             self.enable,
             self.breath,
+            self.bevel,
             self.scan,
             _line(),
             self.readouts,

@@ -9,6 +9,7 @@ from PySide6.QtCore import QObject, Signal
 
 from app.core.errors import AcusError
 from app.core.progress import Progress
+from app.exercises.schema import Exercise
 from app.planning.placement import PlacedPlan
 from app.views.exercise.run import ExerciseRun
 from app.views.kit.background import BackgroundTask, Indicator, run_in_background
@@ -55,6 +56,22 @@ class Runs(QObject):
     def run(self) -> ExerciseRun | None:
         """The run that is open."""
         return None if self._open is None else self._open.run
+
+    @property
+    def exercise(self) -> Exercise | None:
+        """The exercise of the open run, with the models by which its effects are computed now."""
+        return None if self._open is None else self._open.exercise
+
+    def compute_by(self, effect: str, model: str) -> Exercise | None:
+        """Compute an effect of the open run by another of its models from the next tick on.
+
+        Returns:
+            The exercise as it is computed now; None without a run.
+
+        Raises:
+            AcusError: if the exercise keeps its models, or there is no such effect or model.
+        """
+        return None if self._open is None else self._open.compute_by(effect, model)
 
     def prepare(self) -> None:
         """Load beside the window what an exercise needs, so that the first one begins soon."""

@@ -18,6 +18,7 @@ def why_locked(exercise: Exercise | None, lock: Lock) -> str:
         Lock.VIEWS: tr("what is shown"),
         Lock.READING: tr("window, slab and layout"),
         Lock.HAND: tr("what moves the hand, and how far"),
+        Lock.MODELS: tr("the way effects are computed"),
     }[lock]
     if exercise.purpose is Purpose.ASSESSMENT:
         return tr("This is an assessment: {what} is the same for everybody.", what=what)

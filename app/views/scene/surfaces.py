@@ -95,14 +95,7 @@ def extract_surfaces(
     soft = _blurred(_closed(soft, level - AIR), SKIN_SIGMA)
     skin = isosurface(soft, _shifted(affine), level, SKIN_TRIANGLES, progress.part(0.2, 0.3))
     progress.report(0.3, "bone")
-    hard, affine = reduced(
-        lambda k: np.where(mask[k], volume.hu[k], -1000),
-        volume,
-        BONE_STEP_MM,
-        progress.part(0.3, 0.45),
-    )
-    hard = _blurred(without_marrow(_closed(hard, -1000.0), affine), BONE_SIGMA)
-    bone = isosurface(hard, _shifted(affine), BONE_HU, BONE_TRIANGLES, progress.part(0.5, 0.8))
+    bone = bone_surface(volume, mask, progress.part(0.3, 0.8))
     progress.report(0.8, "organs")
     organs = _organs(volume, mask, phantom_seed, progress.part(0.8, 0.95))
     progress.report(0.95, "coarse versions")
@@ -112,6 +105,27 @@ def extract_surfaces(
     )
     progress.report(1.0, "surfaces")
     return Surfaces(skin, moving[0], bone, moving[1], organs)
+
+
+def bone_surface(
+    volume: Volume, mask: Mask, progress: Progress, step_mm: float = BONE_STEP_MM
+) -> Mesh:
+    """Surface of the bones in the body, closed, its marrow filled; by `acus study surfaces`.
+
+    Args:
+        volume: the CT.
+        mask: the body in it.
+        progress: reports, and may be cancelled.
+        step_mm: of the grid that it is taken from.
+
+    Raises:
+        Cancelled: if `progress` was cancelled.
+    """
+    hard, affine = reduced(
+        lambda k: np.where(mask[k], volume.hu[k], -1000), volume, step_mm, progress.part(0.0, 0.3)
+    )
+    hard = _blurred(without_marrow(_closed(hard, -1000.0), affine), BONE_SIGMA)
+    return isosurface(hard, _shifted(affine), BONE_HU, BONE_TRIANGLES, progress.part(0.4, 1.0))
 
 
 def _organs(

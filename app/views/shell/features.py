@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
+from app.views.accuracy.feature import AccuracyFeature
 from app.views.author.feature import AuthorFeature
 from app.views.cameras.feature import CamerasFeature
 from app.views.checks.feature import ChecksFeature
@@ -37,6 +38,7 @@ FEATURES: Final[tuple[type[Feature], ...]] = (
     SceneFeature,
     PositionFeature,
     SoundsFeature,
+    AccuracyFeature,
     DebriefFeature,
     PeopleFeature,
 )

@@ -294,6 +294,7 @@ _MARGIN_PX: Final = 40
 
 HOME: Final = "index.md"
 PAGES: Final = {
+    "accuracy": "user-guide.md#what-accuracy-costs",
     "author": "authoring.md",
     "cameras": "cameras.md#in-the-trainer",
     "checks": "user-guide.md#every-day",

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from app.core.progress import Progress
+from app.exercises.parts import LayersFrom
 from app.exercises.portrait import Portrait
 from app.exercises.schema import Exercise
 from app.imaging.volume import Volume
@@ -81,7 +82,10 @@ class RunSetup:
         return self._fixed() == other._fixed()
 
     def _fixed(self) -> tuple[object, ...]:
-        return self.exercise, self.ct, self.robot, self.cameras, self.demonstrates
+        # A run has the tissue of its path, if the exercise takes it from the CT.
+        plan = self.placed.plan if self.exercise.layers_from is LayersFrom.CT else None
+        path = None if plan is None else (*plan.entry_mm, *plan.target_mm)
+        return self.exercise, self.ct, self.robot, self.cameras, self.demonstrates, path
 
 
 class OpenRun(Protocol):
@@ -90,6 +94,22 @@ class OpenRun(Protocol):
     @property
     def run(self) -> ExerciseRun:
         """What its views need."""
+        ...
+
+    def compute_by(self, effect: str, model: str) -> Exercise:
+        """Compute an effect by another of its models from the next tick on, in an attempt too.
+
+        Returns:
+            The exercise as it is computed now.
+
+        Raises:
+            AcusError: if the exercise keeps its models, or there is no such effect or model.
+        """
+        ...
+
+    @property
+    def exercise(self) -> Exercise:
+        """The exercise as it is computed now."""
         ...
 
     def place(self, placed: PlacedPlan) -> ExerciseRun:

@@ -70,7 +70,10 @@ def groups(scheme: Scheme) -> list[Group]:
                     f"{scheme.menu_keys['follow']}, {scheme.menu_keys['bullseye']}",
                     tr("slices follow the tip; bull's-eye"),
                 ),
-                (tr("Drag in the bull's-eye"), tr("tilt the needle")),
+                (
+                    tr("Drag, Q, E in the bull's-eye"),
+                    tr("tilt the needle; turn a bevelled one"),
+                ),
                 (tr("Wheel, Page keys in the bull's-eye"), tr("depth 1 mm, with Shift 0.2 mm")),
             ],
         ),

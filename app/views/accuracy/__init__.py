@@ -1,0 +1,1 @@
+"""What accuracy costs, in the window: the scene that runs, and every study."""

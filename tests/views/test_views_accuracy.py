@@ -1,0 +1,99 @@
+"""The scene's effects in their panel, and what accuracy costs on its page."""
+
+from dataclasses import replace
+
+import pytest
+from window_rig import plan
+
+from app.studies.findings import Findings, Sheet
+from app.studies.hard import COLUMNS
+from app.studies.kept import kept, kept_names
+from app.views.accuracy.budget import EffectCost, advice, lowering, too_much
+from app.views.accuracy.feature import AccuracyFeature
+from app.views.accuracy.page import AccuracyPage, share_words
+
+DEAR = EffectCost("a", "Dear", "fine", {"fine": "", "rough": ""}, {"fine": 9e-4, "rough": 1e-6}, "")
+CHEAP = EffectCost("b", "Cheap", "one", {"one": "only"}, {"one": 1e-7}, "")
+
+
+def test_a_scene_that_is_held_needs_no_advice() -> None:
+    assert not too_much(1e-5, 1e-3, 0.0)
+    assert advice((DEAR, CHEAP), 1e-5, 1e-3, 0.0) == ""
+
+
+def test_the_effect_that_saves_most_is_the_one_to_lower() -> None:
+    best = lowering((CHEAP, DEAR))
+    assert best is not None
+    assert (best.effect, best.model) == (DEAR, "rough")
+    said = advice((CHEAP, DEAR), 9.1e-4, 1e-3, 0.0)
+    assert "a tick takes 910 µs of 1000 µs" in said
+    assert "“Dear” by rough, which saves 899.0 µs" in said
+
+
+def test_no_effect_is_blamed_for_what_other_programs_take() -> None:
+    assert lowering((CHEAP,)) is None
+    said = advice((CHEAP,), 1e-5, 1e-3, 0.2)
+    assert "20.0 % of the ticks come too late" in said
+    assert "no effect of this scene is the reason" in said
+    assert advice((), float("nan"), 1e-3, 0.0) == ""
+
+
+@pytest.mark.parametrize(("share", "words"), [(12.0, "12 times"), (0.5, "50 %"), (1e-4, "0.01 %")])
+def test_a_share_of_what_is_noticed_is_said_in_words(share, words) -> None:
+    assert share_words(share) == words
+
+
+def test_every_kept_study_can_be_looked_at(window) -> None:
+    page = AccuracyPage(window)
+    page.wanted.connect(lambda name: page.show_study(kept(name), False))
+    page.set_studies({name: kept(name).result.study.title for name in kept_names()})
+    for name in kept_names():
+        page.choose(name)
+        assert page.name == name
+        assert page.title.text() == kept(name).result.study.title
+        assert page.ways.rowCount() == len(kept(name).result.summary())
+        assert "In use: " in page.verdict.text()
+
+
+def test_hard_cases_are_shown_with_their_verdict(window) -> None:
+    page = AccuracyPage(window)
+    row = ("rotations", "near 180°", "π - 1e-9", "60 digits", 1e-16, 1e-12, "rad", "named", "yes")
+    sheet = Sheet("cases", "Hard cases", COLUMNS, (row,))
+    page.hard.show_findings(Findings((sheet,), lines=("1 of 1 cases hold",), passed=True))
+    assert page.hard.cases.rowCount() == 1
+    assert "✔ 1 of 1 cases hold" in page.hard.said.text()
+
+
+@pytest.fixture
+def running(window, patient, settle):
+    window.show_patient(patient)
+    plan(window)
+    settle()
+    return window.feature(AccuracyFeature)
+
+
+def test_a_model_is_chosen_in_the_panel_and_shown(running, settle) -> None:
+    panel = running.panel
+    settle()
+    rows = {row.effect.name: row for row in panel.rows}
+    if "lateral_tissue" not in rows:
+        pytest.skip("the exercise that is open first has no effects")
+    rows["lateral_tissue"].models.setCurrentIndex(1)
+    settle()
+    rows = {row.effect.name: row for row in panel.rows}
+    assert rows["lateral_tissue"].effect.model == "winkler"
+
+
+def test_a_model_that_is_kept_goes_back_and_says_why(running, settle, monkeypatch) -> None:
+    panel, said = running.panel, []
+    settle()
+    if not panel.rows:
+        pytest.skip("the exercise that is open first has no effects")
+    opened = running._runs._open
+    locked = opened.setup.exercise.model_copy(update={"locks": ("models",)})
+    opened.setup = replace(opened.setup, exercise=locked)
+    running.failed.connect(said.append)
+    before = panel.rows[0].models.currentIndex()
+    panel.rows[0].models.setCurrentIndex(1 - before)
+    assert panel.rows[0].models.currentIndex() == before
+    assert said
