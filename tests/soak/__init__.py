@@ -1,0 +1,1 @@
+"""An hour of random motion in scenes that change every five seconds; see `soak`."""
