@@ -89,7 +89,7 @@ def test_no_widget_tells_where_the_needle_is(guided, settle) -> None:
     window, trainer = guided
     controller, placed = window.conductor.controller, trainer.placed
     controller._timer.stop()
-    assert window.workspace.side.count() == 6
+    assert window.workspace.side.count() == 7
     add_structure(window, placed.plan)
     window.view_menu.follow.setChecked(True)
     near = snapshot_of(placed, state=State.INSERTING, pose=pose_of(placed, 0.01, 0.02))

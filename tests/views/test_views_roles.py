@@ -47,6 +47,7 @@ STUDENTS_MAY = listed(
     "Right camera…|A pen before a webcam: choose…|Pen and webcam: set up, measure, print…|Aim…|"
     "Calibrate…|Commissioning…|Daily check…|Registration check…|Robot's health|Set up…|"
     "Key for the forces: H…|Arm the simulated robot by a held key too|Measure the delay…|"
+    "Cost of accuracy…|"
     # exercises to do, and what comes of them
     "Briefing of this exercise|Show me this exercise|Past sessions|Workspace|Start page|"
     "Progress, students and courses|Curve|Attempts…|Sign in as a student…|"

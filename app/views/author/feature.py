@@ -38,7 +38,6 @@ from app.exercises.errors import ExerciseError
 from app.exercises.library import folders
 from app.exercises.scene import plan_of
 from app.exercises.schema import Exercise
-from app.exercises.tissue import layers_along
 from app.exercises.writing import exercise_document, exercise_text, free_id, taken_ids
 from app.session.pad.view import rings
 from app.views.author.editing import (
@@ -496,6 +495,8 @@ class AuthorFeature(Feature):
             why = tr("It takes a CT that is open, and an exercise without mistakes.")
             self._say(why, Verdict.BAD)
             return
+        from app.exercises.tissue import layers_along  # scipy
+
         try:
             marked = self.context.editors.structures.structures
             layers = layers_along(patient.volume, plan_of(exercise), tuple(marked))
