@@ -13,8 +13,8 @@ from app.imaging.body import SKIN_HU, Body
 from app.imaging.errors import InvalidEntryError
 from app.imaging.interpolation import interpolate
 
-SPACING_MM = 6.0
-"""Usual distance between neighbouring points."""
+SPACING_MM = 4.0
+"""Usual distance between neighbouring points: `acus study planning_budget`."""
 
 REFINE_MM, STEP_MM = 6.0, 0.5
 """Skin is looked for this far to both sides of its coarse cell, in such steps."""
