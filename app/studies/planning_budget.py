@@ -37,7 +37,7 @@ _ASIDE_MM: Final = 4.0
 _SEEN: Final = 1.0
 
 
-class Search(NamedTuple):
+class EntrySearch(NamedTuple):
     """What paths are looked for in."""
 
     body: Body
@@ -47,13 +47,13 @@ class Search(NamedTuple):
 
 
 @cache
-def search(exercise: str) -> Search:
+def search(exercise: str) -> EntrySearch:
     """Return the patient of an exercise, and targets about its own, shape (n, 3) [mm]."""
     found = load_exercise(exercise)
     volume = load_ct(phantom_series(found.ct.phantom.seed if found.ct.phantom else 1))
     rng = np.random.default_rng(1)
     aside = rng.uniform(-_ASIDE_MM, _ASIDE_MM, (_TARGETS, 3))
-    return Search(
+    return EntrySearch(
         find_body(volume),
         found.placement.placement(),
         ReachLimits.of(device_of(found)),
@@ -61,7 +61,7 @@ def search(exercise: str) -> Search:
     )
 
 
-def best_scores(where: Search, step_mm: float) -> FloatArray:
+def best_scores(where: EntrySearch, step_mm: float) -> FloatArray:
     """Score of the best path to each target from entries this far apart; 0 where all are blocked.
 
     Returns:
