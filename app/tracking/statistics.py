@@ -32,6 +32,7 @@ class TrackerStatistics:
         discrepancy: why cameras and robot disagree over the last seconds; empty if they do not.
         fault: message of an error inside the tracker; empty without.
         skew: how far apart the two cameras capture; None before a pair came.
+        cost: median time that finding the needle in a pair of pictures takes [s]; 0 if unknown.
     """
 
     rate: float
@@ -47,6 +48,7 @@ class TrackerStatistics:
     fault: str = ""
     discrepancy: str = ""
     skew: Skew | None = None
+    cost: float = 0.0
 
 
 class TrackerMeter:
@@ -54,14 +56,14 @@ class TrackerMeter:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._recent: deque[tuple[float, float, bool]] = deque(maxlen=2048)
+        self._recent: deque[tuple[float, float, bool, float]] = deque(maxlen=2048)
         self._counts: Counter[str] = Counter()
 
-    def count(self, fix: NeedleFix, now: float) -> None:
-        """Take in a fix that was finished at `now` [s]."""
+    def count(self, fix: NeedleFix, now: float, took: float = 0.0) -> None:
+        """Take in a fix that was finished at `now` [s] and took so long to find [s]."""
         with self._lock:
             self._counts[fix.status.value] += 1
-            self._recent.append((now, now - fix.time, fix.status is FixStatus.VALID))
+            self._recent.append((now, now - fix.time, fix.status is FixStatus.VALID, took))
 
     def statistics(
         self,
@@ -94,6 +96,7 @@ class TrackerMeter:
             fault=fault,
             skew=skew,
             discrepancy=newest.discrepancy.words if newest else "",
+            cost=float(np.median([entry[3] for entry in recent])) if recent else 0.0,
         )
 
 

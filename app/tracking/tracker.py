@@ -352,11 +352,13 @@ class Tracker:
         frames = self._feed.wait()
         if stopped() or (frames[0] is None and frames[1] is None):
             return
+        began = self._clock.now()
         fix = self.process(*frames)
+        now = self._clock.now()
         if stopped():  # closed meanwhile
             return
         self.latest.publish(fix, fix.time)
-        self._meter.count(fix, self._clock.now())
+        self._meter.count(fix, now, now - began)
         if self._on_fix is not None:
             self._on_fix(fix)
         self._worker.fault = ""

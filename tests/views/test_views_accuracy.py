@@ -1,14 +1,16 @@
 """The scene's effects in their panel, and what accuracy costs on its page."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
+from views_exercise_fakes import snapshot, statistics
 from window_rig import plan
 
 from app.studies.findings import Findings, Sheet
 from app.studies.hard import COLUMNS
 from app.studies.kept import kept, kept_names
-from app.views.accuracy.budget import EffectCost, advice, lowering, too_much
+from app.views.accuracy.budget import EffectCost, SceneCost, advice, lowering, too_much
 from app.views.accuracy.feature import AccuracyFeature
 from app.views.accuracy.page import AccuracyPage, share_words
 
@@ -97,3 +99,22 @@ def test_a_model_that_is_kept_goes_back_and_says_why(running, settle, monkeypatc
     panel.rows[0].models.setCurrentIndex(1 - before)
     assert panel.rows[0].models.currentIndex() == before
     assert said
+
+
+def test_the_shares_of_frame_and_picture_are_shown_beside_the_tick(running, settle) -> None:
+    panel = running.panel
+    settle()
+    tracker = statistics(rate=30.0, cost=3e-3)
+    running._shell.show_panel(panel)
+    settle()
+    scene = SceneCost((), {})
+    panel.show_scene(scene, "")
+    timing = SimpleNamespace(cost=5e-6, rate_hz=1000.0, ticks=1000, missed=0)
+    panel.show_snapshot(
+        snapshot(running._runs.run.placed, timing=timing, tracker=tracker, time=1e6), 8e-3
+    )
+    assert "A frame of the window takes 8.0 of 17 ms (48 %)" in panel._frame._said.text()
+    assert "A pair of pictures takes 3.0 of 33 ms (9 %)" in panel._picture._said.text()
+    assert not panel._picture.isHidden()
+    panel.show_snapshot(snapshot(running._runs.run.placed, timing=timing, time=2e6), 0.0)
+    assert panel._frame.isHidden()

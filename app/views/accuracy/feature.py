@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections import deque
+from functools import partial
+from statistics import median
+from time import perf_counter
 from typing import TYPE_CHECKING, ClassVar
 
-from PySide6.QtCore import SignalInstance
+from PySide6.QtCore import QTimer, SignalInstance
 
 from app.core import paths
 from app.core.errors import AcusError
@@ -50,6 +54,7 @@ class AccuracyFeature(Feature):
         self._explained: BackgroundTask | None = None
         self._measured: BackgroundTask | None = None
         self._scene: Exercise | None = None
+        self._frames: deque[float] = deque(maxlen=60)
         context.shell.add_panel(self.panel, tr("Effects"), scrolls=True)
         self.panel.chosen.connect(self.compute_by)
         self.panel.page_wanted.connect(self.open_page)
@@ -105,7 +110,13 @@ class AccuracyFeature(Feature):
             self.panel.show_scene(scene, why_locked(self._scene, Lock.MODELS))
 
     def _show(self, snapshot: Snapshot) -> None:
-        self.panel.show_snapshot(snapshot)
+        self.panel.show_snapshot(snapshot, median(self._frames) if self._frames else 0.0)
+        if self.panel.isVisible():
+            # A timer of no time fires when all that was asked to be painted is painted.
+            QTimer.singleShot(0, partial(self._painted, perf_counter()))
+
+    def _painted(self, began: float) -> None:
+        self._frames.append(perf_counter() - began)
 
     # --- all choices ----------------------------------------------------------------------------
     def open_page(self) -> None:

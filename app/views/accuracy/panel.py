@@ -22,6 +22,9 @@ HUES: Final = ("#56b4e9", "#e69f00", "#009e73", "#cc79a7", "#f0e442", "#d55e00",
 LATELY: Final = 10.0
 """Time over which missed deadlines are counted [s]."""
 
+FRAME: Final = 1.0 / 60.0
+"""A frame of the window has this long [s]."""
+
 PERIOD: Final = 0.5
 """Words are refreshed this often [s]."""
 
@@ -58,6 +61,36 @@ class BudgetBar(QWidget):
             colour = theme.TEXT_DIM if last else HUES[number % len(HUES)]
             painter.fillRect(QRectF(left, box.top(), max(width - 1.0, 1.0), box.height()), colour)
             left += width
+
+
+class ShareLine(QWidget):
+    """What one part of the program takes of the time that it has: words and a bar."""
+
+    def __init__(self, words: str, tip: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._words = words
+        self._said, self._bar = label("", "dim"), BudgetBar(self)
+        self.setToolTip(tip)
+        rows = QVBoxLayout(self)
+        rows.setContentsMargins(0, 0, 0, 0)
+        rows.setSpacing(2)
+        rows.addWidget(self._said)
+        rows.addWidget(self._bar)
+        self.setVisible(False)
+
+    def show_time(self, taken: float, period: float) -> None:
+        """Show a time within the period that it has [s]; nothing where it was not measured."""
+        self.setVisible(taken > 0.0)
+        self._bar.show_parts((taken,), period)
+        self._said.setText(
+            tr(
+                "{what} {taken:.1f} of {period:.0f} ms ({share:.0f} %)",
+                what=self._words,
+                taken=1e3 * taken,
+                period=1e3 * period,
+                share=100.0 * taken / period,
+            )
+        )
 
 
 class EffectRow(QFrame):
@@ -140,11 +173,21 @@ class EffectsPanel(QWidget):
         self.page = button(tr("Cost of accuracy…"))
         self.page.setToolTip(tr("Error against time of every choice in the program"))
         self.page.clicked.connect(self.page_wanted)
+        self._frame = ShareLine(
+            tr("A frame of the window takes"),
+            tr("From the newest state of the needle until all that shows it is painted"),
+        )
+        self._picture = ShareLine(
+            tr("A pair of pictures takes"),
+            tr("Finding the marker in both cameras' pictures and the needle from it"),
+        )
         self._body = QVBoxLayout()
         column = QVBoxLayout(self)
         column.setSpacing(theme.SPACING)
         for widget in (self._state, self.bar, self._tick, self._verdict, self.lowering):
             column.addWidget(widget)
+        for line in (self._frame, self._picture):
+            column.addWidget(line)
         column.addLayout(self._body)
         column.addStretch(1)
         column.addWidget(self.page)
@@ -159,6 +202,8 @@ class EffectsPanel(QWidget):
         self._state.setVisible(True)
         for widget in (self.bar, self._tick, self._verdict, self.lowering):
             widget.setVisible(False)
+        for line in (self._frame, self._picture):
+            line.setVisible(False)
 
     def show_scene(self, scene: SceneCost, locked: str) -> None:
         """Show the effects of the scene that runs.
@@ -192,8 +237,13 @@ class EffectsPanel(QWidget):
         for row in self.rows:
             row.go_back()
 
-    def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Show what the tick takes; called at every poll."""
+    def show_snapshot(self, snapshot: Snapshot, frame: float = 0.0) -> None:
+        """Show what tick, frame and picture take; called at every poll.
+
+        Args:
+            snapshot: with the loop's and the tracker's figures.
+            frame: time that the window needed for its last frames [s]; 0 if not measured.
+        """
         timing, scene = snapshot.timing, self._scene
         if timing is None or scene is None:
             return
@@ -227,6 +277,13 @@ class EffectsPanel(QWidget):
         self.lowering.setVisible(best is not None and any(r.models.isEnabled() for r in self.rows))
         for widget in (self.bar, self._tick, self._verdict):
             widget.setVisible(True)
+        tracker = snapshot.tracker
+        self._frame.show_time(frame, FRAME)
+        pictures = tracker is not None and tracker.rate > 0.0
+        self._picture.show_time(
+            tracker.cost if tracker is not None else 0.0,
+            1.0 / tracker.rate if tracker is not None and pictures else FRAME,
+        )
 
     def _lower(self) -> None:
         best = lowering(self._scene.effects) if self._scene is not None else None
