@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
-from math import atan, atan2, inf, pi
+from math import atan, atan2, inf, pi, sqrt
 from typing import Any, Final
 
 import numpy as np
@@ -29,6 +29,7 @@ from scipy.optimize import linprog
 from scipy.spatial import ConvexHull, QhullError
 
 from app.core.arrays import FloatArray, frozen, unit
+from app.core.compiled import njit
 from app.mechanisms.errors import GraspError
 
 EDGES: Final = 8
@@ -306,17 +307,26 @@ def pair_margin(rays: FloatArray) -> float:
     """
     if rays.shape != (4, 3):
         raise GraspError(
-            f"{len(rays)} rays of {rays.shape[1]} dimensions have no closed form here; it is for"
-            " two contacts in the plane, with friction"
+            f"{len(rays)} rays of {rays.shape[1]} dimensions: the closed form is for four of three,"
+            " two contacts in the plane with friction"
         )
+    return float(pair_kernel(rays))
+
+
+@njit
+def pair_kernel(rays: FloatArray) -> float:
+    """Least distance of the origin from a tetrahedron's faces, corners (4, 3); 0 if not inside."""
     least = inf
     for i in range(4):
-        a, b, c = (rays[j] for j in range(4) if j != i)
-        normal = np.cross(b - a, c - a)
-        off = float(normal @ a)
-        if off * float(normal @ (rays[i] - a)) >= 0.0:
-            return 0.0  # the origin is beyond this face, seen from the fourth corner, or in it
-        least = min(least, abs(off) / float(np.linalg.norm(normal)))
+        a, b, c = rays[(i + 1) % 4], rays[(i + 2) % 4], rays[(i + 3) % 4]
+        ux, uy, uz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
+        vx, vy, vz = c[0] - a[0], c[1] - a[1], c[2] - a[2]
+        nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+        off = nx * a[0] + ny * a[1] + nz * a[2]
+        # The fourth corner lies on the origin's side of the face, or the origin is outside.
+        if off * (nx * rays[i, 0] + ny * rays[i, 1] + nz * rays[i, 2] - off) >= 0.0:
+            return 0.0
+        least = min(least, abs(off) / sqrt(nx * nx + ny * ny + nz * nz))
     return least
 
 

@@ -52,6 +52,7 @@ class HandGeometry:
         proximal: joint 2 to joint 3, L2 [m].
         distal: joint 3 to the grasp point, L3 [m].
         bend: angle from the line of L2 to that of L3 at φ3 = 0, φ30 [rad].
+        pad: radius of the fingers' links and of their round tips, which end at L3 [m].
         half_base: half the distance of the spread axes of fingers 1 and 2 [m].
         joint_height: joint 2 above the palm's surface [m].
         palm_radius: of the palm about the hand's axis [m].
@@ -70,6 +71,7 @@ class HandGeometry:
     proximal: float
     distal: float
     bend: float
+    pad: float
     half_base: float
     joint_height: float
     palm_radius: float
@@ -87,6 +89,10 @@ class HandGeometry:
         for name in ("most_proximal", "most_distal", "most_spread"):
             if not 0.0 < (value := getattr(self, name)) <= pi:
                 raise MechanismError(f"hand: {name} is {value} rad; give more than 0, at most π")
+        if not 0.0 <= self.pad < self.distal:
+            raise MechanismError(
+                f"hand: pad is {self.pad} m; give 0 or more, less than distal, {self.distal} m"
+            )
         if not 0.0 <= self.bend < pi:
             raise MechanismError(f"hand: bend is {self.bend} rad; give 0 or more, less than π")
         if not 0.0 < self.distal_gear < self.proximal_gear < inf:

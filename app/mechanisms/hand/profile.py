@@ -10,7 +10,7 @@ from app.core import paths
 from app.core.configuration import Strict, load
 from app.core.errors import ConfigurationError
 from app.mechanisms.hand.finger import HandGeometry
-from app.mechanisms.profile.mechanics import Length, Section, Torque
+from app.mechanisms.profile.mechanics import Distance, Length, Section, Torque
 
 HalfTurn = Annotated[float, Field(gt=0.0, le=180.0)]
 """[°]"""
@@ -25,6 +25,7 @@ class HandLengths(Section):
     proximal: Length
     distal: Length
     bend_deg: Annotated[float, Field(ge=0.0, lt=180.0)]
+    pad: Distance
     half_base: Length
     joint_height: Length
     palm_radius: Length
@@ -71,6 +72,7 @@ class HandProfile(Strict):
             proximal=lengths.proximal,
             distal=lengths.distal,
             bend=radians(lengths.bend_deg),
+            pad=lengths.pad,
             half_base=lengths.half_base,
             joint_height=lengths.joint_height,
             palm_radius=lengths.palm_radius,

@@ -1,9 +1,10 @@
 """Gripping a tool: how the palm comes to it, and where each finger touches it.
 
-The tool is a cylinder without ends, as cameras see it: a point, an axis, a diameter. Fingers are
-the two lines of their links, from joint 2 over joint 3 to the grasp point; their thickness is in L3
-and φ30, nowhere else. Closing follows the hand's one motor per finger: both joints on the curve of
-free motion; if the proximal link touches first, joint 2 stays there and the distal link goes on.
+The tool is a cylinder without ends, as cameras see it: a point, an axis, a diameter. A finger is
+round about the two lines of its links, from joint 2 over joint 3 to its tip, which ends at L3; with
+a pad of 0 it is these lines, and touches with the grasp point of the paper. Closing follows the
+hand's one motor per finger: both joints on the curve of free motion; if the proximal link touches
+first, joint 2 stays there and the distal link goes on.
 """
 
 from __future__ import annotations
@@ -29,7 +30,6 @@ from app.mechanisms.hand.finger import (
     HandFinger,
     HandGeometry,
     coupled,
-    forward,
     forward_kernel,
 )
 
@@ -40,7 +40,7 @@ STEPS: Final = 561
 Joints = tuple[float, float, float]
 """(φ1, φ2, φ3) [rad]."""
 Lengths = tuple[float, float, float, float]
-"""(L1, L2, L3, φ30) [m, m, m, rad]."""
+"""(L1, L2, L3 less the pad, φ30) [m, m, m, rad]."""
 Cylinder = tuple[float, float, float, float, float, float, float]
 """A point of the axis, the axis at length one, and the radius [m]."""
 
@@ -78,11 +78,10 @@ class ToolShaft:
         object.__setattr__(self, "position", frozen(self.position, (3,), "position"))
         object.__setattr__(self, "axis", frozen(unit(frozen(self.axis, (3,), "axis"), "axis")))
 
-    @property
-    def numbers(self) -> Cylinder:
-        """Return position, axis and radius: what the kernels take."""
+    def thicker(self, by: float) -> Cylinder:
+        """Return position, axis and radius, so much larger [m]: what the kernels take."""
         (x, y, z), (ax, ay, az) = self.position.tolist(), self.axis.tolist()
-        return x, y, z, ax, ay, az, 0.5 * self.diameter
+        return x, y, z, ax, ay, az, 0.5 * self.diameter + by
 
     def seen_from(self, T_to_from: RigidTransform) -> ToolShaft:
         """Return the tool in another frame."""
@@ -189,7 +188,8 @@ def approach(
 
     The palm faces the tool as nearly along `towards` as the tool's axis lets it, its x along the
     axis; fingers 1 and 2 come from one side, finger 3 from the other. The tool lies at that height
-    above joint 2 at which, in free motion, the grasp points come to be a diameter apart.
+    above joint 2 at which, in free motion, the round tips have it between them, their middles level
+    with its axis.
 
     Args:
         geometry: the hand.
@@ -217,7 +217,7 @@ def approach(
     chosen = most if height is None else height
     if not least <= chosen <= most:
         raise GraspError(
-            f"the tool's axis at {chosen / MILLIMETRE:.4g} mm above joint 2: grasp points meet on a"
+            f"the tool's axis at {chosen / MILLIMETRE:.4g} mm above joint 2: the tips meet on a"
             f" tool of {tool_world.diameter / MILLIMETRE:.4g} mm from {least / MILLIMETRE:.4g} to"
             f" {most / MILLIMETRE:.4g} mm"
         )
@@ -225,7 +225,7 @@ def approach(
 
 
 def heights(geometry: HandGeometry, radius: float) -> tuple[float, float]:
-    """Heights above joint 2 at which grasp points can meet at ρ = `radius` [m]: least, most.
+    """Heights above joint 2 at which tips can meet on a tool of a radius [m]: least, most [m].
 
     The most is reached in free motion; below it joint 2 must have been held, down to where joint 3
     is at its limit, or where the tool's surface comes to the palm.
@@ -233,9 +233,10 @@ def heights(geometry: HandGeometry, radius: float) -> tuple[float, float]:
     Raises:
         GraspError: if the tool is too thick, or too thin, for any height.
     """
+    links = _round(geometry)
 
     def apart(phi2: float, phi3: float) -> float:
-        return float(forward(geometry, (0.0, phi2, phi3))[0]) - radius
+        return float(forward_kernel(0.0, phi2, phi3, *links)[0]) - radius - geometry.pad
 
     most_free = min(geometry.most_proximal, geometry.most_distal / geometry.coupling)
     free = _first(lambda phi2: apart(phi2, geometry.coupling * phi2), most_free)
@@ -246,11 +247,11 @@ def heights(geometry: HandGeometry, radius: float) -> tuple[float, float]:
             f" {2.0 * widest / MILLIMETRE:.4g} mm and cannot close on it"
         )
     bent = _first(lambda phi2: apart(phi2, geometry.most_distal), geometry.most_proximal)
-    most = float(forward(geometry, (0.0, free, geometry.coupling * free))[2])
+    most = float(forward_kernel(0.0, free, geometry.coupling * free, *links)[2])
     palm = radius - geometry.joint_height
     least = palm
     if bent is not None:
-        least = max(palm, float(forward(geometry, (0.0, bent, geometry.most_distal))[2]))
+        least = max(palm, float(forward_kernel(0.0, bent, geometry.most_distal, *links)[2]))
     if not least <= most:
         raise GraspError(
             f"a tool of {2.0 * radius / MILLIMETRE:.4g} mm would be met at"
@@ -351,7 +352,8 @@ def _first_touch(
     end: Joints,
 ) -> float | None:
     """Return the share of the way between two postures (φ1, φ2, φ3) at which a link touches."""
-    proximal, lengths, shape = link is FingerLink.PROXIMAL, geometry.links, tool.numbers
+    proximal, lengths = link is FingerLink.PROXIMAL, _round(geometry)
+    shape = tool.thicker(geometry.pad)
     step = scan_kernel(proximal, begin, end, lengths, shape, STEPS - 1)
     if step < 0:
         return None
@@ -372,19 +374,27 @@ def _touch(
     link: FingerLink,
     joints: Joints,
 ) -> FingerTouch:
-    _, share = gap_kernel(link is FingerLink.PROXIMAL, joints, geometry.links, tool.numbers)
-    middle = np.array(forward_kernel(joints[0], joints[1], 0.0, *geometry.links[:2], 0.0, 0.0))
-    plane = np.array([cos(joints[0]), sin(joints[0]), 0.0])
-    if link is FingerLink.PROXIMAL:
-        start, end = geometry.knuckle * plane, middle
+    links = _round(geometry)
+    proximal = link is FingerLink.PROXIMAL
+    _, share = gap_kernel(proximal, joints, links, tool.thicker(geometry.pad))
+    middle = np.array(forward_kernel(joints[0], joints[1], 0.0, *links[:2], 0.0, 0.0))
+    if proximal:
+        start = links[0] * np.array([cos(joints[0]), sin(joints[0]), 0.0])
+        end = middle
     else:
-        start, end = middle, forward(geometry, joints)
-    point = start + share * (end - start)
-    axis = tool.position + tool.axis * ((point - tool.position) @ tool.axis)
+        start, end = middle, np.array(forward_kernel(*joints, *links))
+    inside = start + share * (end - start)
+    axis = tool.position + tool.axis * ((inside - tool.position) @ tool.axis)
+    normal = unit(axis - inside)
+    point = axis - 0.5 * tool.diameter * normal
     coupling = coupled(geometry, joints[1], joints[2])
-    return FingerTouch(
-        finger, link, frozen(point), frozen(unit(axis - point)), frozen(joints), coupling
-    )
+    return FingerTouch(finger, link, frozen(point), frozen(normal), frozen(joints), coupling)
+
+
+def _round(geometry: HandGeometry) -> Lengths:
+    """Return lengths (L1, L2, L3 less the pad, φ30): to the middle of the round tip."""
+    l1, l2, l3, bend = geometry.links
+    return l1, l2, l3 - geometry.pad, bend
 
 
 def _clear_of_the_palm(geometry: HandGeometry, tool: ToolShaft) -> None:
