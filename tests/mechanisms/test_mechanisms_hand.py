@@ -462,7 +462,7 @@ def test_an_open_grasp_says_why_and_no_force_holds_it():
         (lambda: force_closure(opposed(0.5), scale=0.0), "the torque scale is 0.0 m"),
         (
             lambda: force_closure(Contacts(THREE, -THREE, 0.5), way=ClosureWay.PAIR),
-            "24 rays of 6 dimensions: the closed form is for four of three",
+            "no closed form for 24 rays of 6 dimensions, only for two contacts in the plane",
         ),
         (lambda: pair_closed(Contacts(THREE, -THREE, 0.5)), "two contacts in the plane"),
     ],

@@ -307,8 +307,8 @@ def pair_margin(rays: FloatArray) -> float:
     """
     if rays.shape != (4, 3):
         raise GraspError(
-            f"{len(rays)} rays of {rays.shape[1]} dimensions: the closed form is for four of three,"
-            " two contacts in the plane with friction"
+            f"no closed form for {len(rays)} rays of {rays.shape[1]} dimensions, only for two"
+            " contacts in the plane"
         )
     return float(pair_kernel(rays))
 

@@ -146,19 +146,17 @@ class FirmGrasp:
 
     @property
     def designed_gain(self) -> float:
-        """K at which both poles of the sampled loop are one real pole, or less if much is damped.
+        """K at which both poles of the sampled loop are one real pole; less for a damped contact.
 
-        With K k g = κ the poles are those of z² - (1 + a - κ B) z + a + κ c; a = exp(-T/τ).
+        With K k g = κ the poles are those of z² - (1 + a - κ B) z + a + κ c; a = exp(-T/τ). What
+        the damper adds within a period counts beside it: 1/K is the sum of both demands.
         """
         travel = max(self.lever.free, self.lever.alone)
         a, first, second = _held(self.period, self.lag)
         middle = 2.0 * (1.0 + a) * first + 4.0 * second
         root = sqrt(max(middle * middle - 4.0 * (first * (1.0 - a)) ** 2, 0.0))
         kappa = 2.0 * (1.0 - a) ** 2 / (middle + root)
-        gain = kappa / (self.contact.stiffness * travel)
-        if self.contact.damping > 0.0:
-            gain = min(gain, _DAMPED / (self.contact.damping * travel))
-        return gain
+        return 1.0 / (travel * (self.contact.stiffness / kappa + self.contact.damping / _DAMPED))
 
     def check(self, contact: SoftContact) -> None:
         """Refuse a contact with which the force would oscillate ever more.
