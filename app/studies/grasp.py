@@ -56,6 +56,7 @@ _DIRECTIONS: Final = (100, 1000, 10_000, 100_000)
 _NOTICED: Final = 0.1
 _RANDOM: Final = 150  # grasps on which the ways are compared
 _SINGULAR: Final = 1e-12
+_BESIDE: Final = 1e-9  # a ray so near a plane lies in it
 
 
 def held(
@@ -103,16 +104,17 @@ _GRASPS: Final[dict[str, tuple[Callable[[], Contacts], int]]] = {
 def every_facet(rays: FloatArray) -> float:
     """Margin by trying every plane through d of k rays, shape (k, d), and knowing no hull.
 
-    A plane n · w = 1 bounds the hull if no ray is beyond it; the nearest one is the margin. If
-    none does, the origin is not inside: 0.
+    A plane n · w = 1 bounds the hull if no ray is beyond it; the nearest one is the margin. If all
+    rays are beyond one, the origin is outside: 0.
     """
     k, d = rays.shape
     corners = rays[np.array(list(combinations(range(k), d)))]
     regular = np.abs(np.linalg.det(corners)) > _SINGULAR * np.abs(rays).max() ** d
     planes = np.linalg.solve(corners[regular], np.ones((int(regular.sum()), d, 1)))[..., 0]
-    bounding = (planes @ rays.T).max(axis=1) <= 1.0 + 1e-9
-    if not bounding.any():
+    sides = planes @ rays.T
+    if (sides.min(axis=1) >= 1.0 - _BESIDE).any():
         return 0.0
+    bounding = sides.max(axis=1) <= 1.0 + _BESIDE
     return float(1.0 / np.linalg.norm(planes[bounding], axis=1).max())
 
 
@@ -238,8 +240,9 @@ def _counted(found: list[int], contacts: Contacts, closed: bool | None) -> None:
 def _law(goal: float, stiffness: float) -> FirmGrasp:
     """Finger 3 on the tool as planned, its law designed for a contact of this stiffness [N/m]."""
     touch = next(one for one in held().touches if one.finger is HandFinger.THREE)
-    normal = HandFinger.THREE.placed(HAND).inverse().rotate(touch.normal)
-    lever = Lever.of(HAND, touch.joints, normal)
+    T_finger_hand = HandFinger.THREE.placed(HAND).inverse()
+    normal, point = T_finger_hand.rotate(touch.normal), T_finger_hand @ touch.point
+    lever = Lever.of(HAND, touch.joints, normal, point)
     drive = PROFILE.drive
     contact = SoftContact(stiffness, 1e-3 * stiffness)
     return FirmGrasp(goal, lever, contact, drive.lag, drive.period, drive.top_speed)

@@ -136,6 +136,28 @@ def test_the_fingers_stand_where_the_published_description_puts_them(finger):
         assert T_palm_distal @ p_distal - height == pytest.approx(p_hand, abs=1e-12)
 
 
+def test_a_rigid_body_library_finds_the_published_fingers_at_the_same_places():
+    """Pinocchio builds the chain of finger 2 from the same numbers and moves it itself."""
+    pinocchio = pytest.importorskip("pinocchio")
+    model = pinocchio.Model()
+    around_x = rotation_exp((np.pi / 2, 0.0, 0.0))
+    parent = 0
+    for joint, rotation, place in (
+        ("RZ", rotation_exp((0.0, 0.0, np.pi / 2)), (0.025, 0.0, 0.0252)),
+        ("RZ", around_x, (-0.05, 0.0, 0.0339)),
+        ("RZ", np.eye(3), (-0.069936, 0.003, 0.0)),
+    ):
+        kind = getattr(pinocchio, f"JointModel{joint}")()
+        placed = pinocchio.SE3(rotation, np.array(place))
+        parent = model.addJoint(parent, kind, placed, f"joint {parent}")
+    data = model.createData()
+    for spread, q2, q3 in joints_within(200, 9):
+        pinocchio.forwardKinematics(model, data, np.array([spread, -q2, -q3]))
+        ours = published_chain(HandFinger.TWO, spread, q2, q3)
+        assert data.oMi[3].translation == pytest.approx(ours.translation, abs=1e-15)
+        assert data.oMi[3].rotation == pytest.approx(ours.rotation, abs=1e-14)
+
+
 def test_in_free_motion_one_motor_bends_the_tip_a_third_as_far_and_alone_four_times_as_fast():
     phi2, phi3 = driven(HAND, 100.0)
     assert (phi2, phi3) == pytest.approx((100 / 125, 100 / 375))
@@ -489,6 +511,13 @@ def test_the_lever_is_the_travel_of_the_grasp_point_and_the_torque_at_joint_2():
     assert (start - alone) / step == pytest.approx(LEVER.alone, rel=1e-4)
     torque = jacobian(HAND, POSTURE).T @ (1.0, 0.0, 0.0)  # the tool pushes back along +x
     assert -torque[1] == pytest.approx(LEVER.arm)
+    for q in joints_within(50, 10):
+        normal = -jacobian(HAND, q)[:, 1] - jacobian(HAND, q)[:, 2]
+        normal /= -np.linalg.norm(normal)
+        lever = Lever.of(HAND, q, normal)
+        _, by2, by3 = normal @ jacobian(HAND, q)
+        assert lever.arm == pytest.approx(by2, abs=1e-15)
+        assert lever.alone * HAND.distal_gear == pytest.approx(by3, abs=1e-15)
     with pytest.raises(GraspError, match="both must be into the tool"):
         Lever.of(HAND, POSTURE, (1.0, 0.0, 0.0))
 

@@ -17,16 +17,16 @@ The paper has this as its figure 5, which its text lacks.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import exp, inf, sqrt
+from math import cos, exp, inf, sin, sqrt
 from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from app.core.arrays import FloatArray, frozen, read_only, unit
+from app.core.arrays import FloatArray, cross, frozen, read_only, unit
 from app.core.compiled import njit
 from app.mechanisms.errors import GraspError
-from app.mechanisms.hand.finger import HandGeometry, jacobian
+from app.mechanisms.hand.finger import HandGeometry, forward
 
 FINE: Final = 10
 """Parts of a period at which the force is looked at."""
@@ -66,16 +66,35 @@ class Lever:
             )
 
     @classmethod
-    def of(cls, geometry: HandGeometry, joints: ArrayLike, normal_finger: ArrayLike) -> Lever:
-        """Lever of a posture (φ1, φ2, φ3) [rad] on a surface with this inward normal, both (3,).
+    def of(
+        cls,
+        geometry: HandGeometry,
+        joints: ArrayLike,
+        normal_finger: ArrayLike,
+        p_finger: ArrayLike | None = None,
+    ) -> Lever:
+        """Lever of a posture on a surface, for the millimetres of a press.
 
-        By the Jacobian; it holds for the millimetres of a press.
+        Args:
+            geometry: the hand.
+            joints: (φ1, φ2, φ3) [rad], shape (3,).
+            normal_finger: inward normal of the surface, in the finger's frame, shape (3,).
+            p_finger: where the distal link touches [m], shape (3,); its grasp point if left out.
 
         Raises:
             GraspError: as above.
             NumericalError: if a number is not finite, or the normal has no direction.
         """
-        _, by2, by3 = (unit(frozen(normal_finger, (3,))) @ jacobian(geometry, joints)).tolist()
+        phi1, phi2, phi3 = frozen(joints, (3,), "joints").tolist()
+        along = np.array([cos(phi1), sin(phi1), 0.0])
+        axis = np.array([sin(phi1), -cos(phi1), 0.0])  # of joints 2 and 3: bends away from the palm
+        joint_2 = geometry.knuckle * along
+        joint_3 = joint_2 + geometry.proximal * (
+            cos(phi2) * along + np.array([0.0, 0.0, sin(phi2)])
+        )
+        touch = forward(geometry, (phi1, phi2, phi3)) if p_finger is None else p_finger
+        point, normal = frozen(touch, (3,), "p_finger"), unit(frozen(normal_finger, (3,)))
+        by2, by3 = (float(normal @ cross(axis, point - joint)) for joint in (joint_2, joint_3))
         free = (by2 + geometry.coupling * by3) / geometry.proximal_gear
         return cls(free, by3 / geometry.distal_gear, by2, geometry.breakaway)
 
