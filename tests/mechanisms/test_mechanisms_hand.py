@@ -329,6 +329,11 @@ def test_the_palm_refuses_to_come_along_the_axis_or_at_a_height_where_the_tips_d
     assert (1e3 * least, 1e3 * most) == pytest.approx((75.51, 90.82), abs=0.01)
     with pytest.raises(GraspError, match=r"from 75\.51 to 90\.82 mm"):
         approach(HAND, tool, (1.0, 0.0, 0.0), height=0.1)
+    least, most = heights(replace(HAND, joint_height=0.2), 0.12)
+    slim = replace(HAND, distal=HAND.distal - HAND.pad)
+    away = np.arccos((0.126 - HAND.knuckle - HAND.proximal) / slim.distal) - HAND.bend
+    assert least == pytest.approx(forward(slim, (0.0, 0.0, away))[2]), "joint 2 held at its begin"
+    assert least < most
     with pytest.raises(GraspError, match="a tool of 330 mm"):
         heights(HAND, 0.165)
 

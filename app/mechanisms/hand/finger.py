@@ -361,7 +361,7 @@ def _branch(
         refused = _beyond(geometry, status, phi2, phi3, hypot(rho - geometry.knuckle, z))
     if refused:
         return FingerPose(frozen(np.zeros(3)), side, Coupling.NEVER, 0.0, False, False, refused)
-    spread = finger.turn * phi1
+    spread = finger.turn * phi1 + 0.0  # never -0
     limits = -_ROUNDING <= spread <= geometry.most_spread + _ROUNDING
     joints = frozen([phi1, phi2, phi3])
     coupling = coupled(geometry, phi2, phi3)

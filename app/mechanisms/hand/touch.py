@@ -10,7 +10,7 @@ first, joint 2 stays there and the distal link goes on.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import cos, inf, sin, sqrt
 from typing import Final
@@ -195,7 +195,8 @@ def approach(
         geometry: the hand.
         tool_world: the tool.
         towards: direction in which the palm moves to it, of any length, shape (3,).
-        height: of the tool's axis above joint 2 [m], if another one is wanted.
+        height: of the tool's axis above joint 2 [m], if another one is wanted; the tips meet there
+            only if joint 2 is held before.
 
     Raises:
         GraspError: if the palm would have to come along the tool's axis, the tool is too thick, or
@@ -246,12 +247,13 @@ def heights(geometry: HandGeometry, radius: float) -> tuple[float, float]:
             f"a tool of {2.0 * radius / MILLIMETRE:.4g} mm: the fingers open to"
             f" {2.0 * widest / MILLIMETRE:.4g} mm and cannot close on it"
         )
-    bent = _first(lambda phi2: apart(phi2, geometry.most_distal), geometry.most_proximal)
     most = float(forward_kernel(0.0, free, geometry.coupling * free, *links)[2])
-    palm = radius - geometry.joint_height
-    least = palm
-    if bent is not None:
-        least = max(palm, float(forward_kernel(0.0, bent, geometry.most_distal, *links)[2]))
+    lowest = _first(lambda phi2: apart(phi2, geometry.most_distal), geometry.most_proximal)
+    bent = geometry.most_distal
+    if lowest is None:  # a thick tool: met with joint 2 held where it begins
+        lowest, bent = 0.0, _first(lambda phi3: apart(0.0, phi3), geometry.most_distal) or 0.0
+    tip = float(forward_kernel(0.0, lowest, bent, *links)[2])
+    least = max(tip, radius - geometry.joint_height)
     if not least <= most:
         raise GraspError(
             f"a tool of {2.0 * radius / MILLIMETRE:.4g} mm would be met at"
@@ -285,16 +287,7 @@ def close_hand(geometry: HandGeometry, tool_hand: ToolShaft, spread: float = 0.0
         tool = tool_hand.seen_from(T_hand_finger.inverse())
         for touch in _closed(geometry, tool, finger, phi1):
             point, normal = T_hand_finger @ touch.point, T_hand_finger.rotate(touch.normal)
-            found.append(
-                FingerTouch(
-                    finger,
-                    touch.link,
-                    frozen(point),
-                    frozen(normal),
-                    touch.joints,
-                    touch.coupling,
-                )
-            )
+            found.append(replace(touch, point=frozen(point), normal=frozen(normal)))
     return Grasp(tuple(found), spread)
 
 
