@@ -29,6 +29,7 @@ SUBSYSTEMS: Final = (
     "kinematics",
     "statics",
     "dynamics",
+    "grasping",
     "force laws",
     "governor",
     "guard",
