@@ -97,6 +97,7 @@ def scene_of(exercise: Exercise, profile: DeviceProfile) -> Scene:
         needle=Needle(profile.geometry.needle_length, OUTER_DIAMETER[exercise.needle.gauge]),
         R_world_patient=exercise.placement.placement().rotation,
         target_organ=exercise.target_organ,
+        joint=profile.workspace.joint,
     )
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.mechanisms.profile import load_profile
+from app.simulation import dry_friction
 from app.simulation.effects import (
     breathing,
     declaration,
@@ -373,14 +374,14 @@ def _dahl() -> tuple[HardCase, ...]:
             subsystem="integrators",
             case=f"exponential step of Dahl's friction over {words}",
             given="f = 0.2 N, g = 1 N",
-            way=shaft_friction.dahl,
+            way=dry_friction.dahl,
             found=partial(_called, digits(f"Dahl friction after {words}").given),
             reference=digits(f"Dahl friction after {words}"),
             unit="N",
             bound=1e-15,
             beyond=answers(
                 "no friction without a level",
-                lambda: shaft_friction.dahl(1.0, 1.0, 0.0, 1e5) == 0.0,
+                lambda: dry_friction.dahl(1.0, 1.0, 0.0, 1e5) == 0.0,
             ),
             defect=Defect(text, way),
         )
@@ -405,13 +406,13 @@ def _held_tick() -> HardCase:
         subsystem="integrators",
         case="a thousand steps of Dahl's friction are one",
         given="0.3 mm in steps of 0.3 µm, σ = 1e4 N/m, g = 1 N",
-        way=shaft_friction.dahl,
+        way=dry_friction.dahl,
         found=found,
-        reference=analytic("one step of 0.3 mm", shaft_friction.dahl(0.2, 3e-4, 1.0, 1e4)),
+        reference=analytic("one step of 0.3 mm", dry_friction.dahl(0.2, 3e-4, 1.0, 1e4)),
         unit="N",
         bound=1e-13,
         beyond=answers(
-            "no friction without a level", lambda: shaft_friction.dahl(1.0, 1.0, 0.0, 1e5) == 0.0
+            "no friction without a level", lambda: dry_friction.dahl(1.0, 1.0, 0.0, 1e5) == 0.0
         ),
         defect=Defect("implicit Euler", lambda f, x, g, s: (f + s * x) / (1.0 + s * x / g)),
     )
