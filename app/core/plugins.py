@@ -136,6 +136,7 @@ class PluginKind(Generic[D]):
         functions: that a file must define at its top level.
         older: rewrites what a file of an earlier form says into this form; None leaves a file
             without a declaration refused.
+        spared: key of a declaration that spares a file, where it is true, these functions.
         marks: a file of the program's folder counts only if one of these is in it; empty: all do.
     """
 
@@ -146,6 +147,7 @@ class PluginKind(Generic[D]):
     package: str = ""
     folder: str = ""
     functions: tuple[str, ...] = ()
+    spared: str = ""
     older: Callable[[Path, PluginText], PluginText] | None = None
     marks: tuple[bytes, ...] = ()
     optional: Mapping[str, Field] = field(default_factory=lambda: MappingProxyType({}))
@@ -323,7 +325,8 @@ def _read(kind: PluginKind[Any], path: Path, text: str) -> Any:
             f" {', '.join(kind.fields)}{may}; check {sorted(given ^ set(kind.fields))}"
         )
     defined = {node.name for node in body if isinstance(node, ast.FunctionDef)}
-    if missing := [name for name in kind.functions if name not in defined]:
+    needed = () if source.document.get(kind.spared) is True else kind.functions
+    if missing := [name for name in needed if name not in defined]:
         raise kind.error(f"{path} has no function {missing[0]}(); see 'How to add {kind.noun}'")
     keys = (*kind.fields, *(key for key in kind.optional if key in source.document))
     values = {key: _value(kind, key, source, path) for key in keys}
