@@ -19,6 +19,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import lru_cache
+from glob import escape
 from operator import attrgetter
 from pathlib import Path
 from sys import float_info
@@ -157,14 +158,18 @@ class PluginKind(Generic[D]):
         """The noun without its article."""
         return self.noun.split(" ", 1)[1]
 
-    def files(self) -> list[Path]:
-        """Files of all plug-ins: the program's own, appended folders', then the user's."""
+    def files(self, name: str = "*") -> list[Path]:
+        """Files of all plug-ins: the program's own, appended folders', then the user's.
+
+        Args:
+            name: of one plug-in; all of them without it.
+        """
         package = importlib.import_module(self.package)
         folders = [*map(Path, package.__path__), paths.plugins(self.folder)]
         return [
             path
             for folder in dict.fromkeys(folders)
-            for path in sorted(folder.glob("*.py"))
+            for path in sorted(folder.glob(f"{name}.py"))
             if not path.stem.startswith("_") and (not self.is_own(path) or self._counts(path))
         ]
 
@@ -187,7 +192,7 @@ class PluginKind(Generic[D]):
         Raises:
             AcusError: made by `error`: for an unknown name, or one that two files have.
         """
-        found = [path for path in self.files() if path.stem == name]
+        found = self.files(escape(name)) if Path(name).name == name else []
         if not found:
             raise self.error(f"there is no {self.word} {name!r}; there are {self._known()}")
         if len(found) > 1:

@@ -15,7 +15,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.parameters import Stage
 from app.simulation.consumers import IN_WORDS, Consumer, DevicePort
-from app.simulation.effects import Effect, declaration, implementation, parameters_of
+from app.simulation.effects import Effect, array_of, declaration, load
 from app.simulation.errors import SimulationError
 from app.simulation.scene import Binding, EffectRequest, Scene
 
@@ -85,7 +85,7 @@ class SimulationPlan:
         `tracking.simulated.picture_effects` knows by the name what to do with them.
         """
         return {
-            kept.name: parameters_of(kept.name, kept.parameters, self._binding(kept, kept.model))
+            kept.name: array_of(kept.declaration, kept.parameters, self._binding(kept, kept.model))
             for kept in self.kept
             if kept.declaration.pictures
         }
@@ -112,7 +112,7 @@ class SimulationPlan:
             if kept.declaration.pictures:
                 found[kept.name] = kept.warnings
                 continue
-            module, binding = implementation(kept.name), self._binding(kept, kept.model)
+            module, binding = load(kept.declaration), self._binding(kept, kept.model)
             own = module.warnings(kept.parameters, binding) if hasattr(module, "warnings") else ()
             found[kept.name] = (*kept.warnings, *own)
         return found
@@ -120,7 +120,7 @@ class SimulationPlan:
     def _bound(self, kept: KeptEffect) -> float:
         if kept.declaration.pictures:
             return 0.0
-        module = implementation(kept.name)
+        module = load(kept.declaration)
         if not hasattr(module, "energy_bound"):
             return 0.0
         bound = float(module.energy_bound(self.stage(kept)[2]))
@@ -140,8 +140,8 @@ class SimulationPlan:
             SimulationError: if its file cannot be used.
         """
         binding = self._binding(kept, model or kept.model)
-        array = parameters_of(kept.name, kept.parameters, binding)
-        return Stage(kept.name, implementation(kept.name).step, array)
+        array = array_of(kept.declaration, kept.parameters, binding)
+        return Stage(kept.name, load(kept.declaration).step, array)
 
 
 def compile(

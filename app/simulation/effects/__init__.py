@@ -113,11 +113,16 @@ def parameters_of(name: str, values: Mapping[str, float], binding: Binding) -> F
     Raises:
         SimulationError: if its file cannot be used, or gives fewer than its stage uses.
     """
-    declared = declaration(name)
+    return array_of(declaration(name), values, binding)
+
+
+def array_of(declared: Effect, values: Mapping[str, float], binding: Binding) -> FloatArray:
+    """Return a fresh array of parameters of a declared effect, see `parameters_of`."""
+    name = declared.name
     if declared.pictures:
         model = list(declared.models).index(declared.model(binding.model))
         return np.array([model, *(values[key] for key in declared.parameters)], dtype=float)
-    module = implementation(name)
+    module = load(declared)
     if hasattr(module, "parameters"):
         array: FloatArray = module.parameters(values, binding)
     else:
@@ -136,7 +141,12 @@ def implementation(name: str) -> ModuleType:
         SimulationError: for one that is not the program's own if its compiled code could do harm
             (`core.stage_check`); says where and why.
     """
-    return KIND.load(declaration(name), before=_needed)
+    return load(declaration(name))
+
+
+def load(declared: Effect) -> ModuleType:
+    """Import a declared effect, see `implementation`."""
+    return KIND.load(declared, before=_needed)
 
 
 def refused() -> dict[Path, str]:

@@ -43,18 +43,18 @@ NOISE_GREY: Final = 4.0
 """Noise of the pictures that these were measured in; they grow with it in proportion."""
 
 WIDER: Final = (
-    (1.0, 1.15, 1.32, 1.46, 1.54),
-    (1.0, 1.0, 1.0, 0.84, 0.0),
-    (1.0, 1.02, 1.24, 1.4, 1.4),
+    (1.0, 1.15, 1.32, 1.41, 1.52, 1.63),
+    (1.0, 1.0, 1.0, 0.95, 0.56, 0.0),
+    (1.0, 1.02, 1.24, 1.31, 1.75, 1.75),
 )
 """Point spread over the lens' own; share of pictures in which the marker is found; noise of its
-centre over the usual. Measured in 120 rendered pairs of rig `wide` (0.7 px) beside each other, out
-of focus by 0.4, 0.6, 0.75 and 0.82 px: the model of the marker knows the lens' spread, and refuses
-pictures that are softer by half."""
+centre over the usual. Measured in 84 to 120 rendered pairs of rig `wide` (0.7 px), out of focus by
+0.4, 0.6, 0.7, 0.8 and 0.9 px: the model of the marker knows the lens' spread, and refuses pictures
+that are softer by half. A motion of 2.5 px, of the same spread as 0.7 px, hides as many."""
 
 DIMMER: Final = (
-    (0.15, 0.3, 0.6, 1.0, 1.3, 1.8),
-    (0.0, 0.81, 1.0, 1.0, 1.0, 0.41),
+    (0.2, 0.3, 0.6, 1.0, 1.3, 1.8),
+    (0.01, 0.81, 1.0, 1.0, 1.0, 0.41),
     (2.9, 2.9, 1.55, 1.0, 0.85, 0.85),
 )
 """Brightness over the rig's; the same two, likewise: the contrast falls with the brightness and the
