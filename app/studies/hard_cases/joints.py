@@ -57,7 +57,7 @@ def _through_the_play() -> HardCase:
         found=found,
         reference=reference,
         unit="N·m",
-        bound=1e-15,
+        bound=1e-14,
         beyond=answers("no moment without a stiffness", none),
         defect=Defect("explicit Euler", euler),
     )
