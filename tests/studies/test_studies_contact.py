@@ -3,7 +3,7 @@
 import pytest
 
 from app.simulation import dry_friction
-from app.simulation.effects import declaration, shaft_friction
+from app.simulation.effects import declaration
 from app.studies import contact, friction
 from app.studies.runner import find_study, run
 
