@@ -179,15 +179,18 @@ def change() -> None:
     loop.open()
     loop.step(20)
     times = []
-    for asked in (names, [], names):
+    for asked in (names, *([], names) * 5):
         start = time.perf_counter()
         loop.exchange(loop.table.continued(table(asked))[0])
         loop.step(1)
         times.append(1e3 * (time.perf_counter() - start))
     loop.close()
-    first, _, again = times
+    first, again = times[0], min(times[2::2])
     print("\na running loop goes on in a scene of all effects")
-    for text, found in (("effects loaded from the cache", first), ("once more", again)):
+    for text, found in (
+        ("effects loaded from the cache", first),
+        ("once more, shortest of five", again),
+    ):
         print(f"{text:58} {found:8.1f} ms        {found / CHANGE_MS:5.2f} of {CHANGE_MS:g} ms")
 
 
