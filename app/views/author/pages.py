@@ -867,14 +867,15 @@ class PartsBox(QWidget):
 
     def _add_words(self, form: QFormLayout, name: str, declared: effects.Effect) -> None:
         """Add what an effect acts on, and the way to compute it where there are several."""
-        organ = self.organs[name] = QLineEdit(self)
-        organ.setPlaceholderText(tr("everything"))
-        organ.textEdited.connect(
-            lambda text: self._editor.put(
-                self._field, name, "organ", value=text.strip() or None, typed=True
+        if not declared.pictures:  # which act on no organ
+            organ = self.organs[name] = QLineEdit(self)
+            organ.setPlaceholderText(tr("everything"))
+            organ.textEdited.connect(
+                lambda text: self._editor.put(
+                    self._field, name, "organ", value=text.strip() or None, typed=True
+                )
             )
-        )
-        form.addRow(tr("acts on"), organ)
+            form.addRow(tr("acts on"), organ)
         if len(declared.models) < 2:
             return
         way = self.ways[name] = QComboBox(self)
