@@ -52,8 +52,8 @@ DECLARATION: Final[dict[str, Any]] = {
         "lujan": "sin^2n, lagging along anterior (hysteresis: out one way, back another); exact in"
         " time",
         "on_command": "the same by steps; breathes out and holds on command, never at one place",
-        "varying": "the same, no breath as long or as deep as the one before; by seed, exact in"
-        " time",
+        "varying": "sin^2n, the same hysteresis, no breath as long or as deep as the one before;"
+        " by seed, exact in time",
     },
     "energy": ("active", "driven by time"),
     "cost_class": "A",
