@@ -70,7 +70,7 @@ def _lines(document: dict[str, Any]) -> list[str]:
             f"    model    {kept['model']}: {kept['model_description']}",
             f"    why      {kept['why']}",
             f"    energy   {kept['energy']}",
-            f"    cost     {_cost(kept['cost_ns'])}",
+            f"    cost     {_cost(kept['cost_ns'], kept['picture_ns'])}",
             *(f"    note     {warning}" for warning in kept["warnings"]),
         ]
     lines += [f"\n  {dropped['effect']}\n    {dropped['why']}" for dropped in document["dropped"]]
@@ -81,5 +81,7 @@ def _lines(document: dict[str, Any]) -> list[str]:
     return lines
 
 
-def _cost(nanoseconds: float) -> str:
+def _cost(nanoseconds: float, picture: float | None = None) -> str:
+    if picture is not None:
+        return f"{picture / 1e6:.2f} ms for each picture of a camera, nothing of a tick"
     return f"{nanoseconds:.0f} ns per tick, {100.0 * nanoseconds / _TICK_NS:.4f} % of 1 ms"

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
+from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
 from app.tracking.calibration.applies import require_cameras
 from app.tracking.calibration.formats.own import load_calibration
@@ -19,6 +20,7 @@ from app.tracking.markers.colour import RED, ColourModel
 from app.tracking.optics.calibration import StereoCalibration
 from app.tracking.optics.rig import RigProfile, load_rig
 from app.tracking.simulated.cameras import simulated_cameras
+from app.tracking.simulated.picture_effects import picture_effects
 from app.tracking.simulated.scene import Scene
 
 
@@ -71,7 +73,11 @@ def real_cameras(settings: CameraSettings, clock: Clock | None = None) -> Attach
 
 
 def simulated_on(
-    rig: RigProfile, scene_of: Callable[[float], Scene], clock: Clock, seed: int
+    rig: RigProfile,
+    scene_of: Callable[[float], Scene],
+    clock: Clock,
+    seed: int,
+    effects: Mapping[str, FloatArray] | None = None,
 ) -> AttachedCameras:
     """Return the simulated cameras of a rig.
 
@@ -80,8 +86,10 @@ def simulated_on(
         scene_of: gives the scene for the band's distance from the tip [m].
         clock: of the pictures.
         seed: of their noise.
+        effects: of the exercise on pictures (`simulation.plan.SimulationPlan.pictures`).
     """
-    pair = simulated_cameras(rig, scene_of(rig.needle.marker_offset), clock, seed)
+    chain = picture_effects(effects or {})
+    pair = simulated_cameras(rig, scene_of(rig.needle.marker_offset), clock, seed, chain)
     metadata = {"name": rig.name, "simulated": "yes"}
     return AttachedCameras(pair, rig, metadata | calibration_record(rig))
 

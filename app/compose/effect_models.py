@@ -29,13 +29,19 @@ def with_model(exercise: Exercise, effect: str, model: str) -> Exercise:
     """Return an exercise whose effect is computed by another of its models.
 
     Raises:
-        ExerciseError: if the exercise does not ask for the effect; names those that it does.
+        ExerciseError: if the exercise does not ask for the effect (names those that it does), or
+            it is one on pictures.
         SimulationError: for a model that the effect does not have.
     """
     if effect not in exercise.effects:
         raise ExerciseError(
             f"exercise {exercise.id} has no effect {effect!r}; it has "
             f"{', '.join(exercise.effects) or 'none'}"
+        )
+    if declaration(effect).pictures:
+        raise ExerciseError(
+            f"effect {effect} acts on the pictures of cameras that are running: choose its model "
+            "in the exercise, before the attempt"
         )
     part = exercise.effects[effect]
     chosen = part.model_copy(update={"model": declaration(effect).model(model)})

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from time import perf_counter
+from typing import Any, Final
+
+import numpy as np
 
 from app.compose.declared_views import declared_views
 from app.core.arrays import FloatArray
@@ -12,6 +15,8 @@ from app.exercises.scene import compile_exercise, device_of, law_requests, plan_
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
 from app.simulation.plan import SimulationPlan
+
+_PICTURES: Final = 15  # that the time of an effect on them is the median of
 
 
 def explanation(exercise: Exercise, simulated: bool = True) -> dict[str, Any]:
@@ -25,7 +30,7 @@ def explanation(exercise: Exercise, simulated: bool = True) -> dict[str, Any]:
     profile = device_of(exercise)
     exercise = _with_tissue(exercise)
     plan = compile_exercise(exercise, profile, declared_views(), simulated)
-    document = _document(exercise.id, exercise.device, simulated, plan)
+    document = _document(exercise, simulated, plan)
     document["assistance"] = exercise.assistance
     document["laws"] = _laws(law_requests(exercise), profile)
     return document
@@ -83,11 +88,12 @@ def _check_laws(exercise: Exercise, profile: DeviceProfile) -> None:
         KIND.find(name).checked(given, profile)
 
 
-def _document(exercise: str, device: str, simulated: bool, plan: SimulationPlan) -> dict[str, Any]:
+def _document(exercise: Exercise, simulated: bool, plan: SimulationPlan) -> dict[str, Any]:
     costs, warnings = _costs(plan), plan.warnings()
+    pictures = _picture_costs(plan, exercise)
     return {
-        "exercise": exercise,
-        "device": device,
+        "exercise": exercise.id,
+        "device": exercise.device,
         "simulated_device": simulated,
         "simulated": [
             {
@@ -101,8 +107,9 @@ def _document(exercise: str, device: str, simulated: bool, plan: SimulationPlan)
                 "consumers": list(kept.consumers),
                 "why": kept.why,
                 "energy": kept.declaration.energy[0],
-                "cost_ns": round(costs[kept.name][kept.model] * 1e9, 1),
+                "cost_ns": round(costs[kept.name].get(kept.model, 0.0) * 1e9, 1),
                 "model_costs_ns": {m: round(s * 1e9, 1) for m, s in costs[kept.name].items()},
+                "picture_ns": pictures.get(kept.name),
                 "warnings": list(warnings[kept.name]),
             }
             for kept in plan.kept
@@ -134,17 +141,41 @@ def _laws(requests: dict[str, dict[str, float]], profile: DeviceProfile) -> list
 
 
 def _costs(plan: SimulationPlan) -> dict[str, dict[str, float]]:
-    """Measured time of each effect in a tick by each of its models [s], the needle 60 mm deep."""
+    """Measured time of each effect in a tick by each of its models [s], the needle 60 mm deep.
+
+    None for effects on pictures: they cost nothing of a tick.
+    """
     from app.device.control.cost import stage_cost
 
     state = _working_state()
     costs: dict[str, dict[str, float]] = {kept.name: {} for kept in plan.kept}
     for kept in plan.kept:
-        for model in kept.declaration.models:
+        for model in kept.declaration.models if not kept.declaration.pictures else ():
             _, function, parameters = plan.stage(kept, model)
             function(state.copy(), parameters)  # the first tick lays the tissue to this depth
             costs[kept.name][model] = stage_cost(function, parameters, state)
     return costs
+
+
+def _picture_costs(plan: SimulationPlan, exercise: Exercise) -> dict[str, float]:
+    """Measured time of each effect on pictures, for one picture of the rig's first camera [ns]."""
+    if not (asked := plan.pictures()):
+        return {}
+    from app.tracking.optics.rig import load_rig
+    from app.tracking.simulated.picture_effects import picture_effects
+
+    width, height = load_rig(exercise.rig).models[0].image_size
+    image = np.full((height, width, 3), 90, dtype=np.uint8)
+    random, found = np.random.default_rng(1), {}
+    for name, (effect, memory) in zip(asked, picture_effects(asked), strict=True):
+        times = []
+        for _ in range(_PICTURES):
+            fresh = image.copy()
+            start = perf_counter()
+            effect(fresh, memory, random)
+            times.append(perf_counter() - start)
+        found[name] = round(1e9 * float(np.median(times)), 1)
+    return found
 
 
 def _working_state() -> FloatArray:

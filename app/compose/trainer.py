@@ -20,6 +20,7 @@ from app.compose.needle import UPRIGHT, felt_force, measured_axis, needle_scene
 from app.compose.pen import Pen, pen_table
 from app.compose.robot import Robot, connect
 from app.core import paths
+from app.core.arrays import FloatArray
 from app.core.build import BUILD, build
 from app.core.clock import Clock, SystemClock
 from app.core.configuration import parse
@@ -326,11 +327,13 @@ def _build_rig(
     setup: TrainerSetup, profile: DeviceProfile, robot: Robot | None, real: AttachedCameras | None
 ) -> Rig:
     loop = build_loop(setup, profile, robot)
+    placed = setup.exercise.placed_as(setup.placed.placement)
     cameras = real or simulated_on(
         load_rig(setup.exercise.rig),
         lambda offset: needle_scene(loop, profile, offset, real=robot is not None),
         setup.clock,
         setup.seed,
+        pictures_of(placed, profile, robot is None),
     )
     tracker = Tracker(
         cameras.cameras,
@@ -381,6 +384,17 @@ def _build_pen_rig(setup: TrainerSetup, pen: Pen) -> Rig:
     )
     tracker.listen(trainer.on_fix)
     return Rig(setup, pen.profile, loop, tracker, trainer, pen=pen)
+
+
+def pictures_of(
+    exercise: Exercise, profile: DeviceProfile, simulated: bool = True
+) -> dict[str, FloatArray]:
+    """Return what an exercise has act on the pictures of simulated cameras: name -> parameters.
+
+    Raises:
+        AcusError: if an effect cannot be used; says which and why.
+    """
+    return compile_exercise(exercise, profile, declared_views(), simulated, True).pictures()
 
 
 def build_loop(setup: TrainerSetup, profile: DeviceProfile, robot: Robot | None = None) -> Loop:

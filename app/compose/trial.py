@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 
 from app.compose.exercise_ct import load_risks, read_ct
 from app.compose.needle import UPRIGHT, measured_axis, needle_scene
-from app.compose.trainer import START_DEPTH, TrainerSetup, build_loop, loop_table
+from app.compose.trainer import START_DEPTH, TrainerSetup, build_loop, loop_table, pictures_of
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.bend import tips_beside
@@ -62,7 +62,14 @@ from app.simulation.skills import SKILLS
 from app.simulation.trainee import ScriptPhase, trainee_stage
 from app.tracking.optics.rig import RigProfile, load_rig
 from app.tracking.simulated.cameras import simulated_cameras
-from app.tracking.simulated.sampled import BOTH, PROCESSING, SampledDepth, SampledTracker
+from app.tracking.simulated.picture_effects import picture_effects
+from app.tracking.simulated.sampled import (
+    BOTH,
+    PROCESSING,
+    SampledDepth,
+    SampledTracker,
+    Spoiled,
+)
 from app.tracking.simulated.scene import MarkerScene
 from app.tracking.tracker import Tracker
 
@@ -184,11 +191,17 @@ def attempt(
     loop, rig = build_loop(setup, profile), load_rig(exercise.rig)
     scene = needle_scene(loop, profile, rig.needle.marker_offset)
     fulcrum = profile.pantograph.fulcrum
-    axis = measured_axis(loop)
+    axis, spoiling = measured_axis(loop), pictures_of(exercise, profile)
     tracker = (
-        _RenderedTracker(simulated_cameras(rig, scene, clock, seed), rig, clock, axis, fulcrum)
+        _RenderedTracker(
+            simulated_cameras(rig, scene, clock, seed, picture_effects(spoiling)),
+            rig,
+            clock,
+            axis,
+            fulcrum,
+        )
         if pictures
-        else SampledTracker(rig, fulcrum, scene, axis, seed)
+        else SampledTracker(rig, fulcrum, scene, axis, seed, Spoiled.by(spoiling, rig.blur_px))
     )
 
     def measure(now: float) -> None:
@@ -261,7 +274,9 @@ class Trials:
         # What stages remember is in their arrays: each attempt takes copies, shared ones once.
         self._stages, self._write = table.compute, table.write
         self._fulcrum = self._profile.pantograph.fulcrum
-        self._cameras, self._spread = self._measurements(load_rig(exercise.rig))
+        rig = load_rig(exercise.rig)
+        self._spoiled = Spoiled.by(pictures_of(exercise, self._profile), rig.blur_px)
+        self._cameras, self._spread = self._measurements(rig)
 
     def score(self, skill: str, seed: int) -> Trial:
         """Let a scripted trainee of `simulation.skills` do one attempt; the same for one seed.
@@ -292,7 +307,7 @@ class Trials:
 
         holds = self._exercise.holds_breath
         trainee = trainee_stage(placed.axis, placed.length, skill, seed, holds=holds)
-        before = trainee, self._cameras.stage(seed)
+        before = trainee, self._cameras.stage(seed, self._spoiled)
         table = Table.of([*before, *map(fresh, self._stages)], map(fresh, self._write))
         initial = initial_plant(profile, UPRIGHT, START_DEPTH)
         loop = Loop(table, profile.rate_hz, clock, initial=initial)
@@ -371,7 +386,9 @@ class Trials:
         """
         placed, axis = self._placed, self._placed.axis
         offset = rig.needle.marker_offset
-        tracker = SampledTracker(rig, self._fulcrum, lambda _: scenes[0], lambda _: axis)
+        tracker = SampledTracker(
+            rig, self._fulcrum, lambda _: scenes[0], lambda _: axis, spoiled=self._spoiled
+        )
         low, high = self._profile.depth_range
         last = min(high, placed.length + BEYOND)
         depths = np.arange(min(low, START_DEPTH), last + STEP, STEP)

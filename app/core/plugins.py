@@ -19,6 +19,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import lru_cache
+from glob import escape
 from operator import attrgetter
 from pathlib import Path
 from sys import float_info
@@ -136,6 +137,7 @@ class PluginKind(Generic[D]):
         functions: that a file must define at its top level.
         older: rewrites what a file of an earlier form says into this form; None leaves a file
             without a declaration refused.
+        spared: key of a declaration that spares a file, where it is true, these functions.
         marks: a file of the program's folder counts only if one of these is in it; empty: all do.
     """
 
@@ -146,6 +148,7 @@ class PluginKind(Generic[D]):
     package: str = ""
     folder: str = ""
     functions: tuple[str, ...] = ()
+    spared: str = ""
     older: Callable[[Path, PluginText], PluginText] | None = None
     marks: tuple[bytes, ...] = ()
     optional: Mapping[str, Field] = field(default_factory=lambda: MappingProxyType({}))
@@ -155,14 +158,18 @@ class PluginKind(Generic[D]):
         """The noun without its article."""
         return self.noun.split(" ", 1)[1]
 
-    def files(self) -> list[Path]:
-        """Files of all plug-ins: the program's own, appended folders', then the user's."""
+    def files(self, name: str = "*") -> list[Path]:
+        """Files of all plug-ins: the program's own, appended folders', then the user's.
+
+        Args:
+            name: of one plug-in; all of them without it.
+        """
         package = importlib.import_module(self.package)
         folders = [*map(Path, package.__path__), paths.plugins(self.folder)]
         return [
             path
             for folder in dict.fromkeys(folders)
-            for path in sorted(folder.glob("*.py"))
+            for path in sorted(folder.glob(f"{name}.py"))
             if not path.stem.startswith("_") and (not self.is_own(path) or self._counts(path))
         ]
 
@@ -185,7 +192,7 @@ class PluginKind(Generic[D]):
         Raises:
             AcusError: made by `error`: for an unknown name, or one that two files have.
         """
-        found = [path for path in self.files() if path.stem == name]
+        found = self.files(escape(name)) if Path(name).name == name else []
         if not found:
             raise self.error(f"there is no {self.word} {name!r}; there are {self._known()}")
         if len(found) > 1:
@@ -323,7 +330,8 @@ def _read(kind: PluginKind[Any], path: Path, text: str) -> Any:
             f" {', '.join(kind.fields)}{may}; check {sorted(given ^ set(kind.fields))}"
         )
     defined = {node.name for node in body if isinstance(node, ast.FunctionDef)}
-    if missing := [name for name in kind.functions if name not in defined]:
+    needed = () if source.document.get(kind.spared) is True else kind.functions
+    if missing := [name for name in needed if name not in defined]:
         raise kind.error(f"{path} has no function {missing[0]}(); see 'How to add {kind.noun}'")
     keys = (*kind.fields, *(key for key in kind.optional if key in source.document))
     values = {key: _value(kind, key, source, path) for key in keys}

@@ -97,6 +97,7 @@ def scene_of(exercise: Exercise, profile: DeviceProfile) -> Scene:
         needle=Needle(profile.geometry.needle_length, OUTER_DIAMETER[exercise.needle.gauge]),
         R_world_patient=exercise.placement.placement().rotation,
         target_organ=exercise.target_organ,
+        joint=profile.workspace.joint,
     )
 
 
@@ -111,6 +112,7 @@ def compile_exercise(
     profile: DeviceProfile,
     views: Mapping[str, Consumer],
     simulated: bool = True,
+    pictures: bool | None = None,
 ) -> SimulationPlan:
     """Decide what an exercise simulates on a device, and why: what `acus explain` prints.
 
@@ -119,6 +121,7 @@ def compile_exercise(
         profile: its device.
         views: what every view reads, by its name (`compose.declared_views.declared_views`).
         simulated: whether robot and hand are simulated too.
+        pictures: whether cameras are simulated; None: as the robot.
 
     Raises:
         SimulationError: for an unknown effect, model or parameter; names what is valid.
@@ -127,7 +130,7 @@ def compile_exercise(
     renders = frozenset(axis.value for axis in profile.renders)
     return compile_scene(
         scene_of(exercise, profile),
-        DevicePort(profile.name, renders, simulated),
+        DevicePort(profile.name, renders, simulated, pictures),
         _watching(exercise, views),
         metric_consumers(exercise),
     )

@@ -27,6 +27,7 @@ IN_WORDS: Final[dict[str, str]] = {
     "indentation": "how far the tip dimples the tissue",
     "punctures": "what the tip has punctured",
     "bone_contact": "whether the tip stands on bone",
+    "pictures": "the pictures of simulated cameras",
     "potential": "",
     "gain_work": "",
 }
@@ -49,11 +50,13 @@ class DevicePort:
         name: of the profile.
         renders: axes it can push along, of `DEVICE_AXES`.
         simulated: whether robot and hand are simulated; then the hand feels the axial force too.
+        pictures: whether simulated cameras take pictures of its needle; None: if it is simulated.
     """
 
     name: str
     renders: frozenset[str] = frozenset({"lateral"})
     simulated: bool = False
+    pictures: bool | None = None
 
     def __post_init__(self) -> None:
         unknown = sorted(set(self.renders) - set(DEVICE_AXES))
@@ -64,10 +67,20 @@ class DevicePort:
             )
 
     def consumers(self) -> tuple[Consumer, ...]:
-        """Device axes, and the simulated hand if there is one."""
+        """Device axes; the simulated hand and the tracker in simulated pictures, if they are."""
         axes = [
             Consumer(f"device {self.name} renders {axis} force", DEVICE_AXES[axis])
             for axis in sorted(self.renders)
         ]
         hand = [Consumer("the simulated hand feels it", ("axial_force",))]
-        return (*axes, *(hand if self.simulated else []))
+        tracker = [Consumer("the tracker measures in pictures of simulated cameras", ("pictures",))]
+        return (
+            *axes,
+            *(hand if self.simulated else []),
+            *(tracker if self.takes_pictures else []),
+        )
+
+    @property
+    def takes_pictures(self) -> bool:
+        """Whether simulated cameras take pictures of its needle."""
+        return self.simulated if self.pictures is None else self.pictures

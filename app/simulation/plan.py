@@ -12,13 +12,12 @@ from graphlib import CycleError, TopologicalSorter
 import numpy as np
 
 from app.core import state_vector as sv
+from app.core.arrays import FloatArray
 from app.core.parameters import Stage
 from app.simulation.consumers import IN_WORDS, Consumer, DevicePort
-from app.simulation.effects import Effect, declaration, implementation, parameters_of
+from app.simulation.effects import Effect, array_of, declaration, load
 from app.simulation.errors import SimulationError
 from app.simulation.scene import Binding, EffectRequest, Scene
-
-"""Name, compiled `void(state, parameters)`, its parameters array."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,17 +66,29 @@ class SimulationPlan:
     depth_slot: int
 
     def stages(self) -> list[Stage]:
-        """Import what is kept and return its stages, each with fresh memory.
+        """Import what is kept in the tick and return its stages, each with fresh memory.
 
         They add to FORCE_*, which the device's table clears, and to AXIAL_FORCE and
         TARGET_SHIFT_*, which the first of these stages clears. Nothing kept: no stages.
         """
-        if not self.kept:
+        ticking = [kept for kept in self.kept if not kept.declaration.pictures]
+        if not ticking:
             return []
         from app.simulation.clearing import clear  # compiled; the plan itself is needed sooner
 
         first = Stage("clear_effects", clear, np.zeros(1))
-        return [first, *(self.stage(kept) for kept in self.kept)]
+        return [first, *(self.stage(kept) for kept in ticking)]
+
+    def pictures(self) -> dict[str, FloatArray]:
+        """Return what acts on the pictures of simulated cameras, in order: name -> parameters.
+
+        `tracking.simulated.picture_effects` knows by the name what to do with them.
+        """
+        return {
+            kept.name: array_of(kept.declaration, kept.parameters, self._binding(kept, kept.model))
+            for kept in self.kept
+            if kept.declaration.pictures
+        }
 
     def energy_bound(self) -> float:
         """Return the most energy that the kept effects can store behind FORCE_* together [J].
@@ -98,13 +109,18 @@ class SimulationPlan:
         """
         found = {}
         for kept in self.kept:
-            module, binding = implementation(kept.name), self._binding(kept, kept.model)
+            if kept.declaration.pictures:
+                found[kept.name] = kept.warnings
+                continue
+            module, binding = load(kept.declaration), self._binding(kept, kept.model)
             own = module.warnings(kept.parameters, binding) if hasattr(module, "warnings") else ()
             found[kept.name] = (*kept.warnings, *own)
         return found
 
     def _bound(self, kept: KeptEffect) -> float:
-        module = implementation(kept.name)
+        if kept.declaration.pictures:
+            return 0.0
+        module = load(kept.declaration)
         if not hasattr(module, "energy_bound"):
             return 0.0
         bound = float(module.energy_bound(self.stage(kept)[2]))
@@ -124,8 +140,8 @@ class SimulationPlan:
             SimulationError: if its file cannot be used.
         """
         binding = self._binding(kept, model or kept.model)
-        array = parameters_of(kept.name, kept.parameters, binding)
-        return Stage(kept.name, implementation(kept.name).step, array)
+        array = array_of(kept.declaration, kept.parameters, binding)
+        return Stage(kept.name, load(kept.declaration).step, array)
 
 
 def compile(
@@ -192,7 +208,7 @@ def _demanded(
     while True:
         labels = {
             name: tuple(
-                c.label for c in reading if set(c.reads) & set(d.writes) and c.label != _feeds(name)
+                c.label for c in reading if set(c.reads) & set(d.gives) and c.label != _feeds(name)
             )
             for name, d in candidates.items()
         }
@@ -208,10 +224,15 @@ def _feeds(name: str) -> str:
 
 
 def _because(declared: Effect, consumers: tuple[str, ...]) -> str:
-    return f"simulated: it gives {_in_words(declared.writes)}; {'; '.join(consumers)}"
+    return f"simulated: it gives {_in_words(declared.gives)}; {'; '.join(consumers)}"
 
 
 def _nobody(declared: Effect, device: DevicePort) -> str:
+    if declared.pictures:
+        return (
+            "dropped: it changes the pictures of simulated cameras, and there are none: the"
+            " cameras are real, and so are their pictures"
+        )
     axes = ", ".join(sorted(device.renders)) or "no"
     return (
         f"dropped: it gives {_in_words(declared.writes)}, and nobody asks for that: device "

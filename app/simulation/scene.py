@@ -225,6 +225,7 @@ class Scene:
         needle: the needle.
         R_world_patient: columns are the patient's L, P and S directions in world, shape (3, 3).
         target_organ: organ in which the target lies; empty if not known.
+        joint: name of the ball joint that is mounted on the device; empty if not known.
     """
 
     effects: tuple[EffectRequest, ...] = ()
@@ -232,6 +233,7 @@ class Scene:
     needle: Needle = field(default_factory=Needle)
     R_world_patient: FloatArray = field(default_factory=lambda: np.eye(3))
     target_organ: str = ""
+    joint: str = ""
 
     def __post_init__(self) -> None:
         rotation = frozen(self.R_world_patient, (3, 3), "R_world_patient")

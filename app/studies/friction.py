@@ -11,6 +11,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
+from app.simulation import dry_friction
 from app.simulation.effects import declaration, shaft_friction
 from app.studies.findings import Findings, Sheet
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
@@ -31,8 +32,8 @@ STEP: Final = 1e-3  # [s]
 _FINE: Final = 100
 _STILL: Final = 2000  # ticks
 
-kikuuwe = shaft_friction.kikuuwe
-dahl = shaft_friction.dahl
+kikuuwe = dry_friction.kikuuwe
+dahl = dry_friction.dahl
 
 
 @njit

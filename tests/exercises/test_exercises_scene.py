@@ -103,7 +103,7 @@ def test_breathing_is_dropped_where_neither_hand_nor_view_nor_metric_consumes_it
 
 def test_an_unknown_effect_or_parameter_is_refused_with_the_names_that_exist() -> None:
     chosen = exercise(effects={"earthquake": None})
-    with pytest.raises(SimulationError, match="no effect 'earthquake'; there are bevel"):
+    with pytest.raises(SimulationError, match="no effect 'earthquake'; there are ball_joint"):
         compile_exercise(chosen, device_of(chosen), declared_views())
     chosen = exercise(effects={"breathing": {"parameters": {"speed": 1.0}}})
     with pytest.raises(SimulationError, match=r"no parameter 'speed'; it has .*period"):

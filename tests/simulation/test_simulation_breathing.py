@@ -106,3 +106,72 @@ def test_it_is_periodic_even_after_a_day() -> None:
     first = shifts(np.array([0.0, 1.3]))[1]
     later = shifts(np.array([0.0, 1.3 + 21_600 * 4.0]))[1]
     np.testing.assert_allclose(later, first, atol=1e-12)
+
+
+def varied(times: FloatArray, **parameters: float) -> FloatArray:
+    binding = Binding(Scene(R_world_patient=SUPINE), model="varying")
+    memory, rows = memory_of("breathing", parameters, binding), []
+    for time in times:
+        state = sv.empty_state()
+        state[sv.TIME] = time
+        effect.step(state, memory)
+        rows.append(state[sv.TARGET_SHIFT].copy())
+    return np.array(rows)
+
+
+def breaths_of(**parameters: float) -> tuple[FloatArray, FloatArray]:
+    """How long each breath of the tile lasts [s], and how far it goes over the mean."""
+    memory = memory_of("breathing", parameters, Binding(Scene(), model="varying"))
+    ends = memory[effect._ENDS : effect._DEPTHS]
+    return np.diff(ends, prepend=0.0), memory[effect._DEPTHS :]
+
+
+def test_without_variation_varying_breaths_are_the_periodic_ones() -> None:
+    times = 50.0 + np.linspace(0.0, 4.0 * effect.BREATHS + 30.0, 20_001)
+    same = varied(times, depth_variation=0.0, period_variation=0.0)
+    assert np.abs(same - shifts(times)).max() < 1e-12
+
+
+def test_depth_and_period_vary_by_what_is_asked_and_are_like_the_breath_before() -> None:
+    drawn = [breaths_of(draws=float(seed), likeness=0.4) for seed in range(1, 31)]
+    for which, mean, asked in ((0, 4.0, 0.15), (1, 1.0, 0.18)):
+        every = [one[which] for one in drawn]
+        spread = np.std(every) / np.mean(every)
+        assert np.mean(every) == pytest.approx(mean, rel=0.01)
+        assert 0.92 * asked < spread < asked  # cut off at two standard deviations
+        alike = [np.corrcoef(one[1:], one[:-1])[0, 1] for one in every]
+        assert np.mean(alike) == pytest.approx(0.4, abs=0.04)
+    assert np.min([one[0] for one in drawn]) > 0.0
+
+
+def test_the_same_seed_breathes_the_same_and_another_does_not() -> None:
+    times = np.linspace(3.0, 60.0, 500)
+    assert np.array_equal(varied(times, draws=7.0), varied(times, draws=7.0))
+    assert not np.array_equal(varied(times, draws=7.0), varied(times, draws=8.0))
+
+
+def test_time_alone_says_where_a_varying_organ_is() -> None:
+    times = np.linspace(0.0, 500.0, 3001)
+    backwards = np.concatenate([[0.0], times[::-1]])
+    assert np.array_equal(varied(times), varied(backwards)[1:][::-1])
+
+
+def test_no_breath_begins_with_a_jump_not_even_where_the_tile_repeats() -> None:
+    worst = {"depth_variation": 0.4, "period_variation": 0.4, "anterior_lag": 1.2}
+    lasts, _ = breaths_of(**worst)
+    borders = np.concatenate([np.cumsum(lasts)[:40], [lasts.sum()]])
+    for border in borders:
+        around = varied(np.concatenate([[0.0], border + np.arange(-50, 51) * 1e-4]), **worst)
+        # 17.1 mm at most, in π of the shortest breath (a fifth of 4 s): its speed, not a jump.
+        assert np.abs(np.diff(around[1:], axis=0)).max() < 0.03 * np.pi / 0.8 * 1e-4
+    turns = varied(np.concatenate([[0.0], np.arange(0.0, 200.0, 1e-3)]), **worst)[1:]
+    assert np.abs(np.diff(turns, axis=0)).max() < 0.03 * np.pi / 0.8 * 1e-3
+
+
+def test_a_time_that_is_no_number_moves_no_varying_organ() -> None:
+    state = sv.empty_state()
+    memory = memory_of("breathing", {}, Binding(Scene(), model="varying"))
+    for bad in (np.nan, np.inf, -np.inf):
+        state[sv.TIME] = bad
+        effect.step(state, memory)
+        assert not state[sv.TARGET_SHIFT].any()

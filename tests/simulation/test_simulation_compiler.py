@@ -71,7 +71,7 @@ def test_an_effect_without_layers_or_on_another_organ_is_dropped() -> None:
 @pytest.mark.parametrize(
     ("request_", "message"),
     [
-        (EffectRequest("tissue"), "there are bevel, bone_contact, breathing, "),
+        (EffectRequest("tissue"), "there are ball_joint, bevel, bone_contact, "),
         (EffectRequest("../scene"), "there is no effect"),
         (EffectRequest("breathing", {"perod": 4.0}), "has no parameter 'perod'"),
         (EffectRequest("breathing", {"period": 0.0}), "period is 0.0; give 0.5 to 60 s"),

@@ -6,6 +6,7 @@ from simulation.effect_rig import memory_of
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
+from app.simulation.dry_friction import dahl
 from app.simulation.effects import shaft_friction as effect
 from app.simulation.scene import Binding, Scene, TissueLayer
 
@@ -52,7 +53,7 @@ def test_a_needle_at_rest_holds_its_force() -> None:
 def test_the_update_is_exact_over_any_split_of_a_displacement(pieces: int) -> None:
     force = -0.3
     for _ in range(pieces):
-        force = effect.dahl(force, 2e-4 / pieces, 1.0, 1e4)
+        force = dahl(force, 2e-4 / pieces, 1.0, 1e4)
     assert force == pytest.approx(1.0 + (-0.3 - 1.0) * np.exp(-2.0), rel=1e-12)
 
 
@@ -62,7 +63,7 @@ def test_it_agrees_with_a_fine_integration_of_dahls_equation() -> None:
     reference = force
     for _ in range(steps):
         reference += travel / steps * stiffness * (1.0 - reference / level)
-    assert effect.dahl(force, travel, level, stiffness) == pytest.approx(reference, rel=1e-5)
+    assert dahl(force, travel, level, stiffness) == pytest.approx(reference, rel=1e-5)
 
 
 def test_a_cycle_dissipates_all_but_the_presliding_energy() -> None:

@@ -133,3 +133,33 @@ def test_a_needle_that_is_let_go_deep_in_tissue_comes_to_rest() -> None:
         speeds[k] = np.hypot(state[sv.PLANT_QD_LEFT], state[sv.PLANT_QD_RIGHT])
     assert state[sv.FAULT] == 0.0
     assert speeds[-1000:].max() < 0.2 * speeds.max()
+
+
+def tilted_by_hand(joint: str) -> FloatArray:
+    """Rows of every tick of a hand that tilts the needle by 0.1 rad in a second, then rests."""
+    scene = Scene(effects=(EffectRequest("ball_joint"),) if joint else (), joint=joint)
+    plan = compile(scene, DevicePort(PROFILE.name, simulated=True))
+    link = simulated_link(PROFILE, [plant_stage(PROFILE)])
+    stages = [*pantograph_stages(PROFILE, [], plan.stages(), link)]
+    state, rows = begin(0.0), []
+    state[sv.HAND_HOLDS], state[sv.HAND_DEPTH] = 1.0, -0.015
+    for k in range(2500):
+        state[sv.HAND_X] = 1e-4 * min(max(k - 500, 0), 1000)
+        tick(stages, state, k)
+        rows.append(state.copy())
+    return np.array(rows)
+
+
+def test_a_hand_feels_the_friction_of_the_printed_ball_joints_and_it_rests_calmly() -> None:
+    free, held = tilted_by_hand(""), tilted_by_hand("old")
+    moving, resting = slice(1000, 1450), slice(2200, 2500)
+    more = np.mean(held[moving, sv.PULL_X]) - np.mean(free[moving, sv.PULL_X])
+    level = 2.0 * 0.4 * 5.0 * 9.2e-3 / np.mean(held[moving, sv.L_OUT])
+    assert abs(more) == pytest.approx(level, rel=0.2)
+    # The motors carry it: as a torque of the joints, which no guard or limit takes away.
+    assert np.abs(held[moving, sv.TORQUE]).max() > 0.5 * level * 0.09
+    assert (held[moving, sv.LIMIT_SCALE] == 1.0).all()
+    # No limit cycle on the encoders' counts: at rest, as without it.
+    assert np.abs(held[resting, sv.PLANT_QD]).max() <= max(
+        2.0 * np.abs(free[resting, sv.PLANT_QD]).max(), 0.01
+    )

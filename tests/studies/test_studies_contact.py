@@ -2,7 +2,8 @@
 
 import pytest
 
-from app.simulation.effects import declaration, shaft_friction
+from app.simulation import dry_friction
+from app.simulation.effects import declaration
 from app.studies import contact, friction
 from app.studies.runner import find_study, run
 
@@ -33,8 +34,8 @@ def test_only_the_default_law_keeps_its_sign_in_a_still_hand(share: float) -> No
 
 def test_the_study_compares_the_laws_that_the_effect_has_by_the_effects_own_functions() -> None:
     assert set(declaration("shaft_friction").models) <= set(friction.LAWS)
-    assert friction.kikuuwe is shaft_friction.kikuuwe
-    assert friction.dahl is shaft_friction.dahl
+    assert friction.kikuuwe is dry_friction.kikuuwe
+    assert friction.dahl is dry_friction.dahl
     assert find_study("friction").default.startswith(declaration("shaft_friction").model(""))
 
 

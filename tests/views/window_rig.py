@@ -215,7 +215,7 @@ class FakeServices:
             {
                 "effect": name, "title": declaration(name).title, "model": part.model or first,
                 "model_descriptions": dict(models), "why": "simulated: it is felt",
-                "warnings": [], "cost_ns": 100.0,
+                "warnings": [], "cost_ns": 100.0, "picture_ns": None,
                 "model_costs_ns": {model: 100.0 / k for k, model in enumerate(models, 1)},
             }
             for name, part in exercise.effects.items() if name in kept

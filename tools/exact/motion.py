@@ -17,6 +17,21 @@ for words, travel, stiffness in (
         return [level + (force - level) * mpmath.exp(-stiffness * travel / level)]
 
 
+@exact(
+    "tilt of a ball joint from one edge of its play against the other",
+    "Dahl off one edge, 2 c free, Dahl from 0",
+    0.01,
+    0.03,
+    0.0022,
+    0.04,
+    4.0,
+)
+def _(z: Any, way: Any, play: Any, level: Any, stiffness: Any) -> Any:
+    reach = level / stiffness
+    left = way - reach * mpmath.log(1 + (z - play) / reach) - 2 * play
+    return [-level * (1 - mpmath.exp(-left / reach))]
+
+
 @exact("breath after twelve days", "A sin⁴(π t / T)", 1_000_000.7, 4.0, 0.0119)
 def _(time: Any, period: Any, amplitude: Any) -> Any:
     return [amplitude * mpmath.sin(mpmath.pi * time / period) ** 4]

@@ -14,10 +14,13 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, Final
 
+import numpy as np
+
 from app.core.arrays import FloatArray
 from app.core.plugins import (
     CHOICES,
     ENERGY,
+    FLAG,
     PARAMETERS,
     PUBLISHED,
     SLOTS,
@@ -43,12 +46,20 @@ class Effect(StageDeclaration):
         needs: parts of the scene that must not be empty (`layers`).
         models: way to compute it -> what that way is; the first is the default.
         cost_class: A (< 50 ns), B (1-5 µs), C (frame or event rate), D (offline).
+        pictures: whether it acts on the pictures of simulated cameras and not in the tick: its file
+            declares it, and `tracking.simulated.picture_effects` makes it, found by its name.
     """
 
     consumers: tuple[str, ...]
     needs: tuple[str, ...]
     models: Mapping[str, str]
     cost_class: str
+    pictures: bool = False
+
+    @property
+    def gives(self) -> tuple[str, ...]:
+        """What consumers read of it: its slots, or `PICTURES`."""
+        return (*self.writes, PICTURES) if self.pictures else self.writes
 
     def checked(self, given: Mapping[str, float]) -> dict[str, float]:
         """Complete `given` with the defaults and check every value.
@@ -71,6 +82,10 @@ class Effect(StageDeclaration):
         return asked or next(iter(self.models))
 
 
+PICTURES: Final = "pictures"
+"""What an effect on pictures gives, and who measures in them reads; no slot of the state."""
+
+
 def effect_names() -> tuple[str, ...]:
     """Names of all effects, sorted."""
     return KIND.names()
@@ -88,6 +103,8 @@ def declaration(name: str) -> Effect:
 def parameters_of(name: str, values: Mapping[str, float], binding: Binding) -> FloatArray:
     """Return a fresh array of parameters of an effect, its memory included.
 
+    Of one on pictures: the number of its model, then its parameters as they are declared.
+
     Args:
         name: of the effect.
         values: of all its parameters, see `Effect.checked`.
@@ -96,12 +113,21 @@ def parameters_of(name: str, values: Mapping[str, float], binding: Binding) -> F
     Raises:
         SimulationError: if its file cannot be used, or gives fewer than its stage uses.
     """
-    module = implementation(name)
+    return array_of(declaration(name), values, binding)
+
+
+def array_of(declared: Effect, values: Mapping[str, float], binding: Binding) -> FloatArray:
+    """Return a fresh array of parameters of a declared effect, see `parameters_of`."""
+    name = declared.name
+    if declared.pictures:
+        model = list(declared.models).index(declared.model(binding.model))
+        return np.array([model, *(values[key] for key in declared.parameters)], dtype=float)
+    module = load(declared)
     if hasattr(module, "parameters"):
         array: FloatArray = module.parameters(values, binding)
     else:
         array = getattr(module, _class_name(name))(**values).parameters(binding)
-    if (needed := _needed(declaration(name))) > len(array):
+    if (needed := _needed(declared)) > len(array):
         raise SimulationError(
             f"effect {name}: step() uses {needed} parameters, parameters() gives {len(array)}"
         )
@@ -115,7 +141,12 @@ def implementation(name: str) -> ModuleType:
         SimulationError: for one that is not the program's own if its compiled code could do harm
             (`core.stage_check`); says where and why.
     """
-    return KIND.load(declaration(name), before=_needed)
+    return load(declaration(name))
+
+
+def load(declared: Effect) -> ModuleType:
+    """Import a declared effect, see `implementation`."""
+    return KIND.load(declared, before=_needed)
 
 
 def refused() -> dict[Path, str]:
@@ -127,6 +158,10 @@ def _needed(effect: Effect) -> int:
     """Parameters that an effect's stage uses at least; 0 for the program's own."""
     if KIND.is_own(effect.path):
         return 0
+    if effect.pictures:
+        raise SimulationError(
+            f"{effect.path}: pictures is True; only the program's own effects act on pictures"
+        )
     try:
         return check_stage(effect.path, read_statements(effect.path), effect.writes).parameters
     except RefusedStageError as refusal:
@@ -141,6 +176,8 @@ def _class_name(effect: str) -> str:
 def _older(path: Path, source: PluginText) -> PluginText:
     """Rewrite a declaration of the form before, whose rows have no default, into today's."""
     rows = (source.document or {}).get("parameters")
+    if (source.document or {}).get("pictures") is True:
+        return source
     defined = {node.name for node in source.body if isinstance(node, ast.FunctionDef)}
     if source.document is None or not isinstance(rows, dict) or "parameters" in defined:
         return source
@@ -189,10 +226,11 @@ KIND: Final[PluginKind[Effect]] = PluginKind(
         "cost_class": TEXT,
         "parameters": PARAMETERS,
     },
-    optional={"published": PUBLISHED},
+    optional={"published": PUBLISHED, "pictures": FLAG},
     error=SimulationError,
     package=__name__,
     folder="effects",
     functions=("step",),
+    spared="pictures",
     older=_older,
 )

@@ -1,10 +1,11 @@
-"""Breathing moves the target: Lujan's periodic asymmetric waveform with hysteresis.
+"""Breathing moves the target: Lujan's waveform with hysteresis, held on command, or varying.
 
     shift(t) = b(π t / T) · (A_SI inferior + A_LR left) + b(π t / T - φ) · A_AP anterior,
     b(x) = sin^{2n}(x).
 
 Lujan 1999 writes -A cos^{2n}(π t / T - φ0); φ0 = π/2 starts at the end of exhalation, where the
-organ rests longest and the CT is taken. The anterior part lags by φ, so the path is a loop.
+organ rests longest and the CT is taken. The anterior part lags by φ, so the path is a loop: that is
+the hysteresis, out by one way and back by another.
 Median amplitudes of the liver: SI 11.9, AP 3.8, LR 1.3 mm.
 
 The model `on_command` breathes the same way and holds the breath when HOLD_BREATH asks for it: the
@@ -13,6 +14,19 @@ hold has it. No two holds have it at the same place: the inter-quartile range of
 several holds is 4.2 mm, of a normal distribution with 3.1 mm (van Kesteren 2022, doi
 10.1186/s13014-022-02068-5, who also gives 20 to 30 s for a hold). After `longest` the patient
 breathes by himself, whatever is asked; a new hold has to be asked for anew.
+
+No breath is like the one before: in the model `varying` breath k lasts T (1 + c_T y_k) and goes
+A (1 + c_A x_k) far, with x and y each autoregressive of first order,
+
+    x_k = ρ x_{k-1} + sqrt(1 - ρ²) ε_k,
+
+drawn beforehand for 256 breaths by seed, so that a run is the same on every machine, and repeated
+after them. ρ is 0.295 ± 0.148 of the tidal volume of 33 people at rest (Tobin 1995, doi
+10.1164/ajrccm.152.6.8520764); the coefficient of variation of how far the chest goes is 0.18 (0.15
+to 0.22), of the period 0.09 (0.08 to 0.12), to 0.23 and 0.11 unobserved (PMC6549521); over 15
+minutes 0.33 of the volume and 0.21 of the frequency of 65 people (Tobin 1988). The time finds its
+breath in the table, so it is exact at any time, and what is added goes over from one breath to the
+next where it is 0: inferior and left at the border, the lagging anterior part φ later.
 
 Driven by time, so declared active: it is not counted in energy balances.
 """
@@ -35,8 +49,11 @@ DECLARATION: Final[dict[str, Any]] = {
     "consumers": ("view target_motion", "score of tip to target"),
     "needs": (),
     "models": {
-        "lujan": "sin^2n along inferior and left, lagging along anterior; exact in time",
+        "lujan": "sin^2n, lagging along anterior (hysteresis: out one way, back another); exact in"
+        " time",
         "on_command": "the same by steps; breathes out and holds on command, never at one place",
+        "varying": "sin^2n, the same hysteresis, no breath as long or as deep as the one before;"
+        " by seed, exact in time",
     },
     "energy": ("active", "driven by time"),
     "cost_class": "A",
@@ -46,10 +63,19 @@ DECLARATION: Final[dict[str, Any]] = {
         "left_right": (0.0013, "m", 0.0, 0.03, "amplitude towards the patient's left"),
         "period": (4.0, "s", 0.5, 60.0, "of one breath"),
         "shape": (2.0, "-", 1.0, 10.0, "n of sin^2n: higher rests longer at exhalation"),
-        "anterior_lag": (0.392699, "rad", 0.0, 1.5708, "phase by which the anterior part lags"),
+        "anterior_lag": (
+            0.392699,
+            "rad",
+            0.0,
+            1.5708,
+            "hysteresis: phase by which the anterior part lags",
+        ),
         "longest": (20.0, "s", 1.0, 120.0, "of a hold; then he has to breathe (on_command)"),
         "spread": (0.003, "m", 0.0, 0.02, "standard deviation of where holds lie (on_command)"),
-        "draws": (1.0, "-", 0.0, 1e6, "seed of where they lie (on_command)"),
+        "draws": (1.0, "-", 0.0, 1e6, "seed of the holds (on_command) or breaths (varying)"),
+        "depth_variation": (0.18, "-", 0.0, 0.4, "sd over mean of how far breaths go (varying)"),
+        "period_variation": (0.15, "-", 0.0, 0.4, "sd over mean of how long they last (varying)"),
+        "likeness": (0.3, "-", 0.0, 0.99, "correlation of a breath with the one before (varying)"),
     },
     "published": {
         "superior_inferior": (0.0051, 0.0171, "liver tracked in 14 patients, PMC5978939"),
@@ -57,6 +83,9 @@ DECLARATION: Final[dict[str, Any]] = {
         "left_right": (0.0004, 0.004, "liver tracked in 14 patients, PMC5978939"),
         "period": (2.18, 6.67, "9 to 27.5 breaths a minute, doi 10.1186/1748-717X-8-248"),
         "shape": (1.0, 3.0, "Lujan 1999"),
+        "depth_variation": (0.15, 0.33, "PMC6549521; 65 people at rest, Tobin 1988"),
+        "period_variation": (0.08, 0.21, "PMC6549521; 65 people at rest, Tobin 1988"),
+        "likeness": (0.147, 0.443, "33 people at rest, doi 10.1164/ajrccm.152.6.8520764"),
     },
 }
 
@@ -106,6 +135,14 @@ _DRAWS: Final = len(_AT) + len(_HOLD)
 _PLACES: Final = 32  # holds before their places repeat
 _MOST_SD: Final = 2.0  # a patient who was told how does not hold further off
 
+BREATHS: Final = 256
+"""Breaths of `varying` before they repeat."""
+
+_FURTHEST_SD: Final = 2.0  # no breath is shorter, longer, shallower or deeper than so many of them
+_ENDS: Final = len(_AT)
+_DEPTHS: Final = _ENDS + BREATHS
+"""Places of `varying` behind the constants: when each breath ends [s], and how far it goes [-]."""
+
 
 def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
     """Return a fresh parameters array; breathing starts at exhalation at its first tick."""
@@ -125,17 +162,31 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
         lagging_y=lagging[1],
         lagging_z=lagging[2],
     )
-    if binding.model != "on_command":
-        return waveform
+    drawn = _drawn(values)
+    if binding.model == "varying":
+        return np.concatenate([waveform, *drawn])
     way = in_phase + lagging
     length = float(np.linalg.norm(way))
     out = way / length if length > 0.0 else -superior
-    drawn = np.random.default_rng([int(values["draws"]), 9]).standard_normal(_PLACES)
-    places = values["spread"] * np.clip(drawn, -_MOST_SD, _MOST_SD)
+    holds = np.random.default_rng([int(values["draws"]), 9]).standard_normal(_PLACES)
+    places = values["spread"] * np.clip(holds, -_MOST_SD, _MOST_SD)
     holding = packed(
         _HOLD, places, longest=values["longest"], out_x=out[0], out_y=out[1], out_z=out[2]
     )
-    return np.concatenate([waveform, holding])
+    return np.concatenate([waveform, holding]) if binding.model == "on_command" else waveform
+
+
+def _drawn(values: Mapping[str, float]) -> tuple[FloatArray, FloatArray]:
+    """Return when each breath of `varying` ends [s], and how far it goes over the mean."""
+    random = np.random.default_rng([int(values["draws"]), 11])
+    new = random.standard_normal((BREATHS, 2))
+    rho, course = values["likeness"], np.empty((BREATHS, 2))
+    course[0] = new[0]
+    for k in range(1, BREATHS):
+        course[k] = rho * course[k - 1] + np.sqrt(1.0 - rho * rho) * new[k]
+    course = np.clip(course, -_FURTHEST_SD, _FURTHEST_SD)
+    lasts = values["period"] * (1.0 + values["period_variation"] * course[:, 0])
+    return np.cumsum(lasts), 1.0 + values["depth_variation"] * course[:, 1]
 
 
 @njit
@@ -203,10 +254,33 @@ def _on_command(state: FloatArray, p: FloatArray) -> None:
         )
 
 
+@njit
+def _varying(state: FloatArray, p: FloatArray, since: float) -> None:
+    """Add where the target is `since` the first breath began [s], each breath of its own."""
+    since -= np.floor(since / p[_DEPTHS - 1]) * p[_DEPTHS - 1]
+    breath, beyond = 0, BREATHS - 1
+    while breath < beyond:  # the first breath that ends later
+        middle = (breath + beyond) // 2
+        if p[_ENDS + middle] > since:
+            beyond = middle
+        else:
+            breath = middle + 1
+    begins = p[_ENDS + breath - 1] if breath > 0 else 0.0
+    phase = np.pi * (since - begins) / (p[_ENDS + breath] - begins)
+    behind = phase - p[_AT.lag]
+    last = breath if behind >= 0.0 else (breath + BREATHS - 1) % BREATHS
+    in_phase = p[_DEPTHS + breath] * lujan(phase, p[_AT.shape])
+    lagging = p[_DEPTHS + last] * lujan(behind, p[_AT.shape])
+    for axis in range(3):
+        state[sv.TARGET_SHIFT_X + axis] += (
+            in_phase * p[_AT.in_phase_x + axis] + lagging * p[_AT.lagging_x + axis]
+        )
+
+
 @stage
 def step(state: FloatArray, parameters: FloatArray) -> None:
     """Add the displacement of the target to TARGET_SHIFT_*."""
-    if len(parameters) > _DRAWS:
+    if len(parameters) == _DRAWS + _PLACES:
         _on_command(state, parameters)
         return
     time = state[sv.TIME]
@@ -214,6 +288,9 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
         return
     if np.isnan(parameters[_AT.start]):
         parameters[_AT.start] = time
+    if len(parameters) > _DEPTHS:
+        _varying(state, parameters, time - parameters[_AT.start])
+        return
     breaths = (time - parameters[_AT.start]) / parameters[_AT.period]
     phase = np.pi * (breaths - np.floor(breaths))  # one breath: hours lose no digits
     in_phase = lujan(phase, parameters[_AT.shape])

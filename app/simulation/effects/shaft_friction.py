@@ -40,6 +40,7 @@ from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
 from app.core.parameters import numbered, packed
 from app.simulation.along_needle import SNAP, keep_memory, layer_rows, smoothed_speed, smoothing_of
+from app.simulation.dry_friction import DAHL, KIKUUWE, LUGRE, dahl, kikuuwe, stribeck
 from app.simulation.scene import Binding
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -112,7 +113,6 @@ class _LayerPlaces(NamedTuple):
 
 _AT: Final = numbered(_FrictionPlaces)
 _LAYER: Final = numbered(_LayerPlaces)
-_KIKUUWE, _LUGRE = 0.0, 2.0
 COUNT: Final = 33e-6
 """Step of a measured depth that is warned of: that of the encoders of the thesis' device [m]."""
 
@@ -125,11 +125,11 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
     """
     rows = layer_rows(binding, "friction", "static_friction", "viscous_friction")
     rows[:, 2] = np.maximum(rows[:, 1], rows[:, 2])
-    law = {"dahl": [], "lugre": [_LUGRE, values["bristle_damping"]]}
+    law = {"dahl": [], "lugre": [LUGRE, values["bristle_damping"]]}
     return packed(
         _AT,
         rows.ravel(),
-        law.get(binding.model, [_KIKUUWE, 0.0]),
+        law.get(binding.model, [KIKUUWE, 0.0]),
         slot=binding.depth_slot,
         presliding=values["presliding_stiffness"],
         stribeck=values["stribeck_speed"],
@@ -166,35 +166,16 @@ def _level(p: FloatArray, depth: float, speed: float) -> tuple[float, float, flo
     inserted = 0.0
     level = 0.0
     viscous = 0.0
-    ratio = speed / p[_AT.stribeck]
-    stribeck = np.exp(-ratio * ratio)
+    share = stribeck(speed, p[_AT.stribeck])
     for i in range(int(p[_AT.layers])):
         at = len(_AT) + len(_LAYER) * i
         length = min(p[at + _LAYER.end], depth) - inserted
         if length > 0.0:
             kinetic, static = p[at + _LAYER.kinetic], p[at + _LAYER.static]
-            level += length * (kinetic + (static - kinetic) * stribeck)
+            level += length * (kinetic + (static - kinetic) * share)
             viscous += length * p[at + _LAYER.viscous]
             inserted += length
     return inserted, level, viscous
-
-
-@njit
-def dahl(force: float, travel: float, level: float, stiffness: float) -> float:
-    """Friction force after `travel` [m] at constant level: exact, |result| <= level."""
-    if level <= 0.0:
-        return 0.0
-    force = min(max(force, -level), level)  # the level may have fallen since the last step
-    if travel == 0.0:
-        return force
-    end = level if travel > 0.0 else -level
-    return end + (force - end) * np.exp(-stiffness * abs(travel) / level)
-
-
-@njit
-def kikuuwe(force: float, travel: float, level: float, stiffness: float) -> float:
-    """Friction force after `travel` [m]: a spring that slides at the level; |result| <= level."""
-    return min(max(force + stiffness * travel, -level), level)
 
 
 def carry(old: FloatArray, new: FloatArray) -> None:
@@ -218,16 +199,15 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
     inserted, level, viscous = _level(parameters, depth, speed)
     stiffness, before = parameters[_AT.presliding] * inserted, parameters[_AT.force]
     behind = len(_AT) + len(_LAYER) * int(parameters[_AT.layers])
-    law = parameters[behind] if len(parameters) > behind else 1.0
-    if law == _KIKUUWE:
+    law = parameters[behind] if len(parameters) > behind else DAHL
+    if law == KIKUUWE:
         force = kikuuwe(before, travel, level, stiffness)
     else:
         force = dahl(before, travel, level, stiffness)
     force = force if abs(force) > SNAP else 0.0
     parameters[_AT.force] = force
-    if law == _LUGRE and dt > 0.0 and stiffness > 0.0:
-        ratio = speed / parameters[_AT.stribeck]
-        damping = parameters[behind + 1] * inserted * np.exp(-ratio * ratio)
+    if law == LUGRE and dt > 0.0 and stiffness > 0.0:
+        damping = parameters[behind + 1] * inserted * stribeck(speed, parameters[_AT.stribeck])
         force += damping * (force - min(max(before, -level), level)) / (stiffness * dt)
         force = min(max(force, -level), level)
     state[sv.AXIAL_FORCE] += force + viscous * speed

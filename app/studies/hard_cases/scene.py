@@ -10,6 +10,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.mechanisms.profile import load_profile
+from app.simulation import dry_friction
 from app.simulation.effects import (
     breathing,
     declaration,
@@ -356,6 +357,53 @@ def _late_breath() -> HardCase:
     )
 
 
+def _border_of_breaths() -> HardCase:
+    given = {"depth_variation": 0.4, "period_variation": 0.4, "anterior_lag": 1.2}
+    binding = bound_to(model="varying")
+
+    def at(way: _Way, memory: FloatArray, time: float) -> FloatArray:
+        state = sv.empty_state()
+        state[sv.TIME] = time
+        way(state, memory)
+        return state[sv.TARGET_SHIFT].copy()
+
+    def jump(way: _Way) -> float:
+        memory, most = memory_of("breathing", given, binding), 0.0
+        at(way, memory, 0.0)
+        ends = memory[-2 * breathing.BREATHS : -breathing.BREATHS]
+        for end in (*ends, ends[-1] + ends[0]):  # the last one: where the tile repeats
+            step = at(way, memory, end + 1e-9) - at(way, memory, end - 1e-9)
+            most = max(most, float(np.linalg.norm(step)))
+        return most
+
+    def forgetful() -> Callable[[FloatArray, FloatArray], None]:
+        other, looks = memory_of("breathing", given | {"draws": 2.0}, binding), [0]
+
+        def step(state: FloatArray, parameters: FloatArray) -> None:
+            looks[0] += 1
+            breathing.step(state, parameters if looks[0] % 2 else other)
+
+        return step
+
+    def rested() -> bool:
+        memory = memory_of("breathing", given, binding)
+        times = (0.0, nan, 1e300, -1e300, 5e-324)
+        return bool(np.isfinite([at(breathing.step, memory, time) for time in times]).all())
+
+    return HardCase(
+        subsystem="effects",
+        case="breaths that vary go over into each other without a jump",
+        given="256 borders and where they repeat, 40 % variation, a lag of 1.2 rad, ± 1 ns",
+        way=breathing.step,
+        found=jump,
+        reference=analytic("no step beyond the organ's speed times 2 ns", 0.0),
+        unit="m",
+        bound=2e-10,
+        beyond=answers("bounded at times of 1e300 s and NaN", rested),
+        defect=Defect("each look draws its own breaths", forgetful()),
+    )
+
+
 # --- integrators ----------------------------------------------------------------------------------
 def _called(given: tuple[float, ...], way: _Way) -> Any:
     return way(*given)
@@ -373,14 +421,14 @@ def _dahl() -> tuple[HardCase, ...]:
             subsystem="integrators",
             case=f"exponential step of Dahl's friction over {words}",
             given="f = 0.2 N, g = 1 N",
-            way=shaft_friction.dahl,
+            way=dry_friction.dahl,
             found=partial(_called, digits(f"Dahl friction after {words}").given),
             reference=digits(f"Dahl friction after {words}"),
             unit="N",
             bound=1e-15,
             beyond=answers(
                 "no friction without a level",
-                lambda: shaft_friction.dahl(1.0, 1.0, 0.0, 1e5) == 0.0,
+                lambda: dry_friction.dahl(1.0, 1.0, 0.0, 1e5) == 0.0,
             ),
             defect=Defect(text, way),
         )
@@ -405,13 +453,13 @@ def _held_tick() -> HardCase:
         subsystem="integrators",
         case="a thousand steps of Dahl's friction are one",
         given="0.3 mm in steps of 0.3 µm, σ = 1e4 N/m, g = 1 N",
-        way=shaft_friction.dahl,
+        way=dry_friction.dahl,
         found=found,
-        reference=analytic("one step of 0.3 mm", shaft_friction.dahl(0.2, 3e-4, 1.0, 1e4)),
+        reference=analytic("one step of 0.3 mm", dry_friction.dahl(0.2, 3e-4, 1.0, 1e4)),
         unit="N",
         bound=1e-13,
         beyond=answers(
-            "no friction without a level", lambda: shaft_friction.dahl(1.0, 1.0, 0.0, 1e5) == 0.0
+            "no friction without a level", lambda: dry_friction.dahl(1.0, 1.0, 0.0, 1e5) == 0.0
         ),
         defect=Defect("implicit Euler", lambda f, x, g, s: (f + s * x) / (1.0 + s * x / g)),
     )
@@ -524,6 +572,7 @@ CASES: Final = (
     _still_needle(),
     _subnormal_rest(),
     _late_breath(),
+    _border_of_breaths(),
     *_dahl(),
     _held_tick(),
     _coupled(),

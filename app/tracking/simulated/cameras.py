@@ -403,11 +403,13 @@ class SimulatedCamera(Camera):
         self._effects = tuple(effects)
         self._seed = seed
         self._rng: np.random.Generator | None = None
+        self._chain = self._effects
         self._last = -1
 
     def open(self) -> None:
-        """Start with the next picture due; the noise starts afresh."""
+        """Start with the next picture due; noise and effects start afresh."""
         self._rng = np.random.default_rng(self._seed)
+        self._chain = tuple((effect, copy(memory)) for effect, memory in self._effects)
         self._last = self._due() - 1
 
     def read(self) -> CameraFrame:
@@ -419,7 +421,7 @@ class SimulatedCamera(Camera):
         self._clock.sleep(time + self.latency - self._clock.now())
         self._last = number
         image = self._renderer.render(self.scene(time))
-        for effect, parameters in self._effects:
+        for effect, parameters in self._chain:
             image = effect(image, parameters, self._rng)
         return CameraFrame(image, time)
 

@@ -4,15 +4,18 @@ An effect may change the image in place and hands back the one to go on with. Ra
 the generator it is given and from tiles made beforehand, so that a run repeats itself.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from math import sqrt
+from typing import Any, Final
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from app.core.arrays import FloatArray
 from app.tracking.cameras.camera import Image
+from app.tracking.errors import TrackingError
 
 PictureEffect = Callable[[Image, Any, np.random.Generator], Image]
 """Signature of an effect on a picture."""
@@ -51,3 +54,156 @@ def blur(image: Image, parameters: float, rng: np.random.Generator) -> Image:
 def lighting(image: Image, parameters: float, rng: np.random.Generator) -> Image:
     """Scale the brightness by `parameters` (dimmer below 1), saturating at 255."""
     return np.asarray(cv2.convertScaleAbs(image, alpha=parameters))
+
+
+# --- effects of a scene: declared in `simulation.effects`, found here by their names --------------
+@dataclass(eq=False)
+class Losses:
+    """Which pictures of one camera are lost (`camera_dropout`).
+
+    Attributes:
+        share: of the pictures, in the long run.
+        burst: pictures in a row, on average; None: each is lost by itself.
+        lost: whether the last one was.
+    """
+
+    share: float
+    burst: float | None
+    lost: bool = False
+
+    @classmethod
+    def of(cls, values: FloatArray) -> "Losses":
+        """Read number of the model (0 bursts, 1 single), share, burst."""
+        model, share, burst = values.tolist()
+        return cls(share, burst if model == 0.0 else None)
+
+    def next(self, draw: float) -> bool:
+        """Whether the next picture is lost, by a number drawn from 0 to 1."""
+        leaves = 1.0 / self.burst if self.burst is not None else 1.0
+        if self.burst is None:
+            self.lost = draw < self.share
+        elif self.lost:
+            self.lost = draw >= leaves
+        else:
+            self.lost = draw < leaves * self.share / (1.0 - self.share)
+        return self.lost
+
+
+def drop(image: Image, parameters: Losses, rng: np.random.Generator) -> Image:
+    """Hand on the picture, or a black one in its place."""
+    return np.zeros_like(image) if parameters.next(rng.random()) else image
+
+
+@dataclass(frozen=True, eq=False)
+class Blur:
+    """Defocus [px] as a Gaussian or over a square, and the kernel of a motion (`camera_blur`)."""
+
+    defocus: float
+    square: int
+    motion: FloatArray | None
+
+    @classmethod
+    def of(cls, values: FloatArray) -> "Blur":
+        """Read number of the model (0 gaussian, 1 box), defocus, motion, direction."""
+        model, defocus, motion, direction = values.tolist()
+        square = 2 * round(0.5 * (sqrt(12.0 * defocus * defocus + 1.0) - 1.0)) + 1
+        kernel = line_kernel(motion, direction) if motion > 0.0 else None
+        return cls(defocus if model == 0.0 else 0.0, square if model == 1.0 else 1, kernel)
+
+    @property
+    def spread(self) -> float:
+        """Standard deviation of the point spread [px], along the motion if there is one."""
+        square = self.defocus**2 + (self.square**2 - 1) / 12.0
+        if self.motion is not None:
+            reach = self.motion.shape[0] // 2
+            y, x = np.mgrid[-reach : reach + 1, -reach : reach + 1]
+            square += float((self.motion * (x * x + y * y)).sum())
+        return sqrt(square)
+
+
+def line_kernel(length: float, direction: float) -> FloatArray:
+    """Weights of a line through the middle [px, rad], sum 1, shape (n, n), n odd."""
+    reach = int(0.5 * length) + 1
+    along = np.linspace(-0.5 * length, 0.5 * length, 16 * (reach + 1) + 1)
+    kernel = np.zeros((2 * reach + 1, 2 * reach + 1))
+    x, y = reach + along * np.cos(direction), reach + along * np.sin(direction)
+    left, top = np.minimum(x.astype(int), 2 * reach - 1), np.minimum(y.astype(int), 2 * reach - 1)
+    u, v = x - left, y - top
+    for down, right, weight in (
+        (0, 0, (1.0 - v) * (1.0 - u)),
+        (0, 1, (1.0 - v) * u),
+        (1, 0, v * (1.0 - u)),
+        (1, 1, v * u),
+    ):
+        np.add.at(kernel, (top + down, left + right), weight)
+    return np.asarray(kernel / kernel.sum())
+
+
+def unfocus(image: Image, parameters: Blur, rng: np.random.Generator) -> Image:
+    """Blur a picture by defocus and motion."""
+    image = blur(image, parameters.defocus, rng)
+    if parameters.square > 1:
+        image = np.asarray(cv2.blur(image, (parameters.square, parameters.square)))
+    if parameters.motion is not None:
+        image = np.asarray(cv2.filter2D(image, -1, parameters.motion))
+    return image
+
+
+@dataclass(eq=False)
+class Light:
+    """Brightness over that of the rig, from left to right, and from picture to picture."""
+
+    level: float
+    gradient: float
+    flicker: float
+    _gains: NDArray[np.float32] | None = None
+
+    @classmethod
+    def of(cls, values: FloatArray) -> "Light":
+        """Read number of the model (0 flicker, 1 gradient), level, gradient, flicker."""
+        model, level, gradient, flicker = values.tolist()
+        return cls(level, gradient, flicker if model == 0.0 else 0.0)
+
+    def gains(self, shape: tuple[int, ...]) -> NDArray[np.float32]:
+        """Share of the brightness of every value of a picture of this shape."""
+        if self._gains is None or self._gains.shape != shape:
+            across = np.linspace(-1.0, 1.0, shape[1], dtype=np.float32)[None, :, None]
+            self._gains = np.ascontiguousarray(
+                np.broadcast_to(1.0 + np.float32(self.gradient) * across, shape)
+            )
+        return self._gains
+
+
+def illuminate(image: Image, parameters: Light, rng: np.random.Generator) -> Image:
+    """Scale the brightness, saturating at 255."""
+    level = parameters.level
+    if parameters.flicker > 0.0:
+        level *= 1.0 + parameters.flicker * float(np.clip(rng.standard_normal(), -2.0, 2.0))
+    if parameters.gradient == 0.0:
+        return lighting(image, level, rng)
+    gains = parameters.gains(image.shape)
+    return np.asarray(cv2.multiply(image, gains, scale=level, dtype=cv2.CV_8U))
+
+
+_BY_NAME: Final[dict[str, tuple[PictureEffect, Callable[[FloatArray], Any]]]] = {
+    "camera_dropout": (drop, Losses.of),
+    "camera_blur": (unfocus, Blur.of),
+    "camera_light": (illuminate, Light.of),
+}
+
+
+def picture_effects(asked: Mapping[str, FloatArray]) -> tuple[tuple[PictureEffect, Any], ...]:
+    """Return what acts on a picture, with fresh memory, in the order in which it is asked for.
+
+    Args:
+        asked: name -> number of its model, then its parameters as they are declared
+            (`simulation.plan.SimulationPlan.pictures`).
+
+    Raises:
+        TrackingError: for a name that nothing here makes; names those that are known.
+    """
+    if unknown := sorted(set(asked) - set(_BY_NAME)):
+        raise TrackingError(
+            f"no effect on pictures is called {unknown[0]!r}; there are {', '.join(_BY_NAME)}"
+        )
+    return tuple((_BY_NAME[name][0], _BY_NAME[name][1](asked[name])) for name in asked)

@@ -29,7 +29,7 @@ class EffectCost:
         title: for people.
         model: by which it is computed.
         models: each of its models -> what it is.
-        costs: each of its models -> time of a tick [s].
+        costs: each of its models -> time of a tick [s]; none for an effect on pictures.
         why: who needs it.
         warnings: what to know before its forces are believed.
     """

@@ -110,13 +110,18 @@ class EffectRow(QFrame):
         swatch.setStyleSheet(f"background: {hue};")
         self.models = QComboBox(self)
         for name in effect.models:
-            self.models.addItem(f"{name} · {in_words(effect.costs.get(name, 0.0))}", name)
+            cost = f" · {in_words(effect.costs[name])}" if name in effect.costs else ""
+            self.models.addItem(f"{name}{cost}", name)
             tip = effect.models[name]
             self.models.setItemData(self.models.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
         self.models.setCurrentIndex(max(self.models.findData(effect.model), 0))
-        self.models.setEnabled(len(effect.models) > 1 and not locked)
+        self.models.setEnabled(len(effect.models) > 1 and not locked and bool(effect.costs))
+        on_pictures = tr(
+            "Acts on the cameras' pictures: nothing of a tick; chosen before it begins"
+        )
         self.models.setToolTip(
             locked
+            or (on_pictures if not effect.costs else "")
             or tr(
                 "By which model it is computed, and its time in a tick on this computer; another "
                 "one applies at once"

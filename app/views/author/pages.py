@@ -676,13 +676,23 @@ class EffectsPage(Form):
         if found is None:
             self.cost.setText(tr("measuring what it costs …"))
             return
-        costs = {one["effect"]: one["cost_ns"] for one in found["simulated"]}
+        ticking = [one for one in found["simulated"] if one["picture_ns"] is None]
+        costs = {one["effect"]: one["cost_ns"] for one in ticking}
         costs |= {one["law"]: one["cost_ns"] for one in found["laws"]}
         lines = [
             tr("{name}: {ns:.0f} ns of each tick", name=name, ns=ns) for name, ns in costs.items()
         ]
         share = sum(costs.values()) / 1e4
         lines.append(tr("together {share:.2f} % of the millisecond that a tick has", share=share))
+        lines += [
+            tr(
+                "{name}: {ms:.2f} ms for each picture of a camera",
+                name=one["effect"],
+                ms=one["picture_ns"] / 1e6,
+            )
+            for one in found["simulated"]
+            if one["picture_ns"] is not None
+        ]
         self.cost.setText("\n".join(lines))
 
 
@@ -857,14 +867,15 @@ class PartsBox(QWidget):
 
     def _add_words(self, form: QFormLayout, name: str, declared: effects.Effect) -> None:
         """Add what an effect acts on, and the way to compute it where there are several."""
-        organ = self.organs[name] = QLineEdit(self)
-        organ.setPlaceholderText(tr("everything"))
-        organ.textEdited.connect(
-            lambda text: self._editor.put(
-                self._field, name, "organ", value=text.strip() or None, typed=True
+        if not declared.pictures:  # which act on no organ
+            organ = self.organs[name] = QLineEdit(self)
+            organ.setPlaceholderText(tr("everything"))
+            organ.textEdited.connect(
+                lambda text: self._editor.put(
+                    self._field, name, "organ", value=text.strip() or None, typed=True
+                )
             )
-        )
-        form.addRow(tr("acts on"), organ)
+            form.addRow(tr("acts on"), organ)
         if len(declared.models) < 2:
             return
         way = self.ways[name] = QComboBox(self)
