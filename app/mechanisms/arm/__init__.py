@@ -15,6 +15,7 @@ from app.mechanisms.arm.kinematics import (
 )
 from app.mechanisms.arm.least_squares import Iterated, iterate, starts
 from app.mechanisms.arm.profile import ArmProfile, load_arm
+from app.mechanisms.arm.published import PublishedArm, published_arm
 from app.mechanisms.arm.redundancy import JointLimitError, feasible, solve
 from app.mechanisms.arm.workspace import (
     NearestPose,
@@ -35,6 +36,7 @@ __all__ = [
     "Iterated",
     "JointLimitError",
     "NearestPose",
+    "PublishedArm",
     "Reach",
     "SingularDistance",
     "arm_angle",
@@ -49,6 +51,7 @@ __all__ = [
     "link_frames",
     "load_arm",
     "nearest_pose",
+    "published_arm",
     "reach",
     "solve",
     "starts",

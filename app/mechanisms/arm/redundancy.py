@@ -319,8 +319,8 @@ def solve(arm: ArmProfile, pose: RigidTransform, near: ArrayLike | None = None) 
     angle, _, within, margin, joint, bits = told.tolist()
     if not within:
         raise JointLimitError(
-            f"joint {int(joint) + 1} would stand {np.degrees(-margin):.3g}° beyond its limits, at the"
-            f" best arm angle tried: {in_words(arm, pose)}"
+            f"joint {int(joint) + 1} would stand {np.degrees(-margin):.3g}° beyond its limits, at"
+            f" the best arm angle tried: {in_words(arm, pose)}"
         )
     return solution(arm, best, angle, int(bits))
 
