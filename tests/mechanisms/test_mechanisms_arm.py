@@ -338,7 +338,7 @@ def test_the_covariance_of_the_tool_is_that_of_many_drawn_errors():
         T_flange_tool=pose([0.0, 0.01, 0.2], [0.0, 0.3, 0.0]),
         resolution=2e-4,
     )
-    q, rng, count = postures(1)[0], np.random.default_rng(6), 20_000
+    q, rng, count = postures(1)[0], np.random.default_rng(6), 5_000
     right = arm.tool_pose(forward(arm, q))
     errors = []
     for _ in range(count):
