@@ -28,7 +28,7 @@ CLOSED: Final = 1e-11
 TURN_LENGTH: Final = 0.25
 """What a turn by one radian counts as [m]."""
 
-WORK: Final = (21, JOINTS)
+WORK: Final = (19, JOINTS)
 """Shape of the kernel's scratch."""
 
 

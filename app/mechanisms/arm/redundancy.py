@@ -4,7 +4,9 @@ Each joint of the inverse is atan2 of (or, the middle ones, arccos of) terms n·
 that it stands at a limit where one such term is zero: two arm angles at most. All of them, over all
 joints, cut the circle of arm angles into pieces within which no joint passes a limit, and one point
 of each piece tells for the whole. No piece is missed, however narrow; the cuts are tried too, for
-poses that only a joint at its limit reaches. Solving is deterministic.
+poses that only a joint at its limit reaches. With the elbow stretched a pose determines θ4, and
+with it the others, to 1e-8 only: a joint so little beyond its limit is put there, and the rest
+settled by least squares. Solving is deterministic.
 """
 
 from math import atan2, cos, hypot, pi, sin, sqrt
@@ -38,6 +40,7 @@ from app.mechanisms.arm.kinematics import (
     seven,
     solution,
 )
+from app.mechanisms.arm.least_squares import CLOSED, WORK, iterate_kernel
 from app.mechanisms.arm.profile import JOINTS, ROOM_FOR_ROUNDING, ArmProfile
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.pantograph.status import NOT_FINITE, OK, check
@@ -48,8 +51,14 @@ CUTS: Final = 24
 SCAN: Final = 32
 """Arm angles tried where no piece has a solution: aligned axes leave a joint free, without cuts."""
 
-_TOLD: Final = 6
-"""What `solve_kernel` tells beside joint angles: see there."""
+TOLD: Final = 6
+"""Numbers that `solve_kernel` tells beside joint angles."""
+
+SCRATCH: Final = CUTS + JOINTS + WORK[0] * WORK[1]
+"""Length of the kernel's scratch."""
+
+_UNSETTLED: Final = 1e-6
+"""A joint less beyond its limit than this may be there because of rounding [rad]."""
 
 _Elbow = tuple[float, float, float, float, float, float, float, float]
 """(θ4, sin φ, cos φ, sin β, cos β, sin ψp, cos ψp, θref) of a pose and a sign of θ4; β = θ4 - φ."""
@@ -234,16 +243,16 @@ def solve_kernel(
         near: joint angles that tell what is kept of θ1 and θ5 where they are not defined.
         close: whether the solution nearest to `near` (in its largest joint) is sought; else the
             one whose least margin to a limit is largest.
-        work: scratch, (CUTS + 7,).
+        work: scratch, (SCRATCH,).
         best: filled with the joint angles (7,); beyond limits if none are within.
         told: filled with (arm angle, score, whether within limits, margin [rad], its joint,
             singular).
     """
-    cuts, trial = work[:CUTS], work[CUTS:]
+    cuts, trial = work[:CUTS], work[CUTS : CUTS + JOINTS]
     told[0], told[1], told[2] = 0.0, -1e9, 0.0
-    start = 0.0
+    wanted = 0.0
     if close:
-        start, _ = kernels.arm_angle_kernel(near, lengths, near[0])
+        wanted, _ = kernels.arm_angle_kernel(near, lengths, near[0])
     for scanned in (False, True):
         for sign in (1.0, -1.0):
             status, e, cr, sr, bits = elbowed(position, lengths, sign, near[0])
@@ -265,12 +274,28 @@ def solve_kernel(
                     middle = wrapped(2.0 * pi * i / SCAN)
                 _try(e, m, middle, near, close, lower, upper, bits, trial, best, told)
             if close:
-                _try(e, m, start, near, close, lower, upper, bits, trial, best, told)
+                _try(e, m, wanted, near, close, lower, upper, bits, trial, best, told)
         if told[2] > 0.0:
             break
     if told[2] > 0.0:
         for k in range(JOINTS):
             best[k] = max(lower[k], min(upper[k], best[k]))
+    elif told[3] > -_UNSETTLED:
+        room = work[CUTS + JOINTS :].reshape(WORK)
+        keep = near[0], near[4]
+        for i in range(SCAN * 8):
+            angle = wrapped(2.0 * pi * (i // 8) / SCAN)
+            branch = 1.0 - 2.0 * (i % 2), 1.0 - 2.0 * (i // 2 % 2), 1.0 - 2.0 * (i // 4 % 2)
+            kernels.redundant_kernel(rotation, position, lengths, angle, branch, keep, trial)
+            if _beyond(trial, lower, upper)[0] < -_UNSETTLED:
+                continue
+            left, _ = iterate_kernel(rotation, position, lengths, lower, upper, 50, trial, room)
+            if left <= CLOSED:
+                for k in range(JOINTS):
+                    best[k] = trial[k]
+                told[0], _ = kernels.arm_angle_kernel(best, lengths, near[0])
+                told[2] = 1.0
+                break
     return OK
 
 
@@ -302,7 +327,7 @@ def solve(arm: ArmProfile, pose: RigidTransform, near: ArrayLike | None = None) 
     """
     rotation, position = pose_arrays(pose)
     start = np.zeros(JOINTS) if near is None else seven(near, "near")
-    work, best, told = np.empty(CUTS + JOINTS), np.empty(JOINTS), np.zeros(_TOLD)
+    work, best, told = np.empty(SCRATCH), np.empty(JOINTS), np.zeros(TOLD)
     status = solve_kernel(
         rotation,
         position,
