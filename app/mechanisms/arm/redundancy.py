@@ -220,6 +220,82 @@ def _try(
 
 
 @njit
+def _search(
+    rotation: FloatArray,
+    position: FloatArray,
+    lengths: Three,
+    lower: FloatArray,
+    upper: FloatArray,
+    near: FloatArray,
+    close: bool,
+    effort: int,
+    work: FloatArray,
+    best: FloatArray,
+    told: FloatArray,
+) -> int:
+    # Effort 0: the middles of all pieces; 1: their ends too; 2: a scan, for joints without cuts.
+    # Nearness (`close`) asks for the ends, and for the arm angle of `near`, at once.
+    cuts, trial = work[:CUTS], work[CUTS : CUTS + JOINTS]
+    for sign in (1.0, -1.0):
+        status, e, cr, sr, bits = elbowed(position, lengths, sign, near[0])
+        if status != OK:
+            return status
+        m = seen_from_reach(rotation, e[5], e[6], cr, sr)
+        if not isfinite_matrix(m):
+            return NOT_FINITE
+        if effort == 2:
+            for i in range(SCAN):
+                angle = wrapped(2.0 * pi * i / SCAN)
+                _try(e, m, angle, near, close, lower, upper, bits, trial, best, told)
+            continue
+        count = cuts_kernel(e, m, lower, upper, cuts)
+        for i in range(max(count, 1)):
+            middle = 0.0
+            if count:
+                following = cuts[i + 1] if i + 1 < count else cuts[0] + 2.0 * pi
+                middle = wrapped(0.5 * (cuts[i] + following))
+                if close or effort == 1:
+                    _try(e, m, cuts[i], near, close, lower, upper, bits, trial, best, told)
+            if effort == 0:
+                _try(e, m, middle, near, close, lower, upper, bits, trial, best, told)
+        if close:
+            wanted, _ = kernels.arm_angle_kernel(near, lengths, near[0])
+            _try(e, m, wanted, near, close, lower, upper, bits, trial, best, told)
+    return OK
+
+
+@njit
+def _settle(
+    rotation: FloatArray,
+    position: FloatArray,
+    lengths: Three,
+    lower: FloatArray,
+    upper: FloatArray,
+    near: FloatArray,
+    work: FloatArray,
+    best: FloatArray,
+    told: FloatArray,
+) -> None:
+    # A joint is beyond its limit by no more than rounding may have put it: put it there, and let
+    # least squares move the others.
+    trial, room = work[CUTS : CUTS + JOINTS], work[CUTS + JOINTS :].reshape(WORK)
+    keep = near[0], near[4]
+    for i in range(SCAN * 8):
+        angle = wrapped(2.0 * pi * (i // 8) / SCAN)
+        branch = 1.0 - 2.0 * (i % 2), 1.0 - 2.0 * (i // 2 % 2), 1.0 - 2.0 * (i // 4 % 2)
+        kernels.redundant_kernel(rotation, position, lengths, angle, branch, keep, trial)
+        if _beyond(trial, lower, upper)[0] < -_UNSETTLED:
+            continue
+        left, _ = iterate_kernel(rotation, position, lengths, lower, upper, 50, trial, room)
+        if left <= CLOSED:
+            for k in range(JOINTS):
+                best[k] = trial[k]
+            told[0], _ = kernels.arm_angle_kernel(best, lengths, near[0])
+            told[2] = 1.0
+            return
+
+
+@njit
 def solve_kernel(
     rotation: FloatArray,
     position: FloatArray,
@@ -248,54 +324,19 @@ def solve_kernel(
         told: filled with (arm angle, score, whether within limits, margin [rad], its joint,
             singular).
     """
-    cuts, trial = work[:CUTS], work[CUTS : CUTS + JOINTS]
     told[0], told[1], told[2] = 0.0, -1e9, 0.0
-    wanted = 0.0
-    if close:
-        wanted, _ = kernels.arm_angle_kernel(near, lengths, near[0])
-    for scanned in (False, True):
-        for sign in (1.0, -1.0):
-            status, e, cr, sr, bits = elbowed(position, lengths, sign, near[0])
-            if status != OK:
-                return status
-            m = seen_from_reach(rotation, e[5], e[6], cr, sr)
-            if not isfinite_matrix(m):
-                return NOT_FINITE
-            count = 0
-            if not scanned:
-                count = cuts_kernel(e, m, lower, upper, cuts)
-            pieces = SCAN if scanned else max(count, 1)
-            for i in range(pieces):
-                if count:
-                    following = cuts[i + 1] if i + 1 < count else cuts[0] + 2.0 * pi
-                    middle = wrapped(0.5 * (cuts[i] + following))
-                    _try(e, m, cuts[i], near, close, lower, upper, bits, trial, best, told)
-                else:
-                    middle = wrapped(2.0 * pi * i / SCAN)
-                _try(e, m, middle, near, close, lower, upper, bits, trial, best, told)
-            if close:
-                _try(e, m, wanted, near, close, lower, upper, bits, trial, best, told)
+    for effort in range(3):
+        status = _search(
+            rotation, position, lengths, lower, upper, near, close, effort, work, best, told
+        )
+        if status != OK:
+            return status
         if told[2] > 0.0:
-            break
-    if told[2] > 0.0:
-        for k in range(JOINTS):
-            best[k] = max(lower[k], min(upper[k], best[k]))
-    elif told[3] > -_UNSETTLED:
-        room = work[CUTS + JOINTS :].reshape(WORK)
-        keep = near[0], near[4]
-        for i in range(SCAN * 8):
-            angle = wrapped(2.0 * pi * (i // 8) / SCAN)
-            branch = 1.0 - 2.0 * (i % 2), 1.0 - 2.0 * (i // 2 % 2), 1.0 - 2.0 * (i // 4 % 2)
-            kernels.redundant_kernel(rotation, position, lengths, angle, branch, keep, trial)
-            if _beyond(trial, lower, upper)[0] < -_UNSETTLED:
-                continue
-            left, _ = iterate_kernel(rotation, position, lengths, lower, upper, 50, trial, room)
-            if left <= CLOSED:
-                for k in range(JOINTS):
-                    best[k] = trial[k]
-                told[0], _ = kernels.arm_angle_kernel(best, lengths, near[0])
-                told[2] = 1.0
-                break
+            for k in range(JOINTS):
+                best[k] = max(lower[k], min(upper[k], best[k]))
+            return OK
+    if told[3] > -_UNSETTLED:
+        _settle(rotation, position, lengths, lower, upper, near, work, best, told)
     return OK
 
 

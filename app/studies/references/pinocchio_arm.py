@@ -67,6 +67,10 @@ class PinocchioArm:
         self._pin.framesForwardKinematics(self.model, self.data, q)
         return self.data.oMf[self._flange]
 
+    def target(self, pose: RigidTransform) -> Any:
+        """Return a pose of the flange as Pinocchio's SE3."""
+        return self._pin.SE3(pose.rotation, pose.translation)
+
     def jacobian(self, q: FloatArray) -> FloatArray:
         """Jacobian of the flange, shape (6, 7), in the base's axes: velocity, angular velocity."""
         pin = self._pin
