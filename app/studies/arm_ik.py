@@ -77,14 +77,14 @@ class Poses:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Answers:
+class ArmAnswers:
     """What a way answered: joint angles (n, 7), NaN where none, and its time for a pose [s]."""
 
     q: FloatArray
     seconds: float
 
 
-ArmWay = Callable[[Poses], Answers]
+ArmWay = Callable[[Poses], ArmAnswers]
 
 
 @njit
@@ -201,20 +201,20 @@ def _compiled(arm: ArmProfile, call: Callable[..., None], *more: FloatArray) -> 
     """Time a compiled loop over the poses; `more` has a row for each pose."""
     limits = arm.lengths, np.array(arm.lower), np.array(arm.upper)
 
-    def run(poses: Poses) -> Answers:
+    def run(poses: Poses) -> ArmAnswers:
         count = len(poses.q)
         out = np.full((count, 7), np.nan)
         extra = [np.resize(values, (count, *values.shape[1:])) for values in more]
         call(poses.rotation[:2], poses.position[:2], *limits, *[x[:2] for x in extra], out[:2])
         begin = process_time()
         call(poses.rotation, poses.position, *limits, *extra, out)
-        return Answers(out, (process_time() - begin) / count)
+        return ArmAnswers(out, (process_time() - begin) / count)
 
     return run
 
 
 def _from_nearby(arm: ArmProfile) -> ArmWay:
-    def run(poses: Poses) -> Answers:
+    def run(poses: Poses) -> ArmAnswers:
         noise = 0.3 * np.random.default_rng(3).normal(size=poses.q.shape)
         return _compiled(arm, iterate_often, (poses.q + noise)[:, None, :])(poses)
 
@@ -224,13 +224,13 @@ def _from_nearby(arm: ArmProfile) -> ArmWay:
 def _pinocchio(arm: ArmProfile, other: PinocchioArm) -> ArmWay:
     start = np.full(7, 0.1)
 
-    def run(poses: Poses) -> Answers:
+    def run(poses: Poses) -> ArmAnswers:
         targets = [other.target(poses.pose(k) @ arm.T_wrist_flange) for k in range(len(poses.q))]
         begin = process_time()
         found = [other.iterate(target, start, STEPS, 1e-6, 1e-10) for target in targets]
         seconds = (process_time() - begin) / len(targets)
         turned = [np.mod(q + np.pi, 2.0 * np.pi) - np.pi for q, _ in found]
-        return Answers(np.array(turned), seconds)
+        return ArmAnswers(np.array(turned), seconds)
 
     return run
 
@@ -242,12 +242,12 @@ def _eaik(arm: ArmProfile, other: EaikArm) -> ArmWay:
         margins = np.minimum(arm.upper - found, found - arm.lower).min(axis=1)
         return np.asarray(found[int(np.argmax(margins))])
 
-    def run(poses: Poses) -> Answers:
+    def run(poses: Poses) -> ArmAnswers:
         asked = [poses.pose(k) for k in range(len(poses.q))]
         begin = process_time()
         found = [other.solutions(pose) for pose in asked]
         seconds = (process_time() - begin) / len(asked)
-        return Answers(np.array([best(rows) for rows in found]), seconds)
+        return ArmAnswers(np.array([best(rows) for rows in found]), seconds)
 
     return run
 
@@ -414,7 +414,7 @@ def measured(size: Size, progress: Progress | None = None) -> Findings:
     return Findings(sheets, figures, lines, passed)
 
 
-def _judged(arm: ArmProfile, answers: Answers, off: FloatArray) -> tuple[Cell, ...]:
+def _judged(arm: ArmProfile, answers: ArmAnswers, off: FloatArray) -> tuple[Cell, ...]:
     met = off.max(axis=1) <= MET
     within = met & (arm.beyond(np.nan_to_num(answers.q)) <= 1e-9).all(axis=1)
     shown = off[met] if met.any() else np.full((1, 2), np.inf)

@@ -1,7 +1,9 @@
 """The arm against the paper's table, Pinocchio, EAIK, differences, scans and Monte Carlo."""
 
-import builtins
+import subprocess
+import sys
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -36,6 +38,7 @@ from app.mechanisms.errors import MechanismError, NotFiniteError, UnreachableErr
 from app.studies.errors import StudyError
 from app.studies.references.pinocchio_arm import PinocchioArm, import_pinocchio
 
+ROOT = Path(__file__).resolve().parents[2]
 ARM = load_arm()
 SHOULDER = np.array([0.0, 0.0, ARM.pedestal])
 
@@ -384,13 +387,18 @@ def test_an_unknown_arm_is_refused_with_the_names(tmp_path):
 
 
 def test_without_pinocchio_the_error_names_the_extra(monkeypatch):
-    real = builtins.__import__
-
-    def absent(name, *rest, **more):
-        if name == "pinocchio":
-            raise ImportError(name)
-        return real(name, *rest, **more)
-
-    monkeypatch.setattr(builtins, "__import__", absent)
+    monkeypatch.setitem(sys.modules, "pinocchio", None)
     with pytest.raises(StudyError, match=r"install the extra `arm`: pip install 'acus\[arm\]'"):
         import_pinocchio()
+
+
+def test_neither_a_trainer_nor_the_arm_imports_a_package_of_the_extra():
+    code = (
+        "import sys, app.compose.trainer, app.mechanisms.arm\n"
+        "heavy = ('mujoco', 'ompl', 'ruckig', 'pinocchio', 'coal', 'eaik')\n"
+        "print([name for name in heavy if name in sys.modules])"
+    )
+    found = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT
+    )
+    assert found.stdout.strip() == "[]"

@@ -1,7 +1,7 @@
 """The study of the arm's inverse kinematics: what it must find, and what it leaves out by name."""
 
-import builtins
 import importlib.util
+import sys
 
 import numpy as np
 import pytest
@@ -17,17 +17,6 @@ TINY = arm_ik.Size(random=300, near=20, slow=10, printed=10)
 needs_pinocchio = pytest.mark.skipif(
     importlib.util.find_spec("pinocchio") is None, reason="needs the extra arm"
 )
-
-
-def without(monkeypatch, package):
-    real = builtins.__import__
-
-    def absent(name, *rest, **more):
-        if name.partition(".")[0] == package:
-            raise ImportError(name)
-        return real(name, *rest, **more)
-
-    monkeypatch.setattr(builtins, "__import__", absent)
 
 
 @needs_pinocchio
@@ -53,13 +42,13 @@ def test_its_pictures_are_drawn():
 
 @needs_pinocchio
 def test_without_eaik_the_study_names_it_as_left_out(monkeypatch):
-    without(monkeypatch, "eaik")
+    monkeypatch.setitem(sys.modules, "eaik.IK_DH", None)
     found = arm_ik.measured(arm_ik.Size(20, 5, 5, 2))
     assert any("EAIK is left out: EAIK is not installed" in line for line in found.lines)
 
 
 def test_without_pinocchio_the_study_names_the_extra(monkeypatch):
-    without(monkeypatch, "pinocchio")
+    monkeypatch.setitem(sys.modules, "pinocchio", None)
     with pytest.raises(StudyError, match=r"install the extra `arm`: pip install 'acus\[arm\]'"):
         examine("arm_ik", quick=True)
 

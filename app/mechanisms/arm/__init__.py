@@ -18,8 +18,8 @@ from app.mechanisms.arm.profile import ArmProfile, load_arm
 from app.mechanisms.arm.published import PublishedArm, published_arm
 from app.mechanisms.arm.redundancy import JointLimitError, feasible, solve
 from app.mechanisms.arm.workspace import (
+    ArmReach,
     NearestPose,
-    Reach,
     SingularDistance,
     arm_singularity,
     nearest_pose,
@@ -31,13 +31,13 @@ __all__ = [
     "ARM_BRANCHES",
     "ArmBranch",
     "ArmProfile",
+    "ArmReach",
     "ArmSingularity",
     "ArmSolution",
     "Iterated",
     "JointLimitError",
     "NearestPose",
     "PublishedArm",
-    "Reach",
     "SingularDistance",
     "arm_angle",
     "arm_branch",

@@ -126,20 +126,20 @@ _Place = Annotated[float, Field(ge=-10.0, le=10.0)]
 _Seven = Annotated[tuple[_Limit, ...], Field(min_length=JOINTS, max_length=JOINTS)]
 
 
-class _Lengths(Section):
+class _LengthSection(Section):
     pedestal: _Length
     upper_arm: _Length
     forearm: _Length
     flange: _Length
 
 
-class _Joints(Section):
+class _JointSection(Section):
     limit_deg: _Seven
     speed_deg: _Seven
     resolution_deg: _Spread
 
 
-class _Placement(Section):
+class _PlacementSection(Section):
     position: tuple[_Place, _Place, _Place]
     rotation_deg: tuple[_Degrees, _Degrees, _Degrees]
     position_std: _Spread
@@ -159,10 +159,10 @@ class _Placement(Section):
 class _ArmFile(Strict):
     name: str
     description: str
-    lengths: _Lengths
-    joints: _Joints
-    base: _Placement
-    tool: _Placement
+    lengths: _LengthSection
+    joints: _JointSection
+    base: _PlacementSection
+    tool: _PlacementSection
 
 
 def load_arm(name_or_path: str | Path = "iiwa14") -> ArmProfile:

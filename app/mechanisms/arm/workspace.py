@@ -30,7 +30,7 @@ STARTS: Final = 24
 
 
 @dataclass(frozen=True, slots=True)
-class Reach:
+class ArmReach:
     """Shell about the shoulder in which the wrist centre can be [m]; the tool's point is further.
 
     Attributes:
@@ -42,13 +42,13 @@ class Reach:
     outer: float
 
 
-def reach(arm: ArmProfile) -> Reach:
+def reach(arm: ArmProfile) -> ArmReach:
     """Shell about the shoulder, from the lengths and the limits of joint 4."""
     bend = min(max(arm.upper[3], -arm.lower[3]), np.pi)
     a, b = arm.upper_arm, arm.forearm
     # a² + b² + 2 a b cos θ4, without its cancellation
     inner = np.hypot(a - b, 2.0 * np.sqrt(a * b) * np.cos(0.5 * bend))
-    return Reach(float(inner), a + b)
+    return ArmReach(float(inner), a + b)
 
 
 @dataclass(frozen=True, slots=True)
