@@ -167,6 +167,33 @@ def test_solving_near_any_posture_is_solving(q, near):
     assert missed(found.q, there) < 1e-10
 
 
+@pytest.mark.parametrize("aside", [0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3])
+def test_a_line_through_the_first_axis_or_beside_it_is_followed_without_a_jump(aside):
+    """Where the arm angle's zero turns around, the elbow plane does not."""
+    q = np.array([0.4, -0.3, 0.2, 1.2, 0.3, 0.8, 0.1])
+    turn = forward(ARM, q).rotation
+    steps = []
+    for x in np.linspace(-0.1, 0.1, 201):
+        there = RigidTransform(turn, SHOULDER + [x, aside, 0.6])
+        found = solve(ARM, there, near=q).q if steps else solve(ARM, there).q
+        assert missed(found, there) < 1e-10
+        steps.append(np.abs(found - q).max())
+        q = found
+    assert max(steps[1:]) < 0.02
+
+
+def test_a_turn_through_an_aligned_wrist_is_followed_without_a_jump():
+    q = np.array([0.1, 0.5, 0.2, 1.2, 0.3, -0.1, 0.2])
+    steps = []
+    for sixth in np.linspace(-0.1, 0.1, 201):
+        there = forward(ARM, [0.1, 0.5, 0.2, 1.2, 0.3, sixth, 0.2])
+        found = solve(ARM, there, near=q).q
+        assert missed(found, there) < 1e-10
+        steps.append(np.abs(found - q).max())
+        q = found
+    assert max(steps[1:]) < 0.02
+
+
 @given(directions, st.floats(0.0, 5.0), postures)
 def test_whatever_is_asked_the_pose_offered_is_reached_within_limits(direction, distance, q):
     there = RigidTransform(forward(ARM, q).rotation, at(direction, distance).translation)

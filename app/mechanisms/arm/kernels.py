@@ -353,6 +353,23 @@ def eight_kernel(
 
 
 @njit
+def normal_kernel(q: FloatArray) -> Three:
+    """Return the normal of the elbow plane, R03 y, in the base's axes."""
+    c1, s1, c3, s3, c2, s2 = cos(q[0]), sin(q[0]), cos(q[2]), sin(q[2]), cos(q[1]), sin(q[1])
+    return -c1 * c2 * s3 - s1 * c3, -s1 * c2 * s3 + c1 * c3, s2 * s3
+
+
+@njit
+def angle_of_normal(normal: Three, sp: float, cp: float, cr: float, sr: float) -> float:
+    """Arm angle ψ at which the elbow plane has a normal, or the nearest to it: in (-π, π].
+
+    The line SW by sine and cosine of ψp and θref; in B the normal is (-sin ψ, cos ψ, 0).
+    """
+    level = cr * normal[0] + sr * normal[1]
+    return wrapped(atan2(sp * normal[2] - cp * level, cr * normal[1] - sr * normal[0]))
+
+
+@njit
 def arm_angle_kernel(q: FloatArray, lengths: Three, keep: float) -> tuple[float, int]:
     """Arm angle ψ of joint angles (7,), in (-π, π], and whether it has a zero: (ψ, singular).
 
@@ -360,7 +377,6 @@ def arm_angle_kernel(q: FloatArray, lengths: Three, keep: float) -> tuple[float,
     """
     m: Nine = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
     m = _turned_z(_turned_y(_turned_z(m, q[0]), q[1]), q[2])
-    normal = (m[1], m[4], m[7])
     upper = (lengths[1] * m[2], lengths[1] * m[5], lengths[1] * m[8])
     m = _turned_y(m, -q[3])
     x = upper[0] + lengths[2] * m[2]
@@ -374,9 +390,4 @@ def arm_angle_kernel(q: FloatArray, lengths: Three, keep: float) -> tuple[float,
         sp, cp, cr, sr = 0.0, 1.0 if z >= 0.0 else -1.0, cos(keep), sin(keep)
     else:
         sp, cp, cr, sr = aside / reach, z / reach, x / aside, y / aside
-    # In B: R03 y = (-sin ψ, cos ψ, 0).
-    level = cr * normal[0] + sr * normal[1]
-    return (
-        wrapped(atan2(sp * normal[2] - cp * level, cr * normal[1] - sr * normal[0])),
-        singular,
-    )
+    return angle_of_normal(normal_kernel(q), sp, cp, cr, sr), singular

@@ -259,9 +259,37 @@ def _search(
             if effort == 0:
                 _try(e, m, middle, near, close, lower, upper, bits, trial, best, told)
         if close:
-            wanted, _ = kernels.arm_angle_kernel(near, lengths, near[0])
+            # the elbow plane as it was: its arm angle jumps where its zero does, on the first axis
+            wanted = kernels.angle_of_normal(kernels.normal_kernel(near), e[5], e[6], cr, sr)
             _try(e, m, wanted, near, close, lower, upper, bits, trial, best, told)
     return OK
+
+
+@njit
+def _approach(
+    rotation: FloatArray,
+    position: FloatArray,
+    lengths: Three,
+    lower: FloatArray,
+    upper: FloatArray,
+    near: FloatArray,
+    work: FloatArray,
+    best: FloatArray,
+    told: FloatArray,
+) -> None:
+    # From the nearest solution so far along the arm angle to one that is nearer still.
+    trial = work[CUTS : CUTS + JOINTS]
+    sign = 1.0 if best[3] >= 0.0 else -1.0
+    _, e, cr, sr, bits = elbowed(position, lengths, sign, near[0])
+    m = seen_from_reach(rotation, e[5], e[6], cr, sr)
+    step = 0.1
+    while step > 1e-7:
+        before = told[1]
+        for side in (step, -step):
+            angle = wrapped(told[0] + side)
+            _try(e, m, angle, near, True, lower, upper, bits, trial, best, told)
+        if told[1] <= before:
+            step *= 0.5
 
 
 @njit
@@ -332,6 +360,8 @@ def solve_kernel(
         if status != OK:
             return status
         if told[2] > 0.0:
+            if close:
+                _approach(rotation, position, lengths, lower, upper, near, work, best, told)
             for k in range(JOINTS):
                 best[k] = max(lower[k], min(upper[k], best[k]))
             return OK
@@ -356,8 +386,10 @@ def solve(arm: ArmProfile, pose: RigidTransform, near: ArrayLike | None = None) 
         arm: its lengths and limits.
         pose: ⁰T₇ (`ArmProfile.wrist_pose` of a tool's pose).
         near: joint angles [rad], shape (7,), to which the solution shall be near (the largest
-            change of a joint counts); without it the one furthest from its joints' limits is taken,
-            of those in the middle of their pieces.
+            change of a joint counts): the nearest of those with the same elbow plane and of the
+            middles and ends of all pieces, and from there along the arm angle to one that is
+            nearer still. Without it the one furthest from its joints' limits is taken, of those in
+            the middle of their pieces.
 
     Raises:
         UnreachableError: if the wrist centre is too far from the shoulder, or too near, for the
