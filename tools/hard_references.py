@@ -10,6 +10,7 @@ from typing import Any
 from app.studies.hard_cases.case import REFERENCES
 from tools.exact import (
     ENTRIES,
+    arm,
     computed,
     contact,
     control,
@@ -21,7 +22,7 @@ from tools.exact import (
     space,
 )
 
-PARTS = (contact, control, hand, motion, optics, pictures, robot, space)
+PARTS = (arm, contact, control, hand, motion, optics, pictures, robot, space)
 """Modules that enter references."""
 
 

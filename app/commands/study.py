@@ -36,7 +36,9 @@ def study(
         Path | None, typer.Option(help="folder for tables (CSV, JSON) and pictures (PNG, SVG)")
     ] = None,
     repeats: Annotated[int, typer.Option(min=1, help="timings per way and setting")] = 9,
-    quick: Annotated[bool, typer.Option("--quick", help="two timings only")] = False,
+    quick: Annotated[
+        bool, typer.Option("--quick", help="two timings only, less of a survey")
+    ] = False,
     fresh: Annotated[
         bool, typer.Option("--fresh", help="`all`: keep nothing of a run that was broken off")
     ] = False,
@@ -65,7 +67,7 @@ def study(
     given = tuple(inputs or ())
     result: Result | SurveyResult
     if isinstance(chosen, Survey):
-        result = examine(chosen, inputs=given)
+        result = examine(chosen, inputs=given, quick=quick)
     elif given:
         raise StudyError(f"study {name} takes no folders; leave {given[0]} out")
     else:

@@ -75,6 +75,7 @@ class Survey:
         name, title, question, reference: as the file's declaration says; the runner fills them in.
         measure: does the work; may report how far it is, and be cancelled. Where there are
             `inputs` it is called with them as well.
+        quick: the same on less, for a first look (`--quick`); None if there is nothing less.
         inputs: what the paths are that may be given to it; empty if it takes none.
     """
 
@@ -83,6 +84,7 @@ class Survey:
     question: str = ""
     reference: str = ""
     measure: Callable[..., Findings] = _nothing
+    quick: Callable[..., Findings] | None = None
     inputs: str = ""
 
 
