@@ -202,7 +202,8 @@ def paint_background(
     width, height = model.image_size
     pattern = sample_pattern(blur_px, COARSE)
     pose = model.T_world_camera
-    parts = (rays.tobytes(), pattern.tobytes(), pose.rotation.tobytes(), pose.translation.tobytes())
+    known = rays, pattern, pose.rotation, pose.translation
+    parts = tuple(array.tobytes() for array in known)
     if boxes != HOUSING:
         parts = (*parts, repr(boxes).encode())
     traced = kept_or_traced(

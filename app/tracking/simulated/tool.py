@@ -14,7 +14,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from app.core.arrays import FloatArray, frozen, unit
+from app.core.arrays import FloatArray, frozen, read_only, unit
 from app.core.compiled import njit
 from app.core.units import MILLIMETRE
 from app.tracking.cameras.camera import Image
@@ -23,6 +23,7 @@ from app.tracking.optics.rig import CameraProfile, NeedleProfile, NeedleShape
 from app.tracking.simulated.background import FINE, LIGHT_WORLD, HousingBox, sample_pattern
 from app.tracking.simulated.cameras import NeedleRenderer, pixel_rays
 from app.tracking.simulated.scene import MarkerScene
+from app.tracking.tool.pose import ToolOutline
 
 TABLE: Final = (
     HousingBox((-0.6, -0.5, -0.04), (0.6, 0.5, -0.02), (150.0, 152.0, 156.0)),  # table
@@ -70,18 +71,15 @@ class ToolProfile:
             marker_diameter_mm=self.handle_diameter_mm,
         )
 
-    def centre_behind_tip(self, hidden: float = 0.0) -> float:
-        """Distance from the tip to the centre of the outline's area [m], seen from the side.
-
-        Args:
-            hidden: length at the tip that is not seen [m].
-        """
+    @property
+    def outline(self) -> ToolOutline:
+        """Radius along it."""
         shape = self.needle.shape
-        edges = np.linspace(-shape.half, shape.tip - hidden, 20_001)
-        along = 0.5 * (edges[1:] + edges[:-1])
-        width = shape.shaft * np.clip((shape.tip - along) / shape.point, 0.0, 1.0)
-        width = np.where(along < shape.half, shape.radius, width)
-        return float(shape.tip - np.average(along, weights=width))
+        handle, point = 2.0 * shape.half, shape.tip + shape.half - shape.point
+        end = shape.tip + shape.half
+        at = np.array([0.0, handle, handle, point, end])
+        radius = np.array([shape.radius, shape.radius, shape.shaft, shape.shaft, 0.0])
+        return ToolOutline(read_only(at), read_only(radius))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
