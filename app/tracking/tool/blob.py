@@ -217,7 +217,7 @@ def find_tool(
     rim = (one > 0) & (cv2.erode(one, _SQUARE3) == 0)
     found = np.argwhere(share > 0.0)
     rows, columns = found[:, 0], found[:, 1]
-    pixels = found[:, ::-1].astype(np.float64) + [left, top]
+    pixels = found[:, ::-1].astype(np.float64) + np.array([left, top])
     shares, at_rim = share[rows, columns].astype(np.float64), rim[rows, columns]
     on_edge = (pixels <= 0.0) | (pixels >= np.array(image.shape[1::-1]) - 1.0)
     edge_px = hypot(2.0**0.5 * noise_grey * per_grey, _EDGE_PX)  # two mixed pixels across

@@ -146,6 +146,21 @@ class AxisSight:
         """Direction of the axis in the picture, shape (2,)."""
         return np.array([cos(self.angle), sin(self.angle)])
 
+    def plane(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """Return the plane through camera and axis, in world, and how it changes.
+
+        Returns:
+            Ray a of the centre, (3,), of third coordinate 1 in the camera's frame; normal a x b,
+            (3,), not of length one; their derivatives by centre and angle, (3, 3) each.
+        """
+        R = self.T_world_camera.rotation
+        along = R @ [*self.along, 0.0]
+        turned = R @ [-self.along[1], self.along[0], 0.0]
+        ray = R @ [*self.centre, 1.0]
+        ray_by = np.column_stack([R[:, 0], R[:, 1], np.zeros(3)])
+        normal_by = [cross(R[:, 0], along), cross(R[:, 1], along), cross(ray, turned)]
+        return ray, cross(ray, along), ray_by, np.column_stack(normal_by)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ToolPose:
@@ -281,14 +296,8 @@ def _intersection(first: AxisSight, second: AxisSight) -> _Line | None:
     rays_by, normals_by = np.zeros((2, 3, 6)), np.zeros((2, 3, 6))
     spread = np.zeros((6, 6))
     for k, sight in enumerate(sights):
-        R, at = sight.T_world_camera.rotation, slice(3 * k, 3 * k + 3)
-        ray, along = R @ [*sight.centre, 1.0], R @ [*sight.along, 0.0]
-        turned = R @ [-sight.along[1], sight.along[0], 0.0]
-        rays[k], normals[k] = ray, cross(ray, along)
-        rays_by[k][:, at] = np.column_stack([R[:, 0], R[:, 1], np.zeros(3)])
-        normals_by[k][:, at] = np.column_stack(
-            [cross(R[:, 0], along), cross(R[:, 1], along), cross(ray, turned)]
-        )
+        at = slice(3 * k, 3 * k + 3)
+        rays[k], normals[k], rays_by[k][:, at], normals_by[k][:, at] = sight.plane()
         spread[at, at] = sight.spread
     both = cross(normals[0], normals[1])
     length = float(np.linalg.norm(both))
