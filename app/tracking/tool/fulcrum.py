@@ -1,9 +1,9 @@
 """The fulcrum from the motion of the shaft: the point that all its lines pass through.
 
 Two ways. `meet_lines` is the algebraic one: with e₁, e₂ across each line (p, d), the point f of the
-least sum of squared distances solves e·f = e·p for all of them, and what the poses' covariances make
-of it is its covariance. `meet_planes` asks the pictures: the fulcrum's picture lies on the axis that
-each camera sees, and its distance from it counts by the variance of that axis there,
+least sum of squared distances solves e·f = e·p for all of them, and what the poses' covariances
+make of it is its covariance. `meet_planes` asks the pictures: the fulcrum's picture lies on the
+axis that each camera sees, and its distance from it counts by the variance of that axis there,
 
     e = -sin α (x - c_x) + cos α (y - c_y),   var e = hᵀ Σ h,   h = (sin α, -cos α, -u),
 
@@ -77,7 +77,7 @@ class Fulcrum:
     Attributes:
         status: see `FulcrumStatus`.
         p_world: the point [m], shape (3,).
-        covariance: of it [m²], shape (3, 3); inflated where the lines miss it by more than they say.
+        covariance: of it [m²], shape (3, 3); inflated where lines miss it by more than they say.
         used: how many lines, or sights, count.
         left_out: how many did not fit and do not.
     """
@@ -123,9 +123,7 @@ def meet_lines(lines: Sequence[ShaftLine]) -> Fulcrum:
         away = np.einsum("ni,ni->n", axes, points - p_world)
         by = np.concatenate([across, -away[:, None, None] * across], axis=2)  # (n, 2, 6)
         variances = by @ spreads @ by.transpose(0, 2, 1) + 1e-18 * np.eye(2)
-        misfit = np.einsum(
-            "ni,ni->n", misses, np.linalg.solve(variances, misses[..., None])[..., 0]
-        )
+        misfit = np.einsum("ni,nij,nj->n", misses, np.linalg.inv(variances), misses)
         gains = solver.reshape(3, -1, 2)
         spread = np.einsum("inj,njk,lnk->il", gains, variances[keep], gains)
         found = _found(p_world, spread, misfit, keep, 2)
@@ -205,7 +203,7 @@ def _inverse(rows: FloatArray, axes: FloatArray, turning: FloatArray) -> FloatAr
 
 
 def _where_planes_meet(sights: Sequence[AxisSight], keep: NDArray[np.bool_]) -> FloatArray | None:
-    """Algebraic point of the planes through cameras and axes; None where they do not meet in one."""
+    """Algebraic point of the planes through cameras and axes; None if they meet in no one point."""
     kept = [sight for sight, one in zip(sights, keep, strict=True) if one]
     planes = [sight.plane() for sight in kept]
     normals = np.array([plane[1] for plane in planes])
@@ -242,7 +240,7 @@ def _distances(
 
 
 def _fitting(misfit: FloatArray, keep: NDArray[np.bool_], freedom: int) -> NDArray[np.bool_]:
-    """Say which fit: against their own median, so that lines worse than they say are no outliers."""
+    """Say which fit, against their own median: lines worse than they say are no outliers."""
     scale = max(1.0, float(np.median(misfit[keep])) / chi_square_quantile(0.5, freedom))
     return np.asarray(misfit < scale * chi_square_quantile(_FIT, freedom))
 

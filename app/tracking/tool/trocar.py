@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, cross, read_only, unit
-from app.core.units import DEGREE, MILLIMETRE
+from app.core.units import DEGREE
 from app.tracking.cameras.camera import Image
 from app.tracking.confidence import chi_square_quantile
 from app.tracking.markers.colour import ColourModel
@@ -160,10 +160,8 @@ def solve_trocar(
     p_start, systematic, seen = start
     outline = _Rays.of([(model, rays) for model, rays, _ in pixels])
     best = outline.best(p_start, _normals(models, p_start))
-    for m in models:
-        view = unit(best.p_world - m.centre)
-        if abs(float(view @ best.normal)) < np.cos(GRAZING):
-            return _nothing(TrocarStatus.GRAZING)
+    if best is None or not outline.faces(best.normal, GRAZING - 2.0 * DEGREE):
+        return _nothing(TrocarStatus.GRAZING)
     off = radius is not None and abs(best.radius - radius) > _RADIUS_OFF * radius
     if off or not best.cost < _LARGEST_COST:
         return _nothing(TrocarStatus.NOT_A_RING)
@@ -249,14 +247,20 @@ class _Rays:
             ),
         )
 
-    def best(self, p_world: FloatArray, normals: list[FloatArray]) -> _CircleFit:
+    def best(self, p_world: FloatArray, normals: list[FloatArray]) -> _CircleFit | None:
         """Fit from several normals: one that is good ends it, for wrong ones do not fit both."""
         found: list[_CircleFit] = []
         for normal in normals:
-            found.append(self.fit(p_world, normal))
-            if found[-1].cost < _GOOD_COST:
-                break
-        return min(found, key=lambda fit: fit.cost)
+            if self.faces(normal):
+                found.append(self.fit(p_world, normal))
+                if found[-1].cost < _GOOD_COST:
+                    break
+        return min(found, key=lambda fit: fit.cost, default=None)
+
+    def faces(self, n: FloatArray, limit: float = GRAZING) -> bool:
+        """Say whether both cameras see the plane no flatter than an angle from its normal [rad]."""
+        facing = np.abs(self.rays @ n) / np.linalg.norm(self.rays, axis=1)
+        return bool(facing.min() > np.cos(limit))
 
     def fit(self, p_world: FloatArray, normal: FloatArray) -> _CircleFit:
         """Gauss–Newton from a place and a normal; steps that do not help are halved."""
@@ -270,8 +274,10 @@ class _Rays:
             share, after = 1.0, np.inf
             while share > 1e-2 and not after <= cost:
                 tried = self._moved(p, n, radius, share * change)
-                tried_misses, tried_by = self._residual(*tried)
-                after, share = float(tried_misses[keep] @ tried_misses[keep]), 0.5 * share
+                share *= 0.5
+                if self.faces(tried[1]):
+                    tried_misses, tried_by = self._residual(*tried)
+                    after = float(tried_misses[keep] @ tried_misses[keep])
             if not after <= cost:
                 break
             (p, n, radius), misses, by = tried, tried_misses, tried_by
