@@ -178,6 +178,8 @@ class ToolRenderer:
 
     def _draw_trocar(self, trocar: TrocarPlace, blur_px: float) -> None:
         normal = self.model.T_camera_world.rotate(trocar.normal_world)
+        if float((self.model.centre - trocar.p_world) @ trocar.normal_world) <= 0.0:
+            return  # the body hides it
         facing = float(trocar.normal_world @ LIGHT_WORLD[:3])
         draw_ring(
             self._behind,

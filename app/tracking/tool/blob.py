@@ -91,7 +91,7 @@ class ToolMiss:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Moments:
+class AreaMoments:
     """Centre and principal axis of an area, in any flat coordinates.
 
     Attributes:
@@ -138,7 +138,7 @@ class ToolBlob:
     shares: FloatArray
     rim: NDArray[np.bool_]
     edge_px: float
-    moments: Moments
+    moments: AreaMoments
     hull: FloatArray
     cut: bool
     bridged: float
@@ -150,7 +150,7 @@ def moments(
     areas: FloatArray,
     rim: NDArray[np.bool_],
     edge_px: float,
-) -> Moments:
+) -> AreaMoments:
     """Return centre, principal axis and their covariance of pixels in any flat coordinates.
 
     Args:
@@ -182,7 +182,7 @@ def moments(
         found, turned, gap = None, np.zeros_like(turned), 1.0
     changes = np.column_stack([reach * moved[:, None], turned / gap])
     spread = changes.T @ changes
-    return Moments(total, read_only(centre), read_only(covariance), found, read_only(spread))
+    return AreaMoments(total, read_only(centre), read_only(covariance), found, read_only(spread))
 
 
 def find_tool(

@@ -40,7 +40,7 @@ from app.core.transform import RigidTransform
 from app.tracking.confidence import chi_square_quantile
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.stereo.calibration_uncertainty import CalibrationUncertainty
-from app.tracking.tool.blob import Moments, ToolBlob, moments
+from app.tracking.tool.blob import AreaMoments, ToolBlob, moments
 
 LARGEST_SD: Final = 0.1
 """Standard deviation of the direction [rad] from which on two planes give no line."""
@@ -202,7 +202,7 @@ class _Outline:
 
     points: FloatArray
     weights: FloatArray
-    moments: Moments
+    moments: AreaMoments
 
 
 def solve_tool(
@@ -269,7 +269,7 @@ def _sight(
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Line:
+class _MeetingLine:
     """A line in world, and how it changes with (c_x, c_y, α) of both pictures.
 
     Attributes:
@@ -289,7 +289,7 @@ class _Line:
     normals: FloatArray
 
 
-def _intersection(first: AxisSight, second: AxisSight) -> _Line | None:
+def _intersection(first: AxisSight, second: AxisSight) -> _MeetingLine | None:
     """Return the line in which the planes of two sights meet; None where they hardly differ."""
     sights = first, second
     rays, normals = np.zeros((2, 3)), np.zeros((2, 3))
@@ -323,11 +323,11 @@ def _intersection(first: AxisSight, second: AxisSight) -> _Line | None:
             offset @ normals_by[1 - k] - t * (rays[k] @ normals_by[1 - k] + normal @ rays_by[k])
         ) / facing
         places_by[k] = np.outer(rays[k], t_by) + t * rays_by[k]
-    return _Line(axis, axis_by, places, places_by, spread, normals)
+    return _MeetingLine(axis, axis_by, places, places_by, spread, normals)
 
 
 def _posed(
-    line: _Line,
+    line: _MeetingLine,
     sights: tuple[AxisSight, ...],
     blobs: tuple[ToolBlob, ToolBlob],
     outlines: tuple[_Outline, _Outline],
@@ -392,7 +392,7 @@ class _Profile:
     distance: float
 
 
-def _along(line: _Line, k: int, sight: AxisSight, outline: _Outline) -> _Profile:
+def _along(line: _MeetingLine, k: int, sight: AxisSight, outline: _Outline) -> _Profile:
     """Carry one picture's pixels to the line and take their moments there."""
     R, origin = sight.T_world_camera.rotation, sight.T_world_camera.translation
     along = (outline.points - sight.centre) @ sight.along

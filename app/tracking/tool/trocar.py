@@ -55,6 +55,9 @@ _OUTSIDE: Final = 0.75
 
 _STEPS: Final = 20
 _RADIUS_OFF: Final = 0.15
+_BESIDE: Final = 0.3
+"""Largest distance of the centre from where the middles of both pictures meet, in radii."""
+
 _INCLINED: Final = 0.7
 """Tangent of the inclination of the normals to begin with."""
 
@@ -153,18 +156,19 @@ def solve_trocar(
     """
     pixels = [(m, *m.undistort(uv)) for m, uv in zip(models, outlines, strict=True)]
     if not all(found.all() for _, _, found in pixels):
-        return _nothing(TrocarStatus.DEGENERATE)
+        return no_trocar(TrocarStatus.DEGENERATE)
     start = _start(models, outlines, systematic_px)
     if start is None:
-        return _nothing(TrocarStatus.DEGENERATE)
+        return no_trocar(TrocarStatus.DEGENERATE)
     p_start, systematic, seen = start
     outline = _Rays.of([(model, rays) for model, rays, _ in pixels])
     best = outline.best(p_start, _normals(models, p_start))
     if best is None or not outline.faces(best.normal, GRAZING - 2.0 * DEGREE):
-        return _nothing(TrocarStatus.GRAZING)
+        return no_trocar(TrocarStatus.GRAZING)
     off = radius is not None and abs(best.radius - radius) > _RADIUS_OFF * radius
-    if off or not best.cost < _LARGEST_COST:
-        return _nothing(TrocarStatus.NOT_A_RING)
+    beside = float(np.linalg.norm(best.p_world - p_start)) > _BESIDE * best.radius
+    if off or beside or not best.cost < _LARGEST_COST:
+        return no_trocar(TrocarStatus.NOT_A_RING)
     covariance = best.covariance + systematic
     if uncertainty is not None:
         covariance = covariance + uncertainty.covariance(best.p_world, seen)
@@ -270,7 +274,7 @@ class _Rays:
         keep = np.ones(len(misses), np.bool_)
         for number in range(_STEPS):
             cost = float(misses[keep] @ misses[keep])
-            change = np.linalg.lstsq(by[keep], -misses[keep], rcond=1e-9)[0]
+            change: FloatArray = np.linalg.lstsq(by[keep], -misses[keep], rcond=1e-9)[0]
             share, after = 1.0, np.inf
             while share > 1e-2 and not after <= cost:
                 tried = self._moved(p, n, radius, share * change)
@@ -286,7 +290,7 @@ class _Rays:
             if number > 5 and cost - after < 1e-4 * cost:
                 break
         keep = self._fitting(misses)
-        spread = np.linalg.pinv(by[keep].T @ by[keep], rcond=1e-12, hermitian=True)
+        spread: FloatArray = np.linalg.pinv(by[keep].T @ by[keep], rcond=1e-12, hermitian=True)
         square = float(misses[keep] @ misses[keep])
         factor = max(1.0, square / max(1, int(keep.sum()) - 6))
         rms_px = _EDGE_PX * float(np.sqrt(square / max(1, int(keep.sum()))))
@@ -344,6 +348,7 @@ def _two_across(n: FloatArray) -> tuple[FloatArray, FloatArray]:
     return first, cross(n, first)
 
 
-def _nothing(status: TrocarStatus) -> TrocarFix:
+def no_trocar(status: TrocarStatus) -> TrocarFix:
+    """Return that there is none, and why."""
     zero = read_only(np.zeros(3))
     return TrocarFix(status, zero, read_only(np.zeros((3, 3))), zero)
