@@ -395,8 +395,8 @@ STUDY: Final = Study(
     perception=Limit(_SEEN, "0.5 mm"),
     default="planes",
     exception=(
-        "Once per motion a millisecond is nothing. It needs no pose, so that pictures of one camera "
-        "count, and its errors are weighed where they arise."
+        "Once per motion a millisecond is nothing. It needs no pose, so that pictures of one "
+        "camera count, and its errors are weighed where they arise."
     ),
     in_use=lambda: called(ToolEyes.fulcrum, "meet_planes"),
     findings=_findings,
