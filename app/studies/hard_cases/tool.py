@@ -236,7 +236,10 @@ def _along_the_skin() -> HardCase:
             "named CONTRADICTORY for lines that miss each other by centimetres",
             lambda: (
                 meet_lines(
-                    [replace(x, p_world=x.p_world + np.array([0.0, 0.0, 0.03 * k])) for k, x in enumerate(lines)]
+                    [
+                        replace(x, p_world=x.p_world + np.array([0.0, 0.0, 0.03 * k]))
+                        for k, x in enumerate(lines)
+                    ]
                 ).status
                 is FulcrumStatus.CONTRADICTORY
             ),

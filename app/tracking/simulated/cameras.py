@@ -155,7 +155,7 @@ def _nearness(dx: float, dy: float, a: Any, c: Any, shape: Any, margin: float) -
     dc = dx * c[0] + dy * c[1] + c[2]
     ac = a[0] * c[0] + a[1] * c[1] + a[2] * c[2]
     square = dd - da * da
-    if square < 1e-9:
+    if square < 1e-3 * dd:  # along the axis: where both are nearest says nothing
         return 2
     t = (dc - da * ac) / square
     s = t * da - ac

@@ -118,6 +118,12 @@ class AreaMoments:
         """Length of the bar of the same variance along the principal axis."""
         return float(np.sqrt(12.0 * np.linalg.eigvalsh(self.covariance)[1]))
 
+    @property
+    def elongation(self) -> float:
+        """Length over width, at least 1."""
+        narrow, wide = np.linalg.eigvalsh(self.covariance)
+        return float(np.sqrt(wide / max(float(narrow), 1e-12 * float(wide) + 1e-300)))
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ToolBlob:
@@ -292,7 +298,8 @@ def _shares(image: Image, strength: Mask, strong: Mask) -> tuple[NDArray[np.floa
     )
     share = np.where(near > 0, np.clip(share, 0.0, 1.0), 0.0).astype(np.float32)
     rim = strong > inside
-    return share, 1.0 / max(float(np.median(length[rim])), _TELLS)
+    usual = float(np.median(length[rim])) if rim.any() else 0.0
+    return share, 1.0 / max(usual, _TELLS)
 
 
 def _bridged(image: Image, body: Mask) -> tuple[Mask, Mask]:

@@ -49,6 +49,9 @@ _SLICES: Final = 240
 """Pieces of a tool by which its outline is added up."""
 
 _AGREE: Final = chi_square_quantile(1.0 - 1e-6, 1)
+_LONG: Final = 1.2
+"""Length over width from which on an outline has the shaft's axis: perspective stretches discs."""
+
 _SKEWED: Final = 0.1
 """Least skewness along the axis, in both pictures, that tells the tip."""
 
@@ -258,7 +261,7 @@ def _sight(
     model: CameraModel, blob: ToolBlob, outline: _Outline, systematic_px: float
 ) -> AxisSight | None:
     seen = outline.moments
-    if seen.angle is None:
+    if seen.angle is None or not seen.elongation > _LONG:
         return None
     sd = systematic_px / float(model.intrinsics[:2].min())
     spread = seen.spread + np.diag([sd**2, sd**2, 2.0 * (sd / seen.length) ** 2])
