@@ -28,7 +28,7 @@ from app.tracking.tool.trocar import TrocarStatus, solve_trocar
 
 _Way = Callable[..., Any]
 
-LYING: Final = ToolScene([0.1, 0.03, 0.009], [0.9, 0.3, 0.0])
+LYING: Final = ToolScene(np.array([0.1, 0.03, 0.009]), np.array([0.9, 0.3, 0.0]))
 TOOL: Final = ToolProfile()
 
 
@@ -131,7 +131,7 @@ def _bleached() -> HardCase:
         return replace(_seen(image), moments=whole(pixels))
 
     def two() -> bool:
-        other = ToolScene([0.1, -0.12, 0.009], [0.9, 0.3, 0.0])
+        other = ToolScene(np.array([0.1, -0.12, 0.009]), np.array([0.9, 0.3, 0.0]))
         found = find_tool(renderer().render(replace(LYING, others=(other,))))
         return isinstance(found, ToolMiss) and found.reason is ToolMissReason.TWO_TOOLS
 
@@ -150,7 +150,7 @@ def _bleached() -> HardCase:
 
 
 def _cut() -> HardCase:
-    scene = ToolScene([-0.03, 0.33, 0.2], [0.25, -1.0, -0.1])
+    scene = ToolScene(np.array([-0.03, 0.33, 0.2]), np.array([0.25, -1.0, -0.1]))
 
     def angle(way: _Way) -> Any:
         return way(renderer().render(scene)).moments.angle
@@ -190,7 +190,8 @@ def _all_but_parallel() -> HardCase:
     def normal_equations(lines: list[ShaftLine]) -> Any:
         across = [np.eye(3) - np.outer(line.axis_world, line.axis_world) for line in lines]
         right = sum(a @ line.p_world for a, line in zip(across, lines, strict=True))
-        return replace(meet_lines(lines), p_world=np.linalg.solve(sum(across), right))
+        solved: FloatArray = np.linalg.solve(sum(across), right)
+        return replace(meet_lines(lines), p_world=solved)
 
     def parallel() -> bool:
         rows = [(0.01 * k, 0.02 * k * k, 0.3, 0.1, 0.2, -1.0) for k in range(5)]

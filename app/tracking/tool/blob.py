@@ -220,7 +220,8 @@ def find_tool(
     # Whole inside, the share along the outline, nothing beyond it.
     share = np.where(cv2.erode(one, _SQUARE3) | (one & bridged), 1.0, share)
     share = np.where(cv2.dilate(one, _SQUARE3), share, 0.0)
-    rim = (one > 0) & (cv2.erode(one, _SQUARE3) == 0)
+    inner = cv2.erode(one, _SQUARE3, borderType=cv2.BORDER_CONSTANT, borderValue=0)
+    rim = (one > 0) & (inner == 0)
     found = np.argwhere(share > 0.0)
     rows, columns = found[:, 0], found[:, 1]
     pixels = found[:, ::-1].astype(np.float64) + np.array([left, top])
