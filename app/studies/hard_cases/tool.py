@@ -190,7 +190,7 @@ def _all_but_parallel() -> HardCase:
     def normal_equations(lines: list[ShaftLine]) -> Any:
         across = [np.eye(3) - np.outer(line.axis_world, line.axis_world) for line in lines]
         right = sum(a @ line.p_world for a, line in zip(across, lines, strict=True))
-        solved: FloatArray = np.linalg.solve(sum(across), right)
+        solved = np.asarray(np.linalg.solve(sum(across), right), dtype=np.float64)
         return replace(meet_lines(lines), p_world=solved)
 
     def parallel() -> bool:

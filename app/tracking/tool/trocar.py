@@ -274,7 +274,9 @@ class _Rays:
         keep = np.ones(len(misses), np.bool_)
         for number in range(_STEPS):
             cost = float(misses[keep] @ misses[keep])
-            change: FloatArray = np.linalg.lstsq(by[keep], -misses[keep], rcond=1e-9)[0]
+            change = np.asarray(
+                np.linalg.lstsq(by[keep], -misses[keep], rcond=1e-9)[0], dtype=np.float64
+            )
             share, after = 1.0, np.inf
             while share > 1e-2 and not after <= cost:
                 tried = self._moved(p, n, radius, share * change)
@@ -290,7 +292,9 @@ class _Rays:
             if number > 5 and cost - after < 1e-4 * cost:
                 break
         keep = self._fitting(misses)
-        spread: FloatArray = np.linalg.pinv(by[keep].T @ by[keep], rcond=1e-12, hermitian=True)
+        spread = np.asarray(
+            np.linalg.pinv(by[keep].T @ by[keep], rcond=1e-12, hermitian=True), dtype=np.float64
+        )
         square = float(misses[keep] @ misses[keep])
         factor = max(1.0, square / max(1, int(keep.sum()) - 6))
         rms_px = _EDGE_PX * float(np.sqrt(square / max(1, int(keep.sum()))))
