@@ -80,14 +80,14 @@ def spiral(amplitude: float, count: int, phase: float) -> Iterator[FloatArray]:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Motion:
+class ShaftMotion:
     """Poses of a tool that was turned about the trocar, and the last pictures of it."""
 
     poses: tuple[ToolPose, ...]
     pictures: Pair
 
 
-def motion(stand: Stand, amplitude: float, count: int, seed: int) -> Motion:
+def motion(stand: Stand, amplitude: float, count: int, seed: int) -> ShaftMotion:
     """Turn a tool about the trocar within a cone of half angle [rad] and look at it."""
     rng = np.random.default_rng(seed)
     poses = []
@@ -97,7 +97,7 @@ def motion(stand: Stand, amplitude: float, count: int, seed: int) -> Motion:
         found = stand.eyes.tool(pictures)
         if isinstance(found, ToolPose) and found.status is ToolStatus.FOUND:
             poses.append(found)
-    return Motion(tuple(poses), pictures)
+    return ShaftMotion(tuple(poses), pictures)
 
 
 def by_lines(poses: tuple[ToolPose, ...]) -> Fulcrum:

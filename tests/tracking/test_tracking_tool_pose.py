@@ -13,7 +13,14 @@ from app.tracking.simulated.tool import ToolProfile, ToolScene
 from app.tracking.tool import pose as pose_module
 from app.tracking.tool.blob import find_tool
 from app.tracking.tool.eyes import ToolEyes
-from app.tracking.tool.pose import AxisSight, TipEnd, ToolOutline, ToolStatus, solve_tool
+from app.tracking.tool.pose import (
+    AxisSight,
+    TipEnd,
+    ToolOutline,
+    ToolStatus,
+    axis_sight,
+    solve_tool,
+)
 from tests.tracking.tool_rig import LYING, TOOL, TROCAR, models, pictures
 
 ROD = ToolProfile(handle_diameter_mm=10.0)
@@ -116,6 +123,14 @@ def test_the_line_of_a_cut_tool_counts_and_its_centre_is_uncertain_along_it():
     assert found.status is ToolStatus.FOUND
     assert not found.whole
     assert np.linalg.norm(np.cross(found.axis_world, scene.axis_world)) < np.deg2rad(2.0)
+
+
+def test_one_camera_sees_the_axis_by_itself():
+    image = pictures(SCENES[0])[0]
+    both = eyes_of().tool(pictures(SCENES[0]))
+    alone = axis_sight(models()[0], find_tool(image))
+    assert alone.angle == both.sights[0].angle
+    np.testing.assert_array_equal(alone.centre, both.sights[0].centre)
 
 
 def test_the_calibration_adds_its_own_share():
