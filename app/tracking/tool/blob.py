@@ -279,7 +279,8 @@ def _shares(image: Image, strength: Mask, strong: Mask) -> tuple[NDArray[np.floa
     A pixel of share s is s g t + (1 - s) b: the tool's colour t under more or less light g, and
     what is behind, b, as it is a little way off. Across t it shows 1 - s, whatever the light. Where
     b says nothing (it is black, or of the tool's colour) the strength must do, over what is
-    strongest within three pixels, and nowhere may it be much less than the share says.
+    strongest within three pixels: nowhere is the share less than that, even where a lamp adds its
+    white, or much more.
     """
     near = cv2.dilate(strong, _SQUARE7)
     outside = (near == 0).astype(np.float32)
@@ -294,9 +295,9 @@ def _shares(image: Image, strength: Mask, strong: Mask) -> tuple[NDArray[np.floa
     through = np.einsum("ijk,ijk->ij", colours, across) / np.maximum(length, 1.0) ** 2
     own = np.where(near, strength, 0).astype(np.float32)
     beside = np.maximum(cv2.dilate(cv2.blur(own, (3, 3)), _SQUARE7), 1.0)
-    share = np.where(
-        length > _TELLS, np.minimum(1.0 - through, own / (_DARKEST * beside)), own / beside
-    )
+    by_strength = own / beside
+    by_colour = np.minimum(1.0 - through, by_strength / _DARKEST)
+    share = np.where(length > _TELLS, np.maximum(by_colour, by_strength), by_strength)
     share = np.where(near > 0, np.clip(share, 0.0, 1.0), 0.0).astype(np.float32)
     rim = strong > inside
     usual = float(np.median(length[rim])) if rim.any() else 0.0
