@@ -5,25 +5,16 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from importlib import import_module
+from pkgutil import iter_modules
 from typing import Any
 
 from app.studies.hard_cases.case import REFERENCES
-from tools.exact import (
-    ENTRIES,
-    arm,
-    computed,
-    contact,
-    control,
-    hand,
-    motion,
-    optics,
-    pictures,
-    robot,
-    space,
-)
+from tools import exact
+from tools.exact import ENTRIES, computed
 
-PARTS = (arm, contact, control, hand, motion, optics, pictures, robot, space)
-"""Modules that enter references."""
+PARTS = [import_module(f"{exact.__name__}.{found.name}") for found in iter_modules(exact.__path__)]
+"""Modules that enter references, by lying in the folder."""
 
 
 def document() -> dict[str, Any]:

@@ -39,6 +39,7 @@ SUBSYSTEMS: Final = (
     "triangulation",
     "calibration",
     "pose of the pen",
+    "tool and trocar",
     "rotations",
     "DICOM geometry",
     "oblique planes",

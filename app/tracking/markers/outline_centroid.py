@@ -317,7 +317,7 @@ class OutlineCentroid(Extractor):
 
     def mask(self, image: Image) -> Mask:
         """See `Extractor.mask`."""
-        strength = _strengths(image, self.colour)
+        strength = strengths(image, self.colour)
         return _threshold(strength, self.colour.threshold(float(np.percentile(strength, 99.9))))
 
     def patch_centre(self, image: Image, centre: FloatArray) -> FloatArray | None:
@@ -402,8 +402,8 @@ class OutlineCentroid(Extractor):
         return MarkerFix(origin + np.array([u, v]), covariance, area, quality)
 
 
-def _strengths(image: Image, colour: ColourModel) -> Mask:
-    """Strength of the marker's colour, at least 0 [grey levels]."""
+def strengths(image: Image, colour: ColourModel) -> Mask:
+    """Strength of the marker's colour in every pixel, 0 to 255 [grey levels], (height, width)."""
     return np.asarray(cv2.transform(np.ascontiguousarray(image), colour.weights[None]), np.uint8)
 
 

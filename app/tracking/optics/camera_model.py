@@ -130,3 +130,8 @@ class CameraModel:
         fx, fy = self.intrinsics[:2]
         determinant = (xx * yy - xy * xy) * fx * fy
         return np.array([[fy * yy, -fx * xy], [-fy * xy, fx * xx]]) / determinant
+
+    def pixel_areas(self, rays: FloatArray) -> FloatArray:
+        """Area of a pixel in normalised coordinates at `rays`, (n, 2) -> (n,)."""
+        xx, xy, yy = distortion_jacobian(rays[:, 0], rays[:, 1], self.distortion)
+        return np.asarray(1.0 / ((xx * yy - xy * xy) * np.prod(self.intrinsics[:2])))

@@ -191,21 +191,32 @@ LIGHT_WORLD: FloatArray = np.array([*unit([0.35, 0.75, 0.85]), 0.45, 0.50])
 """Towards the lamp (above and behind the cameras), ambient and diffuse share."""
 
 
-def paint_background(model: CameraModel, rays: FloatArray, blur_px: float, seed: int) -> Image:
-    """Picture of the housing without the needle, uint8 (height, width, 3)."""
+def paint_background(
+    model: CameraModel,
+    rays: FloatArray,
+    blur_px: float,
+    seed: int,
+    boxes: tuple[HousingBox, ...] = HOUSING,
+) -> Image:
+    """Picture of the housing, or of other `boxes`, with nothing before it: uint8 (H, W, 3)."""
     width, height = model.image_size
     pattern = sample_pattern(blur_px, COARSE)
     pose = model.T_world_camera
-    parts = (rays.tobytes(), pattern.tobytes(), pose.rotation.tobytes(), pose.translation.tobytes())
+    known = rays, pattern, pose.rotation, pose.translation
+    parts = tuple(array.tobytes() for array in known)
+    if boxes != HOUSING:
+        parts = (*parts, repr(boxes).encode())
     traced = kept_or_traced(
-        parts, (height, width, 3), lambda: _traced(model, rays, pattern).astype(np.float32)
+        parts, (height, width, 3), lambda: _traced(model, rays, pattern, boxes).astype(np.float32)
     )
     image = traced + _mottling(width, height, seed)[..., None]
     return np.clip(image + 0.5, 0.0, 255.0).astype(np.uint8)
 
 
-def _traced(model: CameraModel, rays: FloatArray, pattern: FloatArray) -> FloatArray:
-    """Housing in its light, before the unevenness that differs from run to run."""
+def _traced(
+    model: CameraModel, rays: FloatArray, pattern: FloatArray, boxes: tuple[HousingBox, ...]
+) -> FloatArray:
+    """Boxes in their light, before the unevenness that differs from run to run."""
     width, height = model.image_size
     image = np.full((height, width, 3), 96.0)
     trace_boxes(
@@ -214,8 +225,8 @@ def _traced(model: CameraModel, rays: FloatArray, pattern: FloatArray) -> FloatA
         pattern,
         np.ascontiguousarray(model.T_world_camera.rotation),
         np.ascontiguousarray(model.centre),
-        np.array([(*box.low, *box.high) for box in HOUSING]),
-        np.array([box.colour for box in HOUSING]),
+        np.array([(*box.low, *box.high) for box in boxes]),
+        np.array([box.colour for box in boxes]),
         LIGHT_WORLD,
     )
     return image * _vignette(width, height)[..., None]

@@ -21,8 +21,15 @@ from app.core.units import MILLISECOND
 from app.tracking.cameras.camera import Camera, CameraFrame, Image
 from app.tracking.errors import CameraError
 from app.tracking.optics.camera_model import CameraModel
-from app.tracking.optics.rig import NeedleProfile, RigProfile
-from app.tracking.simulated.background import COARSE, LIGHT_WORLD, paint_background, sample_pattern
+from app.tracking.optics.rig import NeedleProfile, NeedleShape, RigProfile
+from app.tracking.simulated.background import (
+    COARSE,
+    HOUSING,
+    LIGHT_WORLD,
+    HousingBox,
+    paint_background,
+    sample_pattern,
+)
 from app.tracking.simulated.picture_effects import NoiseTile, PictureEffect, noise
 from app.tracking.simulated.scene import MarkerScene, Scene
 
@@ -148,7 +155,7 @@ def _nearness(dx: float, dy: float, a: Any, c: Any, shape: Any, margin: float) -
     dc = dx * c[0] + dy * c[1] + c[2]
     ac = a[0] * c[0] + a[1] * c[1] + a[2] * c[2]
     square = dd - da * da
-    if square < 1e-9:
+    if square < 1e-3 * dd:  # along the axis: where both are nearest says nothing
         return 2
     t = (dc - da * ac) / square
     s = t * da - ac
@@ -258,20 +265,28 @@ _COLOURS = np.array([[172.0, 170.0, 168.0], [44.0, 26.0, 205.0]])
 
 
 class NeedleRenderer:
-    """Draws the needle before the cached background of one camera; no noise, no time."""
+    """Draws the needle before the cached background of one camera; no noise, no time.
+
+    `boxes` are what stands behind it.
+    """
 
     def __init__(
-        self, model: CameraModel, needle: NeedleProfile, blur_px: float, seed: int = 0
+        self,
+        model: CameraModel,
+        needle: NeedleProfile,
+        blur_px: float,
+        seed: int = 0,
+        boxes: tuple[HousingBox, ...] = HOUSING,
     ) -> None:
         self.model = model
         self._shape = needle.shape
         self._behind = needle.band_distance
         self._fine = sample_pattern(blur_px)
         self._coarse = sample_pattern(blur_px, COARSE)
-        self._rays = _pixel_rays(model)
+        self._rays = pixel_rays(model)
         farthest = float(np.hypot(*self._fine.T).max())
         self._margin = float(1.2 * farthest / model.intrinsics[:2].min())
-        self._background = paint_background(model, self._rays, blur_px, seed)
+        self._background = paint_background(model, self._rays, blur_px, seed, boxes)
         light = model.T_world_camera.rotation.T @ LIGHT_WORLD[:3]
         self._light = np.concatenate([light, LIGHT_WORLD[3:]])
         self._compile()
@@ -287,7 +302,7 @@ class NeedleRenderer:
         pictures = []
         for green in (0.0, 255.0):
             image = np.zeros_like(self._background)
-            self._draw(image, scene, np.array([_COLOURS[0], [0.0, green, 0.0]]))
+            self.draw(image, scene, np.array([_COLOURS[0], [0.0, green, 0.0]]))
             pictures.append(image[..., 1])
         return np.asarray(pictures[0] != pictures[1], dtype=np.uint8)
 
@@ -295,7 +310,7 @@ class NeedleRenderer:
         """Picture of a scene without noise, uint8 (height, width, 3), writable."""
         image = self._background.copy()
         if scene.visible:
-            self._draw(image, scene)
+            self.draw(image, scene)
             if self._behind is not None:
                 self._draw_second(image, scene, self._behind)
         return image
@@ -333,10 +348,31 @@ class NeedleRenderer:
         pose = self.model.T_world_camera
         self.render(MarkerScene(pose @ np.array([0.0, 0.0, 0.3]), pose.rotation[:, 1]))
 
-    def _draw(self, image: Image, scene: MarkerScene, colours: FloatArray = _COLOURS) -> None:
+    @property
+    def background(self) -> Image:
+        """What stands behind, uint8 (height, width, 3): a copy."""
+        return self._background.copy()
+
+    def draw(
+        self,
+        image: Image,
+        scene: MarkerScene,
+        colours: FloatArray = _COLOURS,
+        shape: NeedleShape | None = None,
+    ) -> None:
+        """Draw the needle over a picture of this camera, in place.
+
+        Args:
+            image: uint8 (height, width, 3).
+            scene: where it is.
+            colours: of shaft and band, blue, green, red, (2, 3).
+            shape: of what is drawn, if not the whole needle.
+        """
+        shape = shape or self._shape
         axis = self.model.T_camera_world.rotate(scene.axis_world)
         centre = self.model.T_camera_world @ scene.p_world
-        along = np.linspace(self._shape.hub - 1e-3, self._shape.tip + 1e-3, 42)
+        pieces = max(42, round((shape.tip - shape.hub) / 5e-3) + 2)
+        along = np.linspace(shape.hub - 1e-3, shape.tip + 1e-3, pieces)
         spans = self._spans(centre, axis, along)
         draw_needle(
             image,
@@ -346,7 +382,7 @@ class NeedleRenderer:
             self._coarse,
             axis,
             centre,
-            self._shape,
+            shape,
             colours,
             self._light,
             self._margin,
@@ -461,7 +497,7 @@ def simulated_cameras(
     return cameras[0], cameras[1]
 
 
-def _pixel_rays(model: CameraModel) -> FloatArray:
+def pixel_rays(model: CameraModel) -> FloatArray:
     """Normalised coordinates of all pixels and one more on each side, (H + 2, W + 2, 2)."""
     width, height = model.image_size
     v, u = np.mgrid[-1 : height + 1, -1 : width + 1]

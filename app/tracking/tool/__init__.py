@@ -1,0 +1,1 @@
+"""The tool and the trocar in two pictures, and the fulcrum."""
