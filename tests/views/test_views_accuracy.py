@@ -4,9 +4,13 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
 from views_exercise_fakes import snapshot, statistics
 from window_rig import plan
 
+from app.session.machine import State
+from app.session.snapshot import BreathHold
 from app.studies.findings import Findings, Sheet
 from app.studies.hard import COLUMNS
 from app.studies.kept import kept, kept_names
@@ -118,3 +122,20 @@ def test_the_shares_of_frame_and_picture_are_shown_beside_the_tick(running, sett
     assert not panel._picture.isHidden()
     panel.show_snapshot(snapshot(running._runs.run.placed, timing=timing, time=2e6), 0.0)
     assert panel._frame.isHidden()
+
+
+def test_the_keys_of_the_attempt_work_whichever_panel_is_in_front(running, window, settle) -> None:
+    panel, asked = window.workspace.exercise_panel, []
+    buttons = panel.buttons
+    buttons.end_requested.connect(lambda: asked.append("end"))
+    buttons.scan_requested.connect(lambda: asked.append("scan"))
+    panel.breath.asked.connect(lambda _: asked.append("breath"))
+    running._shell.show_panel(running.panel)
+    buttons.show_state(State.INSERTING, False)
+    panel.breath.show_breath(BreathHold(), True)
+    window.activateWindow()
+    assert QTest.qWaitForWindowActive(window)
+    assert not buttons.isVisible()
+    for key in (Qt.Key.Key_S, Qt.Key.Key_A, Qt.Key.Key_Return):
+        QTest.keyClick(window.workspace, key)
+    assert asked == ["scan", "breath", "end"]

@@ -22,7 +22,7 @@ from views_exercise_fakes import snapshot as snapshot_of
 from window_rig import FakeServices, plan
 
 from app.core.events import Event
-from app.exercises.guidance import GuidancePart
+from app.exercises.guidance import GuidancePart, Purpose
 from app.exercises.library import load_exercise
 from app.imaging.body import find_body
 from app.imaging.errors import ImagingError
@@ -373,3 +373,23 @@ def test_another_exercise_of_the_same_patient_waits_for_the_attempt_to_end(
     window.begin_exercise("thick-tissue")
     assert window.conductor.exercise.id == "first-insertion"
     assert "An attempt is running" in window.message_bar.text
+
+
+def test_an_assessment_is_not_begun_on_another_patient_than_its_own(
+    window, patient, settle
+) -> None:
+    exercise = load_exercise("first-insertion").model_copy(
+        update={"purpose": Purpose.ASSESSMENT, "locks": None}
+    )
+    window.conductor.set_exercise(exercise)
+    window.show_patient(patient)
+    assert not window.conductor.fits(patient)
+    plan(window)
+    settle(timeout=0.3)
+    panel = window.workspace.exercise_panel
+    assert window.runs.run is None
+    assert not panel.buttons.start.isEnabled()
+    assert "made for another CT" in panel.buttons.start.toolTip()
+    window.conductor.set_exercise(load_exercise("first-insertion"))
+    plan(window)
+    assert settle(lambda: window.runs.run is not None), "practice on one's own patient stays free"

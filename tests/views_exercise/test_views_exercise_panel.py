@@ -5,8 +5,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QFont, QFontMetrics, QImage
+from PySide6.QtCore import QCoreApplication, QEvent, Qt
+from PySide6.QtGui import QFont, QFontMetrics, QImage, QKeyEvent
 from PySide6.QtTest import QTest
 from views_exercise_fakes import snapshot, statistics
 
@@ -122,6 +122,19 @@ def test_escape_aborts_only_when_it_is_held(panel):
     QTest.qWait(HOLD_MS + 100)
     QTest.keyRelease(panel, Qt.Key.Key_Escape)
     assert aborted == [1]
+
+
+def test_escape_held_while_the_window_stood_still_aborts_by_the_events_own_clock(panel):
+    aborted = []
+    panel.buttons.abort_requested.connect(lambda: aborted.append(1))
+    panel.buttons.watch(panel)
+    panel.show_figures(live(State.INSERTING))
+    for down, up, count in ((1000, 1000 + HOLD_MS - 1, 0), (5000, 5000 + HOLD_MS, 1)):
+        for kind, time in ((QEvent.Type.KeyPress, down), (QEvent.Type.KeyRelease, up)):
+            event = QKeyEvent(kind, Qt.Key.Key_Escape, Qt.KeyboardModifier.NoModifier)
+            event.setTimestamp(time)
+            QCoreApplication.sendEvent(panel, event)  # both at once, as after a standstill
+        assert len(aborted) == count
 
 
 def test_a_pseudonym_cannot_hold_what_a_file_name_must_not(panel):

@@ -12,6 +12,7 @@ from app.core.errors import AcusError
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.exercises.errors import ExerciseError
+from app.exercises.guidance import Purpose
 from app.exercises.locks import HandName, Lock
 from app.exercises.parts import TELLING, OwnPlan, ViewName
 from app.exercises.scene import device_of, draft_of
@@ -367,6 +368,18 @@ class Conductor(QObject):
         same_place = patient.folder.absolute() == ct.folder.absolute()
         return same_place and ct.digest in (None, patient.volume.digest)
 
+    def _why_not_here(self) -> str:
+        """Say why the exercise cannot be done on the patient that is open; empty where it can."""
+        exercise, patient = self.exercise, self.patient
+        if exercise is None or patient is None or exercise.purpose is not Purpose.ASSESSMENT:
+            return ""
+        if self.fits(patient):
+            return ""
+        return tr(
+            "This assessment is made for another CT than the one that is open: begin it from the "
+            "start page, which opens its own."
+        )
+
     def _other_ct(self, patient: Patient) -> str:
         """Say that the folder of the exercise holds another CT by now; empty where it does not."""
         ct = None if self.exercise is None else self.exercise.ct
@@ -403,9 +416,11 @@ class Conductor(QObject):
         workspace.viewing.set_draft(editor.edit.draft)
         workspace.scene.set_plan(editor.edit.draft)
         placed = editor.verdict.placed
+        elsewhere = self._why_not_here()
         note = "" if placed is not None else tr("Finish a plan that the robot can follow first.")
-        workspace.exercise_panel.set_ready(placed is not None and self.runs.run is not None, note)
-        if editor.locked or self._released or self._leaving or placed is None:
+        may = placed is not None and self.runs.run is not None and not elsewhere
+        workspace.exercise_panel.set_ready(may, elsewhere or note)
+        if editor.locked or self._released or self._leaving or placed is None or elsewhere:
             return  # a run that is open stays with its plan until there is a better one
         if self.exercise is None or self.patient is None:
             return

@@ -74,6 +74,11 @@ class AttemptActions(QWidget):
         """Listen for Esc held down anywhere in `window`."""
         window.installEventFilter(self._escape)
 
+    def listen(self, page: QWidget) -> None:
+        """Let the keys work wherever `page` is shown, whichever panel stands in front of this."""
+        for shortcut, _ in self._keys:
+            shortcut.setParent(page)
+
     def show_state(self, state: State | None, can_start: bool, why: str = "") -> None:
         """Enable what is legal.
 
@@ -152,6 +157,7 @@ class HoldKey(QObject):
     def __init__(self, key: Qt.Key, parent: QObject) -> None:
         super().__init__(parent)
         self._key = key
+        self._since = 0  # [ms] of the events' own clock
         self._timer = QTimer(self, interval=HOLD_MS, singleShot=True)
         self._timer.timeout.connect(self.held)
 
@@ -162,9 +168,13 @@ class HoldKey(QObject):
             if event.isAutoRepeat():
                 return False
             if event.type() == QEvent.Type.KeyPress:
+                self._since = event.timestamp()
                 self._timer.start()
-            else:
+            elif self._timer.isActive():
                 self._timer.stop()
+                # A window that stood still learns of both at once: the events know how long it was.
+                if event.timestamp() - self._since >= HOLD_MS:
+                    self.held.emit()
         elif event.type() == QEvent.Type.WindowDeactivate:
             self._timer.stop()
         return False
@@ -239,6 +249,10 @@ class BreathCommand(QWidget):
         self._key.activated.connect(self.button.click)
         self.show_breath(None, False)
 
+    def listen(self, page: QWidget) -> None:
+        """Let the key work wherever `page` is shown."""
+        self._key.setParent(page)
+
     def show_breath(self, breath: BreathHold | None, commands: bool) -> None:
         """Show how the patient stands, or nothing; `commands`: whether he can be told now."""
         self.setVisible(breath is not None)
@@ -311,6 +325,11 @@ class ExercisePanel(QWidget):
         self._connect()
 
     # --- what the controller and the window call --------------------------------------------------
+    def listen(self, page: QWidget) -> None:
+        """Let the attempt's keys work wherever `page` is shown, whichever panel is in front."""
+        self.buttons.listen(page)
+        self.breath.listen(page)
+
     def set_exercises(
         self, exercises: Sequence[tuple[str, str]], chosen: str | None = None
     ) -> None:
@@ -405,7 +424,8 @@ class ExercisePanel(QWidget):
         running = self._state in RUNNING
         self.exercise.setEnabled(not running)
         self.student.setEnabled(not running and not self._signed_in)
-        self.buttons.show_state(self._state, self._ready and not self._waiting, self._waiting)
+        why = self._waiting or self._not_ready
+        self.buttons.show_state(self._state, self._ready and not self._waiting, why)
 
     def _prepare_inputs(self) -> None:
         pattern = QRegularExpression(f"^{PSEUDONYM}$")

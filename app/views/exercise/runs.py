@@ -179,6 +179,7 @@ class Runs(QObject):
         opened, self._open = self._open, None
         if opened is None:
             return
+        self._setup = None  # with its CT
         if why:
             opened.run.trainer.disarm()
 

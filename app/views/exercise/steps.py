@@ -144,6 +144,11 @@ def side_word(letter: str) -> str:
 OTHER_SIDE: Final = str.maketrans("LRAPSI", "RLPAIS")
 
 
+def _amount(value: float) -> str:
+    """Write a way to go: whole numbers, and below one tenths, so that nobody overshoots by them."""
+    return f"{value:.0f}" if value >= 0.95 else f"{max(value, 0.1):.1f}"
+
+
 def step_words(step: NextStep, by_mouse: bool, tip: bool = False) -> str:
     """Say what is to be done next, as an order.
 
@@ -158,20 +163,20 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False) -> str:
     towards = step.towards.translate(OTHER_SIDE) if tip else step.towards
     sides = tr(" and ").join(side_word(letter) for letter in towards)
     tilt = (
-        tr("Tilt the tip {angle:.0f}° towards {sides}")
+        tr("Tilt the tip {angle}° towards {sides}")
         if tip
-        else tr("Tilt the hub {angle:.0f}° towards {sides}")
+        else tr("Tilt the hub {angle}° towards {sides}")
     )
     return {
         StepKind.START: tr("Press F5 to start the attempt"),
         StepKind.WITHDRAW: tr("Pull the needle out of the skin"),
         StepKind.SEE: tr("Let both cameras see the marker"),
         StepKind.SCAN: tr("Push by the scans: S takes one, Enter ends the attempt"),
-        StepKind.TILT: tilt.format(angle=max(1.0, degrees(step.angle)), sides=sides),
+        StepKind.TILT: tilt.format(angle=_amount(degrees(step.angle)), sides=sides),
         StepKind.INSERT: tr("Push the needle in{how}", how=inwards),
         StepKind.FEEL: tr("Push slowly{how}: the cameras do not see the depth", how=inwards),
-        StepKind.DEEPER: tr("Push {mm:.0f} mm deeper{how}").format(mm=max(1.0, mm), how=inwards),
-        StepKind.BACK: tr("Pull back {mm:.0f} mm{how}").format(mm=max(1.0, mm), how=outwards),
+        StepKind.DEEPER: tr("Push {mm} mm deeper{how}").format(mm=_amount(mm), how=inwards),
+        StepKind.BACK: tr("Pull back {mm} mm{how}").format(mm=_amount(mm), how=outwards),
         StepKind.HOLD: tr("Hold still"),
         StepKind.FINISH: tr("Press Enter: the tip is at the target"),
     }[step.kind]

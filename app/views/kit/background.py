@@ -91,7 +91,10 @@ class BackgroundTask(QObject):
         if self._is_running:  # else Qt may have deleted it already
             self._is_running = False
             self._timer.stop()
+            self._callbacks = (_nothing, _nothing, None)
+            self._box = _Outcome(_nothing)  # what it was to bring may be a whole patient
             self.finished.emit()  # whoever shows it lets go of it
+            self.deleteLater()
 
     def close(self, timeout: float = 2.0) -> None:
         """Drop it and wait up to `timeout` [s] for the thread, when a window ends; idempotent."""
@@ -115,10 +118,11 @@ class BackgroundTask(QObject):
         # A callback may hold the last reference to the parent. Let go of together with this
         # object it would have the parent destroy this object once more, in its own destructor.
         self._callbacks = (_nothing, _nothing, None)
-        error = self._box.error
+        error, result = self._box.error, self._box.result
+        self._box = _Outcome(_nothing)
         try:
             if error is None:
-                on_success(self._box.result)
+                on_success(result)
             elif not isinstance(error, Cancelled):
                 on_error(error)
             elif on_cancel is not None:
@@ -147,14 +151,24 @@ class _Outcome:
         try:
             self.result = self._operation(self.progress)
         except Cancelled as error:
-            self.error = error
+            self.error = _without_frames(error)
         except Exception as error:  # handed to on_error on the window's thread
             # Where it failed, not its message: that may hold a path with a patient's name.
             where = "".join(traceback.format_tb(error.__traceback__))
             _log.info("background work failed: %s\n%s", type(error).__name__, where)
-            self.error = error
+            self.error = _without_frames(error)
         finally:
+            self._operation = _nothing
             self.done.set()
+
+
+def _without_frames(error: Exception) -> Exception:
+    """Return an error that keeps nothing of what its frames worked on: a CT has 300 MB."""
+    one: BaseException | None = error
+    while one is not None:
+        one.__traceback__ = None
+        one = one.__cause__ or one.__context__
+    return error
 
 
 def run_in_background(

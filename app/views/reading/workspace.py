@@ -153,6 +153,7 @@ class WorkspacePage(QWidget):
         self.side.setFixedWidth(SIDE_WIDTH)
         self.setFocusProxy(self.panes[0].canvas)
         self._lay_out()
+        self.exercise_panel.listen(self)
         start = QShortcut(QKeySequence(Qt.Key.Key_F5), self)
         start.setAutoRepeat(False)
         start.activated.connect(self.exercise_panel.buttons.start.click)
