@@ -30,7 +30,6 @@ from app.device.links import board_layout as at
 from app.device.links.board import FAULTS, Faults
 from app.device.links.board_layout import new_board
 from app.device.links.transport import fd_await, fd_send
-from app.mechanisms.pantograph import system_forward
 from app.mechanisms.profile import DeviceProfile
 from app.simulation.plant import initial_plant, plant_stage
 
@@ -194,13 +193,12 @@ class EmulatedHand:
     def _turn(self, side: int, angle: float) -> None:
         q: FloatArray = self._q.copy()
         q[side] += angle
-        geometry = self._profile.pantograph
-        needle = system_forward(geometry, q, geometry.needle_length - self._depth)
-        if not np.hypot(*needle.axis[:2]) <= sin(radians(_LARGEST_TILT)) or needle.axis[2] > 0.0:
+        axis = self._profile.machine.axis(q)
+        if not np.hypot(*axis[:2]) <= sin(radians(_LARGEST_TILT)) or axis[2] > 0.0:
             raise LinkError(
                 f"the needle would lean by more than {_LARGEST_TILT:g} degrees; turn by less"
             )
-        self._q, self._wanted, self.name = q, np.array(needle.axis[:2]), "rest"
+        self._q, self._wanted, self.name = q, np.array(axis[:2]), "rest"
 
 
 def _degrees(text: str) -> float:

@@ -183,7 +183,7 @@ def attempt(
     setup = TrainerSetup(exercise, placed, skill=skill, seed=seed, clock=clock)
     loop, rig = build_loop(setup, profile), load_rig(exercise.rig)
     scene = needle_scene(loop, profile, rig.needle.marker_offset)
-    fulcrum = profile.pantograph.fulcrum
+    fulcrum = profile.fulcrum
     axis = measured_axis(loop)
     tracker = (
         _RenderedTracker(simulated_cameras(rig, scene, clock, seed), rig, clock, axis, fulcrum)
@@ -260,7 +260,7 @@ class Trials:
         table = loop_table(setup, self._profile)
         # What stages remember is in their arrays: each attempt takes copies, shared ones once.
         self._stages, self._write = table.compute, table.write
-        self._fulcrum = self._profile.pantograph.fulcrum
+        self._fulcrum = self._profile.fulcrum
         self._cameras, self._spread = self._measurements(load_rig(exercise.rig))
 
     def score(self, skill: str, seed: int) -> Trial:

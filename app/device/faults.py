@@ -34,7 +34,7 @@ _MESSAGES: Final = {
     " check the camera calibration and the plan",
     Fault.ENCODER_NOT_FINITE: "an encoder gives no number; check its cable",
     Fault.UNREACHABLE: "the encoders report a pose that the links cannot take; check their offsets",
-    Fault.SINGULAR: "the pantograph is in a singular pose; move the needle back towards the middle",
+    Fault.SINGULAR: "the robot is in a singular pose; move the needle back towards the middle",
     Fault.NO_GRIP: "nothing of the needle stands out of the fulcrum; pull it out",
     Fault.DEGENERATE: "the needle has no direction; check the encoder offsets",
     Fault.FORCE_NOT_FINITE: "a force law or an effect gave no number; leave out the effect",

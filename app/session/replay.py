@@ -341,6 +341,7 @@ def why_not(inputs: Inputs) -> str:
     missing = set(inputs.checkpoint.slots) ^ set(SLOT_NAMES)
     missing -= {SLOT_NAMES[slot] for slot in sv.SUMS + sv.SCENE}  # later ones: nobody wrote them
     missing -= set(LATER)  # nor gave these
+    missing -= {SLOT_NAMES[slot] for slot in sv.MACHINE}  # written from scratch in every tick
     if missing:
         return f"its program's state had other slots than this one's: {', '.join(sorted(missing))}"
     return ""

@@ -18,14 +18,8 @@ from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
 from app.exercises.library import load_exercise
 from app.exercises.scene import placed_plan_of
-from app.mechanisms.pantograph.kernels import (
-    axis_kernel,
-    felt_kernel,
-    forward_kernel,
-    hub_velocity_kernel,
-    jacobian_kernel,
-    tool_force_kernel,
-)
+from app.mechanisms.lever import axis_kernel, felt_kernel, hub_velocity_kernel, tool_force_kernel
+from app.mechanisms.pantograph.kernels import forward_kernel, jacobian_kernel
 from app.mechanisms.profile import DeviceProfile
 from app.planning.plan import Plan
 from app.session.snapshot import Snapshot

@@ -6,7 +6,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
 from app.core.compiled import njit, stage
-from app.device.control import Loop, Table, laws, pantograph_stages
+from app.device.control import Loop, Table, laws, machine_stages
 from app.device.links import Link
 from app.mechanisms.pantograph import inverse
 from app.mechanisms.profile import load_profile
@@ -136,7 +136,7 @@ class PortRig:
         if counts:
             self.hand[COUNT] = 2.0 * np.pi / PROFILE.encoder.counts_per_turn
         wire = [("wire", a_tick_late, np.zeros(3))] if late else []
-        table = pantograph_stages(
+        table = machine_stages(
             PROFILE,
             laws.stages_of(requests, PROFILE),
             [*plan.stages(), *(extra or [])],

@@ -14,7 +14,7 @@ from app.core.arrays import FloatArray
 from app.core.build import BUILD, build
 from app.core.clock import VirtualClock
 from app.core.compiled import stage
-from app.device.control import Loop, Table, VirtualFixture, pantograph_stages
+from app.device.control import Loop, Table, VirtualFixture, machine_stages
 from app.device.links import Link, LinkStatus
 from app.mechanisms.pantograph import inverse
 from app.mechanisms.profile import load_profile
@@ -56,7 +56,7 @@ def table(wired: bool = True) -> Table:
         [("wire write", write_wire, np.zeros(1))],
     )
     laws = [VirtualFixture.of(PROFILE).stage()]
-    return pantograph_stages(PROFILE, laws, [], link if wired else Link.of([], []))
+    return machine_stages(PROFILE, laws, [], link if wired else Link.of([], []))
 
 
 def header() -> SessionHeader:

@@ -6,7 +6,7 @@ import pytest
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, unit
 from app.device.control.laws.fixture import VirtualFixture
-from app.device.control.table import pantograph_stages
+from app.device.control.table import machine_stages
 from app.device.links.simulated import simulated_link
 from app.mechanisms.profile import load_profile
 from app.simulation.consumers import Consumer, DevicePort
@@ -31,7 +31,7 @@ def table(skill: str, seed: int) -> list[Stage]:
         views=(Consumer("view target_motion shows it", ("target_shift_x",)),),
     )
     link = simulated_link(PROFILE, [plant_stage(PROFILE)])
-    stages = pantograph_stages(PROFILE, [VirtualFixture.of(PROFILE).stage()], plan.stages(), link)
+    stages = machine_stages(PROFILE, [VirtualFixture.of(PROFILE).stage()], plan.stages(), link)
     return [
         trainee_stage(AXIS, DEPTH, skill, seed),
         *[(s.name, s.function, s.parameters) for s in stages],

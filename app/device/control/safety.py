@@ -14,9 +14,9 @@ from app.core.parameters import Stage, numbered, packed
 from app.device.control.depth_interval import shortest_lever
 from app.device.control.vectors import norm_kernel, shrink_kernel, snapped
 from app.device.faults import Fault
-from app.mechanisms.pantograph.kernels import felt_kernel, tool_force_kernel, torque_kernel
-from app.mechanisms.pantograph.status import OK
+from app.mechanisms.lever import felt_kernel, tool_force_kernel, torque_kernel
 from app.mechanisms.profile import DeviceProfile
+from app.mechanisms.status import OK
 
 
 @njit
@@ -113,7 +113,7 @@ _LET_GO = int(Fault.LET_GO)
 _NOT_HOMED = int(Fault.NOT_HOMED)
 _LINK_LOST = int(Fault.LINK_LOST)
 _BOARD_ERROR = int(Fault.BOARD_ERROR)
-# Faults by kinematic status (see `mechanisms.pantograph.status`).
+# Faults by kinematic status (see `mechanisms.status`).
 _OF_STATUS = np.array(
     [
         Fault.NONE,

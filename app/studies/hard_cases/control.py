@@ -21,10 +21,10 @@ from app.device.control.velocity import (
     velocity_stage,
 )
 from app.mechanisms.pantograph import inverse, jacobian
-from app.mechanisms.profile import load_profile
+from app.mechanisms.pantograph.profile import load_pantograph
 from app.studies.hard_cases.case import Defect, HardCase, analytic, answers, digits
 
-PROFILE: Final = load_profile("icube")
+PROFILE: Final = load_pantograph("icube")
 COUNT: Final = 2.0 * pi / PROFILE.encoder.counts_per_turn
 
 _Way = Callable[..., Any]

@@ -75,7 +75,7 @@ class LiveNeedle:
             return
         self._hidden = False
         pose, transform = snapshot.pose, run.placed.T_world_patient
-        length = run.profile.geometry.needle_length
+        length = run.profile.needle_length
         # Without a measured depth only the line is known: it ends at the entry, grey.
         p_end = pose.p_tip if pose.measured else run.placed.p_entry
         spread = pose.covariance if pose.measured else None
@@ -95,7 +95,7 @@ class LiveNeedle:
             self._drawn = ends
             self._workspace.scene.set_needle(needle)
             q = None if snapshot.device is None else snapshot.device.q
-            robot = RobotShape.of(run.profile.pantograph, q)
+            robot = RobotShape.of(run.profile, q)
             self._workspace.scene.set_robot(robot, transform.inverse())
 
     def hide(self) -> None:

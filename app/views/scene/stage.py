@@ -100,7 +100,7 @@ class Stage:
         self._cut_frame: Frame | None = None
         self._cut_section, self._cut_plane = SectionActor(scene), vtkPlane()
         self._volume: VolumeActor | None = None
-        self._links = [Rod(scene, theme.ROBOT, LINK_RADIUS_MM) for _ in range(5)]
+        self._links: list[Rod] = []
         self._fulcrum = Ball(scene, theme.ROBOT, FULCRUM_RADIUS_MM)
         self._needle = [self._new_piece()]
         self._tip = Ball(scene, theme.NEEDLE_TIP, 2 * NEEDLE_RADIUS_MM, 1.5 * NEEDLE_PX, over)
@@ -323,6 +323,9 @@ class Stage:
     def set_robot(self, robot: RobotShape | None, T_patient_world: RigidTransform) -> None:
         """Show the links and the ball; world metres are brought into the patient."""
         rods = [] if robot is None else robot.links()
+        while len(self._links) < len(rods):
+            self._links.append(Rod(self._renderer, theme.ROBOT, LINK_RADIUS_MM))
+            self._links[-1].show(self._display)
         for number, rod in enumerate(self._links):
             if number < len(rods):
                 rod.span(*(T_patient_world @ np.array(rods[number])) / MILLIMETRE)
