@@ -292,7 +292,6 @@ def _rest(speed: float) -> float:
 SUBSTEP: Final = 0.5e-3
 """Longest substep [s]; by measurement: `acus study plant_substeps`."""
 LONGEST_STEP: Final = 5e-3  # [s] as the loop clamps it
-TORQUE: Final = 5.0  # [N·m] far beyond any motor of this size
 _AXIAL: Final = 50.0  # [N]
 
 

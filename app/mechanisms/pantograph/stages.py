@@ -6,8 +6,9 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
 from app.core.parameters import numbered
+from app.mechanisms.direct_drive import direct_drive, nothing_behind
 from app.mechanisms.dynamic_model import A1, A2, BASE
-from app.mechanisms.needle_motion import OWN, SUBSTEP, TORQUE, Pose, bounded, move_needle
+from app.mechanisms.needle_motion import OWN, SUBSTEP, Pose, move_needle
 from app.mechanisms.pantograph.differential import jacobian_rate_kernel
 from app.mechanisms.pantograph.dynamics import (
     dynamics_kernel,
@@ -107,21 +108,6 @@ def _terms(
         p,
         OWN,
     )
-
-
-@njit
-def direct_drive(
-    state: FloatArray, p: FloatArray, h: float
-) -> tuple[float, float, float, float, float]:
-    """Motors on the joints themselves: TORQUE_*, whatever the joints do."""
-    left = bounded(state[sv.TORQUE_LEFT], TORQUE)
-    right = bounded(state[sv.TORQUE_RIGHT], TORQUE)
-    return left, right, 0.0, 0.0, 0.0
-
-
-@njit
-def nothing_behind(state: FloatArray, p: FloatArray, h: float) -> None:
-    """Motors on the joints themselves have no motion of their own."""
 
 
 @njit
