@@ -268,7 +268,8 @@ class RodMachine(RemoteCentre):
         """Joints, guide and needle; see `RemoteCentre`."""
         self._valid(q)
         (q1, q2), (v1, v2) = (np.asarray(x, dtype=np.float64).tolist() for x in (q, qd))
-        m11, m12, m22, h1, h2, g1, g2 = terms_of.py_func(
+        compiled = getattr(terms_of, "py_func", terms_of)
+        m11, m12, m22, h1, h2, g1, g2 = compiled(
             self.values, 0, q1, q2, v1, v2, depth, depth_rate, *self.kernels()
         )
         coulomb, viscous = self._friction

@@ -136,6 +136,7 @@ def commissioning_table(
             (corrections or Corrections()).stage(),
             VelocityFilter().stage(),
             DepthInterval.of(profile).stage(),
+            profile.machine.stages().pose,
             Kinematics.of(profile).stage(),
             Service().stage(),
             Transmission.of(profile).stage(),
