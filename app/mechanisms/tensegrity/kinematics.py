@@ -59,6 +59,18 @@ class GuideConditioning:
     kinds: tuple[GuideSingularity, ...]
 
 
+def numbers(values: ArrayLike, count: int, name: str) -> list[Any]:
+    """Return `count` plain numbers of an array of shape (count,).
+
+    Raises:
+        MechanismError: if the shape is another one.
+    """
+    array = np.asarray(values, dtype=np.float64)
+    if array.shape != (count,):
+        raise MechanismError(f"{name} has shape {array.shape}; ({count},) is needed")
+    return array.tolist()
+
+
 def forward(geometry: TensegrityGeometry, beta: ArrayLike, assembly: int = 1) -> FloatArray:
     """Return the unit vector t from O to T, shape (3,), of the joint variables β [rad], shape (2,).
 
@@ -71,7 +83,7 @@ def forward(geometry: TensegrityGeometry, beta: ArrayLike, assembly: int = 1) ->
         UnreachableError: if the cones about the base axes do not meet, or β is outside [0, π].
         NotFiniteError: if an angle is NaN or infinite.
     """
-    b1, b2 = _numbers(beta, 2, "beta")
+    b1, b2 = numbers(beta, 2, "beta")
     status, *t = kernels.forward_kernel(b1, b2, *geometry.bars, float(assembly))
     check(status, f"joint variables β = ({b1}, {b2}) rad")
     return np.array(t)
@@ -86,7 +98,7 @@ def inverse(geometry: TensegrityGeometry, t: ArrayLike, assembly: int = 1) -> Fl
         DegenerateError: if t is zero.
         NotFiniteError: if a component is NaN or infinite.
     """
-    x, y, z = _numbers(t, 3, "t")
+    x, y, z = numbers(t, 3, "t")
     status, b1, b2 = kernels.inverse_kernel(x, y, z, *geometry.bars, float(assembly))
     if status == Status.UNREACHABLE and assembly == 1:
         near = nearest(geometry, (x, y, z))
@@ -135,7 +147,7 @@ def jacobian_rate(
         MechanismError: as `forward`.
     """
     b1, b2, *t = _pose(geometry, beta, assembly)
-    v1, v2 = _numbers(rates, 2, "rates")
+    v1, v2 = numbers(rates, 2, "rates")
     status, *entries = kernels.jacobian_rate_kernel(b1, b2, v1, v2, *t, *geometry.bars)
     what = "joint rates" if status == NOT_FINITE else "Jacobian's rate"
     check(status, f"{what} at β = ({b1}, {b2}) rad, β̇ = ({v1}, {v2}) rad/s")
@@ -198,7 +210,7 @@ def nearest(geometry: TensegrityGeometry, t: ArrayLike, margin: float = 0.0) -> 
 
 def reaches(geometry: TensegrityGeometry, t: ArrayLike) -> bool:
     """Whether the machine as built takes the direction t, shape (3,), of any length."""
-    x, y, z = _numbers(t, 3, "t")
+    x, y, z = numbers(t, 3, "t")
     return bool(kernels.inverse_kernel(x, y, z, *geometry.bars, 1.0)[0] == OK)
 
 
@@ -208,7 +220,7 @@ def guide_angles(t: ArrayLike) -> tuple[float, float]:
     η = atan2(ty, tz), a turn about -x0; μ = atan2(tz, tx), π/2 where upright (errata C6). η does
     not exist along x0, μ not along y0: there atan2 gives 0.
     """
-    x, y, z = _numbers(t, 3, "t")
+    x, y, z = numbers(t, 3, "t")
     return atan2(y, z), atan2(z, x)
 
 
@@ -248,17 +260,10 @@ def encoder_error(
     return largest, float(np.linalg.norm(by_joints)) * step / sqrt(12.0)
 
 
-def _numbers(values: ArrayLike, count: int, name: str) -> list[Any]:
-    array = np.asarray(values, dtype=np.float64)
-    if array.shape != (count,):
-        raise MechanismError(f"{name} has shape {array.shape}; ({count},) is needed")
-    return array.tolist()
-
-
 def _pose(
     geometry: TensegrityGeometry, beta: ArrayLike, assembly: int
 ) -> tuple[float, float, float, float, float]:
-    b1, b2 = _numbers(beta, 2, "beta")
+    b1, b2 = numbers(beta, 2, "beta")
     x, y, z = forward(geometry, beta, assembly).tolist()
     return b1, b2, x, y, z
 

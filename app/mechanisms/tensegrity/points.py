@@ -20,11 +20,12 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, cross, frozen, unit
 from app.mechanisms.errors import DegenerateError, NotFiniteError, UnreachableError
+from app.mechanisms.tensegrity.cables import CABLE_NAMES
 from app.mechanisms.tensegrity.geometry import TensegrityGeometry
 from app.mechanisms.tensegrity.kinematics import inverse
 
-CABLES: Final = (("B1", "D1"), ("C1", "A1"), ("B2", "D2"), ("C2", "A2"))
-"""The four cables, straight from joint to joint, in the order of every array of four."""
+CABLE_ENDS: Final = tuple((name[:2], name[2:]) for name in CABLE_NAMES)
+"""The joints between which the four cables run straight, in the order of every array of four."""
 
 _TOUCHING: Final = 1e-12
 
@@ -57,7 +58,7 @@ class MachinePoints:
 
     points: Mapping[str, FloatArray]
     bars: tuple[tuple[str, str], ...]
-    cables: tuple[tuple[str, str], ...] = CABLES
+    cables: tuple[tuple[str, str], ...] = CABLE_ENDS
 
 
 def machine_points(geometry: TensegrityGeometry, t: ArrayLike) -> MachinePoints:
