@@ -5,7 +5,7 @@ angle β at A has its middle on the arc A X, and B and D at the arc e from it to
 sin e = sin s sin(β/2); nothing is lost where the rhombus is stretched. `trilaterate` is the
 paper's (equations 6 and 7): the point that has given distances from O, A and T. For C, the arc's
 midpoint, its three spheres touch in one point, which rounding pulls apart in every other pose
-(errata C7); there half of the digits are lost whatever one does.
+(errata C7); there the height over the plane of the centres is lost to half of its digits.
 """
 
 from collections.abc import Mapping
@@ -37,7 +37,8 @@ class Trilateration:
     Attributes:
         point: where it is [m], shape (3,).
         height: distance from the plane of the centres [m]; 0 where the spheres only touch.
-        tangent: whether they touch; the point is then good to √eps of the size, no better.
+        tangent: whether they touch, to 1e-12 of the size squared; a point that stands up to 1e-6
+            of the size off the plane of the centres is then put into it.
     """
 
     point: FloatArray
