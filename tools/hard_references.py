@@ -8,7 +8,18 @@ import sys
 from typing import Any
 
 from app.studies.hard_cases.case import REFERENCES
-from tools.exact import ENTRIES, computed, contact, control, motion, optics, pictures, robot, space, tensegrity
+from tools.exact import (
+    ENTRIES,
+    computed,
+    contact,
+    control,
+    motion,
+    optics,
+    pictures,
+    robot,
+    space,
+    tensegrity,
+)
 
 PARTS = (contact, control, motion, optics, pictures, robot, space, tensegrity)
 """Modules that enter references."""

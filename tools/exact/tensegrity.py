@@ -195,7 +195,7 @@ def _(b1: Any, b2: Any) -> Any:
 
 def levers(b: Any, i: int) -> tuple[Any, Any]:
     """-dl/dβ of both cables of a pantograph: what a tension is multiplied with."""
-    return tuple(-mpmath.diff(lambda x, n=n: cable(RHOMBUS, i, n, x), b) for n in range(2))  # type: ignore[return-value]
+    return tuple(-mpmath.diff(lambda x, n=n: cable(RHOMBUS, i, n, x), b) for n in range(2))
 
 
 def shortest(b: Any, i: int, torque: Any, least: Any) -> list[Any]:

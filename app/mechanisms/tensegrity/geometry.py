@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from math import atan, cos, degrees, pi, radians, sin, sqrt, tan
 from typing import Final
@@ -52,6 +52,7 @@ class TensegrityGeometry:
         first_tilt: θ10, elevation of A1 over x0 [rad].
         second_tilt: θ20, elevation of A2 over y0 [rad].
         reading: which linkage the joints make.
+        bars: what the kernels take; follows from the others.
 
     Raises:
         MechanismError: if a length is not positive and finite, a tilt is not within ±89°, the base
@@ -66,6 +67,7 @@ class TensegrityGeometry:
     first_tilt: float = radians(25.0)
     second_tilt: float = radians(30.0)
     reading: JointReading = JointReading.RHOMBUS
+    bars: Bars = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         for name in ("first_radius", "second_radius", "first_reach", "second_reach"):
@@ -95,6 +97,22 @@ class TensegrityGeometry:
                 f" base joints are {degrees(apart):.4g}° apart: no pose closes both pantographs;"
                 " lengthen f1 or f2"
             )
+        (side1, side2), half = self.sides, 0.5 * apart
+        object.__setattr__(
+            self,
+            "bars",
+            (
+                tan(side1),
+                tan(side2),
+                float(self.rhombi),
+                cos(self.first_tilt),
+                sin(self.first_tilt),
+                cos(self.second_tilt),
+                sin(self.second_tilt),
+                cos(half),
+                sin(half),
+            ),
+        )
 
     @property
     def sides(self) -> tuple[float, float]:
@@ -134,20 +152,3 @@ class TensegrityGeometry:
     def radii(self) -> tuple[float, float]:
         """R1 and R2 [m]."""
         return self.first_radius, self.second_radius
-
-    @property
-    def bars(self) -> Bars:
-        """What the kernels take."""
-        (side1, side2), half = self.sides, 0.5 * self.apart
-        t1, t2 = self.first_tilt, self.second_tilt
-        return (
-            tan(side1),
-            tan(side2),
-            float(self.rhombi),
-            cos(t1),
-            sin(t1),
-            cos(t2),
-            sin(t2),
-            cos(half),
-            sin(half),
-        )

@@ -85,7 +85,8 @@ def forward(geometry: TensegrityGeometry, beta: ArrayLike, assembly: int = 1) ->
     """
     b1, b2 = numbers(beta, 2, "beta")
     status, *t = kernels.forward_kernel(b1, b2, *geometry.bars, float(assembly))
-    check(status, f"joint variables β = ({b1}, {b2}) rad")
+    if status != OK:
+        check(status, f"joint variables β = ({b1}, {b2}) rad")
     return np.array(t)
 
 
