@@ -415,9 +415,6 @@ def draw_workspace(figure: Any) -> None:
         solid.plot(*np.stack([np.zeros(3), radius * base]).T, color="black", linewidth=1)
         solid.text(*(1.08 * radius * base), f"A{number}")
     solid.set(xlabel="x0 [mm]", ylabel="y0 [mm]", zlabel="z0 [mm]", box_aspect=(1, 1, 1))
-    solid.set_title(
-        "T for β = 0 ... π, and the 40° cone:\nas full (green), as half angle (red)", size=9
-    )
     solid.view_init(28.0, 40.0)
     axes = figure.add_subplot(1, 2, 2)
     limit = np.deg2rad(100.0)
@@ -438,7 +435,12 @@ def draw_workspace(figure: Any) -> None:
         axes.annotate(f"A{number}", (tilt * np.cos(turn_) + 3, tilt * np.sin(turn_) + 3))
     axes.legend(fontsize=7, loc="lower left")
     axes.set(xlabel="tilt towards x0 [°]", ylabel="tilt towards y0 [°]", aspect="equal")
-    figure.tight_layout()
+    figure.suptitle(
+        "Where T stands for β = 0 ... π; the 40° cone with 40° as the full (green) and as the half "
+        "angle (red)",
+        fontsize=10,
+    )
+    figure.subplots_adjust(left=0.0, right=0.98, top=0.93, bottom=0.09, wspace=0.12)
 
 
 _NAMES: Final = {
