@@ -27,7 +27,8 @@ _RELATIVE = 1e-12
 _STEEP = 0.05
 """Share of the radius from which on a slope of stiffness by pretension is used in full. Below it
 pretension is used the less the less it does, so that tensions have no jump where a slope changes
-its sign. With cables of constant stiffness no slope is below 0.09 of the radius."""
+its sign. With cables of constant stiffness and the
+paper's bars no slope is below 0.10 of the radius."""
 
 
 @njit
