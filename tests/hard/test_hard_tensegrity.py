@@ -218,6 +218,18 @@ def test_the_status_of_the_loops_kernel_says_what_is_short_singular_or_no_number
     assert found == [CABLES.least] * 4 + [0.0, 0.0]
 
 
+@given(st.tuples(finite, finite), st.tuples(finite, finite), st.tuples(finite, finite))
+@RELAXED
+def test_the_loops_tensions_are_within_their_limits_wherever_an_encoder_says_it_is(
+    beta, load, wanted
+):
+    status, *found = tensions_kernel(*beta, *load, *wanted, *CABLES.law, *PAPER.radii, *PAPER.bars)
+    assert CABLES.least <= min(found[:4]) <= max(found[:4]) <= CABLES.most
+    assert np.isfinite(found).all()
+    if not (0.0 <= min(beta) <= max(beta) <= np.pi):
+        assert status != OK
+
+
 def test_a_limit_met_exactly_is_met_from_both_sides():
     beta = np.array([1.5, 1.9])
     lever = length_jacobian(PAPER, beta)

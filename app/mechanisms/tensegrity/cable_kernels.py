@@ -113,8 +113,10 @@ def pair_kernel(
     Torque is to be had between q least - p most and q most - p least. Beyond, one cable stands at
     each limit (`UNREACHABLE`) and what is missing is the shortfall [N·m]. At β = 0 and β = π one
     cable has lost its lever and there is no pretension (`SINGULAR`); the tensions are still within
-    the limits and still continuous.
+    the limits and still continuous. So they are beyond, where a β that is measured may stand: a
+    lever that has changed its sign counts as none.
     """
+    p, q = max(p, 0.0), max(q, 0.0)
     norm2 = p * p + q * q
     low, high = q * least - p * most, q * most - p * least
     status = OK if min(p, q) > _RELATIVE * radius else SINGULAR
