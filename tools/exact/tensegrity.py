@@ -6,7 +6,7 @@ from typing import Any
 import mpmath  # type: ignore[import-untyped]
 from mpmath import acos, atan, cos, matrix, mpf, sin, tan
 
-from app.mechanisms.tensegrity import JointReading, TensegrityGeometry
+from app.mechanisms.tensegrity import GuideMasses, JointReading, TensegrityGeometry
 from tools.exact import exact
 from tools.exact.robot import flat, slope
 
@@ -227,3 +227,45 @@ def _(b1: Any, b2: Any) -> Any:
 def _(b1: Any, least: Any, most: Any) -> Any:
     first, second = levers(b1, 0)
     return [first * most + second * least, first * least + second * most]
+
+
+def joints(g: TensegrityGeometry, i: int, b1: Any, b2: Any) -> list[Any]:
+    """Return A, B, D, T of a pantograph of one rhombus, as unit vectors: B, D aside of the arc."""
+    t, base = direction(g, b1, b2), bases(g)[i]
+    side, angle = atan(ratio(g, i)), theta(g, i, (b1, b2)[i])
+    middle, aside = base + t, cross(base, t)
+    middle, aside = middle / mpmath.norm(middle), aside / mpmath.norm(aside)
+    along, sine = middle * cos(side) / cos(angle / 2), sin(side) * sin((b1, b2)[i] / 2)
+    return [base, along + aside * sine, along - aside * sine, t]
+
+
+for words, pose in (("β1 = 1e-6", (1e-6, 1.9)), ("D = 1e-3", low(1e-3))):
+
+    @exact(f"mass matrix of the holder, {words}", "integral of (∂r/∂β)² over all bars", *pose)
+    def _(b1: Any, b2: Any) -> Any:
+        g, masses = RHOMBUS, GuideMasses()
+        found = mpmath.matrix(2, 2)
+        inertia = mpf(masses.guide_mass) * mpf(masses.guide_centre) ** 2
+        inertia += mpf(masses.guide_inertia)
+        moved = [slope(lambda *b: direction(g, *b), [b1, b2], j) for j in range(2)]
+        for j in range(2):
+            for k in range(2):
+                found[j, k] = inertia * mpmath.fdot(moved[j], moved[k])
+        for i in range(2):
+            side, radius = atan(ratio(g, i)), mpf(g.radii[i])
+            places = [
+                [slope(lambda *b, n=n, i=i: joints(g, i, *b)[n], [b1, b2], j) for j in range(2)]
+                for n in range(4)
+            ]
+            own = mpmath.quad(lambda x: sin(x) ** 2, [0, side]) / sin(side) ** 2
+            both = mpmath.quad(lambda x: sin(side - x) * sin(x), [0, side])  # noqa: B023
+            both /= sin(side) ** 2
+            weight = mpf(masses.density) * radius**3
+            for near, far in ((0, 1), (0, 2), (1, 3), (2, 3)):
+                u, v = places[near], places[far]
+                for j in range(2):
+                    for k in range(2):
+                        same = mpmath.fdot(u[j], u[k]) + mpmath.fdot(v[j], v[k])
+                        mixed = mpmath.fdot(u[j], v[k]) + mpmath.fdot(u[k], v[j])
+                        found[j, k] += weight * (own * same + both * mixed)
+        return flat(found)

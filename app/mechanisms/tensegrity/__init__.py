@@ -11,6 +11,8 @@ of `cables.law`; `assembly` is +1 as built:
 - `cable_kernels.tensions_kernel(b1, b2, τ1, τ2, k1, k2, *law, *radii, *bars) -> (status, t1, t2,
   t3, t4, shortfall 1, shortfall 2)`; tensions are within the limits whatever the status
 - `cable_kernels.hub_torque_kernel`, `hub_force_kernel`, `lengths_kernel`, `pulled_kernel`, ...
+- `dynamics.dynamics_kernel(b1, b2, v1, v2, density, inertia, moment, inertia_rate, gx, gy, gz,
+  *radii, *bars) -> (status, m11, m12, m22, h1, h2, g1, g2)`
 
 For everybody else: the functions and values below. The remote centre is the machine's origin, z0
 its vertical; the needle's direction from hub to tip is -t.
@@ -34,6 +36,7 @@ from app.mechanisms.tensegrity.cables import (
     torque_limits,
     torques,
 )
+from app.mechanisms.tensegrity.dynamics import GuideMasses, GuideTerms, guide_dynamics
 from app.mechanisms.tensegrity.frame import CurvedBars, remote_centre_stiffness
 from app.mechanisms.tensegrity.geometry import JointReading, TensegrityGeometry
 from app.mechanisms.tensegrity.kinematics import (
@@ -70,7 +73,9 @@ __all__ = [
     "Cables",
     "CurvedBars",
     "GuideConditioning",
+    "GuideMasses",
     "GuideSingularity",
+    "GuideTerms",
     "JointReading",
     "MachinePoints",
     "TensegrityGeometry",
@@ -82,6 +87,7 @@ __all__ = [
     "forward",
     "guide_angles",
     "guide_direction",
+    "guide_dynamics",
     "guide_stiffness",
     "hub_force",
     "hub_torques",

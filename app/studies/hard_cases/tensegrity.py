@@ -37,6 +37,7 @@ from app.mechanisms.tensegrity import (
     torques,
     trilaterate,
 )
+from app.mechanisms.tensegrity.dynamics import GuideMasses, guide_dynamics
 from app.mechanisms.tensegrity.numerical import newton_kernel
 from app.studies.hard_cases.case import Defect, HardCase, analytic, answers, digits, named
 
@@ -489,6 +490,30 @@ def _slack() -> HardCase:
     )
 
 
+def _mass(words: str, bound: float) -> HardCase:
+    reference = digits(f"mass matrix of the holder, {words}")
+
+    def without_bars(geometry: TensegrityGeometry, masses: GuideMasses, beta: Any) -> Any:
+        return guide_dynamics(geometry, replace(masses, density=0.0), beta)
+
+    return HardCase(
+        subsystem="dynamics",
+        case=f"mass matrix of the needle holder, {words}",
+        given=f"β = ({reference.given[0]:g}, {reference.given[1]:g}) rad, bars of 170 g/m",
+        way=guide_dynamics,
+        found=lambda way: way(PAPER, GuideMasses(), np.array(reference.given)).mass,
+        reference=reference,
+        unit="1",
+        bound=bound,
+        relative=True,
+        beyond=named(
+            SingularError,
+            lambda: guide_dynamics(PAPER, GuideMasses(), inverse(PAPER, PAPER.bases[0])),
+        ),
+        defect=Defect("bars without mass", without_bars),
+    )
+
+
 CASES: Final = (
     _edge(PAPER, "1e-3", 2e-14),
     _edge(PAPER, "1e-6", 1e-12),
@@ -517,5 +542,7 @@ CASES: Final = (
     _polytope(),
     _curvature(),
     _slack(),
+    _mass("β1 = 1e-6", 1e-14),
+    _mass("D = 1e-3", 1e-9),
 )
-"""Kinematics and statics."""
+"""Kinematics, statics, dynamics."""
