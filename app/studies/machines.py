@@ -23,8 +23,14 @@ from app.mechanisms.pantograph import (
     inverse,
     jacobian,
     joint_torques,
-    kernels,
     needle_at,
+)
+from app.mechanisms.pantograph.kernels import (
+    axis_kernel,
+    force_map_kernel,
+    forward_kernel,
+    jacobian_kernel,
+    torque_kernel,
 )
 from app.mechanisms.profile import load_profile
 from app.mechanisms.tensegrity import kernels as guide_kernels
@@ -102,13 +108,11 @@ def _pantograph_often(
     q: FloatArray, links: Any, fulcrum: Any, l_out: float, out: FloatArray
 ) -> None:
     for k in range(len(q)):
-        _, x, y = kernels.forward_kernel(q[k, 0], q[k, 1], links[0], links[1], links[2], 1.0)
-        dx, dy, dz, l_in = kernels.axis_kernel(x, y, *fulcrum)
-        _, a, b, c, d = kernels.jacobian_kernel(
-            q[k, 0], q[k, 1], x, y, links[0], links[1], links[2]
-        )
-        gx, gy = kernels.force_map_kernel(1.0, -0.5, 0.2, dx, dy, dz, l_in, l_out)
-        out[k, 0], out[k, 1] = kernels.torque_kernel(gx, gy, a, b, c, d)
+        _, x, y = forward_kernel(q[k, 0], q[k, 1], links[0], links[1], links[2], 1.0)
+        dx, dy, dz, l_in = axis_kernel(x, y, *fulcrum)
+        _, a, b, c, d = jacobian_kernel(q[k, 0], q[k, 1], x, y, links[0], links[1], links[2])
+        gx, gy = force_map_kernel(1.0, -0.5, 0.2, dx, dy, dz, l_in, l_out)
+        out[k, 0], out[k, 1] = torque_kernel(gx, gy, a, b, c, d)
 
 
 @njit
