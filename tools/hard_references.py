@@ -8,9 +8,20 @@ import sys
 from typing import Any
 
 from app.studies.hard_cases.case import REFERENCES
-from tools.exact import ENTRIES, computed, contact, control, motion, optics, pictures, robot, space
+from tools.exact import (
+    ENTRIES,
+    computed,
+    contact,
+    control,
+    motion,
+    optics,
+    pictures,
+    robot,
+    space,
+    tensegrity,
+)
 
-PARTS = (contact, control, motion, optics, pictures, robot, space)
+PARTS = (contact, control, motion, optics, pictures, robot, space, tensegrity)
 """Modules that enter references."""
 
 
