@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from app.core.arrays import angle_between
 from app.core.errors import AcusError
 from app.mechanisms.errors import DegenerateError, NotFiniteError, SingularError, UnreachableError
-from app.mechanisms.pantograph.status import NOT_FINITE, OK, SINGULAR, UNREACHABLE
+from app.mechanisms.status import NOT_FINITE, OK, SINGULAR, UNREACHABLE
 from app.mechanisms.tensegrity import (
     Cables,
     GuideSingularity,

@@ -1,6 +1,6 @@
 """The tensegrity needle holder: two spherical pantographs, drawn by cables, over a remote centre.
 
-For the loop (compiled, no allocation; status integers of `pantograph/status.py`). Numbers are given
+For the loop (compiled, no allocation; status integers of `mechanisms.status`). Numbers are given
 one by one: `bars` the nine of `geometry.bars`, `radii` the two of `geometry.radii`, `law` the four
 of `cables.law`; `assembly` is +1 as built:
 

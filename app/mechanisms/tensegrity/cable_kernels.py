@@ -19,7 +19,7 @@ it towards β = π. `law` are the four numbers of `Cables.law`, `radii` the two 
 from math import cos, exp, expm1, isfinite, log1p, sin, sqrt
 
 from app.core.compiled import njit
-from app.mechanisms.pantograph.status import NOT_FINITE, OK, SINGULAR, UNREACHABLE
+from app.mechanisms.status import NOT_FINITE, OK, SINGULAR, UNREACHABLE
 from app.mechanisms.tensegrity.kernels import opening_kernel
 
 _RELATIVE = 1e-12

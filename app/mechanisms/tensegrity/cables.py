@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen, unit
 from app.mechanisms.errors import DegenerateError, MechanismError, NotFiniteError, SingularError
-from app.mechanisms.pantograph.status import SINGULAR, UNREACHABLE, check
+from app.mechanisms.status import SINGULAR, UNREACHABLE, check
 from app.mechanisms.tensegrity import cable_kernels, kernels
 from app.mechanisms.tensegrity.geometry import TensegrityGeometry
 from app.mechanisms.tensegrity.kinematics import forward, inverse, numbers

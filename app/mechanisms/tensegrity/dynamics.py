@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 from app.core.arrays import FloatArray, frozen
 from app.core.compiled import njit
 from app.mechanisms.errors import MechanismError
-from app.mechanisms.pantograph.status import NOT_FINITE, OK, SINGULAR, check
+from app.mechanisms.status import NOT_FINITE, OK, SINGULAR, check
 from app.mechanisms.tensegrity.geometry import TensegrityGeometry
 from app.mechanisms.tensegrity.kernels import (
     forward_kernel,

@@ -1,6 +1,6 @@
 """Kinematics of the spherical tensegrity needle holder on scalars: the one place of every formula.
 
-All functions are compiled, allocate nothing and return a status first (`pantograph/status.py`); a
+All functions are compiled, allocate nothing and return a status first (`mechanisms.status`); a
 status other than `OK` comes with zeros. Symbols: β1, β2 the joint variables [rad] in [0, π], the
 spherical angle at A between the bars AB and AD; t the unit vector from the remote centre O to the
 guide's joint T (the needle points along -t); θ the angle between t and OA; `bars` the nine numbers
@@ -21,7 +21,7 @@ Equations of the paper, corrected (errata C1 to C9): docs/mechanism.md.
 from math import atan2, cos, isfinite, pi, sin, sqrt
 
 from app.core.compiled import njit
-from app.mechanisms.pantograph.status import (
+from app.mechanisms.status import (
     DEGENERATE,
     NOT_FINITE,
     OK,

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, angle_between, cross, frozen, unit
 from app.mechanisms.errors import DegenerateError, MechanismError, UnreachableError
-from app.mechanisms.pantograph.status import NOT_FINITE, OK, Status, check
+from app.mechanisms.status import NOT_FINITE, OK, Status, check
 from app.mechanisms.tensegrity import kernels
 from app.mechanisms.tensegrity.geometry import TensegrityGeometry
 

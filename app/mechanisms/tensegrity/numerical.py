@@ -14,7 +14,7 @@ from scipy.optimize import root
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
 from app.mechanisms.errors import MechanismError, UnreachableError
-from app.mechanisms.pantograph.status import NOT_FINITE, OK, SINGULAR, UNREACHABLE
+from app.mechanisms.status import NOT_FINITE, OK, SINGULAR, UNREACHABLE
 from app.mechanisms.tensegrity.geometry import TensegrityGeometry
 from app.mechanisms.tensegrity.kernels import opening_kernel
 
