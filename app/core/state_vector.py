@@ -60,7 +60,7 @@ def _scene() -> int:
 
 
 def _machine() -> int:
-    """Return the place of a new slot that a machine's own stages write anew in every tick."""
+    """Return the place of a new slot of a machine: its own stages, link or plant write it."""
     _machine_slots.append(next(_next))
     return _machine_slots[-1]
 
@@ -251,6 +251,27 @@ DRIFT_Y: Final = _machine()
 WEIGHT_LEFT: Final = _machine()  # [N·m] torques that gravity asks for, the needle at DEPTH
 WEIGHT_RIGHT: Final = _machine()
 LINKS_POTENTIAL: Final = _machine()  # [J] of gravity in what the joints move, without the needle
+HOLD: Final = _sum()  # [-] how many laws want the direction of the path held, beyond their forces
+MACHINE_FAULT: Final = _machine()  # [-] code of a fault that the machine's own watch has found
+HOLDING: Final = _machine()  # [-] 1 while winches hold the direction, 0 while they pull
+TENSION_1: Final = _machine()  # [N] asked of the cables, in the order of the machine's actuators
+TENSION_2: Final = _machine()
+TENSION_3: Final = _machine()
+TENSION_4: Final = _machine()
+REEL_RATE_1: Final = _machine()  # [m/s] asked of the winches while they hold, reeling in positive
+REEL_RATE_2: Final = _machine()
+REEL_RATE_3: Final = _machine()
+REEL_RATE_4: Final = _machine()
+SHORTFALL_LEFT: Final = _machine()  # [N·m] torque that the cables cannot give within their limits
+SHORTFALL_RIGHT: Final = _machine()
+CABLE_1: Final = _machine()  # [N] tension measured: by a sensor, or by the motor's current
+CABLE_2: Final = _machine()
+CABLE_3: Final = _machine()
+CABLE_4: Final = _machine()
+REEL_1: Final = _machine()  # [m] cable that a winch has reeled in since it was switched on
+REEL_2: Final = _machine()
+REEL_3: Final = _machine()
+REEL_4: Final = _machine()
 
 SLOTS: Final = next(_next)
 """Length of the state vector."""
@@ -263,7 +284,8 @@ SCENE: Final = tuple(_scene_slots)
 """What effects write beside them; nothing else can be written by a law or an effect."""
 
 MACHINE: Final = tuple(_machine_slots)
-"""What a machine's own stages write from scratch: nothing of them goes from tick to tick."""
+"""What a machine's own stages, its link or its plant write; a record without them is of a machine
+that has none of it, or computes it anew in every tick."""
 
 PATH: Final = _vector(PATH_X, PATH_Y, PATH_Z)
 TARGET: Final = _vector(TARGET_X, TARGET_Y, TARGET_Z)
@@ -294,6 +316,11 @@ MASS: Final = _vector(MASS_LEFT, MASS_CROSS, MASS_RIGHT)
 BIAS: Final = _vector(BIAS_LEFT, BIAS_RIGHT)
 DRIFT: Final = _vector(DRIFT_X, DRIFT_Y)
 WEIGHT: Final = _vector(WEIGHT_LEFT, WEIGHT_RIGHT)
+TENSION: Final = _vector(TENSION_1, TENSION_2, TENSION_3, TENSION_4)
+REEL_RATE: Final = _vector(REEL_RATE_1, REEL_RATE_2, REEL_RATE_3, REEL_RATE_4)
+SHORTFALL: Final = _vector(SHORTFALL_LEFT, SHORTFALL_RIGHT)
+CABLE: Final = _vector(CABLE_1, CABLE_2, CABLE_3, CABLE_4)
+REEL: Final = _vector(REEL_1, REEL_2, REEL_3, REEL_4)
 
 INDEX: Final[dict[str, int]] = {
     name.lower(): value

@@ -21,7 +21,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -31,15 +31,12 @@ from app.core.parameters import Stage, StageFunction
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.status import Status, check
 
-if TYPE_CHECKING:
-    from app.mechanisms.profile import DeviceProfile
-
 REGULAR: Final = "regular"
 """Name of a pose that is not singular."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Pose:
+class MachinePose:
     """Where the needle points at joint angles, and how it turns with them.
 
     Attributes:
@@ -93,7 +90,7 @@ class DynamicTerms:
     friction: FloatArray
 
 
-class Part(StrEnum):
+class PartKind(StrEnum):
     """What a drawn rod is: a link or a base keep their length, a cable does not."""
 
     LINK = "link"
@@ -102,16 +99,16 @@ class Part(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Rod:
+class DrawnRod:
     """A straight part of the machine between two of its named points."""
 
     start: str
     end: str
-    part: Part = Part.LINK
+    part: PartKind = PartKind.LINK
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Drawing:
+class MachineDrawing:
     """What there is to see of a machine.
 
     Attributes:
@@ -121,7 +118,7 @@ class Drawing:
     """
 
     points: Mapping[str, FloatArray]
-    rods: tuple[Rod, ...]
+    rods: tuple[DrawnRod, ...]
     reading: str = ""
 
     def ends(self) -> list[tuple[FloatArray, FloatArray]]:
@@ -139,6 +136,8 @@ class MachineStages:
             read them; None where a machine has none: such a law is refused.
         plant: moves the simulated machine by DT (see `needle_motion`).
         plant_values: its own numbers and memory behind what all machines have, shape (n,).
+        watch: writes MACHINE_FAULT, before the laws; none where the machine has nothing of its own
+            that can fail.
         efforts: turns TORQUE_* into what its actuators are told, after safety; none where they are
             on the joints themselves.
     """
@@ -147,6 +146,7 @@ class MachineStages:
     dynamics: Stage | None
     plant: StageFunction
     plant_values: FloatArray
+    watch: tuple[Stage, ...] = ()
     efforts: tuple[Stage, ...] = ()
 
 
@@ -154,7 +154,7 @@ class RemoteCentre(ABC):
     """A machine of one profile.
 
     Args:
-        profile: its numbers.
+        centre: remote centre in world [m], shape (3,).
 
     Attributes:
         joint_ranges: least and largest angle of both joints [rad], open intervals.
@@ -162,11 +162,11 @@ class RemoteCentre(ABC):
 
     joint_ranges: tuple[tuple[float, float], tuple[float, float]]
 
-    def __init__(self, profile: DeviceProfile) -> None:
-        self.centre = profile.fulcrum
+    def __init__(self, centre: FloatArray) -> None:
+        self.centre = centre
 
     @abstractmethod
-    def pose(self, q: ArrayLike) -> Pose:
+    def pose(self, q: ArrayLike) -> MachinePose:
         """Pose at joint angles q [rad], shape (2,); its status says where there is none."""
 
     @abstractmethod
@@ -175,14 +175,14 @@ class RemoteCentre(ABC):
 
     @abstractmethod
     def jacobian_rate(self, q: ArrayLike, qd: ArrayLike) -> FloatArray:
-        """Time derivative of `Pose.jacobian` at q̇ [rad/s]: shape (3, 2).
+        """Time derivative of `MachinePose.jacobian` at q̇ [rad/s]: shape (3, 2).
 
         Raises:
             MechanismError: where there is no pose.
         """
 
     @abstractmethod
-    def drawn(self, q: ArrayLike | None) -> Drawing:
+    def drawn(self, q: ArrayLike | None) -> MachineDrawing:
         """Return what there is to see at q; without usable angles, what does not move."""
 
     @abstractmethod
@@ -262,7 +262,7 @@ class RemoteCentre(ABC):
             )
         return frozen(turns @ np.linalg.solve(gram, np.asarray(torques, dtype=np.float64)))
 
-    def _valid(self, q: ArrayLike) -> Pose:
+    def _valid(self, q: ArrayLike) -> MachinePose:
         pose = self.pose(q)
         what = f"joint angles q = {np.asarray(q, dtype=np.float64).tolist()} rad"
         check(pose.status, what if pose.singularity == REGULAR else f"{what}: {pose.singularity}")

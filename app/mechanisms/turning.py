@@ -30,8 +30,7 @@ from app.core.compiled import njit
 from app.core.parameters import numbered, packed
 from app.mechanisms.needle_motion import OWN, Compiled, Pose
 from app.mechanisms.profile import DeviceProfile
-from app.mechanisms.remote_centre import DynamicTerms, RemoteCentre
-from app.mechanisms.remote_centre import Pose as NeedlePose
+from app.mechanisms.remote_centre import DynamicTerms, MachinePose, RemoteCentre
 from app.mechanisms.status import OK, UNREACHABLE, Status
 
 
@@ -206,7 +205,7 @@ class RodMachine(RemoteCentre):
         guide: tuple[float, float],
         own: ArrayLike = (),
     ) -> None:
-        super().__init__(profile)
+        super().__init__(profile.fulcrum)
         (fx, fy, fz), (gx, gy, gz) = profile.geometry.fulcrum, profile.mounting.gravity
         left, right = joints_alone
         part = profile.inertia
@@ -241,7 +240,7 @@ class RodMachine(RemoteCentre):
         least = np.linalg.svd(np.array(columns).reshape(2, 3), compute_uv=False)[1]
         return ("regular" if least > 1e-6 else "singular"), float(least)
 
-    def pose(self, q: ArrayLike) -> NeedlePose:
+    def pose(self, q: ArrayLike) -> MachinePose:
         """Pose at joint angles; see `RemoteCentre`."""
         q1, q2 = np.asarray(q, dtype=np.float64).tolist()
         status, dx, dy, dz, *columns = self.kernels()[0](self.values, SIZE, q1, q2)
@@ -250,9 +249,9 @@ class RodMachine(RemoteCentre):
         name, measure = self.called(q1, q2)
         if status != OK:
             nothing = frozen(np.zeros(3)), frozen(np.zeros((3, 2)))
-            return NeedlePose(Status(status), name, 0.0, *nothing)
+            return MachinePose(Status(status), name, 0.0, *nothing)
         turning = frozen(np.array(columns).reshape(2, 3).T)
-        return NeedlePose(Status.OK, name, measure, frozen([dx, dy, dz]), turning)
+        return MachinePose(Status.OK, name, measure, frozen([dx, dy, dz]), turning)
 
     def jacobian_rate(self, q: ArrayLike, qd: ArrayLike) -> FloatArray:
         """Rate of dd/dq; see `RemoteCentre`."""

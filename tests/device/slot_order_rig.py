@@ -17,7 +17,7 @@ SOURCE = Path(__file__).parents[2] / "app" / "core" / "state_vector.py"
 COUNTED = re.compile(
     r"^([A-Z][A-Z0-9_]*): Final = (?:next\(_next\)|_(?:input|sum|scene|machine)\(\)).*$", re.M
 )
-PART = re.compile(r"(?:(?<=J)_[XY][LR]|_?[XYZ]|_LEFT|_RIGHT)$")
+PART = re.compile(r"(?:(?<=J)_[XY][LR]|_?[XYZ]|_LEFT|_CROSS|_RIGHT|_[1-4])$")
 TICKS = 40
 
 

@@ -13,7 +13,7 @@ from app.core.arrays import FloatArray
 from app.core.errors import ConfigurationError
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.profile import load_profile, parse_profile, profile_class, profile_names
-from app.mechanisms.remote_centre import REGULAR, Part, RemoteCentre
+from app.mechanisms.remote_centre import REGULAR, PartKind, RemoteCentre
 from app.mechanisms.status import Status
 
 FAST = settings(derandomize=True, deadline=None, max_examples=40)
@@ -23,6 +23,11 @@ _FOLDED = float(np.arccos(0.425))  # both elbows of the first profile's in one p
 
 SINGULAR: dict[str, list[tuple[tuple[float, float], str]]] = {
     "pantograph": [((1.0, np.pi - 1.0), REGULAR), ((_FOLDED, np.pi - _FOLDED), "parallel")],
+    "tensegrity": [
+        ((1.8, 2.2), REGULAR),
+        ((1e-9, 2.2), "extended_first"),
+        ((2.0, 1e-9), "extended_second"),
+    ],
 }
 """Joint angles of the kind's first profile -> name of the singularity there."""
 
@@ -216,16 +221,16 @@ def test_drawn_links_keep_their_length_and_a_cable_need_not(name, share, azimuth
     reference = machine.drawn(machine.usable((0.0, 0.0, -1.0)))
     drawn = machine.drawn(machine.usable(leaning(profile, share, azimuth)))
     assert drawn.rods == reference.rods
-    assert drawn.rods[0].part is Part.BASE
+    assert drawn.rods[0].part is PartKind.BASE
     for rod, (start, end), (first, last) in zip(
         drawn.rods, drawn.ends(), reference.ends(), strict=True
     ):
-        if rod.part is not Part.CABLE:
+        if rod.part is not PartKind.CABLE:
             length = np.linalg.norm(end - start)
             assert length == pytest.approx(np.linalg.norm(last - first), abs=1e-9)
     still = machine.drawn(None)
     assert set(still.points) <= set(drawn.points)
-    assert all(rod.part is Part.BASE for rod in still.rods)
+    assert all(rod.part is PartKind.BASE for rod in still.rods)
 
 
 def test_the_remote_centre_stands_in_world_above_the_plane_of_the_tool_point(profile):

@@ -199,6 +199,7 @@ def machine_stages(
             velocity_stage(profile, velocity),
             DepthInterval.of(profile).stage(),
             machine.pose,
+            *machine.watch,
             Kinematics.of(profile).stage(),
             *_dynamics(machine, laws, profile.name),
             *protected([*laws, *effects]),

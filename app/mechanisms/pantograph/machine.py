@@ -23,14 +23,14 @@ from app.mechanisms.pantograph.profile import PantographProfile
 from app.mechanisms.profile import DeviceProfile
 from app.mechanisms.remote_centre import (
     REGULAR,
-    Drawing,
+    DrawnRod,
     DynamicTerms,
     JointBranch,
+    MachineDrawing,
+    MachinePose,
     MachineStages,
-    Part,
-    Pose,
+    PartKind,
     RemoteCentre,
-    Rod,
     axis_rates,
     axis_second_rates,
     tool_point,
@@ -40,9 +40,9 @@ from app.mechanisms.status import Status
 _MODE_NAMES = ("elbows outwards", "both elbows left", "elbows inwards", "both elbows right")
 """Of `WORKING_MODES`, in their order."""
 
-_BASE = Rod("left motor", "right motor", Part.BASE)
-_PROXIMAL = (Rod("left motor", "left elbow"), Rod("right motor", "right elbow"))
-_DISTAL = (Rod("left elbow", "tool point"), Rod("right elbow", "tool point"))
+_BASE = DrawnRod("left motor", "right motor", PartKind.BASE)
+_PROXIMAL = (DrawnRod("left motor", "left elbow"), DrawnRod("right motor", "right elbow"))
+_DISTAL = (DrawnRod("left elbow", "tool point"), DrawnRod("right elbow", "tool point"))
 
 
 class Pantograph(RemoteCentre):
@@ -51,11 +51,11 @@ class Pantograph(RemoteCentre):
     joint_ranges = ((0.0, 2.0 * pi), (-pi, pi))
 
     def __init__(self, profile: PantographProfile) -> None:
-        super().__init__(profile)
+        super().__init__(profile.fulcrum)
         self.geometry, self.model = profile.pantograph, profile.dynamic_model
 
-    def pose(self, q: ArrayLike) -> Pose:
-        """Pose in the assembly as built; `SINGULAR` where the distal links are in line."""
+    def pose(self, q: ArrayLike) -> MachinePose:
+        """MachinePose in the assembly as built; `SINGULAR` where the distal links are in line."""
         q1, q2 = pair(q, "q")
         status, x, y = kernels.forward_kernel(q1, q2, *self.geometry.links, 1.0)
         rates = [0.0] * 4
@@ -63,13 +63,15 @@ class Pantograph(RemoteCentre):
             status, *rates = kernels.jacobian_kernel(q1, q2, x, y, *self.geometry.links)
         if status != Status.OK:
             kind = Singularity.PARALLEL if status == Status.SINGULAR else REGULAR
-            return Pose(Status(status), kind, 0.0, frozen(np.zeros(3)), frozen(np.zeros((3, 2))))
+            return MachinePose(
+                Status(status), kind, 0.0, frozen(np.zeros(3)), frozen(np.zeros((3, 2)))
+            )
         *axis, l_in = axis_kernel(x, y, *self.geometry.fulcrum_xyz)
         direction = frozen(axis)
         found = singularity(self.geometry, q)
         measure = min(map(abs, (found.serial_left, found.serial_right, found.parallel)))
         turning = axis_rates(direction, l_in, np.array(rates).reshape(2, 2))
-        return Pose(Status.OK, found.kind, measure, direction, turning)
+        return MachinePose(Status.OK, found.kind, measure, direction, turning)
 
     def joints(self, axis: ArrayLike) -> tuple[JointBranch, ...]:
         """All four working modes, elbows outwards first: the one that the robot is built in."""
@@ -102,22 +104,22 @@ class Pantograph(RemoteCentre):
         rates, second = np.array(entries).reshape(2, 2), jacobian_rate(self.geometry, q, qd)
         return axis_second_rates(frozen(axis), l_in, rates, second, np.array(pair(qd, "qd")))
 
-    def drawn(self, q: ArrayLike | None) -> Drawing:
+    def drawn(self, q: ArrayLike | None) -> MachineDrawing:
         """Draw base, driven links, and where the links close the passive ones."""
         geometry = self.geometry
         half = geometry.base / 2.0
         points = {"left motor": frozen([-half, 0.0, 0.0]), "right motor": frozen([half, 0.0, 0.0])}
         angles = np.full(2, np.nan) if q is None else np.asarray(q, dtype=np.float64)
         if not np.isfinite(angles).all():
-            return Drawing(points, (_BASE,))
+            return MachineDrawing(points, (_BASE,))
         arms = geometry.proximal * np.column_stack([np.cos(angles), np.sin(angles), [0.0, 0.0]])
         points["left elbow"] = frozen(points["left motor"] + arms[0])
         points["right elbow"] = frozen(points["right motor"] + arms[1])
         status, x, y = kernels.forward_kernel(*angles.tolist(), *geometry.links, 1.0)
         if status != Status.OK:  # a pose in which the links do not close: show the driven ones
-            return Drawing(points, (_BASE, *_PROXIMAL))
+            return MachineDrawing(points, (_BASE, *_PROXIMAL))
         points["tool point"] = frozen([x, y, 0.0])
-        return Drawing(points, (_BASE, *_PROXIMAL, *_DISTAL))
+        return MachineDrawing(points, (_BASE, *_PROXIMAL, *_DISTAL))
 
     def dynamics(
         self, q: ArrayLike, qd: ArrayLike, depth: float, depth_rate: float = 0.0

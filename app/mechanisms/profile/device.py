@@ -113,6 +113,11 @@ class DeviceProfile(Strict):
         raise NotImplementedError
 
     @property
+    def holds_direction(self) -> bool:
+        """Whether the robot can hold a direction by itself, beyond the forces of laws."""
+        return False
+
+    @property
     def gear(self) -> float:
         """Motor turns per joint turn; 1 where no gear stands between them [-]."""
         return 1.0

@@ -35,13 +35,15 @@ class Provenance(StrEnum):
     """Where a value comes from.
 
     `MEASURED`: on this device. `PUBLISHED`: by whoever built it. `ESTIMATED`: by whoever wrote the
-    profile. `IMPORTED`: from a file that does not say, such as a URDF.
+    profile. `IMPORTED`: from a file that does not say, such as a URDF. `ASSUMED`: nobody says it,
+    and no robot was there to look at; a sensible value so that the rest can be tried.
     """
 
     MEASURED = "measured"
     PUBLISHED = "published"
     ESTIMATED = "estimated"
     IMPORTED = "imported"
+    ASSUMED = "assumed"
 
 
 class Section(Strict):

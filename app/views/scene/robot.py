@@ -12,7 +12,7 @@ from app.core.arrays import FloatArray, frozen
 from app.mechanisms.profile import DeviceProfile
 
 if TYPE_CHECKING:
-    from app.mechanisms.remote_centre import Drawing
+    from app.mechanisms.remote_centre import MachineDrawing
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,7 +24,7 @@ class RobotShape:
         fulcrum: remote centre, the ball under the skin's surface, shape (3,).
     """
 
-    drawing: Drawing
+    drawing: MachineDrawing
     fulcrum: FloatArray
 
     @classmethod
