@@ -205,9 +205,8 @@ def _reel_pair(
     """Turn two reels so that their joint moves at `speed` [rad/s] and both cables stay taut."""
     low = min(state[sv.CABLE_1 + first], state[sv.CABLE_2 + first])
     norm = sqrt(p1 * p1 + q1 * q1)
-    tighten = _TIGHTEN * (p[AT.holding] - low)
-    if max(state[sv.CABLE_1 + first], state[sv.CABLE_2 + first]) > p[AT.most]:
-        tighten = min(tighten, 0.0)
+    high = max(state[sv.CABLE_1 + first], state[sv.CABLE_2 + first])
+    tighten = _TIGHTEN * min(p[AT.holding] - low, p[AT.most] - high)
     fastest = p[AT.fastest]
     for k in range(2):
         slope, share = (p1, -q1 / norm) if k == 0 else (q1, p1 / norm)
