@@ -174,7 +174,7 @@ def write_dynamics(state: FloatArray, p: FloatArray, axis_of: Compiled, rates_of
 @njit(cache=False, forceinline=True)
 def plant_terms(state: FloatArray, p: FloatArray, axis_of: Compiled, rates_of: Compiled) -> Terms:
     """Return what `needle_motion` asks as `terms`: the machine's numbers stand from p[OWN] on."""
-    return terms_of(  # type: ignore[no-any-return]  # compiled
+    return terms_of(
         p,
         OWN,
         state[sv.PLANT_Q_LEFT],

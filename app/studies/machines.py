@@ -18,6 +18,7 @@ from app.core.progress import Progress
 from app.core.units import MILLIMETRE
 from app.mechanisms import tensegrity
 from app.mechanisms.errors import MechanismError
+from app.mechanisms.lever import axis_kernel, force_map_kernel, torque_kernel
 from app.mechanisms.pantograph import (
     force_map,
     inverse,
@@ -25,14 +26,8 @@ from app.mechanisms.pantograph import (
     joint_torques,
     needle_at,
 )
-from app.mechanisms.pantograph.kernels import (
-    axis_kernel,
-    force_map_kernel,
-    forward_kernel,
-    jacobian_kernel,
-    torque_kernel,
-)
-from app.mechanisms.profile import load_profile
+from app.mechanisms.pantograph.kernels import forward_kernel, jacobian_kernel
+from app.mechanisms.pantograph.profile import load_pantograph
 from app.mechanisms.tensegrity import kernels as guide_kernels
 from app.mechanisms.tensegrity.cable_kernels import hub_torque_kernel, tensions_kernel
 from app.studies.findings import Cell, Figure, Findings, Sheet, Survey
@@ -130,7 +125,7 @@ def _tensegrity_often(
 
 
 def _pantograph() -> ComparedMachine:
-    profile = load_profile("icube")
+    profile = load_pantograph("icube")
     geometry = profile.pantograph
     foot, height = geometry.fulcrum[:2], float(geometry.fulcrum[2])
 

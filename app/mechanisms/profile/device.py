@@ -118,6 +118,11 @@ class DeviceProfile(Strict):
         return False
 
     @property
+    def tension_range(self) -> tuple[float, float] | None:
+        """Least and largest tension of its cables [N]; None where it has none."""
+        return None
+
+    @property
     def gear(self) -> float:
         """Motor turns per joint turn; 1 where no gear stands between them [-]."""
         return 1.0

@@ -62,7 +62,7 @@ class CablePlaces(NamedTuple):
     holding: int  # pretension while winches hold [N]
     asked: int  # stiffness of a joint asked of pretension [N·m/rad]
     fastest: int  # of a reel [m/s]
-    count: int  # one count of the encoders [rad]
+    one_count: int  # one count of the encoders [rad]
     hand_force: int  # beyond which the guide does not turn [N]
     tilt: int  # cosine of the largest tilt that is held
     known: int = 0
@@ -107,7 +107,7 @@ def _inside(estimate: float, reading: float, count: float) -> float:
 @njit
 def _estimate(state: FloatArray, p: FloatArray) -> None:
     """Keep the joints' angles within their counts, moved by what reels and tensions have done."""
-    b1, b2, count = state[sv.Q_LEFT], state[sv.Q_RIGHT], p[AT.count]
+    b1, b2, count = state[sv.Q_LEFT], state[sv.Q_RIGHT], p[AT.one_count]
     k0, c = p[AT.k0], p[AT.c]
     f1, f2 = _free(state, 0, k0, c), _free(state, 1, k0, c)
     f3, f4 = _free(state, 2, k0, c), _free(state, 3, k0, c)
@@ -439,7 +439,7 @@ def cable_stages(profile: TensegrityProfile, values: FloatArray) -> tuple[Stage,
         holding=part.holding,
         asked=part.joint_stiffness,
         fastest=winches.fastest,
-        count=2.0 * pi / profile.encoder.counts_per_turn,
+        one_count=2.0 * pi / profile.encoder.counts_per_turn,
         hand_force=profile.limits.hand_force,
         tilt=float(np.cos(profile.tilt_limit + 0.01)),
     )

@@ -159,6 +159,11 @@ class TensegrityProfile(DeviceProfile):
         return max(super().shortest_needle, self.workspace.depth_max + guide)
 
     @property
+    def tension_range(self) -> tuple[float, float]:
+        """Least and largest tension of its cables [N]."""
+        return self.cables.least, self.cables.most
+
+    @property
     def holds_direction(self) -> bool:
         """Winches hold what they have reeled in."""
         return True

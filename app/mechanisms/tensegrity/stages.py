@@ -408,7 +408,7 @@ def settle(state: FloatArray, p: FloatArray, h: float) -> None:
 @njit
 def pose_of(p: FloatArray, q1: float, q2: float) -> Pose:
     """Tool point and Jacobian of the simulated machine."""
-    return tool_of(p, OWN, q1, q2, axis_of)  # type: ignore[no-any-return]  # compiled
+    return tool_of(p, OWN, q1, q2, axis_of)
 
 
 @njit
