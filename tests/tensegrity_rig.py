@@ -11,6 +11,7 @@ from app.core.compiled import stage
 from app.core.parameters import Stage
 from app.device.control import Loop, laws, machine_stages
 from app.device.links.link import Link
+from app.device.links.memory_link import MemoryLink
 from app.device.links.simulated import simulated_link
 from app.mechanisms.profile import DeviceProfile, load_profile
 from app.mechanisms.tensegrity.stages import WINCH
@@ -49,18 +50,25 @@ class HolderRig:
         depth: float = 0.02,
         dial: float = 1.0,
         profile: DeviceProfile = PROFILE,
+        wired: bool = False,
     ) -> None:
         self.profile, self.machine, self.depth = profile, profile.machine, depth
         self.plant = plant_stage(profile, start, depth)
         self.encoder = np.zeros(3)
-        link = simulated_link(profile, [self.plant])
+        initial = initial_plant(profile, start, depth)
+        self.board = None
+        if wired:
+            q = initial["plant_q_left"], initial["plant_q_right"]
+            self.board = MemoryLink(profile, [self.plant], q)
+            link = self.board.stages()
+        else:
+            link = simulated_link(profile, [self.plant])
         link = Link.of([*link.read, Stage("sticking", sticking, self.encoder)], link.write)
         bound = laws.energy_bound(requests, profile)
         forces = laws.stages_of(requests, profile)
         table = machine_stages(profile, forces, [], link, energy_bound=bound)
         self.clock = VirtualClock(10.0)
-        initial = initial_plant(profile, start, depth)
-        self.loop = Loop(table, profile.rate_hz, self.clock, initial=initial)
+        self.loop = Loop(table, profile.rate_hz, self.clock, initial=initial, link=self.board)
         x, y, z = np.asarray(path, dtype=float)
         self.loop.inbox.write(
             path_x=x, path_y=y, path_z=z, assistance=dial, homed=1.0,

@@ -166,7 +166,7 @@ def test_after_disarming_a_whole_machine_goes_on_and_a_torn_one_does_not():
     rig.loop.inbox.write(enabled=0.0)
     rig.run(0.3)
     rig.loop.inbox.write(enabled=1.0)
-    assert rig.run(1.0)[-1, sv.FAULT] == Fault.CABLE_BROKEN
+    assert rig.run(1.5)[-1, sv.FAULT] == Fault.CABLE_BROKEN
 
 
 def test_a_machine_whose_motors_push_cannot_hold_a_direction():

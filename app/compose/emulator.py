@@ -253,6 +253,9 @@ def board_stage(state: FloatArray, p: FloatArray) -> None:
     _move_to_park(state, p)
     now = state[sv.TIME]
     box[at.Q], box[at.Q + 1] = state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT]
+    for k in range(4):
+        box[at.CABLE + k] = state[sv.PLANT_CABLE_1 + k]
+        box[at.REEL + k] = state[sv.PLANT_REEL_1 + k]
     box[at.GAUGE_READING] = np.sqrt(
         state[sv.PULL_X] ** 2 + state[sv.PULL_Y] ** 2 + state[sv.PULL_Z] ** 2
     )
@@ -261,6 +264,7 @@ def board_stage(state: FloatArray, p: FloatArray) -> None:
     )
     end[wire.IN_COUNT] = 0.0
     state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = box[at.TORQUE], box[at.TORQUE + 1]
+    board.winches(state, box)
     state[sv.LINK_REPLIES], state[sv.LINK_ERRORS] = box[at.COMMANDS], box[at.ERRORS]
     state[sv.ROUND_TRIP] = now - box[at.COMMANDED]
     state[sv.LINK_STATUS] = _SILENT if box[at.TRIPPED] != 0.0 else 0.0
@@ -420,6 +424,7 @@ def _understood(order: str) -> tuple[str, float]:
         raise LinkError(f"fault {name}: {text!r} is no number, on or off") from error
 
 
+_CHANNELS: Final = ("tension", "reel_rate", "plant_cable")
 COLUMNS: Final = {
     "tick": sv.TICK,
     "time": sv.TIME,
@@ -434,5 +439,6 @@ COLUMNS: Final = {
     "homed": sv.HOMED,
     "q_left": sv.PLANT_Q_LEFT,
     "q_right": sv.PLANT_Q_RIGHT,
+    **{f"{what}_{k}": sv.INDEX[f"{what}_{k}"] for what in _CHANNELS for k in range(1, 5)},
 }
 """Columns of the record -> slots of the emulator's own loop; `tripped` is 2 after the watchdog."""

@@ -272,6 +272,14 @@ REEL_1: Final = _machine()  # [m] cable that a winch has reeled in since it was 
 REEL_2: Final = _machine()
 REEL_3: Final = _machine()
 REEL_4: Final = _machine()
+PLANT_CABLE_1: Final = _machine()  # [N] tension as the simulated machine's gauges have it
+PLANT_CABLE_2: Final = _machine()
+PLANT_CABLE_3: Final = _machine()
+PLANT_CABLE_4: Final = _machine()
+PLANT_REEL_1: Final = _machine()  # [m] reeled in by its winches
+PLANT_REEL_2: Final = _machine()
+PLANT_REEL_3: Final = _machine()
+PLANT_REEL_4: Final = _machine()
 
 SLOTS: Final = next(_next)
 """Length of the state vector."""

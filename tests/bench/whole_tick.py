@@ -42,7 +42,7 @@ def requests() -> dict[str, dict[str, float]]:
 
 def build(profile: DeviceProfile) -> Loop:
     """Build the whole tick on a virtual clock."""
-    q = inverse(profile.pantograph, profile.pantograph.fulcrum[:2] + np.array([0.02, 0.015]))
+    q = inverse(profile.pantograph, profile.fulcrum[:2] + np.array([0.02, 0.015]))
     count = 2.0 * np.pi / profile.encoder.counts_per_turn
     link = Link.of([("hand", slow_hand, np.array([*q, count, 0.0, 1.0]))], [])
     port = DevicePort(profile.name, frozenset(a.value for a in profile.renders), True)

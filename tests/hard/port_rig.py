@@ -128,7 +128,7 @@ class PortRig:
             bound = laws.energy_bound(requests, PROFILE) + plan.energy_bound()
         self.bound = bound
         self.hand = np.zeros(SIZE)
-        home = inverse(PROFILE.pantograph, PROFILE.pantograph.fulcrum[:2])
+        home = inverse(PROFILE.pantograph, PROFILE.fulcrum[:2])
         self.hand[[SEED, WAY]] = 12345.0 + seed, 0.35
         self.hand[[Q1, Q2]] = self.hand[[HOME1, HOME2]] = home
         if "compensation" in requests:  # what the joints' own friction takes is no energy let out

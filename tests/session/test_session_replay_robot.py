@@ -50,7 +50,7 @@ def write_wire(state: FloatArray, p: FloatArray) -> None:
 
 
 def table(wired: bool = True) -> Table:
-    left, right = inverse(PROFILE.pantograph, PROFILE.pantograph.fulcrum[:2] + (0.01, 0.02))
+    left, right = inverse(PROFILE.pantograph, PROFILE.fulcrum[:2] + (0.01, 0.02))
     link = Link.of(
         [("wire read", read_wire, np.array([0.0, left, right, 7.0]))],
         [("wire write", write_wire, np.zeros(1))],

@@ -73,8 +73,8 @@ def attempt(skill: str, seed: int, assistance: float) -> FloatArray:
 def miss(rows: FloatArray) -> tuple[float, float]:
     """Distance of the true tip from the target: across the path and along it [m]."""
     last = rows[-1]
-    tip = PROFILE.pantograph.fulcrum + last[sv.PLANT_DEPTH] * last[sv.AXIS]
-    error = tip - PROFILE.pantograph.fulcrum - DEPTH * AXIS
+    tip = PROFILE.fulcrum + last[sv.PLANT_DEPTH] * last[sv.AXIS]
+    error = tip - PROFILE.fulcrum - DEPTH * AXIS
     along = float(error @ AXIS)
     return float(np.linalg.norm(error - along * AXIS)), along
 

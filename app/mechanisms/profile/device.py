@@ -123,6 +123,11 @@ class DeviceProfile(Strict):
         return None
 
     @property
+    def fastest_reel(self) -> float:
+        """Fastest that its winches reel in [m/s]; 0 where it has none."""
+        return 0.0
+
+    @property
     def gear(self) -> float:
         """Motor turns per joint turn; 1 where no gear stands between them [-]."""
         return 1.0

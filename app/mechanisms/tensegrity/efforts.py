@@ -297,7 +297,8 @@ class WatchPlaces(NamedTuple):
     by_current: int
     found: int = 0
     armed: int = 0
-    pulled: int = 0  # time for which all cables have been asked to pull [s]
+    pulled: int = 0  # time for which all cables have been taut since they were asked to pull [s]
+    waited: int = 0  # time for which they have been asked without being it [s]
     known: int = 0
     rest1: int = 0
     rest2: int = 0
@@ -329,7 +330,8 @@ SILENT: Final = 0.018
 CONTRADICTS: Final = 0.03
 """Angle by which cables and an encoder must differ [rad]."""
 
-_STARTS: Final = 0.1  # [s] after which all cables are taut
+_STARTS: Final = 0.1  # [s] for which all cables are taut before they are compared
+_TAUT_BY: Final = 1.0  # [s] after arming: one that is not taut by then does not get it
 _HANGS: Final = -0.3e-3  # [m] of stretch: shorter by more than a count explains
 _MISSING: Final = 0.25  # of the least tension
 
@@ -377,7 +379,7 @@ def watch_stage(state: FloatArray, p: FloatArray) -> None:
     """Write MACHINE_FAULT; what is found stays until the forces are disarmed."""
     armed = 1.0 if state[sv.ENABLED] > 0.5 else 0.0
     if p[W.armed] > armed:  # disarmed just now: look anew
-        p[W.found] = p[W.known] = p[W.pulled] = p[W.apart] = 0.0
+        p[W.found] = p[W.known] = p[W.pulled] = p[W.waited] = p[W.apart] = 0.0
         for k in range(4):
             p[W.low1 + k] = p[W.run1 + k] = 0.0
     p[W.armed] = armed
@@ -398,8 +400,14 @@ def watch_stage(state: FloatArray, p: FloatArray) -> None:
             min(state[sv.TENSION_1], state[sv.TENSION_2]),
             min(state[sv.TENSION_3], state[sv.TENSION_4]),
         )
-        asked = state[sv.HOLDING] > 0.5 or least >= 0.99 * p[W.least]
-        p[W.pulled] = p[W.pulled] + dt if asked else 0.0
+        asked = armed > 0.0 and (state[sv.HOLDING] > 0.5 or least >= 0.99 * p[W.least])
+        taut = True
+        for k in range(4):
+            taut = taut and state[sv.CABLE_1 + k] >= _MISSING * p[W.least]
+        p[W.pulled] = p[W.pulled] + dt if asked and (taut or started) else 0.0
+        p[W.waited] = p[W.waited] + dt if asked and not started else 0.0
+        if p[W.waited] >= _TAUT_BY:
+            found = BROKEN
         if p[W.pulled] >= _STARTS:
             fold = p[_FRAME + FRAME.fold]
             l1, l2, _, _, _, _ = cable_kernel(

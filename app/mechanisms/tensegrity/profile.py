@@ -164,6 +164,11 @@ class TensegrityProfile(DeviceProfile):
         return self.cables.least, self.cables.most
 
     @property
+    def fastest_reel(self) -> float:
+        """Fastest that its winches reel in [m/s]."""
+        return self.winches.fastest
+
+    @property
     def holds_direction(self) -> bool:
         """Winches hold what they have reeled in."""
         return True

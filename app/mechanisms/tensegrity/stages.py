@@ -398,11 +398,11 @@ def settle(state: FloatArray, p: FloatArray, h: float) -> None:
         speed = p[WINCH.held1 + k] - p[WINCH.given1 + k] * (v1 if k < 2 else v2)
         p[WINCH.rate1 + k] = speed
         p[WINCH.reel1 + k] += h * speed
-        state[sv.REEL_1 + k] = p[WINCH.reel1 + k]
+        state[sv.PLANT_REEL_1 + k] = p[WINCH.reel1 + k]
         length = l1 if k == 0 else (l2 if k == 1 else (l3 if k == 2 else l4))
         tension, _ = _tension(p, k, length)
         pulls = p[WINCH.by_current] != 0.0 and not state[sv.HOLDING] > 0.5
-        state[sv.CABLE_1 + k] = state[sv.TENSION_1 + k] if pulls else tension
+        state[sv.PLANT_CABLE_1 + k] = state[sv.TENSION_1 + k] if pulls else tension
 
 
 @njit
