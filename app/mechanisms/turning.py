@@ -59,13 +59,17 @@ Terms = tuple[float, float, float, float, float, float, float]
 """Mass matrix, velocity terms and gravity: (m11, m12, m22, h1, h2, g1, g2)."""
 
 
-@njit(cache=False, forceinline=True)
-def tool_of(p: FloatArray, first: int, q1: float, q2: float, axis_of: Compiled) -> Pose:
-    """Tool point and its Jacobian; a needle that does not point down has none.
+Axis = tuple[int, float, float, float, float, float, float, float, float, float]
+"""What `axis_of` returns: status, d, dd/dq1, dd/dq2."""
+
+
+@njit
+def tool_at(p: FloatArray, first: int, axis: Axis) -> Pose:
+    """Tool point of a needle direction and its Jacobian; one that does not point down has none.
 
     P3 = P_I + L d with L = -fz/dz, so dP3/dq = L (dd/dq - d (dd_z/dq)/d_z) on x and y.
     """
-    status, dx, dy, dz, lx, ly, lz, rx, ry, rz = axis_of(p, first + SIZE, q1, q2)
+    status, dx, dy, dz, lx, ly, lz, rx, ry, rz = axis
     if status != OK or not dz < 0.0:
         return False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     lever = -p[first + ROD.fz] / dz
@@ -79,6 +83,12 @@ def tool_of(p: FloatArray, first: int, q1: float, q2: float, axis_of: Compiled) 
         lever * (ly - uy * lz),
         lever * (ry - uy * rz),
     )
+
+
+@njit(cache=False, forceinline=True)
+def tool_of(p: FloatArray, first: int, q1: float, q2: float, axis_of: Compiled) -> Pose:
+    """Tool point and its Jacobian at joint angles."""
+    return tool_at(p, first, axis_of(p, first + SIZE, q1, q2))
 
 
 @njit(cache=False, forceinline=True)
@@ -128,13 +138,14 @@ def terms_of(
 def write_pose(state: FloatArray, p: FloatArray, axis_of: Compiled) -> None:
     """Write KINEMATICS, and where it is OK P3_*, J_* and INERTIA_*: a machine's stage `pose`."""
     q1, q2 = state[sv.Q_LEFT], state[sv.Q_RIGHT]
-    status, _, _, dz, lx, ly, lz, rx, ry, rz = axis_of(p, SIZE, q1, q2)
+    axis = axis_of(p, SIZE, q1, q2)
+    status, _, _, dz, lx, ly, lz, rx, ry, rz = axis
     if status == OK and not dz < 0.0:
         status = UNREACHABLE
     state[sv.KINEMATICS] = status
     if status != OK:
         return
-    _, x, y, jxl, jxr, jyl, jyr = tool_of(p, 0, q1, q2, axis_of)
+    _, x, y, jxl, jxr, jyl, jyr = tool_at(p, 0, axis)
     state[sv.P3_X], state[sv.P3_Y] = x, y
     state[sv.J_XL], state[sv.J_XR], state[sv.J_YL], state[sv.J_YR] = jxl, jxr, jyl, jyr
     guide = p[ROD.guide]
@@ -145,11 +156,7 @@ def write_pose(state: FloatArray, p: FloatArray, axis_of: Compiled) -> None:
 
 @njit(cache=False, forceinline=True)
 def write_dynamics(state: FloatArray, p: FloatArray, axis_of: Compiled, rates_of: Compiled) -> None:
-    """Write MASS_*, BIAS_*, DRIFT_*, WEIGHT_* and LINKS_POTENTIAL: a machine's `dynamics`.
-
-    The tool point's drift is that of P3 = P_I + L d: L d̈ + 2 L̇ ḋ + L̈ d on x and y, with
-    L̇ = -L ḋ_z/d_z and L̈ = L (2 ḋ_z²/d_z² - d̈_z/d_z).
-    """
+    """Write MASS_*, BIAS_*, DRIFT_*, WEIGHT_* and LINKS_POTENTIAL: a machine's `dynamics`."""
     if state[sv.KINEMATICS] != OK:
         return
     q1, q2, v1, v2 = state[sv.Q_LEFT], state[sv.Q_RIGHT], state[sv.QD_LEFT], state[sv.QD_RIGHT]
@@ -159,6 +166,21 @@ def write_dynamics(state: FloatArray, p: FloatArray, axis_of: Compiled, rates_of
     state[sv.MASS_LEFT], state[sv.MASS_CROSS], state[sv.MASS_RIGHT] = m11, m12, m22
     state[sv.BIAS_LEFT], state[sv.BIAS_RIGHT] = h1, h2
     state[sv.WEIGHT_LEFT], state[sv.WEIGHT_RIGHT] = g1, g2
+    dx, dy, dz = write_drift(state, p, axis_of, rates_of)
+    fall = p[ROD.gx] * dx + p[ROD.gy] * dy + p[ROD.gz] * dz
+    state[sv.LINKS_POTENTIAL] = -p[ROD.guide_moment] * fall
+
+
+@njit(cache=False, forceinline=True)
+def write_drift(
+    state: FloatArray, p: FloatArray, axis_of: Compiled, rates_of: Compiled
+) -> tuple[float, float, float]:
+    """Write DRIFT_*; returns the needle's direction.
+
+    It is that of P3 = P_I + L d: L d̈ + 2 L̇ ḋ + L̈ d on x and y, with L̇ = -L ḋ_z/d_z and
+    L̈ = L (2 ḋ_z²/d_z² - d̈_z/d_z).
+    """
+    q1, q2, v1, v2 = state[sv.Q_LEFT], state[sv.Q_RIGHT], state[sv.QD_LEFT], state[sv.QD_RIGHT]
     _, dx, dy, dz, lx, ly, lz, rx, ry, rz = axis_of(p, SIZE, q1, q2)
     ax, ay, az, bx, by, bz = rates_of(p, SIZE, q1, q2, v1, v2)
     wx, wy, wz = lx * v1 + rx * v2, ly * v1 + ry * v2, lz * v1 + rz * v2
@@ -167,8 +189,7 @@ def write_dynamics(state: FloatArray, p: FloatArray, axis_of: Compiled, rates_of
     rate, second = -lever * u, lever * (2.0 * u * u - cz / dz)
     state[sv.DRIFT_X] = lever * cx + 2.0 * rate * wx + second * dx
     state[sv.DRIFT_Y] = lever * cy + 2.0 * rate * wy + second * dy
-    fall = p[ROD.gx] * dx + p[ROD.gy] * dy + p[ROD.gz] * dz
-    state[sv.LINKS_POTENTIAL] = -p[ROD.guide_moment] * fall
+    return dx, dy, dz
 
 
 @njit(cache=False, forceinline=True)

@@ -22,7 +22,7 @@ from app.mechanisms.tensegrity.kernels import (
     jacobian_rate_kernel,
     singularity_kernel,
 )
-from app.mechanisms.turning import ROD, SIZE, Terms, tool_of, write_dynamics, write_pose
+from app.mechanisms.turning import ROD, SIZE, Axis, Terms, tool_of, write_drift, write_pose
 
 NEAR: Final = 1e-6
 """Sine of β/2, or cosine, at which a pantograph counts as stretched or folded: its cables have no
@@ -51,9 +51,6 @@ class FramePlaces(NamedTuple):
 
 FRAME: Final = numbered(FramePlaces)
 FRAME_SIZE: Final = len(FRAME)
-
-Axis = tuple[int, float, float, float, float, float, float, float, float, float]
-"""Status, direction d, its rates by both joints."""
 
 
 @njit
@@ -257,7 +254,7 @@ def dynamics_stage(state: FloatArray, p: FloatArray) -> None:
     """Write MASS_*, BIAS_*, DRIFT_*, WEIGHT_* and LINKS_POTENTIAL where the pose exists."""
     if state[sv.KINEMATICS] != OK:
         return
-    write_dynamics(state, p, axis_of, rates_of)
+    write_drift(state, p, axis_of, rates_of)
     b1, b2, v1, v2 = state[sv.Q_LEFT], state[sv.Q_RIGHT], state[sv.QD_LEFT], state[sv.QD_RIGHT]
     inertia, moment, _ = needle_along(p, 0, state[sv.DEPTH], 0.0)
     _, terms = guide_terms(p, 0, b1, b2, v1, v2, inertia, moment, 0.0, 1.0)
