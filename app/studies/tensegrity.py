@@ -19,6 +19,7 @@ from app.mechanisms.tensegrity import (
     EDGES_PER_LINE,
     ENCODER_LINES,
     Cables,
+    CurvedBars,
     JointReading,
     TensegrityGeometry,
     force_limit,
@@ -30,7 +31,7 @@ from app.mechanisms.tensegrity import (
     torques,
 )
 from app.mechanisms.tensegrity.cable_kernels import tensions_kernel
-from app.mechanisms.tensegrity.frame import CurvedBars, remote_centre_stiffness
+from app.mechanisms.tensegrity.frame import remote_centre_stiffness
 from app.mechanisms.tensegrity.kernels import (
     dexterity_kernel,
     forward_kernel,

@@ -15,6 +15,7 @@ from app.mechanisms.errors import DegenerateError, NotFiniteError, SingularError
 from app.mechanisms.status import NOT_FINITE, OK, SINGULAR, UNREACHABLE
 from app.mechanisms.tensegrity import (
     Cables,
+    CurvedBars,
     GuideSingularity,
     JointReading,
     TensegrityGeometry,
@@ -39,7 +40,6 @@ from app.mechanisms.tensegrity import (
     trilaterate,
 )
 from app.mechanisms.tensegrity.cable_kernels import tensions_kernel
-from app.mechanisms.tensegrity.frame import CurvedBars
 from app.mechanisms.tensegrity.kernels import forward_kernel, inverse_kernel, jacobian_kernel
 
 READINGS = [TensegrityGeometry(reading=reading) for reading in JointReading]

@@ -5,6 +5,7 @@ import pytest
 
 from app.mechanisms.errors import MechanismError, SingularError
 from app.mechanisms.tensegrity import (
+    GuideMasses,
     JointReading,
     TensegrityGeometry,
     forward,
@@ -12,7 +13,7 @@ from app.mechanisms.tensegrity import (
     jacobian,
     machine_points,
 )
-from app.mechanisms.tensegrity.dynamics import GuideMasses, guide_dynamics
+from app.mechanisms.tensegrity.dynamics import guide_dynamics
 
 READINGS = [TensegrityGeometry(reading=reading) for reading in JointReading]
 both = pytest.mark.parametrize("geometry", READINGS, ids=lambda g: g.reading.value)

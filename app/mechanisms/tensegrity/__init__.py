@@ -15,54 +15,64 @@ of `cables.law`; `assembly` is +1 as built:
   *radii, *bars) -> (status, m11, m12, m22, h1, h2, g1, g2)`
 
 For everybody else: the functions and values below. The remote centre is the machine's origin, z0
-its vertical; the needle's direction from hub to tip is -t.
+its vertical; the needle's direction from hub to tip is -t. Names are imported when they are first
+asked for: a profile is read without compiled code.
 """
 
-from app.mechanisms.tensegrity.cables import (
-    CABLE_NAMES,
-    Cables,
-    CableTensions,
-    TensionVerdict,
-    force_limit,
-    guide_stiffness,
-    hub_force,
-    hub_torques,
-    joint_stiffness,
-    length_curvature,
-    length_jacobian,
-    lengths,
-    slack,
-    tensions,
-    torque_limits,
-    torques,
-)
-from app.mechanisms.tensegrity.dynamics import GuideMasses, GuideTerms, guide_dynamics
-from app.mechanisms.tensegrity.frame import CurvedBars, remote_centre_stiffness
-from app.mechanisms.tensegrity.geometry import JointReading, TensegrityGeometry
-from app.mechanisms.tensegrity.kinematics import (
-    EDGES_PER_LINE,
-    ENCODER_LINES,
-    GuideConditioning,
-    GuideSingularity,
-    conditioning,
-    encoder_error,
-    forward,
-    guide_angles,
-    guide_direction,
-    inverse,
-    jacobian,
-    jacobian_rate,
-    joint_rates,
-    nearest,
-    reaches,
-)
-from app.mechanisms.tensegrity.points import (
-    CABLE_ENDS,
-    MachinePoints,
-    Trilateration,
-    machine_points,
-    trilaterate,
-)
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from app.mechanisms.tensegrity.cables import (
+        CABLE_NAMES,
+        CableTensions,
+        TensionVerdict,
+        force_limit,
+        guide_stiffness,
+        hub_force,
+        hub_torques,
+        joint_stiffness,
+        length_curvature,
+        length_jacobian,
+        lengths,
+        slack,
+        tensions,
+        torque_limits,
+        torques,
+    )
+    from app.mechanisms.tensegrity.dynamics import GuideTerms, guide_dynamics
+    from app.mechanisms.tensegrity.frame import remote_centre_stiffness
+    from app.mechanisms.tensegrity.geometry import (
+        Cables,
+        CurvedBars,
+        GuideMasses,
+        JointReading,
+        TensegrityGeometry,
+    )
+    from app.mechanisms.tensegrity.kinematics import (
+        EDGES_PER_LINE,
+        ENCODER_LINES,
+        GuideConditioning,
+        GuideSingularity,
+        conditioning,
+        encoder_error,
+        forward,
+        guide_angles,
+        guide_direction,
+        inverse,
+        jacobian,
+        jacobian_rate,
+        joint_rates,
+        nearest,
+        reaches,
+    )
+    from app.mechanisms.tensegrity.points import (
+        CABLE_ENDS,
+        MachinePoints,
+        Trilateration,
+        machine_points,
+        trilaterate,
+    )
 
 __all__ = [
     "CABLE_ENDS",
@@ -109,3 +119,58 @@ __all__ = [
     "torques",
     "trilaterate",
 ]
+
+_MODULES = {
+    "CABLE_ENDS": "points",
+    "CABLE_NAMES": "cables",
+    "CableTensions": "cables",
+    "Cables": "geometry",
+    "CurvedBars": "geometry",
+    "EDGES_PER_LINE": "kinematics",
+    "ENCODER_LINES": "kinematics",
+    "GuideConditioning": "kinematics",
+    "GuideMasses": "geometry",
+    "GuideSingularity": "kinematics",
+    "GuideTerms": "dynamics",
+    "JointReading": "geometry",
+    "MachinePoints": "points",
+    "TensegrityGeometry": "geometry",
+    "TensionVerdict": "cables",
+    "Trilateration": "points",
+    "conditioning": "kinematics",
+    "encoder_error": "kinematics",
+    "force_limit": "cables",
+    "forward": "kinematics",
+    "guide_angles": "kinematics",
+    "guide_direction": "kinematics",
+    "guide_dynamics": "dynamics",
+    "guide_stiffness": "cables",
+    "hub_force": "cables",
+    "hub_torques": "cables",
+    "inverse": "kinematics",
+    "jacobian": "kinematics",
+    "jacobian_rate": "kinematics",
+    "joint_rates": "kinematics",
+    "joint_stiffness": "cables",
+    "length_curvature": "cables",
+    "length_jacobian": "cables",
+    "lengths": "cables",
+    "machine_points": "points",
+    "nearest": "kinematics",
+    "reaches": "kinematics",
+    "remote_centre_stiffness": "frame",
+    "slack": "cables",
+    "tensions": "cables",
+    "torque_limits": "cables",
+    "torques": "cables",
+    "trilaterate": "points",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import a name of this package from its module."""
+    if name not in _MODULES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)
+    globals()[name] = value
+    return value

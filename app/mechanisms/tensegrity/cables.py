@@ -17,51 +17,8 @@ from app.core.arrays import FloatArray, frozen, unit
 from app.mechanisms.errors import DegenerateError, MechanismError, NotFiniteError, SingularError
 from app.mechanisms.status import SINGULAR, UNREACHABLE, check
 from app.mechanisms.tensegrity import cable_kernels, kernels
-from app.mechanisms.tensegrity.geometry import TensegrityGeometry
+from app.mechanisms.tensegrity.geometry import Cables, TensegrityGeometry
 from app.mechanisms.tensegrity.kinematics import forward, inverse, numbers
-
-
-@dataclass(frozen=True, slots=True)
-class Cables:
-    """Elastic law and limits of the four cables, alike for all; every value is *assumed*.
-
-    Attributes:
-        stiffness: k0 of a cable from joint to winch [N/m]; the default is that of 1.5 m of steel
-            rope of 1 mm.
-        stiffening: c [1/m] of dt/dx = k0 + c t; 0 is a spring of constant stiffness, more a cable
-            that stiffens with tension.
-        least: smallest tension, at which a cable still runs on its pulleys [N].
-        most: largest tension [N].
-
-    Raises:
-        MechanismError: if a value is not finite, the stiffness not positive, the stiffening
-            negative, or the limits do not leave 0 ≤ least < most.
-    """
-
-    stiffness: float = 20e3
-    stiffening: float = 0.0
-    least: float = 2.0
-    most: float = 60.0
-
-    def __post_init__(self) -> None:
-        for name in ("stiffness", "stiffening", "least", "most"):
-            if not isfinite(getattr(self, name)):
-                raise MechanismError(f"cables: {name} is {getattr(self, name)}; give a number")
-        if not self.stiffness > 0.0 or self.stiffening < 0.0:
-            raise MechanismError(
-                f"cables: stiffness {self.stiffness} N/m, stiffening {self.stiffening} 1/m; the"
-                " first must be positive, the second 0 or more"
-            )
-        if not 0.0 <= self.least < self.most:
-            raise MechanismError(
-                f"cables: tensions from {self.least} to {self.most} N; a cable pulls, so the least"
-                " is 0 or more, and below the most"
-            )
-
-    @property
-    def law(self) -> tuple[float, float, float, float]:
-        """(k0, c, least, most): what the kernels take."""
-        return self.stiffness, self.stiffening, self.least, self.most
 
 
 class TensionVerdict(StrEnum):

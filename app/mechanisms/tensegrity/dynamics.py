@@ -20,9 +20,8 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen
 from app.core.compiled import njit
-from app.mechanisms.errors import MechanismError
 from app.mechanisms.status import NOT_FINITE, OK, SINGULAR, check
-from app.mechanisms.tensegrity.geometry import TensegrityGeometry
+from app.mechanisms.tensegrity.geometry import GuideMasses, TensegrityGeometry
 from app.mechanisms.tensegrity.kernels import (
     forward_kernel,
     jacobian_kernel,
@@ -272,39 +271,6 @@ def dynamics_kernel(
     if status != OK:
         return status, *nothing
     return OK, *terms
-
-
-@dataclass(frozen=True, slots=True)
-class GuideMasses:
-    """What the needle holder weighs, all *assumed*: printed bars of 12 mm and a guide of 80 g.
-
-    Attributes:
-        density: mass of a bar by its length [kg/m].
-        guide_mass: of the guide [kg].
-        guide_centre: of its mass, from O towards T [m].
-        guide_inertia: about its own middle, across its axis [kg·m²].
-
-    Raises:
-        MechanismError: if a value is negative or not finite.
-    """
-
-    density: float = 0.17
-    guide_mass: float = 0.08
-    guide_centre: float = 0.134
-    guide_inertia: float = 2.0e-5
-
-    def __post_init__(self) -> None:
-        for name in ("density", "guide_mass", "guide_centre", "guide_inertia"):
-            if not (isfinite(getattr(self, name)) and getattr(self, name) >= 0.0):
-                raise MechanismError(
-                    f"masses: {name} is {getattr(self, name)}; a number from 0 on is needed"
-                )
-
-    @property
-    def along(self) -> tuple[float, float]:
-        """Return Σ m r² [kg·m²] and Σ m r [kg·m] of the guide along t."""
-        first = self.guide_mass * self.guide_centre
-        return first * self.guide_centre + self.guide_inertia, first
 
 
 @dataclass(frozen=True, slots=True, eq=False)

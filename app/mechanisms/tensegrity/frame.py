@@ -13,43 +13,17 @@ pantographs their stiffnesses. Joints, shear and the base count as rigid. Two rh
 reading count as one behind the other: the bars that cross in C are taken as joined there.
 """
 
-from dataclasses import dataclass
-from math import atan2, cos, isfinite, sin
+from math import atan2, cos, sin
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, cross, unit
-from app.mechanisms.errors import MechanismError
-from app.mechanisms.tensegrity.geometry import TensegrityGeometry
+from app.mechanisms.tensegrity.geometry import CurvedBars, TensegrityGeometry
 from app.mechanisms.tensegrity.points import MachinePoints, machine_points
 
 _TORSION = 0.1406
 """J/w⁴ of a square section of width w (Saint-Venant)."""
-
-
-@dataclass(frozen=True, slots=True)
-class CurvedBars:
-    """Material and section of the bars, square; all *assumed*: printed plastic, 12 mm.
-
-    Attributes:
-        modulus: Young's modulus E [Pa].
-        shear_modulus: G [Pa].
-        width: of the section [m].
-
-    Raises:
-        MechanismError: if a value is not positive and finite.
-    """
-
-    modulus: float = 2.0e9
-    shear_modulus: float = 0.74e9
-    width: float = 0.012
-
-    def __post_init__(self) -> None:
-        for name in ("modulus", "shear_modulus", "width"):
-            value = getattr(self, name)
-            if not (isfinite(value) and value > 0.0):
-                raise MechanismError(f"bars: {name} is {value}; a positive number is needed")
 
 
 def remote_centre_stiffness(

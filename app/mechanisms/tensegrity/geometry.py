@@ -1,10 +1,13 @@
-"""Lengths of the spherical tensegrity needle holder, and how its joints are read."""
+"""What the tensegrity needle holder is made of: lengths, how joints are read, cables, bars, masses.
+
+Plain values without compiled code, so that a profile is read without it.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
-from math import atan, cos, degrees, pi, radians, sin, sqrt, tan
+from math import atan, cos, degrees, isfinite, pi, radians, sin, sqrt, tan
 from typing import Final
 
 from app.core.arrays import FloatArray, frozen
@@ -152,3 +155,103 @@ class TensegrityGeometry:
     def radii(self) -> tuple[float, float]:
         """R1 and R2 [m]."""
         return self.first_radius, self.second_radius
+
+
+@dataclass(frozen=True, slots=True)
+class Cables:
+    """Elastic law and limits of the four cables, alike for all; every value is *assumed*.
+
+    Attributes:
+        stiffness: k0 of a cable from joint to winch [N/m]; the default is that of 1.5 m of steel
+            rope of 1 mm.
+        stiffening: c [1/m] of dt/dx = k0 + c t; 0 is a spring of constant stiffness, more a cable
+            that stiffens with tension.
+        least: smallest tension, at which a cable still runs on its pulleys [N].
+        most: largest tension [N].
+
+    Raises:
+        MechanismError: if a value is not finite, the stiffness not positive, the stiffening
+            negative, or the limits do not leave 0 ≤ least < most.
+    """
+
+    stiffness: float = 20e3
+    stiffening: float = 0.0
+    least: float = 2.0
+    most: float = 60.0
+
+    def __post_init__(self) -> None:
+        for name in ("stiffness", "stiffening", "least", "most"):
+            if not isfinite(getattr(self, name)):
+                raise MechanismError(f"cables: {name} is {getattr(self, name)}; give a number")
+        if not self.stiffness > 0.0 or self.stiffening < 0.0:
+            raise MechanismError(
+                f"cables: stiffness {self.stiffness} N/m, stiffening {self.stiffening} 1/m; the"
+                " first must be positive, the second 0 or more"
+            )
+        if not 0.0 <= self.least < self.most:
+            raise MechanismError(
+                f"cables: tensions from {self.least} to {self.most} N; a cable pulls, so the least"
+                " is 0 or more, and below the most"
+            )
+
+    @property
+    def law(self) -> tuple[float, float, float, float]:
+        """(k0, c, least, most): what the kernels take."""
+        return self.stiffness, self.stiffening, self.least, self.most
+
+
+@dataclass(frozen=True, slots=True)
+class CurvedBars:
+    """Material and section of the bars, square; all *assumed*: printed plastic, 12 mm.
+
+    Attributes:
+        modulus: Young's modulus E [Pa].
+        shear_modulus: G [Pa].
+        width: of the section [m].
+
+    Raises:
+        MechanismError: if a value is not positive and finite.
+    """
+
+    modulus: float = 2.0e9
+    shear_modulus: float = 0.74e9
+    width: float = 0.012
+
+    def __post_init__(self) -> None:
+        for name in ("modulus", "shear_modulus", "width"):
+            value = getattr(self, name)
+            if not (isfinite(value) and value > 0.0):
+                raise MechanismError(f"bars: {name} is {value}; a positive number is needed")
+
+
+@dataclass(frozen=True, slots=True)
+class GuideMasses:
+    """What the needle holder weighs, all *assumed*: printed bars of 12 mm and a guide of 80 g.
+
+    Attributes:
+        density: mass of a bar by its length [kg/m].
+        guide_mass: of the guide [kg].
+        guide_centre: of its mass, from O towards T [m].
+        guide_inertia: about its own middle, across its axis [kg·m²].
+
+    Raises:
+        MechanismError: if a value is negative or not finite.
+    """
+
+    density: float = 0.17
+    guide_mass: float = 0.08
+    guide_centre: float = 0.134
+    guide_inertia: float = 2.0e-5
+
+    def __post_init__(self) -> None:
+        for name in ("density", "guide_mass", "guide_centre", "guide_inertia"):
+            if not (isfinite(getattr(self, name)) and getattr(self, name) >= 0.0):
+                raise MechanismError(
+                    f"masses: {name} is {getattr(self, name)}; a number from 0 on is needed"
+                )
+
+    @property
+    def along(self) -> tuple[float, float]:
+        """Return Σ m r² [kg·m²] and Σ m r [kg·m] of the guide along t."""
+        first = self.guide_mass * self.guide_centre
+        return first * self.guide_centre + self.guide_inertia, first

@@ -45,12 +45,12 @@ class Tensegrity(RodMachine):
     def __init__(self, profile: TensegrityProfile) -> None:
         self.profile, self.geometry = profile, profile.geometry.bars
         turn = radians(profile.geometry.heading_deg)
-        inertia, moment = profile.along
+        inertia, moment = profile.masses.along
         frame = packed(
             stages.FRAME,
             cosine=cos(turn),
             sine=sin(turn),
-            density=profile.inertia.bar_density,
+            density=profile.masses.density,
             radius1=self.geometry.first_radius,
             radius2=self.geometry.second_radius,
             **dict(zip(stages.FramePlaces._fields[5:14], self.geometry.bars, strict=True)),

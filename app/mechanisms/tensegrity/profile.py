@@ -17,7 +17,12 @@ from app.mechanisms.profile.mechanics import (
     NeedleSection,
     Section,
 )
-from app.mechanisms.tensegrity.geometry import JointReading, TensegrityGeometry
+from app.mechanisms.tensegrity.geometry import (
+    Cables,
+    GuideMasses,
+    JointReading,
+    TensegrityGeometry,
+)
 
 Tension = Annotated[float, Field(ge=0.0, le=1000.0)]
 """[N]"""
@@ -127,11 +132,16 @@ class TensegrityProfile(DeviceProfile):
     winches: WinchSection
 
     @property
-    def along(self) -> tuple[float, float]:
-        """Σ m r² [kg·m²] and Σ m r [kg·m] of the guide, towards T."""
+    def masses(self) -> GuideMasses:
+        """Masses of bars and guide."""
         part = self.inertia
-        first = part.guide_mass * part.guide_centre
-        return first * part.guide_centre + part.guide_inertia, first
+        return GuideMasses(part.bar_density, part.guide_mass, part.guide_centre, part.guide_inertia)
+
+    @property
+    def strings(self) -> Cables:
+        """Law and limits of the cables."""
+        part = self.cables
+        return Cables(part.stiffness, part.stiffening, part.least, part.most)
 
     @property
     def joint_inertia(self) -> float:
@@ -150,7 +160,7 @@ class TensegrityProfile(DeviceProfile):
         ):
             bars += 8.0 * part.bar_density * radius * reach  # an arc is no longer than f
         size = float(sum(g * g for g in self.mounting.gravity)) ** 0.5
-        return size * (bars + self.along[1])
+        return size * (bars + self.masses.along[1])
 
     @property
     def shortest_needle(self) -> float:

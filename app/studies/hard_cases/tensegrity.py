@@ -17,6 +17,7 @@ from app.mechanisms.errors import (
 from app.mechanisms.tensegrity import (
     Cables,
     CableTensions,
+    GuideMasses,
     JointReading,
     TensegrityGeometry,
     TensionVerdict,
@@ -37,7 +38,7 @@ from app.mechanisms.tensegrity import (
     torques,
     trilaterate,
 )
-from app.mechanisms.tensegrity.dynamics import GuideMasses, guide_dynamics
+from app.mechanisms.tensegrity.dynamics import guide_dynamics
 from app.mechanisms.tensegrity.numerical import newton_kernel
 from app.studies.hard_cases.case import Defect, HardCase, analytic, answers, digits, named
 
