@@ -32,7 +32,7 @@ def run(skill, exercise="first-insertion", seed=3, assistance=0.7, seconds=60.0,
 
     def measure(now):
         state = loop.latest()
-        tip = profile.pantograph.fulcrum + state.row[sv.PLANT_DEPTH] * state.axis
+        tip = profile.fulcrum + state.row[sv.PLANT_DEPTH] * state.axis
         pixels = (np.zeros(2), np.zeros(2))
         trainer.on_fix(NeedleFix(tip, 1e-9 * np.eye(3), now, FixStatus.VALID, pixels, 0.0))
 
@@ -100,7 +100,7 @@ def test_breathing_follows_the_way_the_patient_lies():
     profile = device_of(exercise)
     for orientation, up in ((PatientOrientation.SUPINE, 1.0), (PatientOrientation.PRONE, -1.0)):
         plan = PLAN if up > 0 else Plan(-PLAN.entry_mm, -PLAN.target_mm, "prone")
-        placed = PlacedPlan.of(plan, Placement(orientation), profile.pantograph.fulcrum)
+        placed = PlacedPlan.of(plan, Placement(orientation), profile.fulcrum)
         clock = VirtualClock(100.0)
         loop = build_loop(TrainerSetup(exercise, placed, clock=clock), profile)
         loop.open()

@@ -11,7 +11,7 @@ from app.compose.trainer import Rig, TrainerSetup, device_of, replay_recording
 from app.core import state_vector as sv
 from app.core.clock import SystemClock, VirtualClock
 from app.core.errors import AcusError
-from app.device.control import Loop, Table, pantograph_stages
+from app.device.control import Loop, Table, machine_stages
 from app.device.links.link import Link
 from app.exercises.errors import ExerciseError
 from app.exercises.library import load_exercise
@@ -141,7 +141,7 @@ def test_what_cannot_be_chosen_is_named_and_nothing_changes(tmp_path: Path) -> N
 
 def test_a_carry_that_fails_leaves_the_loop_as_it_was() -> None:
     chosen = load_exercise("first-insertion")
-    table = pantograph_stages(device_of(chosen), [], [], Link.of([], []))
+    table = machine_stages(device_of(chosen), [], [], Link.of([], []))
 
     def fail() -> None:
         raise AcusError("no")

@@ -199,7 +199,7 @@ def test_an_attempt_that_a_trainer_would_have_to_judge_is_done_by_one(first, mon
 def test_the_cameras_in_the_loop_are_as_noisy_as_the_sampled_tracker(first, trials):
     exercise, placed = first
     rig, profile = load_rig(exercise.rig), device_of(exercise)
-    p_i, axis = profile.pantograph.fulcrum, placed.axis
+    p_i, axis = profile.fulcrum, placed.axis
     cameras = trials._cameras
     for depth in (0.0, 0.04, 0.08):
         scene = MarkerScene.from_tip(p_i + depth * axis, axis, rig.needle.marker_offset)

@@ -7,10 +7,10 @@ import pytest
 from virtual_student import Student
 
 from app.core import state_vector as sv
+from app.mechanisms.hand_motion import FASTEST_ALONG
 from app.session.errors import IllegalTransitionError
 from app.session.machine import State
 from app.session.recording import read_recording
-from app.simulation.hand_motion import FASTEST_ALONG
 
 TARGET = 0.065
 

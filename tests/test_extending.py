@@ -3,12 +3,14 @@
 Each example is taken from the page, saved in the user's own folder, and used.
 """
 
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 from device.law_rig import pose
 from extending_page import example, sections
 from scoring_attempts import Attempt
@@ -133,3 +135,45 @@ def test_an_unknown_extractor_is_refused_with_the_known_ones(save):
     known = "ellipse, model_fit, outline_centroid, strongest_spot, thesis"
     with pytest.raises(TrackingError, match=f"no marker extractor 'magic'; there are {known}"):
         extractors(load_rig("wide"), "magic")
+
+
+def test_a_machine_points_the_needle_in_a_whole_attempt(tmp_path, monkeypatch):
+    from machine_records import Made, make
+
+    from app.compose.trainer import replay_recording
+    from app.mechanisms.profile import kinds
+    from app.planning.limits import ReachLimits
+    from app.session.recording import read_recording
+    from app.views.scene.robot import RobotShape
+
+    code = re.findall(r"```python\n(.*?)```", sections()["How to add a machine"], re.DOTALL)
+    folder = tmp_path / "mechanisms" / "gimbal"
+    folder.mkdir(parents=True)
+    for name, text in zip(("profile", "machine"), code, strict=True):
+        (folder / f"{name}.py").write_text(text, encoding="utf-8")
+    monkeypatch.setenv("ACUS_MECHANISMS", str(folder.parent))
+    assert "gimbal" in kinds()
+    document = load_profile("icube").model_dump(mode="json", exclude_none=True)
+    document |= {"kind": "gimbal", "name": "bench-gimbal"}
+    rings = {"outer_inertia": 8e-4, "inner_inertia": 5e-4, "radius": 0.06}
+    for section, kept, new in (
+        ("geometry", ("fulcrum", "needle_length"), {}),
+        ("inertia", ("needle_mass", "needle_centre", "needle_inertia"), rings),
+    ):
+        known = document[section]
+        values = {name: known[name] for name in kept} | new
+        document[section] = values | {"provenance": dict.fromkeys(values, "estimated")}
+    path = tmp_path / "bench_gimbal.yaml"
+    path.write_text(yaml.safe_dump(document), encoding="utf-8")
+    profile = load_profile(path)
+    axis = unit((0.3, -0.2, -0.9))
+    assert profile.machine.axis(profile.machine.usable(axis)) == pytest.approx(axis)
+    assert ReachLimits.of(profile).holds(axis)
+    assert len(RobotShape.of(profile, profile.machine.usable(axis)).links()) == 2
+    laws = {"fixture": {}, "compensation": {}, "impedance": {}}
+    made = Made(str(path), laws, ("lateral_tissue",))
+    recording = read_recording(make(made, tmp_path / "records"))
+    report = replay_recording(recording)
+    assert report.identical, report.sentences()
+    assert np.abs(recording.inputs.column("torque_left")).max() > 1e-3
+    assert not recording.inputs.column("fault").any()

@@ -69,7 +69,7 @@ def attempt(exercise, sessions, seconds=9.0, steer=None, change=None):
 
     def measure(now):
         state = rig.loop.latest()
-        tip = rig.profile.pantograph.fulcrum + state.row[sv.PLANT_DEPTH] * state.axis
+        tip = rig.profile.fulcrum + state.row[sv.PLANT_DEPTH] * state.axis
         pixels = (np.zeros(2), np.zeros(2))
         trainer.on_fix(NeedleFix(tip, 1e-9 * np.eye(3), now, FixStatus.VALID, pixels, 0.0))
 

@@ -55,7 +55,7 @@ def attempt(
 
     def measure(now: float) -> None:
         state = loop.latest()
-        tip = profile.pantograph.fulcrum + state.row[sv.PLANT_DEPTH] * state.axis
+        tip = profile.fulcrum + state.row[sv.PLANT_DEPTH] * state.axis
         pixels = (np.zeros(2), np.zeros(2))
         trainer.on_fix(NeedleFix(tip, 1e-9 * np.eye(3), now, FixStatus.VALID, pixels, 0.0))
 

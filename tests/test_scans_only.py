@@ -38,7 +38,7 @@ def test_a_needle_is_brought_to_the_target_by_control_scans_alone(tmp_path) -> N
 
     def measure(now: float) -> None:
         state = rig.loop.latest()
-        tip = rig.profile.pantograph.fulcrum + state.row[sv.PLANT_DEPTH] * state.axis
+        tip = rig.profile.fulcrum + state.row[sv.PLANT_DEPTH] * state.axis
         pixels = (np.zeros(2), np.zeros(2))
         trainer.on_fix(NeedleFix(tip, 1e-9 * np.eye(3), now, FixStatus.VALID, pixels, 0.0))
 

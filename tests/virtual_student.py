@@ -82,7 +82,7 @@ class Student:
         row = rows[int(np.argmin(np.abs(rows[:, sv.TIME] - (now - LATENCY))))]
         depth = row[sv.PLANT_DEPTH] + self._random.normal(0.0, 1e-4)
         axis = row[sv.AXIS].copy()
-        tip = self.rig.profile.pantograph.fulcrum + depth * axis
+        tip = self.rig.profile.fulcrum + depth * axis
         pixels = (np.zeros(2), np.zeros(2))
         fix = NeedleFix(tip, 1e-8 * np.eye(3), row[sv.TIME], FixStatus.VALID, pixels, 0.1)
         self.trainer.on_fix(fix)

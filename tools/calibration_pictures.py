@@ -62,7 +62,7 @@ def main(folder: Path) -> None:
         pairs, place_of_board = Path("pairs"), Path("place")
         render(pairs, board, poses(board))
         render(place_of_board, board, [place(*AT)])
-        watched = load_profile("icube").pantograph.fulcrum[None, :]
+        watched = load_profile("icube").fulcrum[None, :]
         wizard = CalibrationWizard(CalibrationJob(board=board, watched=watched))
         wizard.resize(980, 640)
         wizard.show()

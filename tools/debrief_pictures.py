@@ -50,7 +50,7 @@ def attempt(volume: Volume, patient: Patient, skill: str, seed: int, sessions: P
 
     def measure(now: float) -> None:
         state = rig.loop.latest()
-        tip = rig.profile.pantograph.fulcrum + state.row[sv.PLANT_DEPTH] * state.axis
+        tip = rig.profile.fulcrum + state.row[sv.PLANT_DEPTH] * state.axis
         pixels = (np.zeros(2), np.zeros(2))
         fix = NeedleFix(tip, 1e-9 * np.eye(3), now, FixStatus.VALID, pixels, 0.0)
         trainer.on_fix(fix)

@@ -32,7 +32,7 @@ RATE_HZ = 15.0
 
 def rendered(folder: Path) -> PenSettings:
     """Write the pictures and the lens; return the settings that name them."""
-    pen, entry = load_pen("cube"), load_profile("icube").pantograph.fulcrum
+    pen, entry = load_pen("cube"), load_profile("icube").fulcrum
     draw = PenRenderer(
         SIMULATED_WEBCAM.model(),
         pen.body.board(),

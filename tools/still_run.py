@@ -71,7 +71,7 @@ class StillRun:
 
     def _measure(self, now: float) -> None:
         state = self._rig.loop.latest()
-        tip = self._rig.profile.pantograph.fulcrum + state.row[sv.PLANT_DEPTH] * state.axis
+        tip = self._rig.profile.fulcrum + state.row[sv.PLANT_DEPTH] * state.axis
         pixels = (np.zeros(2), np.zeros(2))
         spread = np.diag([0.2e-3, 0.2e-3, 0.4e-3]) ** 2
         self.trainer.on_fix(NeedleFix(tip, spread, now, FixStatus.VALID, pixels, 0.0))

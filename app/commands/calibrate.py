@@ -91,7 +91,7 @@ def world(
         boards,
         place_sd_mm=sd_mm,
         place_sd_deg=sd_deg,
-        watched=load_profile("icube").pantograph.fulcrum[None, :],
+        watched=load_profile("icube").fulcrum[None, :],
         expected=expected,
     )
     placed = with_world(calibration, frame, known.spec)

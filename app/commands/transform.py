@@ -43,7 +43,7 @@ def export(
         raise ConfigurationError(f"--orientation {orientation!r}: use {', '.join(valid)}")
     x, y, z = numbers(rotate, "--rotate", 3)
     placement = Placement(PatientOrientation(orientation), (x, y, z))
-    fulcrum = load_profile(device).pantograph.fulcrum
+    fulcrum = load_profile(device).fulcrum
     write_tfm(out, placement.T_world_patient(read_plan(plan), fulcrum).inverse())
     return Answer({"files": [out]}, [f"{out}: from world (robot) to patient (LPS)"])
 

@@ -27,14 +27,14 @@ def export(
     from app.core.errors import ConfigurationError
     from app.exchange.text_export import write_text
     from app.exchange.urdf import Origin, write_urdf
-    from app.mechanisms.profile import load_profile
+    from app.mechanisms.pantograph.profile import load_pantograph
 
     try:
         where = Origin(origin)
     except ValueError:
         names = ", ".join(Origin)
         raise ConfigurationError(f"--origin {origin!r}; valid names: {names}") from None
-    write_text(out, write_urdf(load_profile(profile), where))
+    write_text(out, write_urdf(load_pantograph(profile), where))
     place = where.value.replace("-", " ")
     return Answer({"files": [out]}, [f"{out}: {profile}, world at the {place}"])
 
@@ -56,11 +56,11 @@ def import_profile(
     from app.core.errors import ConfigurationError
     from app.exchange.text_export import write_text
     from app.exchange.urdf import profile_like, read_geometry
-    from app.mechanisms.profile import load_profile
+    from app.mechanisms.pantograph.profile import load_pantograph
 
     if out.suffix not in (".yaml", ".yml"):
         raise ConfigurationError(f"--out {out}: a device profile is a .yaml file")
-    document = profile_like(load_profile(like), read_geometry(file), out.stem)
+    document = profile_like(load_pantograph(like), read_geometry(file), out.stem)
     head = f"# Lengths from {file.name}, all else from the profile {like}. SI units.\n"
     write_text(out, head + yaml.safe_dump(document, sort_keys=False, allow_unicode=True))
     lengths = document["geometry"]

@@ -138,7 +138,7 @@ def aim_of(settings: CameraSettings, device: str, reach: Mapping[str, float] | N
         ConfigurationError: if the range cannot be.
     """
     rig = load_rig(settings.rig)
-    fulcrum = load_profile(device).pantograph.fulcrum
+    fulcrum = load_profile(device).fulcrum
     basis, assumed = f"rig {rig.name} as designed", False
     calibration = None if settings.simulated else calibration_of(settings)
     if calibration is not None and calibration.world is not None:

@@ -108,7 +108,7 @@ class DailyCheck:
     def move_to(self, point: FloatArray) -> None:
         """Let the simulated hand bring the tip to a point of the world [m], shape (3,)."""
         rig = self._running
-        way = point - rig.profile.pantograph.fulcrum
+        way = point - rig.profile.fulcrum
         x, y, _ = unit(way).tolist()
         rig.trainer.hand(x, y, float(np.linalg.norm(way)))
         self._live(SETTLE)

@@ -42,7 +42,7 @@ HEAVY_MODULES: Final = (
     "app.imaging.body",
     "app.imaging.phantom",
     "app.core.compiled",
-    "app.mechanisms.pantograph",
+    "app.mechanisms.pantograph.machine",
     "app.device.control.loop",
     "app.simulation.plan",
     "app.tracking.simulated.cameras",

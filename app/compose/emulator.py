@@ -30,7 +30,6 @@ from app.device.links import board_layout as at
 from app.device.links.board import FAULTS, Faults
 from app.device.links.board_layout import new_board
 from app.device.links.transport import fd_await, fd_send
-from app.mechanisms.pantograph import system_forward
 from app.mechanisms.profile import DeviceProfile
 from app.simulation.plant import initial_plant, plant_stage
 
@@ -194,13 +193,12 @@ class EmulatedHand:
     def _turn(self, side: int, angle: float) -> None:
         q: FloatArray = self._q.copy()
         q[side] += angle
-        geometry = self._profile.pantograph
-        needle = system_forward(geometry, q, geometry.needle_length - self._depth)
-        if not np.hypot(*needle.axis[:2]) <= sin(radians(_LARGEST_TILT)) or needle.axis[2] > 0.0:
+        axis = self._profile.machine.axis(q)
+        if not np.hypot(*axis[:2]) <= sin(radians(_LARGEST_TILT)) or axis[2] > 0.0:
             raise LinkError(
                 f"the needle would lean by more than {_LARGEST_TILT:g} degrees; turn by less"
             )
-        self._q, self._wanted, self.name = q, np.array(needle.axis[:2]), "rest"
+        self._q, self._wanted, self.name = q, np.array(axis[:2]), "rest"
 
 
 def _degrees(text: str) -> float:
@@ -255,6 +253,9 @@ def board_stage(state: FloatArray, p: FloatArray) -> None:
     _move_to_park(state, p)
     now = state[sv.TIME]
     box[at.Q], box[at.Q + 1] = state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT]
+    for k in range(4):
+        box[at.CABLE + k] = state[sv.PLANT_CABLE_1 + k]
+        box[at.REEL + k] = state[sv.PLANT_REEL_1 + k]
     box[at.GAUGE_READING] = np.sqrt(
         state[sv.PULL_X] ** 2 + state[sv.PULL_Y] ** 2 + state[sv.PULL_Z] ** 2
     )
@@ -263,6 +264,7 @@ def board_stage(state: FloatArray, p: FloatArray) -> None:
     )
     end[wire.IN_COUNT] = 0.0
     state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = box[at.TORQUE], box[at.TORQUE + 1]
+    board.winches(state, box)
     state[sv.LINK_REPLIES], state[sv.LINK_ERRORS] = box[at.COMMANDS], box[at.ERRORS]
     state[sv.ROUND_TRIP] = now - box[at.COMMANDED]
     state[sv.LINK_STATUS] = _SILENT if box[at.TRIPPED] != 0.0 else 0.0
@@ -422,6 +424,7 @@ def _understood(order: str) -> tuple[str, float]:
         raise LinkError(f"fault {name}: {text!r} is no number, on or off") from error
 
 
+_CHANNELS: Final = ("tension", "reel_rate", "plant_cable")
 COLUMNS: Final = {
     "tick": sv.TICK,
     "time": sv.TIME,
@@ -436,5 +439,6 @@ COLUMNS: Final = {
     "homed": sv.HOMED,
     "q_left": sv.PLANT_Q_LEFT,
     "q_right": sv.PLANT_Q_RIGHT,
+    **{f"{what}_{k}": sv.INDEX[f"{what}_{k}"] for what in _CHANNELS for k in range(1, 5)},
 }
 """Columns of the record -> slots of the emulator's own loop; `tripped` is 2 after the watchdog."""

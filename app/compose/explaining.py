@@ -192,17 +192,16 @@ def _working_state() -> FloatArray:
 def _held_pose(profile: DeviceProfile) -> FloatArray:
     """Return the same with all that a force law reads: joints, path, dial and a moving hand."""
     from app.core import state_vector as sv
-    from app.mechanisms.pantograph import inverse, jacobian
 
-    state, fulcrum = _working_state(), profile.pantograph.fulcrum
+    state, fulcrum = _working_state(), profile.fulcrum
     axis = state[sv.AXIS]
     state[sv.L_IN] = -fulcrum[2] / axis[2]
-    p3 = fulcrum + state[sv.L_IN] * axis
-    q = inverse(profile.pantograph, p3[:2])
-    rates = jacobian(profile.pantograph, q)
-    state[sv.P3] = p3[:2]
-    state[[sv.Q_LEFT, sv.Q_RIGHT]], state[[sv.QD_LEFT, sv.QD_RIGHT]] = q, (0.3, -0.2)
-    state[[sv.J_XL, sv.J_XR, sv.J_YL, sv.J_YR]] = rates.ravel()
-    state[sv.P3_V] = rates @ (0.3, -0.2)
+    machine = profile.machine
+    state[sv.Q], state[sv.QD] = machine.usable(axis), (0.3, -0.2)
+    stages = machine.stages()
+    for stage in (stages.pose, stages.dynamics):
+        if stage is not None:
+            stage.function(state, stage.parameters)
+    state[sv.P3_V] = state[sv.JACOBIAN].reshape(2, 2) @ (0.3, -0.2)
     state[sv.PATH_Z], state[sv.ASSISTANCE], state[sv.HUB_VX] = -1.0, 0.7, 0.02
     return state

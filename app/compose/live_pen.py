@@ -77,7 +77,7 @@ def simulated_webcam(
 ) -> SimulatedCamera:
     """Return a webcam whose pictures are drawn, with noise."""
     model, pen = SIMULATED_WEBCAM.model(), settings.profile()
-    base = pen.base.pose(np.array(profile.pantograph.fulcrum))
+    base = pen.base.pose(np.array(profile.fulcrum))
     edge = pen.body.edge_mm * MILLIMETRE
     renderer = PenRenderer(model, pen.body.board(), pen.base.board(), base, edge, seed=seed)
     tile = NoiseTile.make(model.image_size, _NOISE_GREY, seed + 100)
@@ -175,7 +175,7 @@ def open_live_pen(settings: PenSettings, clock: Clock | None = None) -> LivePen:
         AcusError: if webcam, pen or lens cannot be used; says why.
     """
     time, profile = clock or SystemClock(), load_profile(DEVICE)
-    pen, fulcrum = settings.profile(), profile.pantograph.fulcrum
+    pen, fulcrum = settings.profile(), profile.fulcrum
     if settings.simulated:
         scene = rocked(fulcrum, PenTip.of(pen.tip))
         camera: Camera = simulated_webcam(settings, scene, profile, time, seed=1)

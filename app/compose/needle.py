@@ -10,7 +10,6 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.device.control import Loop
-from app.mechanisms.pantograph import system_forward
 from app.mechanisms.profile import DeviceProfile
 from app.tracking.simulated.scene import MarkerScene, Scene
 
@@ -26,7 +25,7 @@ def needle_scene(
     Simulated cameras cannot see a real needle: its direction is then the measured one, its depth
     that of the simulated hand (GRIP_DEPTH).
     """
-    geometry = profile.pantograph
+    machine = profile.machine
 
     def scene(time: float) -> MarkerScene:
         row = row_at(loop, time)
@@ -34,12 +33,10 @@ def needle_scene(
             axis, depth = row[sv.AXIS], float(row[sv.GRIP_DEPTH])
             if not axis.any():  # before the first tick
                 axis = np.array(UPRIGHT)
-            return MarkerScene.from_tip(geometry.fulcrum + depth * axis, axis, marker_offset)
+            return MarkerScene.from_tip(machine.centre + depth * axis, axis, marker_offset)
         depth = float(row[sv.PLANT_DEPTH])
-        q = row[sv.PLANT_Q]
-        needle = system_forward(geometry, q, geometry.needle_length - depth)
-        tip = geometry.fulcrum + depth * needle.axis
-        return MarkerScene.from_tip(tip, needle.axis, marker_offset)
+        axis = machine.axis(row[sv.PLANT_Q])
+        return MarkerScene.from_tip(machine.centre + depth * axis, axis, marker_offset)
 
     return scene
 

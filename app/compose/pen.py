@@ -28,7 +28,6 @@ from app.device.links.pen import PenLink
 from app.exercises.scene import compile_exercise
 from app.exercises.schema import Exercise
 from app.mechanisms.errors import MechanismError
-from app.mechanisms.pantograph import inverse, system_forward
 from app.mechanisms.profile import DeviceProfile, load_profile
 from app.planning.placement import PlacedPlan
 from app.session.conditions import TRAINEE
@@ -106,7 +105,7 @@ def _collect(
     clock: Clock | None,
 ) -> None:
     time, said = clock or SystemClock(), ""
-    fulcrum = load_profile("icube").pantograph.fulcrum
+    fulcrum = load_profile("icube").fulcrum
     step = PenStep(settings.profile(), settings.webcam(), fulcrum)
     for frame in _frames(settings, seconds, time):
         seen = step.observe(frame)
@@ -154,9 +153,8 @@ def joint_angles(profile: DeviceProfile, axis: FloatArray) -> FloatArray | None:
     """
     if not axis[2] < -0.1:
         return None
-    fulcrum = profile.pantograph.fulcrum
     try:
-        return inverse(profile.pantograph, (fulcrum - axis * fulcrum[2] / axis[2])[:2])
+        return profile.machine.usable(axis)
     except MechanismError:
         return None
 
@@ -188,7 +186,8 @@ def pen_table(
     if simulated and skill:
         holds = exercise.holds_breath
         trainee = [trainee_stage(placed.axis, placed.length, skill, seed, holds=holds)]
-    place = [DepthInterval.of(profile).stage(), Kinematics.of(profile).stage()]
+    pose = profile.machine.stages().pose
+    place = [DepthInterval.of(profile).stage(), pose, Kinematics.of(profile).stage()]
     stages = [*trainee, *read, velocity_stage(profile), *place]
     return Table.of([*stages, *effects.stages()], plant)
 
@@ -260,14 +259,13 @@ class Pen:
 
     def scene(self, loop: Loop) -> PenSceneAt:
         """Return what a simulated webcam sees: the pen in the simulated hand."""
-        geometry, tip = self.profile.pantograph, PenTip.of(self.settings.profile().tip)
+        machine, tip = self.profile.machine, PenTip.of(self.settings.profile().tip)
 
         def scene(time: float) -> PenScene:
             row = row_at(loop, time)
             depth = float(row[sv.PLANT_DEPTH])
-            q = row[sv.PLANT_Q]
-            axis = system_forward(geometry, q, geometry.needle_length - depth).axis
-            p_tip = geometry.fulcrum + depth * axis
+            axis = machine.axis(row[sv.PLANT_Q])
+            p_tip = machine.centre + depth * axis
             return PenScene(body_pose(p_tip, axis, tip.p_tip, tip.axis, _ROLL), p_tip)
 
         return scene
@@ -278,7 +276,7 @@ class Pen:
             self.camera(loop, clock, seed),
             self.settings.profile(),
             clock,
-            self.profile.pantograph.fulcrum,
+            self.profile.fulcrum,
             self.webcam(),
             on_needle=self.take,
         )

@@ -25,7 +25,7 @@ from app.core.build import BUILD, build
 from app.core.clock import Clock, SystemClock
 from app.core.configuration import parse
 from app.core.errors import AcusError
-from app.device.control import Loop, Table, laws, pantograph_stages
+from app.device.control import Loop, Table, laws, machine_stages
 from app.device.links.link import Link
 from app.device.links.simulated import simulated_link
 from app.exchange.markups import plan_document
@@ -33,7 +33,8 @@ from app.exercises.errors import ExerciseError
 from app.exercises.parts import LayersFrom
 from app.exercises.scene import compile_exercise, device_of, law_requests
 from app.exercises.schema import Exercise
-from app.mechanisms.profile import DeviceProfile
+from app.mechanisms.hand_motion import hand_stage
+from app.mechanisms.profile import DeviceProfile, parse_profile
 from app.planning.placement import PlacedPlan
 from app.planning.registration.record import Registrations
 from app.session.conditions import CONDITIONS, EXERCISE_FILE, TRAINEE
@@ -48,7 +49,6 @@ from app.session.replay import ReplayReport, is_simulated, replay
 from app.session.risks import Risk
 from app.session.trainer import Trainer
 from app.session.withdrawal import Start
-from app.simulation.hand_motion import hand_stage
 from app.simulation.plant import initial_plant, plant_stage
 from app.simulation.trainee import TraineeScript, script_stage, trainee_stage
 from app.tracking.cameras.settings import CameraSettings
@@ -340,7 +340,7 @@ def _build_rig(
         cameras.rig,
         setup.clock,
         axis=measured_axis(loop),
-        fulcrum=profile.pantograph.fulcrum,
+        fulcrum=profile.fulcrum,
         on_fix=lambda fix: trainer.on_fix(fix),
         force=felt_force(loop),
         colour=cameras.colour,
@@ -427,7 +427,7 @@ def loop_table(
     if simulated:
         link = simulated_link(profile, [plant_stage(profile, UPRIGHT, START_DEPTH)])
     else:  # a simulated hand may still move what simulated cameras see
-        link = Link.of([hand_stage(profile.geometry.needle_length), *link.read], link.write)
+        link = Link.of([hand_stage(profile.needle_length), *link.read], link.write)
     if (simulated or robot is not None) and setup.skill is not None:
         placed = setup.placed
         trainee = (
@@ -442,7 +442,7 @@ def loop_table(
     plan = compile_exercise(exercise, profile, declared_views(), simulated)
     bound = laws.energy_bound(requests, profile) + plan.energy_bound()
     forces = laws.stages_of(requests, profile)
-    return pantograph_stages(profile, forces, plan.stages(), link, energy_bound=bound)
+    return machine_stages(profile, forces, plan.stages(), link, energy_bound=bound)
 
 
 def _context(
@@ -488,7 +488,7 @@ def replay_table(recording: Recording, choices: Sequence[ModelChoice] = ()) -> T
     exercise = as_then(parse(_exercise(recording), Exercise, "the record's exercise"), recording)
     for choice in choices:
         exercise = effect_models.with_model(exercise, choice.effect, choice.model)
-    profile = parse(_attached(recording, "device.json"), DeviceProfile, "the record's device")
+    profile = parse_profile(_attached(recording, "device.json"), "the record's device")
     setup = TrainerSetup(
         exercise,
         recording.placed_plan(),

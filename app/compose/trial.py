@@ -190,7 +190,7 @@ def attempt(
     setup = TrainerSetup(exercise, placed, skill=skill, seed=seed, clock=clock)
     loop, rig = build_loop(setup, profile), load_rig(exercise.rig)
     scene = needle_scene(loop, profile, rig.needle.marker_offset)
-    fulcrum = profile.pantograph.fulcrum
+    fulcrum = profile.fulcrum
     axis, spoiling = measured_axis(loop), pictures_of(exercise, profile)
     tracker = (
         _RenderedTracker(
@@ -273,7 +273,7 @@ class Trials:
         table = loop_table(setup, self._profile)
         # What stages remember is in their arrays: each attempt takes copies, shared ones once.
         self._stages, self._write = table.compute, table.write
-        self._fulcrum = self._profile.pantograph.fulcrum
+        self._fulcrum = self._profile.fulcrum
         rig = load_rig(exercise.rig)
         self._spoiled = Spoiled.by(pictures_of(exercise, self._profile), rig.blur_px)
         self._cameras, self._spread = self._measurements(rig)

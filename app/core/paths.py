@@ -55,9 +55,10 @@ def settings() -> Path:
 
 
 def plugins(kind: str) -> Path:
-    """Per-user folder of a laboratory's own files: `laws`, `effects`, `metrics` or `studies`.
+    """Per-user folder of a laboratory's own files: `laws`, `effects`, `mechanisms` or the like.
 
-    `ACUS_LAWS`, `ACUS_EFFECTS`, `ACUS_METRICS`, `ACUS_STUDIES` and `ACUS_EXTRACTORS` override.
+    `ACUS_LAWS`, `ACUS_EFFECTS`, `ACUS_METRICS`, `ACUS_STUDIES`, `ACUS_EXTRACTORS` and
+    `ACUS_MECHANISMS` override.
     """
     return Path(os.environ.get(f"ACUS_{kind.upper()}") or data() / kind)
 

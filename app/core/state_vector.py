@@ -6,9 +6,10 @@ the start of every tick from the inbox that other threads write, so they are als
 recording needs for a replay. All values are SI, in `world` unless said otherwise.
 
 A slot is added by adding a line; nothing else counts them. What a slot belongs to is said in its
-own line, never by its place: `_input`, `_sum`, `_scene` or an ordinary slot. Vectors are slices
-that are named below their slots. Code loops over `SUMS` and slices by `AXIS`, never from one slot
-to another. Lines may therefore be moved: nothing changes by it, or this import fails and says why.
+own line, never by its place: `_input`, `_sum`, `_scene`, `_machine` or an ordinary slot. Vectors
+are slices that are named below their slots. Code loops over `SUMS` and slices by `AXIS`, never from
+one slot to another. Lines may therefore be moved: nothing changes by it, or this import fails and
+says why.
 """
 
 from collections.abc import Iterator
@@ -22,6 +23,7 @@ _given: list[int] = []
 _inputs: list[int] = []
 _sums: list[int] = []
 _scene_slots: list[int] = []
+_machine_slots: list[int] = []
 
 
 def _places() -> Iterator[int]:
@@ -55,6 +57,12 @@ def _scene() -> int:
     """Return the place of a new slot in which effects say what the simulated scene does."""
     _scene_slots.append(next(_next))
     return _scene_slots[-1]
+
+
+def _machine() -> int:
+    """Return the place of a new slot of a machine: its own stages, link or plant write it."""
+    _machine_slots.append(next(_next))
+    return _machine_slots[-1]
 
 
 def _end_of_inputs() -> int:
@@ -128,7 +136,7 @@ Q_TIME: Final = next(_next)  # [s] when the encoders were read
 QD_LEFT: Final = next(_next)  # [rad/s] estimated velocities
 QD_RIGHT: Final = next(_next)
 KINEMATICS: Final = next(_next)  # [-] status of the forward kinematics, 0 = valid
-P3_X: Final = next(_next)  # [m] tool point of the pantograph
+P3_X: Final = next(_next)  # [m] tool point: where the needle's line crosses z = 0
 P3_Y: Final = next(_next)
 P3_VX: Final = next(_next)  # [m/s]
 P3_VY: Final = next(_next)
@@ -229,6 +237,50 @@ INDENTATION: Final = _scene()  # [m] how far the tip has pushed in what it has n
 PUNCTURES: Final = _scene()  # [-] membranes that the tip has punctured so far
 BONE_CONTACT: Final = _scene()  # [-] 1 while the tip stands on bone
 
+# --- what a machine's own stages say of it (see `mechanisms.remote_centre`) -----------------------
+INERTIA_LEFT: Final = _machine()  # [kg·m²] mass matrix of what the joints move, without the needle
+INERTIA_CROSS: Final = _machine()
+INERTIA_RIGHT: Final = _machine()
+MASS_LEFT: Final = _machine()  # [kg·m²] mass matrix with the needle at DEPTH
+MASS_CROSS: Final = _machine()
+MASS_RIGHT: Final = _machine()
+BIAS_LEFT: Final = _machine()  # [N·m] centrifugal and Coriolis torques at QD_*
+BIAS_RIGHT: Final = _machine()
+DRIFT_X: Final = _machine()  # [m/s²] acceleration of P3 at QD_* while the joints do not accelerate
+DRIFT_Y: Final = _machine()
+WEIGHT_LEFT: Final = _machine()  # [N·m] torques that gravity asks for, the needle at DEPTH
+WEIGHT_RIGHT: Final = _machine()
+LINKS_POTENTIAL: Final = _machine()  # [J] of gravity in what the joints move, without the needle
+HOLD: Final = _sum()  # [-] how many laws want the direction of the path held, beyond their forces
+MACHINE_FAULT: Final = _machine()  # [-] code of a fault that the machine's own watch has found
+HOLDING: Final = _machine()  # [-] 1 while winches hold the direction, 0 while they pull
+TENSION_1: Final = _machine()  # [N] asked of the cables, in the order of the machine's actuators
+TENSION_2: Final = _machine()
+TENSION_3: Final = _machine()
+TENSION_4: Final = _machine()
+REEL_RATE_1: Final = _machine()  # [m/s] asked of the winches while they hold, reeling in positive
+REEL_RATE_2: Final = _machine()
+REEL_RATE_3: Final = _machine()
+REEL_RATE_4: Final = _machine()
+SHORTFALL_LEFT: Final = _machine()  # [N·m] torque that the cables cannot give within their limits
+SHORTFALL_RIGHT: Final = _machine()
+CABLE_1: Final = _machine()  # [N] tension measured: by a sensor, or by the motor's current
+CABLE_2: Final = _machine()
+CABLE_3: Final = _machine()
+CABLE_4: Final = _machine()
+REEL_1: Final = _machine()  # [m] cable that a winch has reeled in since it was switched on
+REEL_2: Final = _machine()
+REEL_3: Final = _machine()
+REEL_4: Final = _machine()
+PLANT_CABLE_1: Final = _machine()  # [N] tension as the simulated machine's gauges have it
+PLANT_CABLE_2: Final = _machine()
+PLANT_CABLE_3: Final = _machine()
+PLANT_CABLE_4: Final = _machine()
+PLANT_REEL_1: Final = _machine()  # [m] reeled in by its winches
+PLANT_REEL_2: Final = _machine()
+PLANT_REEL_3: Final = _machine()
+PLANT_REEL_4: Final = _machine()
+
 SLOTS: Final = next(_next)
 """Length of the state vector."""
 
@@ -238,6 +290,10 @@ SUMS: Final = tuple(_sums)
 
 SCENE: Final = tuple(_scene_slots)
 """What effects write beside them; nothing else can be written by a law or an effect."""
+
+MACHINE: Final = tuple(_machine_slots)
+"""What a machine's own stages, its link or its plant write; a record without them is of a machine
+that has none of it, or computes it anew in every tick."""
 
 PATH: Final = _vector(PATH_X, PATH_Y, PATH_Z)
 TARGET: Final = _vector(TARGET_X, TARGET_Y, TARGET_Z)
@@ -263,6 +319,16 @@ TARGET_SHIFT: Final = _vector(TARGET_SHIFT_X, TARGET_SHIFT_Y, TARGET_SHIFT_Z)
 PLANT_Q: Final = _vector(PLANT_Q_LEFT, PLANT_Q_RIGHT)
 PLANT_QD: Final = _vector(PLANT_QD_LEFT, PLANT_QD_RIGHT)
 PULL: Final = _vector(PULL_X, PULL_Y, PULL_Z)
+INERTIA: Final = _vector(INERTIA_LEFT, INERTIA_CROSS, INERTIA_RIGHT)
+MASS: Final = _vector(MASS_LEFT, MASS_CROSS, MASS_RIGHT)
+BIAS: Final = _vector(BIAS_LEFT, BIAS_RIGHT)
+DRIFT: Final = _vector(DRIFT_X, DRIFT_Y)
+WEIGHT: Final = _vector(WEIGHT_LEFT, WEIGHT_RIGHT)
+TENSION: Final = _vector(TENSION_1, TENSION_2, TENSION_3, TENSION_4)
+REEL_RATE: Final = _vector(REEL_RATE_1, REEL_RATE_2, REEL_RATE_3, REEL_RATE_4)
+SHORTFALL: Final = _vector(SHORTFALL_LEFT, SHORTFALL_RIGHT)
+CABLE: Final = _vector(CABLE_1, CABLE_2, CABLE_3, CABLE_4)
+REEL: Final = _vector(REEL_1, REEL_2, REEL_3, REEL_4)
 
 INDEX: Final[dict[str, int]] = {
     name.lower(): value

@@ -21,6 +21,9 @@ class Fault(IntEnum):
     NOT_HOMED = 11
     LINK_LOST = 12
     BOARD_ERROR = 13
+    CABLE_SLACK = 14
+    CABLE_BROKEN = 15
+    ENCODER_LOST = 16
 
     @property
     def message(self) -> str:
@@ -34,7 +37,7 @@ _MESSAGES: Final = {
     " check the camera calibration and the plan",
     Fault.ENCODER_NOT_FINITE: "an encoder gives no number; check its cable",
     Fault.UNREACHABLE: "the encoders report a pose that the links cannot take; check their offsets",
-    Fault.SINGULAR: "the pantograph is in a singular pose; move the needle back towards the middle",
+    Fault.SINGULAR: "the robot is in a singular pose; move the needle back towards the middle",
     Fault.NO_GRIP: "nothing of the needle stands out of the fulcrum; pull it out",
     Fault.DEGENERATE: "the needle has no direction; check the encoder offsets",
     Fault.FORCE_NOT_FINITE: "a force law or an effect gave no number; leave out the effect",
@@ -45,5 +48,11 @@ _MESSAGES: Final = {
     Fault.NOT_HOMED: "the robot is not homed, or its signs are not checked, since it was switched"
     " on; run the commissioning wizard or `acus device calibrate`",
     Fault.LINK_LOST: "the robot does not answer; check cable and power, it is looked for again",
+    Fault.CABLE_SLACK: "a cable of the robot has gone slack, so its force was cut; look whether it"
+    " lies on its pulleys, then arm again",
+    Fault.CABLE_BROKEN: "a cable of the robot runs without load, as if it were torn, so its force"
+    " was cut; look at all four, then arm again",
+    Fault.ENCODER_LOST: "an encoder of the robot contradicts its cables, jumps or is silent, so the"
+    " force was cut; check its plug, then arm again",
     Fault.BOARD_ERROR: "the robot's board reports an error; see the robot's health panel",
 }

@@ -36,7 +36,8 @@ from app.core.configuration import parse
 from app.exchange.errors import UrdfError
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.pantograph import inverse, passive_angles
-from app.mechanisms.profile import DeviceProfile, GeometrySection, Provenance
+from app.mechanisms.pantograph.profile import GeometrySection, PantographProfile
+from app.mechanisms.profile import Provenance, parse_profile
 
 _LARGEST = 5_000_000
 """Size above which a file is no robot description [bytes]."""
@@ -78,7 +79,7 @@ def read_geometry(path: Path) -> GeometrySection:
     return parse(values | {"provenance": provenance}, GeometrySection, str(path))
 
 
-def profile_like(model: DeviceProfile, geometry: GeometrySection, name: str) -> dict[str, Any]:
+def profile_like(model: PantographProfile, geometry: GeometrySection, name: str) -> dict[str, Any]:
     """Return a profile document (for YAML) with the geometry read and all else from `model`.
 
     What was measured or published of the model is an estimate of another robot, and marked so.
@@ -93,7 +94,7 @@ def profile_like(model: DeviceProfile, geometry: GeometrySection, name: str) -> 
         if isinstance(section, dict):
             section["provenance"] = dict.fromkeys(section["provenance"], "estimated")
     document["geometry"] = geometry.model_dump(mode="json")
-    parse(document, DeviceProfile, f"profile {name}")
+    parse_profile(document, f"profile {name}")
     return document
 
 
@@ -220,7 +221,7 @@ class Origin(StrEnum):
     MIDPOINT = "midpoint"
 
 
-def write_urdf(profile: DeviceProfile, origin: Origin = Origin.LEFT_MOTOR) -> str:
+def write_urdf(profile: PantographProfile, origin: Origin = Origin.LEFT_MOTOR) -> str:
     """Return the profile as URDF text.
 
     Effort limits are the profile's torque limit, angle limits what its tilt limit needs; passive
@@ -255,7 +256,7 @@ def write_urdf(profile: DeviceProfile, origin: Origin = Origin.LEFT_MOTOR) -> st
 
 def _arm(
     robot: ET.Element,
-    profile: DeviceProfile,
+    profile: PantographProfile,
     side: str,
     joints: tuple[str, str],
     x: float,
@@ -282,8 +283,8 @@ def _arm(
     _hinge(robot, passive, link1, link2, (lengths.proximal, 0.0, 0.0), ranges[passive])
 
 
-def _needle(robot: ET.Element, profile: DeviceProfile) -> None:
-    part, length = profile.inertia, profile.geometry.needle_length
+def _needle(robot: ET.Element, profile: PantographProfile) -> None:
+    part, length = profile.inertia, profile.needle_length
     nowhere = 0.0, 0.0, 0.0
     _link(robot, "tool_theta_link", (_NOTHING, nowhere, (_NOTHING, _NOTHING)))
     _hinge(robot, "tool_theta_joint", "panto_tool0", "tool_theta_link", nowhere, (-_TURN, _TURN))
@@ -369,7 +370,7 @@ def _hinge(
     return joint
 
 
-def _joint_ranges(profile: DeviceProfile) -> dict[str, tuple[float, float]]:
+def _joint_ranges(profile: PantographProfile) -> dict[str, tuple[float, float]]:
     """Smallest and largest angle of each joint over the cone of the tilt limit [rad]."""
     geometry = profile.pantograph
     rows = []

@@ -83,7 +83,7 @@ def placed_plan_of(
 ) -> PlacedPlan:
     """Return the exercise's plan, or another one for its patient, in the robot's frame."""
     chosen = plan_of(exercise) if plan is None else plan
-    return PlacedPlan.of(chosen, exercise.placement.placement(), profile.pantograph.fulcrum)
+    return PlacedPlan.of(chosen, exercise.placement.placement(), profile.fulcrum)
 
 
 def scene_of(exercise: Exercise, profile: DeviceProfile) -> Scene:
@@ -94,7 +94,7 @@ def scene_of(exercise: Exercise, profile: DeviceProfile) -> Scene:
             for name, part in exercise.effects.items()
         ),
         layers=tuple(part.layer() for part in exercise.layers) or DEFAULT_LAYERS,
-        needle=Needle(profile.geometry.needle_length, OUTER_DIAMETER[exercise.needle.gauge]),
+        needle=Needle(profile.needle_length, OUTER_DIAMETER[exercise.needle.gauge]),
         R_world_patient=exercise.placement.placement().rotation,
         target_organ=exercise.target_organ,
         joint=profile.workspace.joint,

@@ -20,7 +20,7 @@ class NoGripError(MechanismError):
 
 
 class DegenerateError(MechanismError):
-    """The needle has no direction, or lies in the plane of the pantograph."""
+    """The needle has no direction, or lies in the plane of its tool point."""
 
 
 class NotFiniteError(MechanismError, NumericalError):

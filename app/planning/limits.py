@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from app.core.arrays import FloatArray, frozen
-from app.mechanisms.errors import MechanismError
-from app.mechanisms.geometry import Geometry
 from app.mechanisms.profile import DeviceProfile
+
+if TYPE_CHECKING:
+    from app.mechanisms.remote_centre import RemoteCentre
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,7 +23,8 @@ class ReachLimits:
         fulcrum: P_I in world [m], shape (3,).
         tilt_limit: largest angle between needle and vertical [rad].
         depth_limit: deepest position of the tip beyond the fulcrum [m].
-        in_workspace: whether the mechanism can hold its tool point P_3 at (x, y) [m] in its plane.
+        in_workspace: whether the machine can point the needle so that it crosses z = 0 at (x, y)
+            [m]; there a pantograph holds it.
     """
 
     fulcrum: FloatArray
@@ -32,16 +35,15 @@ class ReachLimits:
     @classmethod
     def of(cls, profile: DeviceProfile) -> ReachLimits:
         """Take the limits out of a device profile."""
-        geometry = profile.pantograph
         return cls(
-            fulcrum=frozen(geometry.fulcrum, (3,), "fulcrum"),
+            fulcrum=frozen(profile.fulcrum, (3,), "fulcrum"),
             tilt_limit=profile.tilt_limit,
             depth_limit=profile.depth_range[1],
-            in_workspace=lambda x, y: in_workspace(geometry, x, y),
+            in_workspace=in_workspace(profile),
         )
 
     def tool_point(self, axis: FloatArray) -> tuple[float, float] | None:
-        """Where the needle crosses the mechanism's plane z = 0 [m]; None if it never does.
+        """Where the needle crosses the plane z = 0 [m]; None if it never does.
 
         Args:
             axis: needle direction, hub to tip, unit vector.
@@ -60,19 +62,21 @@ class ReachLimits:
         return all(point is not None and self.in_workspace(*point) for point in points)
 
 
-def in_workspace(geometry: Geometry, x: float, y: float) -> bool:
-    """Whether the pantograph, elbows outwards, closes at (x, y) [m] in the assembly it is built in.
+def in_workspace(profile: DeviceProfile) -> Callable[[float, float], bool]:
+    """Return what tells whether the machine can point the needle at (x, y) [m] in z = 0.
 
-    Where both arms reach but the links would have to pass through each other, forward kinematics
-    of the joint angles gives another point back: that counts as outside.
+    Where links would have to pass through each other, or the machine would have to be put together
+    otherwise, it cannot: only the branch that it is built in counts.
     """
-    from app.mechanisms.pantograph import forward, inverse  # compiled: loaded when first asked
+    machine: RemoteCentre | None = None
 
-    try:
-        back = forward(geometry, inverse(geometry, (x, y)))
-    except MechanismError:
-        return False
-    return bool(np.hypot(back[0] - x, back[1] - y) < 1e-9)
+    def holds(x: float, y: float) -> bool:
+        nonlocal machine
+        if machine is None:
+            machine = profile.machine  # compiled: loaded when first asked
+        return machine.holds(np.array([x, y, 0.0]) - machine.centre)
+
+    return holds
 
 
 def tilt_of(axis: FloatArray) -> float:

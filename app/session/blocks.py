@@ -60,7 +60,13 @@ OUTPUTS: Final = ("kinematics", "depth", "depth_source", "torque_left", "torque_
 LATER: Final = ("hold_breath", "needle_roll")
 """Inputs that records did not always have: behind all others, so that those blocks read alike."""
 
-COLUMNS: Final = (*(n for n in INPUTS if n not in LATER), *CLOCK, *WIRE, *OUTPUTS, *LATER)
+CABLES: Final = (*slots.VECTORS["cable"], *slots.VECTORS["reel"])
+"""What a robot with cables gives a tick beside them: later than all, and zeros of one without."""
+
+COLUMNS: Final = (
+    *(n for n in INPUTS if n not in LATER),
+    *(*CLOCK, *WIRE, *OUTPUTS, *LATER, *CABLES),
+)
 """Slot names of a block's columns."""
 
 TRAINEE: Final = ("hand_x", "hand_y", "hand_depth", "hand_holds")

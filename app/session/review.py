@@ -14,7 +14,7 @@ from app.core.loading import ONE_AT_A_TIME
 from app.core.units import DEGREE
 from app.exercises.scene import scene_of
 from app.exercises.schema import Exercise
-from app.mechanisms.profile import DeviceProfile
+from app.mechanisms.profile import parse_profile
 from app.planning.placement import PlacedPlan
 from app.scoring.conditions import Conditions
 from app.scoring.result import Score
@@ -127,7 +127,7 @@ def side_force(recording: Recording) -> Callable[[float], float] | None:
     try:
         said = json.loads(recording.attachments[EXERCISE_FILE])
         exercise = Exercise.model_validate(said | {"ct": {"phantom": {}}})  # no part of the tissue
-        profile = DeviceProfile.model_validate_json(recording.attachments[DEVICE_FILE])
+        profile = parse_profile(json.loads(recording.attachments[DEVICE_FILE]), DEVICE_FILE)
         part = exercise.effects["lateral_tissue"]
         known = lateral_tissue.DECLARATION["parameters"]
         values = {name: facts[0] for name, facts in known.items()} | dict(part.parameters)
@@ -135,7 +135,7 @@ def side_force(recording: Recording) -> Callable[[float], float] | None:
         tissue = lateral_tissue.parameters(values, binding)
     except (KeyError, TypeError, ValueError, AcusError):  # another version's; the debrief says less
         return None
-    length, shortest = profile.geometry.needle_length, values["shortest_lever"]
+    length, shortest = profile.needle_length, values["shortest_lever"]
 
     def force(depth: float) -> float:
         moment = float(lateral_tissue.rotational_stiffness(tissue, depth))

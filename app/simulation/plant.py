@@ -1,370 +1,21 @@
 """The simulated robot and the hand that holds its needle, as one stage at the end of the tick.
 
-Sideways, in the motor angles (mechanisms/pantograph/dynamics):
-
-    M(q) q̈ + h(q, q̇) + g(q) + friction(q̇) = τ + Aᵀ F_hand + Jᵀ γ_stop,   A = G_perp J,
-
-links, tool and needle, with the hand a spring-damper at the hub point, perpendicular to the needle,
-towards where the hand is; it goes where it is wanted at a hand's speed (`hand_motion`). Along the
-needle, one mass: hand spring-damper, the needle's weight and what its turning adds, the seal at the
-fulcrum (Coulomb and viscous) and AXIAL_FORCE. Stops: a stiff spring-damper on the tool beyond the
-tilt limit, an inelastic end of the depth range.
-
-Springs, dampers and friction are integrated by linearly implicit Euler in substeps of at most half
-a millisecond: stable for any stiffness and any step, and it takes energy, never adds any, where the
-forces are passive. Coulomb friction of joints and seal is dry and solved exactly: it can hold.
-Gravity and velocity terms are explicit. Motor torques are held over the tick, as a real amplifier
-holds them, so the limits of a sampled controller show as they would on the device. A tissue force
-that opposes the motion acts as the damper F / v: it can stop the needle but not turn it back.
-
-What cannot be integrated (NaN in an input) is left out: a hand with NaN lets go, a torque or tissue
-force with NaN is zero, a pose that the mechanism cannot have falls back to the starting pose.
+How they move is `mechanisms.needle_motion`, with the machine's own stage; here is what a profile
+does not say: the hand, the seal, the stops, and where all of it begins.
 """
 
 from dataclasses import dataclass
-from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from app.core import state_vector as sv
-from app.core.arrays import FloatArray, unit
-from app.core.compiled import njit, stage
-from app.core.parameters import Stage, numbered, packed
-from app.mechanisms.dynamic_model import A1, A2, BASE, COULOMB, FX, FY, FZ, MODEL_SIZE, VISCOUS
-from app.mechanisms.pantograph.dynamics import axial_load_kernel, dynamics_kernel
-from app.mechanisms.pantograph.kernels import (
-    axis_kernel,
-    force_map_kernel,
-    forward_kernel,
-    hub_velocity_kernel,
-    inverse_kernel,
-    jacobian_kernel,
-)
+from app.core.arrays import unit
+from app.core.parameters import Stage, packed
+from app.mechanisms import hand_motion
+from app.mechanisms.errors import MechanismError
+from app.mechanisms.needle_motion import AT
 from app.mechanisms.profile import DeviceProfile
-from app.simulation import hand_motion
 from app.simulation.errors import SimulationError
-from app.simulation.hand_motion import advance, grip_direction, take_hold, turn, wanted
-
-MODEL: Final = 0
-"""Place of the model of the dynamics, see `mechanisms.dynamic_model`; the others follow it."""
-
-
-class PlantPlaces(NamedTuple):
-    """Needle, stops, what slides along the needle, hand, and the starting pose."""
-
-    length: int
-    radius: int
-    stop_k: int
-    stop_b: int
-    depth_min: int
-    depth_max: int
-    mass: int
-    seal: int
-    seal_viscous: int
-    hand_k: int
-    hand_b: int
-    hand_axial_k: int
-    hand_axial_b: int
-    hand_most: int
-    start_left: int
-    start_right: int
-    start_depth: int
-
-
-AT: Final = numbered(PlantPlaces, MODEL_SIZE)
-MOTION: Final = MODEL_SIZE + len(AT)  # of the hand, see `hand_motion`
-
-SHORTEST_LEVER: Final = 0.01  # [m] of needle outside the fulcrum
-
-Pose = tuple[bool, float, float, float, float, float, float]
-"""Whether the mechanism can have the pose, its tool point and Jacobian (jxl, jxr, jyl, jyr)."""
-
-System = tuple[float, float, float, float, float]
-"""Force at the tool (x, y) and the matrix (xx, xy, yy) that its spring-damper adds."""
-
-
-@njit
-def spring(
-    p: FloatArray, gx: float, gy: float, gz: float, dx: float, dy: float, dz: float, l_out: float
-) -> tuple[float, float, float, float]:
-    """Spring of a hand at g, at the hub, across the needle: (stiffness in effect, fx, fy, fz)."""
-    sx, sy, sz = -l_out * (gx - dx), -l_out * (gy - dy), -l_out * (gz - dz)
-    along = sx * dx + sy * dy + sz * dz
-    sx, sy, sz = sx - along * dx, sy - along * dy, sz - along * dz
-    stretch = np.sqrt(sx * sx + sy * sy + sz * sz)
-    k = p[AT.hand_k]
-    if k * stretch > p[AT.hand_most]:
-        k = p[AT.hand_most] / stretch
-    return k, k * sx, k * sy, k * sz
-
-
-@njit
-def axial_spring(state: FloatArray, p: FloatArray) -> tuple[float, float]:
-    """Hand spring along the needle: (stiffness in effect [N/m], force inwards [N])."""
-    stretch = state[sv.GRIP_DEPTH] - state[sv.PLANT_DEPTH]
-    k = p[AT.hand_axial_k]
-    if k * abs(stretch) > p[AT.hand_most]:
-        k = p[AT.hand_most] / abs(stretch)
-    return k, k * stretch
-
-
-@njit
-def hand_at_tool(
-    p: FloatArray,
-    h: float,
-    hx: float,
-    hy: float,
-    hz: float,
-    dx: float,
-    dy: float,
-    dz: float,
-    l_in: float,
-    l_out: float,
-) -> System:
-    """Hand force at the tool and its part of the system matrix: (gx, gy, xx, xy, yy)."""
-    k, fx, fy, fz = spring(p, hx, hy, hz, dx, dy, dz, l_out)
-    gx, gy = force_map_kernel(fx, fy, fz, dx, dy, dz, l_in, l_out)
-    c = (h * p[AT.hand_b] + h * h * k) * (l_out / l_in) ** 2
-    return gx, gy, c * (1.0 - dx * dx), -c * dx * dy, c * (1.0 - dy * dy)
-
-
-@njit
-def stop_at_tool(p: FloatArray, h: float, x: float, y: float, vx: float, vy: float) -> System:
-    """Force of the tilt stop at the tool, likewise; it only pushes inwards."""
-    ex, ey = x - p[FX], y - p[FY]
-    radius = np.sqrt(ex * ex + ey * ey)
-    beyond = radius - p[AT.radius]
-    if not beyond > 0.0:
-        return 0.0, 0.0, 0.0, 0.0, 0.0
-    ex, ey = ex / radius, ey / radius
-    damping = p[AT.stop_b] if ex * vx + ey * vy > 0.0 else 0.0
-    c = h * damping + h * h * p[AT.stop_k]
-    push = -p[AT.stop_k] * beyond
-    return push * ex, push * ey, c * ex * ex, c * ex * ey, c * ey * ey
-
-
-_SPEED: Final = 50.0  # [rad/s]
-_SNAP: Final = 1e-12  # slower than this is at rest: subnormal numbers cost 20 times more
-_ROUNDS: Final = 40  # of joints that may stick; each leaves at most a quarter of the error
-
-
-@njit
-def pose_of(p: FloatArray, q1: float, q2: float) -> Pose:
-    """Tool point and Jacobian: (ok, x, y, jxl, jxr, jyl, jyr)."""
-    status, x, y = forward_kernel(q1, q2, p[A1], p[A2], p[BASE], 1.0)
-    if status != 0:
-        return False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    status, jxl, jxr, jyl, jyr = jacobian_kernel(q1, q2, x, y, p[A1], p[A2], p[BASE])
-    return status == 0, x, y, jxl, jxr, jyl, jyr
-
-
-@njit
-def _slower(impulse: float, most: float) -> float:
-    """Return what dry friction of at most `most` leaves of an impulse."""
-    return impulse - most if impulse > most else (impulse + most if impulse < -most else 0.0)
-
-
-@njit
-def dry(
-    a11: float, a12: float, a22: float, b1: float, b2: float, v1: float, v2: float, most: float
-) -> tuple[float, float]:
-    """Speeds of A v = b - λ, λ the impulse of dry friction of each joint: (v1, v2).
-
-    |λ| ≤ most; a joint that moves has it whole, against its motion; one that it can hold rests.
-    `v1` and `v2` on entry are the speeds before: where the signs stay, the answer is direct.
-    """
-    determinant = a11 * a22 - a12 * a12
-    s1 = most if v1 > 0.0 else -most
-    s2 = most if v2 > 0.0 else -most
-    u1 = (a22 * (b1 - s1) - a12 * (b2 - s2)) / determinant
-    u2 = (a11 * (b2 - s2) - a12 * (b1 - s1)) / determinant
-    if most == 0.0 or (u1 * s1 > 0.0 and u2 * s2 > 0.0):
-        return u1, u2
-    for _ in range(_ROUNDS):
-        u1 = _slower(b1 - a12 * v2, most) / a11
-        u2 = _slower(b2 - a12 * u1, most) / a22
-        if abs(u1 - v1) + abs(u2 - v2) <= _SNAP:
-            break
-        v1, v2 = u1, u2
-    return u1, u2
-
-
-@njit
-def swing(
-    state: FloatArray,
-    p: FloatArray,
-    h: float,
-    t1: float,
-    t2: float,
-    holds: bool,
-    wx: float,
-    wy: float,
-    wz: float,
-    pose: Pose,
-) -> Pose:
-    """One substep sideways: solve (M + h D + h² K) q̇⁺ = M q̇ + h (τ - h - g + spring forces).
-
-    Returns the pose that it moves to.
-    """
-    q1, q2 = state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT]
-    v1, v2 = state[sv.PLANT_QD_LEFT], state[sv.PLANT_QD_RIGHT]
-    _, x, y, jxl, jxr, jyl, jyr = pose
-    m11, m12, m22, c1, c2, g1, g2 = dynamics_kernel(
-        q1, q2, v1, v2, x, y, state[sv.PLANT_DEPTH], state[sv.PLANT_DEPTH_RATE], p, MODEL
-    )
-    vx, vy = jxl * v1 + jxr * v2, jyl * v1 + jyr * v2
-    gx, gy, xx, xy, yy = stop_at_tool(p, h, x, y, vx, vy)
-    if holds:
-        dx, dy, dz, l_in = axis_kernel(x, y, p[FX], p[FY], p[FZ])
-        l_out = max(p[AT.length] - state[sv.PLANT_DEPTH], SHORTEST_LEVER)
-        hx, hy, hxx, hxy, hyy = hand_at_tool(p, h, wx, wy, wz, dx, dy, dz, l_in, l_out)
-        gx, gy, xx, xy, yy = gx + hx, gy + hy, xx + hxx, xy + hxy, yy + hyy
-    b1 = m11 * v1 + m12 * v2 + h * (t1 - c1 - g1 + jxl * gx + jyl * gy)
-    b2 = m12 * v1 + m22 * v2 + h * (t2 - c2 - g2 + jxr * gx + jyr * gy)
-    a11 = m11 + h * p[VISCOUS] + jxl * (xx * jxl + xy * jyl) + jyl * (xy * jxl + yy * jyl)
-    a12 = m12 + jxl * (xx * jxr + xy * jyr) + jyl * (xy * jxr + yy * jyr)
-    a22 = m22 + h * p[VISCOUS] + jxr * (xx * jxr + xy * jyr) + jyr * (xy * jxr + yy * jyr)
-    v1, v2 = dry(a11, a12, a22, b1, b2, v1, v2, h * p[COULOMB])
-    v1 = _rest(min(max(v1, -_SPEED), _SPEED))
-    v2 = _rest(min(max(v2, -_SPEED), _SPEED))
-    moved = pose_of(p, q1 + h * v1, q2 + h * v2)
-    ok = moved[0]
-    state[sv.PLANT_Q_LEFT] = q1 + h * v1 if ok else q1
-    state[sv.PLANT_Q_RIGHT] = q2 + h * v2 if ok else q2
-    state[sv.PLANT_QD_LEFT] = v1 if ok else 0.0
-    state[sv.PLANT_QD_RIGHT] = v2 if ok else 0.0
-    return moved if ok else pose
-
-
-@njit
-def _load(state: FloatArray, p: FloatArray, pose: Pose) -> float:
-    """Weight and turning of the needle along its axis, inwards [N]."""
-    _, x, y, jxl, jxr, jyl, jyr = pose
-    v1, v2 = state[sv.PLANT_QD_LEFT], state[sv.PLANT_QD_RIGHT]
-    vx, vy = jxl * v1 + jxr * v2, jyl * v1 + jyr * v2
-    return axial_load_kernel(vx, vy, x, y, state[sv.PLANT_DEPTH], p, MODEL)
-
-
-@njit
-def slide(
-    state: FloatArray, p: FloatArray, h: float, tissue: float, holds: bool, pose: Pose
-) -> None:
-    """One substep along the needle; the seal's Coulomb friction is solved exactly (it can hold)."""
-    depth, v = state[sv.PLANT_DEPTH], state[sv.PLANT_DEPTH_RATE]
-    mass = p[AT.mass] + h * p[AT.seal_viscous]
-    impulse = p[AT.mass] * v + h * _load(state, p, pose)
-    if tissue * v > 0.0:  # opposes the motion: implicit, as the damper F / v
-        mass += h * tissue / v
-    else:
-        impulse -= h * tissue
-    if holds:
-        k, spring = axial_spring(state, p)
-        mass += h * p[AT.hand_axial_b] + h * h * k
-        impulse += h * spring
-    held = h * p[AT.seal]
-    v = 0.0 if abs(impulse) <= held else (impulse - np.sign(impulse) * held) / mass
-    v = _rest(v)
-    moved = min(max(depth + h * v, p[AT.depth_min]), p[AT.depth_max])
-    state[sv.PLANT_DEPTH_RATE] = v if moved == depth + h * v else 0.0
-    state[sv.PLANT_DEPTH] = moved
-
-
-@njit
-def _rest(speed: float) -> float:
-    return speed if abs(speed) > _SNAP else 0.0
-
-
-SUBSTEP: Final = 0.5e-3
-"""Longest substep [s]; by measurement: `acus study plant_substeps`."""
-LONGEST_STEP: Final = 5e-3  # [s] as the loop clamps it
-_TORQUE: Final = 5.0  # [N·m] far beyond any motor of this size
-_AXIAL: Final = 50.0  # [N]
-
-
-@njit
-def _bounded(value: float, limit: float) -> float:
-    """Return `value` within ±limit; NaN counts as zero."""
-    return 0.0 if np.isnan(value) else min(max(value, -limit), limit)
-
-
-@njit
-def _recover(state: FloatArray, p: FloatArray) -> Pose:
-    """Go back to the starting pose, at rest, if the pose is none the mechanism can have.
-
-    Returns the pose.
-    """
-    q1, q2 = state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT]
-    v1, v2 = state[sv.PLANT_QD_LEFT], state[sv.PLANT_QD_RIGHT]
-    pose = pose_of(p, q1, q2)
-    if not (np.isfinite(q1 + q2 + v1 + v2) and pose[0]):
-        state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT] = p[AT.start_left], p[AT.start_right]
-        state[sv.PLANT_QD_LEFT] = state[sv.PLANT_QD_RIGHT] = 0.0
-        pose = pose_of(p, p[AT.start_left], p[AT.start_right])
-    if not np.isfinite(state[sv.PLANT_DEPTH] + state[sv.PLANT_DEPTH_RATE]):
-        state[sv.PLANT_DEPTH], state[sv.PLANT_DEPTH_RATE] = p[AT.start_depth], 0.0
-    return pose
-
-
-@njit
-def _report(state: FloatArray, p: FloatArray, holds: bool, pose: Pose) -> None:
-    """Write the force of the hand across (PULL_*) and along (PUSH) the needle."""
-    state[sv.PULL_X] = state[sv.PULL_Y] = state[sv.PULL_Z] = state[sv.PUSH] = 0.0
-    ok, x, y, jxl, jxr, jyl, jyr = pose
-    if not (holds and ok):
-        return
-    v1, v2 = state[sv.PLANT_QD_LEFT], state[sv.PLANT_QD_RIGHT]
-    dx, dy, dz, l_in = axis_kernel(x, y, p[FX], p[FY], p[FZ])
-    l_out = max(p[AT.length] - state[sv.PLANT_DEPTH], SHORTEST_LEVER)
-    gx, gy, gz = grip_direction(state)
-    _, fx, fy, fz = spring(p, gx, gy, gz, dx, dy, dz, l_out)
-    ux, uy, uz = hub_velocity_kernel(
-        jxl * v1 + jxr * v2, jyl * v1 + jyr * v2, dx, dy, dz, l_in, l_out
-    )
-    state[sv.PULL_X] = fx - p[AT.hand_b] * ux
-    state[sv.PULL_Y] = fy - p[AT.hand_b] * uy
-    state[sv.PULL_Z] = fz - p[AT.hand_b] * uz
-    state[sv.PUSH] = axial_spring(state, p)[1] - p[AT.hand_axial_b] * state[sv.PLANT_DEPTH_RATE]
-
-
-@njit
-def _move_hand(state: FloatArray, p: FloatArray, dt: float, pose: Pose) -> bool:
-    """Move GRIP_* towards HAND_*; returns whether the hand holds."""
-    holds, wx, wy, wz = wanted(state)
-    ok, x, y, _, _, _, _ = pose
-    dx, dy, _, _ = axis_kernel(x, y, p[FX], p[FY], p[FZ])
-    if not ok:
-        dx, dy = 0.0, 0.0
-    if take_hold(state, p, MOTION, holds, dx, dy, state[sv.PLANT_DEPTH]) and dt > 0.0:
-        lever = max(p[AT.length] - state[sv.PLANT_DEPTH], SHORTEST_LEVER)
-        turn(state, p, MOTION, dt, wx, wy, wz, lever)
-        advance(state, p, MOTION, dt)
-    return holds
-
-
-@njit
-def move(state: FloatArray, parameters: FloatArray, substep: float) -> None:
-    """Do what `step` does, in substeps of at most `substep` [s]."""
-    pose = _recover(state, parameters)
-    dt = min(state[sv.DT], LONGEST_STEP) if state[sv.DT] > 0.0 else 0.0  # not for NaN
-    holds = _move_hand(state, parameters, dt, pose)
-    if dt > 0.0:
-        gx, gy, gz = grip_direction(state)
-        substeps = int(np.ceil(dt / substep - 1e-9))
-        h = dt / max(substeps, 1)
-        t1 = _bounded(state[sv.TORQUE_LEFT], _TORQUE)
-        t2 = _bounded(state[sv.TORQUE_RIGHT], _TORQUE)
-        tissue = _bounded(state[sv.AXIAL_FORCE], _AXIAL)
-        for _ in range(substeps):
-            slide(state, parameters, h, tissue, holds, pose)
-            pose = swing(state, parameters, h, t1, t2, holds, gx, gy, gz, pose)
-    _report(state, parameters, holds, pose)
-
-
-@stage
-def step(state: FloatArray, parameters: FloatArray) -> None:
-    """Move hand, robot and needle by DT (at most 5 ms) and write the forces of the hand."""
-    move(state, parameters, SUBSTEP)
 
 
 @dataclass(frozen=True, slots=True)
@@ -426,17 +77,16 @@ def initial_plant(profile: DeviceProfile, axis: ArrayLike, depth: float) -> dict
     Raises:
         SimulationError: if the needle does not point down, or the robot cannot reach the pose.
     """
-    direction = unit(axis, "axis")
-    fulcrum = profile.pantograph.fulcrum
+    direction, machine = unit(axis, "axis"), profile.machine
     if direction[2] >= 0.0:
         raise SimulationError(f"needle direction {direction.tolist()} does not point down")
-    x, y = (fulcrum - direction * fulcrum[2] / direction[2])[:2]
-    status, left, right = inverse_kernel(x, y, *profile.pantograph.links, 1.0, -1.0)
-    if status != 0:
+    try:
+        left, right = machine.usable(direction).tolist()
+    except MechanismError as error:
         raise SimulationError(
             f"device {profile.name} cannot hold the needle along {direction.tolist()}; "
             f"its tilt limit is {profile.tilt_limit_deg:g} degrees"
-        )
+        ) from error
     low, high = profile.depth_range
     return {
         "plant_q_left": left,
@@ -465,12 +115,12 @@ def plant_stage(
     """
     hand, rig = hand or SimulatedHand(), surroundings or PlantSurroundings()
     start = initial_plant(profile, axis, depth)
-    geometry, fulcrum = profile.pantograph, profile.pantograph.fulcrum
+    machine, fulcrum = profile.machine.stages(), profile.geometry.fulcrum
     radius = fulcrum[2] * np.tan(profile.tilt_limit)
     depth_min, depth_max = profile.depth_range
     own = packed(
         AT,
-        length=geometry.needle_length,
+        length=profile.needle_length,
         radius=radius,
         stop_k=rig.stop_stiffness,
         stop_b=rig.stop_damping,
@@ -487,6 +137,16 @@ def plant_stage(
         start_left=start["plant_q_left"],
         start_right=start["plant_q_right"],
         start_depth=start["plant_depth"],
+        fx=fulcrum[0],
+        fy=fulcrum[1],
+        fz=fulcrum[2],
+        coulomb=profile.friction.coulomb,
+        viscous=profile.friction.viscous,
+        gx=profile.mounting.gravity[0],
+        gy=profile.mounting.gravity[1],
+        gz=profile.mounting.gravity[2],
+        needle_mass=profile.inertia.needle_mass,
+        needle_offset=profile.inertia.needle_centre - profile.needle_length,
     )
     motion = packed(
         hand_motion.AT,
@@ -495,5 +155,4 @@ def plant_stage(
         axial_speed=hand.axial_speed,
         axial_acceleration=hand.axial_acceleration,
     )
-    parameters = np.concatenate([profile.dynamic_model.values, own, motion])
-    return Stage("plant", step, parameters)
+    return Stage("plant", machine.plant, np.concatenate([own, motion, machine.plant_values]))

@@ -20,8 +20,8 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray, read_only, unit
 from app.core.compiled import njit, stage
 from app.core.parameters import Stage, numbered, packed
+from app.mechanisms.hand_motion import grip_direction
 from app.simulation.errors import SimulationError
-from app.simulation.hand_motion import grip_direction
 from app.simulation.skills import Skill, find_skill
 
 STEP: Final = 0.005  # [s] between rows of the script

@@ -11,12 +11,12 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
-from app.device.control.table import pantograph_stages
+from app.device.control.table import machine_stages
 from app.device.control.transmission import Transmission, transmission_stage
 from app.device.links.link import Link
+from app.mechanisms.lever import force_map_kernel, printed_force_kernel
 from app.mechanisms.pantograph import ForceLaw, inverse, jacobian, joint_torques, needle_at
-from app.mechanisms.pantograph.kernels import force_map_kernel, printed_force_kernel
-from app.mechanisms.profile import DeviceProfile, load_profile
+from app.mechanisms.pantograph.profile import PantographProfile, load_pantograph
 from app.studies.findings import Cell, Figure, Findings, Sheet
 from app.studies.in_use import called
 from app.studies.references.mujoco_pantograph import felt_in_mujoco
@@ -46,14 +46,14 @@ Lever = tuple[float, float, float, float, float]
 class _Pose:
     """A needle with the wanted force across it."""
 
-    profile: DeviceProfile
+    profile: PantographProfile
     tilt: float
     force: Force
     lever: Lever
     jacobian: FloatArray
 
 
-def pose(profile: DeviceProfile, tilt: float, sideways: bool) -> _Pose:
+def pose(profile: PantographProfile, tilt: float, sideways: bool) -> _Pose:
     """Needle at a tilt [rad] with 2 N wanted across it, in the tilt plane or sideways."""
     geometry = profile.pantograph
     lean = np.tan(tilt) * np.array([np.cos(_LEAN), np.sin(_LEAN)])
@@ -112,7 +112,7 @@ def tool_force(where: _Pose, printed: bool, calls: int = 1) -> FloatArray:
 
 def _case(setting: Setting) -> Case:
     values = setting.values
-    where = pose(load_profile(_DEVICE), np.deg2rad(values["tilt_deg"]), bool(values["sideways"]))
+    where = pose(load_pantograph(_DEVICE), np.deg2rad(values["tilt_deg"]), bool(values["sideways"]))
     return Case(
         where,
         lambda gamma: float(np.linalg.norm(felt(where, gamma) - np.array(where.force))),
@@ -128,8 +128,8 @@ def _way(name: str, printed: bool) -> Way:
 
 
 def _in_use() -> object:
-    profile = load_profile(_DEVICE)
-    table = pantograph_stages(profile, [], [], Link.of([], []))
+    profile = load_pantograph(_DEVICE)
+    table = machine_stages(profile, [], [], Link.of([], []))
     chosen = next(stage for stage in table if stage.name == "transmission")
     virtual_work = Transmission.of(profile, ForceLaw.VIRTUAL_WORK).stage().parameters
     kernel = "force_map_kernel" if (chosen[2] == virtual_work).all() else "printed_force_kernel"
@@ -137,7 +137,7 @@ def _in_use() -> object:
 
 
 def _findings() -> Findings:
-    profile = load_profile(_DEVICE)
+    profile = load_pantograph(_DEVICE)
     rows: list[tuple[Cell, ...]] = []
     for tilt_deg in range(0, 46, 5):
         cells: list[Cell] = [tilt_deg]

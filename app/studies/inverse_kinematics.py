@@ -13,7 +13,7 @@ from app.core.arrays import FloatArray
 from app.core.compiled import njit
 from app.mechanisms.pantograph import inverse
 from app.mechanisms.pantograph.kernels import forward_kernel, inverse_kernel, jacobian_kernel
-from app.mechanisms.profile import load_profile
+from app.mechanisms.pantograph.profile import load_pantograph
 from app.studies.in_use import called
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 
@@ -87,7 +87,7 @@ def _table_often(p3: FloatArray, table: FloatArray, box: FloatArray, out: FloatA
 
 
 def _case(setting: Setting) -> Case:
-    geometry, rng = load_profile("icube").pantograph, np.random.default_rng(3)
+    geometry, rng = load_pantograph("icube").pantograph, np.random.default_rng(3)
     reach = geometry.fulcrum[2] * np.tan(np.deg2rad(setting.values["tilt_deg"]))
     way = rng.uniform(-np.pi, np.pi, _POINTS)
     p3 = geometry.fulcrum[:2] + reach * np.sqrt(rng.uniform(size=_POINTS))[:, None] * np.stack(
@@ -133,7 +133,7 @@ def _newton(steps: int) -> Callable[[Case], Prepared]:
 def _table(cells: int) -> Callable[[Case], Prepared]:
     def prepare(case: Case) -> Prepared:
         p3, _, links, reach = case.data
-        x0, y0 = load_profile("icube").pantograph.fulcrum[:2] - reach
+        x0, y0 = load_pantograph("icube").fulcrum[:2] - reach
         xs, ys = (low + np.linspace(0.0, 2.0 * reach, cells + 1) for low in (x0, y0))
         table = np.array([[inverse_kernel(x, y, *links, 1.0, -1.0)[1:] for y in ys] for x in xs])
         box, out = np.array([x0, y0, 2.0 * reach]), np.empty((_POINTS, 2))

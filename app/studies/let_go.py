@@ -12,7 +12,8 @@ import numpy as np
 
 from app.core.progress import Progress
 from app.core.units import MILLIMETRE
-from app.mechanisms.profile import DeviceProfile, LetGoLimit, load_profile
+from app.mechanisms.pantograph.profile import PantographProfile, load_pantograph
+from app.mechanisms.profile import LetGoLimit
 from app.studies.findings import Cell, Figure, Findings, Sheet, Survey
 from app.studies.releasing.device import Release, Rule, poses, release, upright
 
@@ -43,7 +44,7 @@ Runs = dict[tuple[str, float, Rule], list[Release]]
 def _all_runs(progress: Progress | None) -> Runs:
     found: Runs = {}
     for number, name in enumerate(PROFILES):
-        profile = load_profile(name)
+        profile = load_pantograph(name)
         for depth in DEPTHS_MM:
             if progress is not None:
                 share = (number + DEPTHS_MM.index(depth) / len(DEPTHS_MM)) / len(PROFILES)
@@ -108,7 +109,7 @@ def _released(runs: Runs) -> Sheet:
     )
 
 
-def with_limit(profile: DeviceProfile, energy_mj: float, speed: float) -> DeviceProfile:
+def with_limit(profile: PantographProfile, energy_mj: float, speed: float) -> PantographProfile:
     """Return the profile with another limit of a needle let go."""
     limit = LetGoLimit(energy_mj=energy_mj, speed=speed)
     limits = profile.limits.model_copy(update={"let_go": limit})
@@ -118,7 +119,7 @@ def with_limit(profile: DeviceProfile, energy_mj: float, speed: float) -> Device
 def _aligning() -> Sheet:
     rows: list[tuple[Cell, ...]] = []
     for name in PROFILES:
-        profile = load_profile(name)
+        profile = load_pantograph(name)
         at = upright(_ALIGNING, 24)
         for rule in Rule:
             felt = [release(profile, pose, rule, runs=1).felt for pose in at]
@@ -136,7 +137,7 @@ def _aligning() -> Sheet:
 def _choice(progress: Progress | None) -> Sheet:
     rows: list[tuple[Cell, ...]] = []
     for name in PROFILES:
-        profile = load_profile(name)
+        profile = load_pantograph(name)
         at = [*upright(_ALIGNING, 8), *upright(profile.depth_range[1], 8)]
         for energy in _ENERGIES_MJ:
             cells: list[Cell] = [name, energy]
@@ -175,7 +176,7 @@ def _draw_forces(figure: Any, sheet: Sheet) -> None:
 
 def _draw_released(figure: Any, runs: Runs) -> None:
     for number, name in enumerate(PROFILES):
-        limit = load_profile(name).let_go
+        limit = load_pantograph(name).let_go
         for column, (what, line) in enumerate(
             (("speed [m/s]", limit.speed), ("energy [mJ]", limit.energy_mj))
         ):
@@ -211,7 +212,7 @@ def _measure(progress: Progress | None) -> Findings:
 def _lines(released: Sheet) -> tuple[str, ...]:
     found = []
     for name in PROFILES:
-        limit = load_profile(name).let_go
+        limit = load_pantograph(name).let_go
         rows = [row for row in released.rows if row[0] == name and row[2] == Rule.PROFILE]
         speed, energy = (max(float(row[column]) for row in rows) for column in (3, 4))
         alone = max(

@@ -15,9 +15,9 @@ from app.core.arrays import FloatArray
 from app.core.progress import Progress
 from app.core.units import MILLIMETRE
 from app.mechanisms.geometry import Geometry
+from app.mechanisms.pantograph.profile import PantographProfile, load_pantograph
 from app.mechanisms.pantograph.statics import force_map, joint_torques, printed_force
 from app.mechanisms.pantograph.system import needle_at
-from app.mechanisms.profile import DeviceProfile, load_profile
 from app.studies import pantograph_tables
 from app.studies.findings import Figure, Findings, Sheet, Survey
 from app.studies.pantograph_tables import (
@@ -169,7 +169,7 @@ def _pulled_upright(
     return right, printed_force(needle, force), joint_torques(jacobian, right)
 
 
-def torque(figure: Any, profile: DeviceProfile, sheet: Sheet) -> None:
+def torque(figure: Any, profile: PantographProfile, sheet: Sheet) -> None:
     """Torque for the largest force at the hand over the measured depth, and the force to be had."""
     table = np.array(sheet.rows, dtype=np.float64)
     limits = profile.limits
@@ -208,7 +208,7 @@ _DEVICE: Final = "icube"
 
 
 def _measure(progress: Progress | None) -> Findings:
-    profile = load_profile(_DEVICE)
+    profile = load_pantograph(_DEVICE)
     geometry = profile.pantograph
     steps: tuple[tuple[str, Callable[[], Sheet]], ...] = (
         ("closure", lambda: pantograph_tables.closures(geometry)),

@@ -8,16 +8,11 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
 from app.mechanisms.geometry import Geometry
-from app.mechanisms.pantograph.kernels import (
-    axis_kernel,
-    forward_kernel,
-    inverse_kernel,
-    jacobian_kernel,
-    tool_kernel,
-)
+from app.mechanisms.lever import axis_kernel, tool_kernel
+from app.mechanisms.pantograph.kernels import forward_kernel, inverse_kernel, jacobian_kernel
+from app.mechanisms.pantograph.profile import PantographProfile
 from app.mechanisms.pantograph.statics import felt_force, force_map, joint_torques, printed_force
 from app.mechanisms.pantograph.system import needle_at
-from app.mechanisms.profile import DeviceProfile
 from app.studies import printed_formulas as printed
 from app.studies.findings import Cell, Sheet
 from app.studies.references.workspace import torque_per_newton
@@ -329,7 +324,7 @@ def printed_errors(geometry: Geometry) -> Sheet:
     )
 
 
-def forces(profile: DeviceProfile) -> Sheet:
+def forces(profile: PantographProfile) -> Sheet:
     """Tool force and torques for 2 N at the hand in the tilt plane, by both laws."""
     geometry, rows = profile.pantograph, []
     for tilt_deg in (0.0, 10.0, 20.0, 30.0, 39.0, 45.0):
@@ -367,7 +362,7 @@ def forces(profile: DeviceProfile) -> Sheet:
     )
 
 
-def torques(profile: DeviceProfile, step: float = 0.010) -> Sheet:
+def torques(profile: PantographProfile, step: float = 0.010) -> Sheet:
     """Torque that the hand's largest force needs at each measured depth, and what can be had.
 
     Args:

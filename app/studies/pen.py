@@ -61,7 +61,7 @@ class Setup:
 
     def camera(self) -> CameraModel:
         """Return a webcam in front of the sheet and above it, looking at where the cube is."""
-        entry = load_profile("icube").pantograph.fulcrum / MILLIMETRE
+        entry = load_profile("icube").fulcrum / MILLIMETRE
         looks_at = entry + np.array([0.0, 0.0, 70.0])
         way = unit([0.15, 0.80, 0.50])
         position = looks_at + self.distance / MILLIMETRE * way
@@ -113,7 +113,7 @@ class Outcome:
 def rendered(setup: Setup, poses: int = _POSES, seed: int = _SEED) -> Outcome:
     """Errors in rendered pictures over the workspace: an exact print, the pictures' error alone."""
     pen, model, rng = setup.pen(), setup.camera(), np.random.default_rng(seed)
-    entry = load_profile("icube").pantograph.fulcrum
+    entry = load_profile("icube").fulcrum
     draw = PenRenderer(
         model, pen.body.board(), pen.base.board(), pen.base.pose(entry), setup.edge_mm * MILLIMETRE
     )
@@ -138,7 +138,7 @@ def rendered(setup: Setup, poses: int = _POSES, seed: int = _SEED) -> Outcome:
 def trials(count: int = _TRIALS, seed: int = _SEED) -> Outcome:
     """Errors with print, tip and corners drawn anew from what is declared of them."""
     pen, model, rng = load_pen("cube"), Setup().camera(), np.random.default_rng(seed)
-    entry = load_profile("icube").pantograph.fulcrum
+    entry = load_profile("icube").fulcrum
     tip = PenTip.of(pen.tip)
     boards = (pen.body.board(), replace(pen.base.board(), markers=pen.base.board().markers[::2]))
     locators = [BoardLocator(board) for board in boards]

@@ -14,10 +14,11 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
+from app.mechanisms.pantograph import stages
 from app.mechanisms.pantograph.kernels import forward_kernel
-from app.mechanisms.profile import load_profile
-from app.simulation import plant
-from app.simulation.plant import initial_plant, move, plant_stage
+from app.mechanisms.pantograph.profile import load_pantograph
+from app.mechanisms.pantograph.stages import move
+from app.simulation.plant import initial_plant, plant_stage
 from app.studies.in_use import called
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 
@@ -58,7 +59,7 @@ def follow(
 
 def prepared(setting: Setting, substep: float) -> Callable[[], FloatArray]:
     """Return what follows a setting and gives the tool points at every tick [m], (n, 2)."""
-    profile, values = load_profile("icube"), setting.values
+    profile, values = load_pantograph("icube"), setting.values
     _, _, parameters = plant_stage(profile, depth=0.060)
     state = sv.empty_state()
     for name, value in initial_plant(profile, (0.0, 0.0, -1.0), 0.060).items():
@@ -109,5 +110,5 @@ STUDY: Final = Study(
     deadline=Limit(50e-6, "50 µs: 5 % of the 1 ms tick"),
     perception=Limit(_SEEN_MM, "0.1 mm on the screen"),
     default="0.5 ms",
-    in_use=lambda: called(plant.step, "SUBSTEP"),
+    in_use=lambda: called(stages.plant_stage, "SUBSTEP"),
 )

@@ -13,11 +13,12 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import STAGE_TYPE, stage
 from app.core.parameters import Stage, numbered, packed
-from app.device.control import kernel, pantograph_stages
+from app.device.control import kernel, machine_stages
 from app.device.control.velocity import DEFAULT_VELOCITY, VelocityMethod
 from app.device.links.simulated import simulated_link
-from app.mechanisms.pantograph.kernels import felt_kernel, forward_kernel
-from app.mechanisms.profile import DeviceProfile
+from app.mechanisms.lever import felt_kernel
+from app.mechanisms.pantograph.kernels import forward_kernel
+from app.mechanisms.pantograph.profile import PantographProfile
 from app.simulation.plant import initial_plant, plant_stage
 
 from numba import types  # isort: skip  (after core.compiled)
@@ -143,7 +144,7 @@ class Device:
             else guards against an unstable law); without it the law alone is judged.
     """
 
-    profile: DeviceProfile
+    profile: PantographProfile
     rate_hz: float
     delay: int = 0
     velocity: VelocityMethod = DEFAULT_VELOCITY
@@ -179,7 +180,7 @@ class Device:
 
     def _stages(self, law: Stage) -> list[Stage]:
         link = simulated_link(self.profile, [])
-        table = list(pantograph_stages(self.profile, [law], [], link, velocity=self.velocity))
+        table = list(machine_stages(self.profile, [law], [], link, velocity=self.velocity))
         names = [item.name for item in table]
         first, last = names.index("transmission") + 1, names.index("safety")
         return table if self.protected else table[:first] + table[last:]
@@ -219,7 +220,7 @@ class Reduction:
     damping: float
 
 
-def reductions(profile: DeviceProfile, depth: float) -> tuple[Reduction, Reduction]:
+def reductions(profile: PantographProfile, depth: float) -> tuple[Reduction, Reduction]:
     """Mass and damping of P3 along x and y, needle vertical: Λ = (J M⁻¹ Jᵀ)⁻¹, J⁻ᵀ b J⁻¹.
 
     There the mechanism is symmetric, so that x and y do not couple.

@@ -16,7 +16,7 @@ from app.core.arrays import FloatArray
 from app.core.progress import Progress
 from app.core.units import MILLIMETRE
 from app.device.control.velocity import VelocityMethod
-from app.mechanisms.profile import DeviceProfile, load_profile
+from app.mechanisms.pantograph.profile import PantographProfile, load_pantograph
 from app.studies.findings import Cell, Figure, Findings, Sheet, Survey
 from app.studies.rendered_stiffness import (
     DEPTH,
@@ -82,7 +82,7 @@ class StableRegion:
     light: FloatArray
 
 
-def without_dry_friction(profile: DeviceProfile) -> DeviceProfile:
+def without_dry_friction(profile: PantographProfile) -> PantographProfile:
     """Return the same device without Coulomb friction: what the bounds are about."""
     friction = profile.friction.model_copy(update={"coulomb": 0.0})
     return profile.model_copy(update={"friction": friction})
@@ -114,7 +114,7 @@ def linear_limit(models: tuple[Reduction, ...], damping: float, step: float, del
     return float(_FINE[unstable[0] - 1]) if unstable[0] > 0 else 0.0
 
 
-def region(profile: DeviceProfile, rate_hz: float, delay: int) -> StableRegion:
+def region(profile: PantographProfile, rate_hz: float, delay: int) -> StableRegion:
     """Sweep one rate and delay."""
     step, models = 1.0 / rate_hz, reductions(profile, DEPTH)
     device = Device(profile, rate_hz, delay)
@@ -131,7 +131,7 @@ def region(profile: DeviceProfile, rate_hz: float, delay: int) -> StableRegion:
     )
 
 
-def regions(profile: DeviceProfile, progress: Progress | None) -> tuple[StableRegion, ...]:
+def regions(profile: PantographProfile, progress: Progress | None) -> tuple[StableRegion, ...]:
     """Sweep all rates and delays."""
     found = []
     cases = [(rate, delay) for rate in RATES for delay in DELAYS]
@@ -183,7 +183,7 @@ def limits_sheet(found: tuple[StableRegion, ...]) -> Sheet:
     )
 
 
-def estimators_sheet(profile: DeviceProfile) -> Sheet:
+def estimators_sheet(profile: PantographProfile) -> Sheet:
     """Largest stable K per velocity estimator, at `LOOP`, with and without dry friction."""
     rows: list[tuple[Cell, ...]] = []
     for method in VelocityMethod:
@@ -201,7 +201,7 @@ def estimators_sheet(profile: DeviceProfile) -> Sheet:
     )
 
 
-def protected_sheet(profile: DeviceProfile) -> Sheet:
+def protected_sheet(profile: PantographProfile) -> Sheet:
     """Show what becomes of unstable pairs without and with what guards the device."""
     rows: list[tuple[Cell, ...]] = []
     for rate, delay, k, b in UNSTABLE:
@@ -265,7 +265,7 @@ _EXAMPLES: Final = ((300.0, 1.0), (3000.0, 1.0))  # K, B: on both sides of the l
 
 
 def _measure(progress: Progress | None) -> Findings:
-    profile = load_profile(_DEVICE)
+    profile = load_pantograph(_DEVICE)
     found = regions(profile, progress)
     tracks = {pair: Device(profile, *LOOP).release(*pair) for pair in _EXAMPLES}
     slowest, usual = found[0], next(r for r in found if (r.rate_hz, r.delay) == LOOP)
@@ -294,7 +294,7 @@ def _measure(progress: Progress | None) -> Findings:
     )
 
 
-def _reduction_sheet(profile: DeviceProfile) -> Sheet:
+def _reduction_sheet(profile: PantographProfile) -> Sheet:
     rows: list[tuple[Cell, ...]] = [
         (axis, model.mass, model.damping)
         for axis, model in zip("xy", reductions(profile, DEPTH), strict=True)

@@ -21,7 +21,7 @@ import numpy as np
 from app.core.arrays import FloatArray, frozen
 from app.core.parameters import Stage
 from app.core.units import MILLIMETRE
-from app.device.control.table import pantograph_stages
+from app.device.control.table import machine_stages
 from app.device.control.velocity import (
     AdaptiveWindow,
     AlphaBeta,
@@ -31,7 +31,7 @@ from app.device.control.velocity import (
 )
 from app.device.links.link import Link
 from app.mechanisms.pantograph import inverse, jacobian
-from app.mechanisms.profile import DeviceProfile, load_profile
+from app.mechanisms.pantograph.profile import PantographProfile, load_pantograph
 from app.studies.findings import Cell, Figure, Findings, Sheet
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 
@@ -143,7 +143,7 @@ class HandMotion:
     lever: FloatArray
 
 
-def motion(name: str, profile: DeviceProfile, rate_hz: float) -> HandMotion:
+def motion(name: str, profile: PantographProfile, rate_hz: float) -> HandMotion:
     """Sample a motion of `MOTIONS` on a device: along x through a point where its joints change
     counts, 10 mm off the middle of the workspace.
     """
@@ -223,7 +223,7 @@ def speed_error(seen: HandMotion, rates: FloatArray) -> FloatArray:
 
 def _case(setting: Setting) -> Case:
     device, name = setting.name.split(", ")[0], setting.name.split(", ")[2]
-    profile = load_profile(device)
+    profile = load_pantograph(device)
     seen = motion(name, profile, setting.values["rate_hz"])
 
     noticed = max(_FELT, _SHARE * float(np.abs(seen.speed).max()) / MILLIMETRE)
@@ -252,7 +252,7 @@ def _way(name: str) -> Way:
 
 def _count() -> float:
     """One encoder count of the device that the program has without a choice [rad]."""
-    return 2.0 * pi / load_profile(_DEVICES[0]).encoder.counts_per_turn
+    return 2.0 * pi / load_pantograph(_DEVICES[0]).encoder.counts_per_turn
 
 
 def _what(stage: Stage) -> object:
@@ -261,7 +261,7 @@ def _what(stage: Stage) -> object:
 
 
 def _in_use() -> object:
-    table = pantograph_stages(load_profile(_DEVICES[0]), [], [], Link.of([], []))
+    table = machine_stages(load_pantograph(_DEVICES[0]), [], [], Link.of([], []))
     return next(_what(stage) for stage in table if stage.name == "velocity")
 
 
@@ -277,7 +277,7 @@ def lag(seen: HandMotion, rates: FloatArray) -> float:
 
 
 def _findings() -> Findings:
-    profile = load_profile("icube")
+    profile = load_pantograph("icube")
     count = 2.0 * pi / profile.encoder.counts_per_turn
     seen = {(name, rate): motion(name, profile, rate) for name in MOTIONS for rate in _RATES}
     errors: list[tuple[Cell, ...]] = []

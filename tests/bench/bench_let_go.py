@@ -38,6 +38,8 @@ def pose(profile: DeviceProfile, rng: np.random.Generator) -> FloatArray:
     state[sv.DEPTH] = geometry.needle_length - 0.15
     state[[sv.DEPTH_LEAST, sv.DEPTH_MOST]] = state[sv.DEPTH] + np.array([-0.005, 0.005])
     state[[sv.ENABLED, sv.DEPTH_SOURCE]], state[sv.DT] = 1.0, 1e-3
+    stage = profile.machine.stages().pose
+    stage.function(state, stage.parameters)
     return state
 
 

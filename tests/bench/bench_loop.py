@@ -18,7 +18,7 @@ import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
-from app.device.control import Loop, Priority, VirtualFixture, pantograph_stages
+from app.device.control import Loop, Priority, VirtualFixture, machine_stages
 from app.device.links.simulated import simulated_link
 from app.mechanisms.pantograph import inverse
 from app.mechanisms.profile import load_profile
@@ -57,7 +57,7 @@ def compiled_lateness(seconds: float, priority: Priority) -> tuple[FloatArray, i
     """Lateness [s] of every tick of the compiled loop, and the deadlines it missed."""
     profile = load_profile("icube")
     link = simulated_link(profile, [])
-    table = pantograph_stages(profile, [VirtualFixture.of(profile).stage()], [], link)
+    table = machine_stages(profile, [VirtualFixture.of(profile).stage()], [], link)
     left, right = inverse(profile.pantograph, (0.03, 0.18))
     initial = {"plant_q_left": left, "plant_q_right": right}
     with Loop(table, RATE_HZ, initial=initial, priority=priority) as loop:

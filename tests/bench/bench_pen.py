@@ -26,7 +26,7 @@ from app.tracking.pen.webcam import Webcam
 from app.tracking.simulated.pen import PenRenderer
 from app.tracking.simulated.pen_scene import PenScene, body_pose
 
-ENTRY = load_profile("icube").pantograph.fulcrum
+ENTRY = load_profile("icube").fulcrum
 RATE = 30.0
 LOST = 0.02
 """Error of the tip [m] from which an answer is a wrong one, not an inaccurate one."""

@@ -22,7 +22,7 @@ def attempt(n: int, rate_hz: float) -> Trajectory:
     rng = np.random.default_rng(1)
     profile = load_profile("icube")
     plan = Plan((0.0, -95.0, 300.0), (20.0, -20.0, 310.0))
-    placed = PlacedPlan.of(plan, Placement(), profile.pantograph.fulcrum)
+    placed = PlacedPlan.of(plan, Placement(), profile.fulcrum)
     depth = np.linspace(0.0, placed.length, n)
     tip = placed.p_entry + np.outer(depth, placed.axis) + rng.normal(0.0, 1e-4, (n, 3))
     force = rng.normal(0.0, 1.0, (n, 3))

@@ -73,6 +73,7 @@ def seconds(call: Callable[[], object]) -> float:
 def main() -> None:
     """Print the cost of a tick, of its stages, and of the numpy tick."""
     stages = [
+        PROFILE.machine.stages().pose,
         Kinematics.of(PROFILE).stage(),
         VirtualFixture.of(PROFILE).stage(),
         Transmission.of(PROFILE).stage(),

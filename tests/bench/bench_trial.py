@@ -74,8 +74,8 @@ def pictures(count: int = 45) -> tuple[float, float]:
     loop.step(500)
     scene, axis = needle_scene(loop, profile, rig.needle.marker_offset), measured_axis(loop)
     cameras = simulated_cameras(rig, scene, clock, 1)
-    tracker = Tracker(cameras, rig, clock, axis, profile.pantograph.fulcrum)
-    sampled = SampledTracker(rig, profile.pantograph.fulcrum, scene, axis)
+    tracker = Tracker(cameras, rig, clock, axis, profile.fulcrum)
+    sampled = SampledTracker(rig, profile.fulcrum, scene, axis)
     for camera in cameras:
         camera.open()
     costs = [0.0, 0.0]

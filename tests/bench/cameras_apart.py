@@ -301,7 +301,7 @@ def child(descriptor: int) -> None:
         rig,
         clock,
         axis=measured_axis(loop),
-        fulcrum=profile.pantograph.fulcrum,
+        fulcrum=profile.fulcrum,
         on_fix=tell,
         force=felt_force(loop),
     )

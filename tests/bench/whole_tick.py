@@ -10,7 +10,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
 from app.core.compiled import stage
-from app.device.control import Loop, laws, pantograph_stages, stage_cost
+from app.device.control import Loop, laws, machine_stages, stage_cost
 from app.device.control.velocity import VelocityMethod
 from app.device.links import Link
 from app.mechanisms.pantograph import inverse
@@ -42,14 +42,14 @@ def requests() -> dict[str, dict[str, float]]:
 
 def build(profile: DeviceProfile) -> Loop:
     """Build the whole tick on a virtual clock."""
-    q = inverse(profile.pantograph, profile.pantograph.fulcrum[:2] + np.array([0.02, 0.015]))
+    q = inverse(profile.pantograph, profile.fulcrum[:2] + np.array([0.02, 0.015]))
     count = 2.0 * np.pi / profile.encoder.counts_per_turn
     link = Link.of([("hand", slow_hand, np.array([*q, count, 0.0, 1.0]))], [])
     port = DevicePort(profile.name, frozenset(a.value for a in profile.renders), True)
     plan = compile(Scene(effects=(EffectRequest("lateral_tissue"),)), port)
     bound = laws.energy_bound(requests(), profile) + plan.energy_bound()
     forces = laws.stages_of(requests(), profile)
-    table = pantograph_stages(
+    table = machine_stages(
         profile, forces, plan.stages(), link, velocity=VelocityMethod.FOAW, energy_bound=bound
     )
     return Loop(table, profile.rate_hz, VirtualClock(10.0))

@@ -8,7 +8,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
 from app.core.compiled import stage
-from app.device.control import Loop, Table, VirtualFixture, pantograph_stages
+from app.device.control import Loop, Table, VirtualFixture, machine_stages
 from app.device.links import Link
 from app.mechanisms.pantograph import ForceLaw, inverse
 from app.mechanisms.profile import load_profile
@@ -73,7 +73,7 @@ class Rig:
         )
         laws = [VirtualFixture.of(PROFILE).stage()] if laws is None else laws
         effects = [("push", add_force, self.force)]
-        self.table: Table = pantograph_stages(PROFILE, laws, effects, link, force_law)
+        self.table: Table = machine_stages(PROFILE, laws, effects, link, force_law)
         self.clock = VirtualClock(10.0)
         self.loop = Loop(self.table, 1000.0, self.clock, initial=pose(tilt, azimuth))
         self.write(homed=1.0, force_cap=HAND_LIMIT)

@@ -73,6 +73,14 @@ def with_joints(state: FloatArray, qd: Any = (0.0, 0.0)) -> FloatArray:
     state[sv.L_IN] = l_in
     hub = -(state[sv.L_OUT] / l_in) * (np.array([*v, 0.0]) - d * (d[:2] @ v))
     state[sv.HUB_V] = hub
+    return with_dynamics(state)
+
+
+def with_dynamics(state: FloatArray, profile: Any = PROFILE) -> FloatArray:
+    """Fill in what the machine's own stages say of the state's pose."""
+    stages = profile.machine.stages()
+    for stage in (stages.pose, stages.dynamics):
+        stage.function(state, stage.parameters)
     return state
 
 

@@ -15,9 +15,9 @@ from pathlib import Path
 
 SOURCE = Path(__file__).parents[2] / "app" / "core" / "state_vector.py"
 COUNTED = re.compile(
-    r"^([A-Z][A-Z0-9_]*): Final = (?:next\(_next\)|_(?:input|sum|scene)\(\)).*$", re.M
+    r"^([A-Z][A-Z0-9_]*): Final = (?:next\(_next\)|_(?:input|sum|scene|machine)\(\)).*$", re.M
 )
-PART = re.compile(r"(?:(?<=J)_[XY][LR]|_?[XYZ]|_LEFT|_RIGHT)$")
+PART = re.compile(r"(?:(?<=J)_[XY][LR]|_?[XYZ]|_LEFT|_CROSS|_RIGHT|_[1-4])$")
 TICKS = 40
 
 
@@ -86,7 +86,7 @@ def run(order: list[str]) -> str:
 
 
 def _ticks(sv):
-    from app.device.control import laws, pantograph_stages
+    from app.device.control import laws, machine_stages
     from app.device.links.simulated import simulated_link
     from app.mechanisms.profile import load_profile
     from app.simulation.consumers import Consumer, DevicePort
@@ -103,7 +103,7 @@ def _ticks(sv):
         Scene(effects=effects), port, views=(Consumer("view of the target", ("target_shift_x",)),)
     )
     requests = {"fixture": {}, "cone_wall": {}, "impedance": {}, "compensation": {}}
-    stages = pantograph_stages(
+    stages = machine_stages(
         profile,
         laws.stages_of(requests, profile),
         plan.stages(),

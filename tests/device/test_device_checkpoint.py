@@ -12,7 +12,7 @@ from app.core.arrays import FloatArray
 from app.core.clock import SystemClock, VirtualClock
 from app.core.compiled import stage
 from app.device.checkpoint import Checkpoint
-from app.device.control import Host, Loop, Table, VirtualFixture, pantograph_stages
+from app.device.control import Host, Loop, Table, VirtualFixture, machine_stages
 from app.device.control.checkpoints import Rerun
 from app.device.errors import LoopError, RerunError
 from app.device.links import Link
@@ -37,7 +37,7 @@ def table() -> Table:
     plant = ("swing", swing, np.array([0.0, start["plant_q_left"], start["plant_q_right"]]))
     encoders = SimulatedEncoders(20_000, (0.0, 0.0)).stage()
     laws = [VirtualFixture.of(PROFILE).stage()]
-    return pantograph_stages(PROFILE, laws, [], Link.of([encoders], [plant]))
+    return machine_stages(PROFILE, laws, [], Link.of([encoders], [plant]))
 
 
 def loop(clock: Any, host: Host) -> Loop:
@@ -128,7 +128,7 @@ def test_a_table_that_does_not_fit_is_refused_by_the_stage_s_name() -> None:
     with loop(VirtualClock(10.0), Host.STEPPED) as made:
         checkpoint = made.checkpoint()
     other = Table.of([("kinematics", swing, np.zeros(3))])
-    with pytest.raises(RerunError, match="'kinematics' has 14 numbers in the record and 3"):
+    with pytest.raises(RerunError, match="'kinematics' has 11 numbers in the record and 3"):
         Rerun(other, checkpoint, GIVEN)
     with pytest.raises(RerunError, match="no stage 'breathing'"):
         Rerun(Table.of([("breathing", swing, np.zeros(3))]), checkpoint, GIVEN)

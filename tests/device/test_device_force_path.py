@@ -7,7 +7,7 @@ from device.device_rig import GEOMETRY, HAND_LIMIT, TORQUE_LIMIT, Rig
 from app.core import state_vector as sv
 from app.device.control import Fault
 from app.device.control.safety import fade
-from app.mechanisms.pantograph import ForceLaw
+from app.mechanisms.lever import ForceLaw
 
 
 @pytest.fixture

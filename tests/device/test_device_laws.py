@@ -16,6 +16,7 @@ from device.law_rig import (
     pose,
     tilts,
     unit,
+    with_dynamics,
     with_joints,
 )
 from hypothesis import given, settings
@@ -263,7 +264,7 @@ def test_with_the_velocity_torques_the_tool_obeys_its_own_inertia(tilt, azimuth,
     terms = dynamic_terms(model, q, qd, depth)
     matrix = jacobian(GEOMETRY, q)
     gamma = np.array([0.7, -0.4])
-    tau = matrix.T @ gamma + velocity_torques(state, np.array(model.values), 0)
+    tau = matrix.T @ gamma + velocity_torques(state)
     qdd = np.linalg.solve(terms.mass, tau - terms.velocity)
     step = 1e-6
     rate = (
@@ -283,7 +284,7 @@ TILTED = PROFILE.model_copy(
 
 def compensate(state, profile=TILTED, **parameters):
     ((_, function, memory),) = laws.stages_of({"compensation": parameters}, profile)
-    done = state.copy()
+    done = with_dynamics(state.copy(), profile)
     function(done, memory)
     return done
 

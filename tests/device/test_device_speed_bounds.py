@@ -47,6 +47,8 @@ def pose(profile, tilt, azimuth):
     state[[sv.Q_LEFT, sv.Q_RIGHT]], state[[sv.P3_X, sv.P3_Y]] = q, needle.p3
     state[[sv.J_XL, sv.J_XR, sv.J_YL, sv.J_YR]] = j.ravel()
     state[sv.AXIS], state[sv.L_IN] = needle.axis, needle.l_in
+    _, function, parameters = profile.machine.stages().pose
+    function(state, parameters)
     across = np.eye(3) - np.outer(needle.axis, needle.axis)
     return state, q, -(across[:, :2] @ j) / needle.l_in
 

@@ -23,6 +23,17 @@ def tick(state, *stages, **slots):
         function(state, parameters)
 
 
+def placing():
+    """The machine's own stage and the one that places the needle, as one."""
+    pose, place = PROFILE.machine.stages().pose, Kinematics.of(PROFILE).stage()
+
+    def both(state, _):
+        pose.function(state, pose.parameters)
+        place.function(state, place.parameters)
+
+    return "placing", both, None
+
+
 def state_at(p3=(0.03, 0.19)):
     state = sv.empty_state()
     state[sv.TIME] = 5.0
@@ -31,7 +42,7 @@ def state_at(p3=(0.03, 0.19)):
 
 
 def test_the_stage_places_the_needle_as_the_mechanisms_room_does():
-    state, stage = state_at(), Kinematics.of(PROFILE).stage()
+    state, stage = state_at(), placing()
     state[sv.TRACKED_TIME], state[sv.TRACKED_DEPTH] = 5.0, 0.07
     state[sv.QD_LEFT], state[sv.QD_RIGHT] = 0.4, -0.2
     tick(state, stage)
@@ -57,12 +68,12 @@ def test_the_stage_places_the_needle_as_the_mechanisms_room_does():
 def test_the_stage_clears_last_ticks_forces():
     state = state_at()
     state[list(sv.SUMS)] = 3.0
-    tick(state, Kinematics.of(PROFILE).stage())
+    tick(state, placing())
     assert not state[list(sv.SUMS)].any()
 
 
 def test_the_depth_is_tracked_then_held_then_the_models():
-    state, stage = state_at(), Kinematics.of(PROFILE).stage()
+    state, stage = state_at(), placing()
     tick(state, stage, tracked_time=5.0, tracked_depth=0.05)
     assert (state[sv.DEPTH_SOURCE], state[sv.DEPTH]) == (TRACKED, pytest.approx(0.05))
     sources, depths = [], []
@@ -78,7 +89,7 @@ def test_the_depth_is_tracked_then_held_then_the_models():
 
 
 def test_a_fix_from_the_future_goes_stale_like_an_old_one():
-    state, stage = state_at(), Kinematics.of(PROFILE).stage()
+    state, stage = state_at(), placing()
     tick(state, stage, tracked_time=5.0 + 3600.0, tracked_depth=0.05)
     assert state[sv.DEPTH_SOURCE] == MODEL
     assert state[sv.DEPTH] == pytest.approx(state[sv.L_IN])
@@ -87,7 +98,7 @@ def test_a_fix_from_the_future_goes_stale_like_an_old_one():
 
 
 def test_losing_and_finding_the_marker_moves_the_lever_without_a_jump():
-    state, stage = state_at(), Kinematics.of(PROFILE).stage()
+    state, stage = state_at(), placing()
     depths = []
     for k in range(1500):
         seen = k < 300 or k > 900
@@ -100,13 +111,13 @@ def test_losing_and_finding_the_marker_moves_the_lever_without_a_jump():
 
 
 def test_a_depth_beyond_the_needle_leaves_a_positive_lever():
-    state, stage = state_at(), Kinematics.of(PROFILE).stage()
+    state, stage = state_at(), placing()
     tick(state, stage, tracked_time=5.0, tracked_depth=0.5)
     assert state[sv.L_OUT] == Kinematics.of(PROFILE).l_out_min
 
 
 def test_the_angle_error_is_exact_near_zero():
-    state, stage = state_at((0.0, 0.16056)), Kinematics.of(PROFILE).stage()
+    state, stage = state_at((0.0, 0.16056)), placing()
     for angle in (1e-12, 1e-9, 1e-5, 0.3):
         tick(state, stage, path_x=np.sin(angle), path_z=-np.cos(angle))
         assert state[sv.ANGLE_ERROR] == pytest.approx(angle, rel=1e-4)
@@ -114,12 +125,12 @@ def test_the_angle_error_is_exact_near_zero():
 
 def test_without_a_path_there_is_no_angle_error():
     state = state_at()
-    tick(state, Kinematics.of(PROFILE).stage())
+    tick(state, placing())
     assert state[sv.ANGLE_ERROR] == 0.0
 
 
 def test_where_no_pose_exists_the_last_one_stays_and_the_status_says_so():
-    state, stage = state_at(), Kinematics.of(PROFILE).stage()
+    state, stage = state_at(), placing()
     tick(state, stage)
     placed = state.copy()
     tick(state, stage, q_left=np.nan, qd_left=3.0)
@@ -131,7 +142,7 @@ def test_where_no_pose_exists_the_last_one_stays_and_the_status_says_so():
 
 def test_before_any_valid_pose_the_needle_stands_upright():
     state = sv.empty_state()
-    tick(state, Kinematics.of(PROFILE).stage(), q_left=np.nan)
+    tick(state, placing(), q_left=np.nan)
     assert state[sv.AXIS].tolist() == [0.0, 0.0, -1.0]
     assert state[sv.L_IN] == GEOMETRY.fulcrum[2]
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.core import state_vector as sv
-from app.device.control import pantograph_stages
+from app.device.control import machine_stages
 from app.device.control.velocity import (
     _READINGS,
     _RING,
@@ -225,8 +225,8 @@ def test_the_default_is_quieter_than_the_thesis_own_and_quicker_than_a_filter_as
 
 def test_a_table_takes_the_estimator_by_name():
     link = simulated_link(PROFILE, [])
-    default = pantograph_stages(PROFILE, [], [], link)
-    thesis = pantograph_stages(PROFILE, [], [], link, velocity=VelocityMethod.BACKWARD_DIFFERENCE)
+    default = machine_stages(PROFILE, [], [], link)
+    thesis = machine_stages(PROFILE, [], [], link, velocity=VelocityMethod.BACKWARD_DIFFERENCE)
     assert [stage.name for stage in default] == [stage.name for stage in thesis]
     assert default.compute[1].function is velocity_stage(PROFILE, DEFAULT_VELOCITY)[1]
     assert thesis.compute[1].function is BackwardDifference().stage()[1]

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from app.device.links import acus_protocol as acus
+from app.device.links import cable_protocol as cables
 from app.device.links import framing
 from app.device.links import haply_protocol as haply
 from app.mechanisms.profile import load_profile
@@ -29,7 +30,7 @@ def message(beginning):
 
 
 def test_the_page_has_an_example_of_every_message():
-    assert len(EXAMPLES) == 9
+    assert len(EXAMPLES) == 13
 
 
 def test_the_greeting_on_the_page_is_what_the_program_sends():
@@ -64,6 +65,23 @@ def test_the_info_on_the_page_is_understood():
     info, counts, torque, watchdog = acus.read_info(message("INFO"))
     assert (info.serial, info.profile, info.boot, info.gauge) == ("A0007", "icube", 0x1234, True)
     assert (counts, torque, watchdog) == (20000, pytest.approx(0.6), pytest.approx(0.020))
+
+
+def test_the_messages_of_version_two_on_the_page_decode_by_their_tables():
+    assert example("version 2: HELLO") == acus.hello(cables.VERSION)
+    pulls, holds = message("version 2: COMMAND enable,"), message("version 2: COMMAND enable and")
+    assert len(pulls) == len(holds) == cables.COMMAND_BYTES
+    assert struct.unpack("<BBH4f", pulls) == (cables.COMMAND, acus.ENABLE, 258, 2, 12.5, 2, 40)
+    kind, flags, sequence, *speeds = struct.unpack("<BBH4f", holds)
+    assert (kind, flags, sequence) == (cables.COMMAND, acus.ENABLE | cables.HOLD, 259)
+    assert speeds == pytest.approx([0.01, -0.01, 0.0, 0.0])
+    state = message("version 2: STATE")
+    assert len(state) == cables.STATE_BYTES
+    kind, flags, sequence, time, left, right, error = struct.unpack("<BBHIiiB", state[:17])
+    known = acus.ENABLED | acus.HOMED | acus.GREETED
+    assert (kind, flags, sequence, time) == (cables.STATE, known, 258, 1_000_000)
+    assert (left, right, error) == (719, -721, 0)
+    assert struct.unpack("<8f", state[17:]) == (2.5, 12.5, 2, 40, 0.125, -0.125, 0, 0.0625)
 
 
 def test_the_haply_setup_on_the_page_is_what_the_program_sends():

@@ -5,7 +5,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.core.compiled import stage
-from app.device.control import Loop, VirtualFixture, pantograph_stages
+from app.device.control import Loop, VirtualFixture, machine_stages
 from app.device.links.link import Link
 from app.device.links.memory_link import MemoryLink
 from app.mechanisms.pantograph import inverse
@@ -49,7 +49,7 @@ class MemoryRig:
         self.clock = VirtualClock(10.0)
         initial = {"plant_q_left": self.start[0], "plant_q_right": self.start[1]}
         self.loop = Loop(
-            pantograph_stages(self.profile, laws, [], Link.of(read, write)),
+            machine_stages(self.profile, laws, [], Link.of(read, write)),
             self.profile.rate_hz,
             self.clock,
             initial=initial,

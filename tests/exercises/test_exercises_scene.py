@@ -39,7 +39,7 @@ def test_the_placed_plan_starts_at_the_fulcrum_of_the_device() -> None:
     chosen = exercise(placement={"orientation": "prone", "rotation_deg": [5.0, 0.0, 0.0]})
     profile = device_of(chosen)
     placed = placed_plan_of(chosen, profile)
-    np.testing.assert_array_equal(placed.p_entry, profile.pantograph.fulcrum)
+    np.testing.assert_array_equal(placed.p_entry, profile.fulcrum)
     other = placed_plan_of(chosen, profile, plan_of(chosen).with_target((0.0, -50.0, 300.0)))
     assert other.length == pytest.approx(0.040)
 

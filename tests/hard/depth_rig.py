@@ -18,14 +18,8 @@ from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
 from app.exercises.library import load_exercise
 from app.exercises.scene import placed_plan_of
-from app.mechanisms.pantograph.kernels import (
-    axis_kernel,
-    felt_kernel,
-    forward_kernel,
-    hub_velocity_kernel,
-    jacobian_kernel,
-    tool_force_kernel,
-)
+from app.mechanisms.lever import axis_kernel, felt_kernel, hub_velocity_kernel, tool_force_kernel
+from app.mechanisms.pantograph.kernels import forward_kernel, jacobian_kernel
 from app.mechanisms.profile import DeviceProfile
 from app.planning.plan import Plan
 from app.session.snapshot import Snapshot
@@ -88,7 +82,7 @@ class DepthRig:
         self.loop.inbox.write(force_cap=self.force_cap)
         optics = load_rig(self.rig)
         self._models, self._needle = optics.models, optics.needle
-        self._solver = FixSolver(optics, profile.pantograph.fulcrum)
+        self._solver = FixSolver(optics, profile.fulcrum)
         self.trainer = Trainer(
             self.loop, None, placed, chosen, clock=self.clock, advance=self._look
         )
@@ -136,7 +130,7 @@ class DepthRig:
         state = self.loop.latest()
         depth = float(state.row[sv.PLANT_DEPTH]) + self.jump
         seen = depth - self._needle.marker_offset
-        band = self.profile.pantograph.fulcrum + seen * state.axis
+        band = self.profile.fulcrum + seen * state.axis
         hidden = self._needle.hidden_mm
         tube = hidden is not None and hidden[0] <= 1e3 * seen <= hidden[1]
         sightings = []

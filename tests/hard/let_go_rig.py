@@ -8,17 +8,13 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
 from app.core.compiled import stage
-from app.device.control import Loop, laws, pantograph_stages
+from app.device.control import Loop, laws, machine_stages
 from app.device.links.memory_link import MemoryLink
 from app.device.links.simulated import simulated_link
 from app.mechanisms.dynamic_model import A1, A2, BASE, FX, FY, FZ, MODEL_SIZE
+from app.mechanisms.lever import axis_kernel, hub_velocity_kernel
 from app.mechanisms.pantograph.dynamics import dynamics_kernel
-from app.mechanisms.pantograph.kernels import (
-    axis_kernel,
-    forward_kernel,
-    hub_velocity_kernel,
-    jacobian_kernel,
-)
+from app.mechanisms.pantograph.kernels import forward_kernel, jacobian_kernel
 from app.mechanisms.profile import DeviceProfile
 from app.simulation.consumers import DevicePort
 from app.simulation.plan import compile
@@ -178,7 +174,7 @@ class LetGoRig:
             plan = compile(scene, port)
             effects, bound = plan.stages(), bound + plan.energy_bound()
         forces = laws.stages_of(requests, profile)
-        table = pantograph_stages(profile, forces, effects, link, energy_bound=bound)
+        table = machine_stages(profile, forces, effects, link, energy_bound=bound)
         self.loop = Loop(table, profile.rate_hz, self.clock, initial=initial, link=self.board)
         self.loop.inbox.write(
             homed=1.0,

@@ -6,7 +6,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
 from app.core.compiled import njit, stage
-from app.device.control import Loop, Table, laws, pantograph_stages
+from app.device.control import Loop, Table, laws, machine_stages
 from app.device.links import Link
 from app.mechanisms.pantograph import inverse
 from app.mechanisms.profile import load_profile
@@ -128,7 +128,7 @@ class PortRig:
             bound = laws.energy_bound(requests, PROFILE) + plan.energy_bound()
         self.bound = bound
         self.hand = np.zeros(SIZE)
-        home = inverse(PROFILE.pantograph, PROFILE.pantograph.fulcrum[:2])
+        home = inverse(PROFILE.pantograph, PROFILE.fulcrum[:2])
         self.hand[[SEED, WAY]] = 12345.0 + seed, 0.35
         self.hand[[Q1, Q2]] = self.hand[[HOME1, HOME2]] = home
         if "compensation" in requests:  # what the joints' own friction takes is no energy let out
@@ -136,7 +136,7 @@ class PortRig:
         if counts:
             self.hand[COUNT] = 2.0 * np.pi / PROFILE.encoder.counts_per_turn
         wire = [("wire", a_tick_late, np.zeros(3))] if late else []
-        table = pantograph_stages(
+        table = machine_stages(
             PROFILE,
             laws.stages_of(requests, PROFILE),
             [*plan.stages(), *(extra or [])],

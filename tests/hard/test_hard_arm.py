@@ -30,7 +30,7 @@ from app.mechanisms.arm.kernels import forward_kernel
 from app.mechanisms.arm.least_squares import twist_kernel
 from app.mechanisms.arm.redundancy import SCRATCH, TOLD, solve_kernel
 from app.mechanisms.errors import DegenerateError, MechanismError, UnreachableError
-from app.mechanisms.pantograph.status import NOT_FINITE
+from app.mechanisms.status import NOT_FINITE
 
 ARM = load_arm()
 SHOULDER = np.array([0.0, 0.0, ARM.pedestal])

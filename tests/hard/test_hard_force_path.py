@@ -12,7 +12,6 @@ from app.core import state_vector as sv
 from app.device.control import Fault
 from app.device.control.governor import SpeedGovernor
 from app.device.control.law_kernels import across_kernel, spring_kernel
-from app.mechanisms.inertia import LumpedInertia
 
 
 def attraction(*vectors: float) -> tuple[float, ...]:
@@ -217,12 +216,12 @@ def test_a_torque_whose_acceleration_cannot_be_told_does_not_pass_the_governor(s
 
 
 def test_a_robot_without_inertia_gets_no_torque():
-    nothing = replace(SpeedGovernor.of(PROFILE), inertia=LumpedInertia(0.0, 0.0, 0.0, 0.0))
+    nothing = replace(SpeedGovernor.of(PROFILE), needle=(0.0, 0.0, 0.0))
     rig = Rig()
     with rig.loop:
         rig.arm()
         state = rig.loop._state.copy()
-    state[sv.TORQUE_LEFT] = 0.1
+    state[sv.TORQUE_LEFT], state[sv.INERTIA] = 0.1, 0.0
     _, govern, parameters = nothing.stage()
     govern(state, parameters)
     assert not state[[sv.TORQUE_LEFT, sv.TORQUE_RIGHT]].any()

@@ -7,7 +7,7 @@ from hard.port_rig import MOTIONS, PROFILE, RISE, PortRig
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.core.compiled import stage
-from app.device.control import Loop, Table, pantograph_stages
+from app.device.control import Loop, Table, machine_stages
 from app.device.control.passivity import PassivityGuard
 from app.device.control.safety import _AT as SAFETY
 from app.device.links.simulated import simulated_link
@@ -101,7 +101,7 @@ def swing(stiffness: float, delay: int, guarded: bool, ticks: int = 3000):
     rest = start["plant_q_left"] + 0.02, start["plant_q_right"] + 0.01
     memory = np.array([stiffness, delay, *rest, *np.zeros(2 * delay + 2)])
     bound = 0.5 * stiffness * (0.02**2 + 0.01**2)
-    table = pantograph_stages(
+    table = machine_stages(
         profile,
         [("late_spring", late_spring, memory)],
         [],

@@ -37,7 +37,7 @@ def test_every_shipped_profile_loads():
 def test_the_robots_numbers_are_those_of_the_thesis():
     profile = load_profile("icube")
     assert profile.pantograph.links == (0.100, 0.165, 0.085)
-    assert profile.pantograph.fulcrum.tolist() == [0.0, 0.16056, 0.09]
+    assert profile.fulcrum.tolist() == [0.0, 0.16056, 0.09]
     assert profile.tilt_limit == pytest.approx(math.radians(39.0))
     assert profile.with_joint("old").tilt_limit_deg == 45.0
     assert profile.renders == (Axis.LATERAL,)

@@ -14,7 +14,7 @@ from app.core.arrays import FloatArray
 from app.core.build import BUILD, build
 from app.core.clock import VirtualClock
 from app.core.compiled import stage
-from app.device.control import Loop, Table, VirtualFixture, pantograph_stages
+from app.device.control import Loop, Table, VirtualFixture, machine_stages
 from app.device.links import Link, LinkStatus
 from app.mechanisms.pantograph import inverse
 from app.mechanisms.profile import load_profile
@@ -50,13 +50,13 @@ def write_wire(state: FloatArray, p: FloatArray) -> None:
 
 
 def table(wired: bool = True) -> Table:
-    left, right = inverse(PROFILE.pantograph, PROFILE.pantograph.fulcrum[:2] + (0.01, 0.02))
+    left, right = inverse(PROFILE.pantograph, PROFILE.fulcrum[:2] + (0.01, 0.02))
     link = Link.of(
         [("wire read", read_wire, np.array([0.0, left, right, 7.0]))],
         [("wire write", write_wire, np.zeros(1))],
     )
     laws = [VirtualFixture.of(PROFILE).stage()]
-    return pantograph_stages(PROFILE, laws, [], link if wired else Link.of([], []))
+    return machine_stages(PROFILE, laws, [], link if wired else Link.of([], []))
 
 
 def header() -> SessionHeader:

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
+from app.mechanisms import hand_motion
 from app.mechanisms.profile import load_profile
-from app.simulation import hand_motion
 from app.simulation.plant import SimulatedHand, initial_plant, plant_stage
 
 PROFILE = load_profile("icube")

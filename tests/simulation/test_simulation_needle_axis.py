@@ -9,7 +9,7 @@ from simulation.effect_rig import memory_of
 from app.core import state_vector as sv
 from app.core.arrays import unit
 from app.core.parameters import Stage
-from app.device.control.table import pantograph_stages
+from app.device.control.table import machine_stages
 from app.device.links.simulated import simulated_link
 from app.mechanisms.profile import load_profile
 from app.simulation.consumers import Consumer, DevicePort
@@ -265,7 +265,7 @@ def whole(
         state[sv.INDEX[name]] = value
     state[sv.PATH] = unit(np.array([0.0, 0.0, -1.0]))
     state[sv.HOMED], state[sv.FORCE_CAP], state[sv.DT] = 1.0, PROFILE.limits.hand_force, 1e-3
-    return list(pantograph_stages(PROFILE, [], effects, link)), state
+    return list(machine_stages(PROFILE, [], effects, link)), state
 
 
 def tick(stages: list[Stage], state: np.ndarray, k: int) -> None:

@@ -47,7 +47,7 @@ def grip(state: FloatArray, axis: FloatArray, depth: float) -> None:
 
 def axis_of(state: FloatArray) -> FloatArray:
     x, y = forward(PROFILE.pantograph, state[Q])
-    return unit(np.array([x, y, 0.0]) - PROFILE.pantograph.fulcrum)
+    return unit(np.array([x, y, 0.0]) - PROFILE.fulcrum)
 
 
 def terms(state: FloatArray, profile: DeviceProfile = PROFILE) -> DynamicTerms:

@@ -6,7 +6,7 @@ import pytest
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, unit
 from app.device.control.laws.fixture import VirtualFixture
-from app.device.control.table import pantograph_stages
+from app.device.control.table import machine_stages
 from app.device.links.simulated import simulated_link
 from app.mechanisms.profile import load_profile
 from app.simulation.consumers import Consumer, DevicePort
@@ -31,7 +31,7 @@ def table(skill: str, seed: int) -> list[Stage]:
         views=(Consumer("view target_motion shows it", ("target_shift_x",)),),
     )
     link = simulated_link(PROFILE, [plant_stage(PROFILE)])
-    stages = pantograph_stages(PROFILE, [VirtualFixture.of(PROFILE).stage()], plan.stages(), link)
+    stages = machine_stages(PROFILE, [VirtualFixture.of(PROFILE).stage()], plan.stages(), link)
     return [
         trainee_stage(AXIS, DEPTH, skill, seed),
         *[(s.name, s.function, s.parameters) for s in stages],
@@ -73,8 +73,8 @@ def attempt(skill: str, seed: int, assistance: float) -> FloatArray:
 def miss(rows: FloatArray) -> tuple[float, float]:
     """Distance of the true tip from the target: across the path and along it [m]."""
     last = rows[-1]
-    tip = PROFILE.pantograph.fulcrum + last[sv.PLANT_DEPTH] * last[sv.AXIS]
-    error = tip - PROFILE.pantograph.fulcrum - DEPTH * AXIS
+    tip = PROFILE.fulcrum + last[sv.PLANT_DEPTH] * last[sv.AXIS]
+    error = tip - PROFILE.fulcrum - DEPTH * AXIS
     along = float(error @ AXIS)
     return float(np.linalg.norm(error - along * AXIS)), along
 
@@ -140,7 +140,7 @@ def tilted_by_hand(joint: str) -> FloatArray:
     scene = Scene(effects=(EffectRequest("ball_joint"),) if joint else (), joint=joint)
     plan = compile(scene, DevicePort(PROFILE.name, simulated=True))
     link = simulated_link(PROFILE, [plant_stage(PROFILE)])
-    stages = [*pantograph_stages(PROFILE, [], plan.stages(), link)]
+    stages = [*machine_stages(PROFILE, [], plan.stages(), link)]
     state, rows = begin(0.0), []
     state[sv.HAND_HOLDS], state[sv.HAND_DEPTH] = 1.0, -0.015
     for k in range(2500):

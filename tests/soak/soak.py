@@ -19,7 +19,7 @@ from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
 from app.core.compiled import njit, stage
 from app.core.parameters import Stage
-from app.device.control import Loop, Table, laws, pantograph_stages
+from app.device.control import Loop, Table, laws, machine_stages
 from app.device.links import Link
 from app.device.links.simulated import simulated_link
 from app.mechanisms.profile import load_profile
@@ -175,7 +175,7 @@ class Soak:
         plan = self._plan()
         wanted = {"fixture": {}} | ({"cone_wall": {}} if self.rng.uniform() < 0.5 else {})
         bound = laws.energy_bound(wanted, PROFILE) + plan.energy_bound()
-        return pantograph_stages(
+        return machine_stages(
             PROFILE, laws.stages_of(wanted, PROFILE), plan.stages(), self.link, energy_bound=bound
         )
 

@@ -204,22 +204,21 @@ def test_the_line_of_sight_through_the_middle_goes_through_the_focus():
 
 def test_the_links_have_their_lengths_and_meet_at_the_tool():
     geometry = load_profile("icube").pantograph
-    shape = RobotShape.of(geometry, inverse(geometry, [0.01, 0.15]))
+    shape = RobotShape.of(load_profile("icube"), inverse(geometry, [0.01, 0.15]))
     lengths = [np.linalg.norm(end - start) for start, end in shape.links()]
     expected = [geometry.base, *[geometry.proximal] * 2, *[geometry.distal] * 2]
     assert_allclose(lengths, expected, atol=1e-9)
-    assert_allclose(shape.tool, [0.01, 0.15, 0.0], atol=1e-9)
+    assert_allclose(shape.drawing.points["tool point"], [0.01, 0.15, 0.0], atol=1e-9)
 
 
 @pytest.mark.parametrize("q", [None, [np.nan, 1.0], [np.inf, 0.0]])
 def test_without_usable_angles_only_the_base_is_drawn(q):
-    shape = RobotShape.of(load_profile("icube").pantograph, q)
+    shape = RobotShape.of(load_profile("icube"), q)
     assert len(shape.links()) == 1
 
 
 def test_angles_that_do_not_close_show_the_driven_links_only():
-    geometry = load_profile("icube").pantograph
-    shape = RobotShape.of(geometry, [np.pi, 0.0])
+    shape = RobotShape.of(load_profile("icube"), [np.pi, 0.0])
     assert len(shape.links()) in (3, 5)
     assert all(np.isfinite(point).all() for rod in shape.links() for point in rod)
 
@@ -258,7 +257,7 @@ def test_needle_plan_and_robot_appear_and_go(stage):
     assert stage.render(orbit, SIZE, False)[:, :, :3].max() > 60
     stage.set_plan(DraftPlan())
     geometry = load_profile("icube").pantograph
-    robot = RobotShape.of(geometry, inverse(geometry, [0.0, 0.15]))
+    robot = RobotShape.of(load_profile("icube"), inverse(geometry, [0.0, 0.15]))
     stage.set_robot(robot, RigidTransform.from_translation([0.0, 0.0, -0.1]))
     assert stage.render(Orbit.from_side("S", np.zeros(3), 300.0), SIZE, False)[:, :, :3].max() > 60
     stage.set_robot(None, RigidTransform.identity())
@@ -364,7 +363,7 @@ def test_a_click_in_place_gives_the_line_of_sight(view):
 
 def test_the_home_view_takes_the_robot_in_until_one_looks_elsewhere(view):
     geometry = load_profile("icube").pantograph
-    shape = RobotShape.of(geometry, inverse(geometry, [0.01, 0.15]))
+    shape = RobotShape.of(load_profile("icube"), inverse(geometry, [0.01, 0.15]))
     alone = view.orbit
     view.set_robot(shape, RigidTransform.identity())
     assert view.orbit.half_mm > alone.half_mm

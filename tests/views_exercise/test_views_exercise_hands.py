@@ -421,7 +421,7 @@ def test_an_insertion_to_the_target_takes_a_few_holds(held):
 
 
 def test_holding_starts_softly_and_is_never_faster_than_a_hand(held):
-    from app.simulation.hand_motion import FASTEST_ALONG
+    from app.mechanisms.hand_motion import FASTEST_ALONG
 
     assert SPEED < FASTEST_ALONG
     assert feed_speed(HELD) == feed_speed(0.0) == 0.0

@@ -7,10 +7,10 @@ from typing import Any
 import mpmath  # type: ignore[import-untyped]
 from mpmath import atan2, cos, matrix, mpf, sin
 
-from app.mechanisms.profile import load_profile
+from app.mechanisms.pantograph.profile import load_pantograph
 from tools.exact import exact
 
-PROFILE = load_profile("icube")
+PROFILE = load_pantograph("icube")
 GEOMETRY, MODEL = PROFILE.pantograph, PROFILE.dynamic_model
 A1, A2, BASE = GEOMETRY.links
 HEIGHT = GEOMETRY.fulcrum_xyz[2]

@@ -130,17 +130,21 @@ def commissioning_table(
         link: the robot's two ends.
         corrections: of its encoders and gauge; nothing is corrected by default.
     """
+    machine = profile.machine.stages()
     return Table.of(
         [
             *link.read,
             (corrections or Corrections()).stage(),
             VelocityFilter().stage(),
             DepthInterval.of(profile).stage(),
+            machine.pose,
+            *machine.watch,
             Kinematics.of(profile).stage(),
             Service().stage(),
             Transmission.of(profile).stage(),
             SpeedGovernor.of(profile).stage(),
             Safety.of(profile).stage(),
+            *machine.efforts,
         ],
         link.write,
     )

@@ -56,11 +56,11 @@ class ForceScaleRoutine(Routine):
     ) -> None:
         super().__init__(loop, profile)
         self._direction = unit(direction, "direction")
-        self._lever = profile.pantograph.needle_length - profile.pantograph.fulcrum[2]
+        self._lever = profile.needle_length - profile.fulcrum[2]
 
     def step(self, now: float) -> RoutineReport:
         """Go on; the depth is the one that the person was asked to hold."""
-        depth = self._profile.pantograph.needle_length - self._lever
+        depth = self._profile.needle_length - self._lever
         self._loop.inbox.write(tracked_depth=depth, tracked_time=now, tracked_variance=RULER**2)
         return super().step(now)
 
@@ -89,7 +89,7 @@ class ForceScaleRoutine(Routine):
             if abs(newtons(readings[-1])) > _RUNAWAY * force:
                 break  # never command more of what is already far too strong
         factor, residual = fit(FORCES[: len(readings)], readings)
-        if reason := refusal(factor, residual, self._profile.inertia.gear):
+        if reason := refusal(factor, residual, self._profile.gear):
             raise CommissioningError(f"{self.TITLE}: {reason}")
         return ForceScale(
             commanded=FORCES,

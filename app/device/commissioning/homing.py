@@ -11,7 +11,6 @@ from app.device.commissioning.routine import Part, Routine, Script
 from app.device.control.loop import Loop
 from app.device.errors import CommissioningError
 from app.mechanisms.errors import MechanismError
-from app.mechanisms.pantograph import forward, inverse
 from app.mechanisms.profile import DeviceProfile
 
 if TYPE_CHECKING:
@@ -106,16 +105,15 @@ class HomingRoutine(Routine):
 
     def _require_pose(self, angles: FloatArray, what: str) -> float:
         """Tilt of the needle [°] at joint angles that the links can take."""
-        geometry = self._profile.pantograph
         try:
-            beside = forward(geometry, angles) - geometry.fulcrum[:2]
+            axis = self._profile.machine.axis(angles)
         except MechanismError as error:
             left, right = np.degrees(angles)
             raise CommissioningError(
                 f"{self.TITLE}: {what} (left {left:.1f}°, right {right:.1f}°) is none that the"
                 f" links can take: {error}; check home_offsets and the link lengths"
             ) from error
-        return float(np.degrees(np.arctan2(np.hypot(*beside), geometry.fulcrum[2])))
+        return float(np.degrees(np.arctan2(np.hypot(*axis[:2]), -axis[2])))
 
 
 class JigHomingRoutine(HomingRoutine):
@@ -127,8 +125,7 @@ class JigHomingRoutine(HomingRoutine):
 
     def known(self) -> FloatArray:
         """Joint angles that put P_3 under the fulcrum [rad], shape (2,)."""
-        geometry = self._profile.pantograph
-        return inverse(geometry, geometry.fulcrum[:2])
+        return self._profile.machine.usable((0.0, 0.0, -1.0))
 
     def instruction(self) -> str:
         """Say what the user does to reach the reference pose."""

@@ -15,7 +15,6 @@ from app.device.commissioning.results import RobotLatency, RoutineName, Side, Si
 from app.device.commissioning.routine import Part, Routine, Script
 from app.device.control.loop import Loop
 from app.device.errors import CommissioningError
-from app.mechanisms.pantograph import mass_matrix
 from app.mechanisms.profile import DeviceProfile
 
 LARGEST: Final = 0.03
@@ -76,9 +75,8 @@ class PulseRoutine(Routine):
 
     def _inertia(self, joint: int) -> float:
         """Inertia of a joint alone in the present pose, by the profile [kg·m²]."""
-        geometry, q = self._profile.pantograph, self._loop.latest().q
-        matrix = mass_matrix(geometry, self._profile.lumped_inertia, q)
-        return float(matrix[joint, joint])
+        state = self._loop.latest().row
+        return float(state[(sv.INERTIA_LEFT, sv.INERTIA_RIGHT)[joint]])
 
     def _ramp(
         self,

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from app.device.control.laws.fixture import VirtualFixture
     from app.device.control.loop import Host, Loop, Priority
     from app.device.control.shared import INPUT_NAMES, Inbox
-    from app.device.control.table import Table, pantograph_stages
+    from app.device.control.table import Table, machine_stages
     from app.device.control.timing import Timing
 
 __all__ = [
@@ -33,7 +33,7 @@ __all__ = [
     "Timing",
     "VirtualFixture",
     "laws",
-    "pantograph_stages",
+    "machine_stages",
     "stage_cost",
 ]
 
@@ -47,7 +47,7 @@ _MODULES = {
     "Table": "table",
     "Timing": "timing",
     "VirtualFixture": "laws.fixture",
-    "pantograph_stages": "table",
+    "machine_stages": "table",
     "stage_cost": "cost",
 }
 

@@ -19,6 +19,7 @@ from app.core.arrays import FloatArray, IntArray
 from app.core.parameters import Stage
 from app.device.checkpoint import Checkpoint
 from app.device.control import kernel
+from app.device.control.earlier import as_now
 from app.device.control.kernel import (
     ANSWERED,
     ASKED,
@@ -30,7 +31,7 @@ from app.device.control.kernel import (
     compiled,
     run_stages,
 )
-from app.device.control.table import SCRATCH, Table
+from app.device.control.table import SCRATCH, WITHOUT_MEMORY, Table
 from app.device.errors import LoopError, RerunError
 
 from numba import types  # isort: skip  (after core.compiled)
@@ -173,6 +174,9 @@ def _memories(table: Table, checkpoint: Checkpoint) -> list[tuple[Stage, FloatAr
     pairs: list[tuple[Stage, FloatArray]] = []
     shared: dict[int, FloatArray] = {}
     for stage in table:
+        if stage.name in WITHOUT_MEMORY and stage.name not in checkpoint.names:
+            pairs.append((stage, stage.parameters.copy()))  # from before machines had stages
+            continue
         while left and left[0][0] != stage.name:
             left.pop(0)
         if not left:
@@ -180,7 +184,7 @@ def _memories(table: Table, checkpoint: Checkpoint) -> list[tuple[Stage, FloatAr
                 f"the record has no stage {stage.name!r} in this place; its stages are "
                 f"{', '.join(checkpoint.names)}"
             )
-        values = np.array(left.pop(0)[1])
+        values = as_now(stage.name, np.array(left.pop(0)[1]))
         if stage.name in SCRATCH:  # as large as the state, which may have grown since
             values = np.zeros_like(stage.parameters)
         if len(values) != len(stage.parameters):

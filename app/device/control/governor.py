@@ -60,9 +60,8 @@ from app.device.control.speed_bounds import (
 )
 from app.device.control.vectors import snapped
 from app.device.state import Limiter
-from app.mechanisms.inertia import LumpedInertia
-from app.mechanisms.pantograph.status import OK
 from app.mechanisms.profile import DeviceProfile
+from app.mechanisms.status import OK
 
 # Compiled code takes plain integers as constants.
 _BY_HAND, _BY_TORQUE = int(Limiter.HAND), int(Limiter.TORQUE)
@@ -253,8 +252,8 @@ class SpeedGovernor:
     """Keeps a needle that is let go below a speed and an energy, and notices that it is.
 
     Attributes:
-        links: proximal and distal length, distance of the motors [m].
-        inertia: lumped inertias of links and needle.
+        needle: its mass [kg], inertia about its centre of mass [kg·m²], that one's distance from
+            the hub [m].
         needle_length: C, hub to tip [m].
         count: one encoder count at the joint [rad].
         speed: of the hub that is promised [m/s], see `profile.let_go`.
@@ -269,8 +268,7 @@ class SpeedGovernor:
             that moves faster than that has not let go.
     """
 
-    links: tuple[float, float, float]
-    inertia: LumpedInertia
+    needle: tuple[float, float, float]
     needle_length: float
     count: float
     speed: float
@@ -285,11 +283,11 @@ class SpeedGovernor:
 
     @classmethod
     def of(cls, profile: DeviceProfile) -> "SpeedGovernor":
-        """Governor with the lengths, inertias, encoders and limits of a device profile."""
+        """Governor with the needle, encoders and limits of a device profile."""
+        part = profile.inertia
         return cls(
-            links=profile.pantograph.links,
-            inertia=profile.lumped_inertia,
-            needle_length=profile.geometry.needle_length,
+            needle=(part.needle_mass, part.needle_inertia, part.needle_centre),
+            needle_length=profile.needle_length,
             count=2.0 * pi / profile.encoder.counts_per_turn,
             speed=profile.let_go.speed,
             energy=1e-3 * profile.let_go.energy_mj,
@@ -299,8 +297,7 @@ class SpeedGovernor:
 
     def stage(self) -> Stage:
         """Return the stage for a loop's table, with memory of its own."""
-        a1, a2, base = self.links
-        part = self.inertia
+        mass, inertia, centre = self.needle
         own = packed(
             _AT,
             np.zeros(4 * _WINDOW),
@@ -318,16 +315,9 @@ class SpeedGovernor:
         parameters = packed(
             BODY,
             own,
-            a1=a1,
-            a2=a2,
-            base=base,
-            driven=part.driven,
-            passive=part.passive,
-            coupling=part.coupling,
-            tool=part.tool,
-            needle_mass=part.needle_mass,
-            needle_inertia=part.needle_inertia,
-            needle_centre=part.needle_centre,
+            needle_mass=mass,
+            needle_inertia=inertia,
+            needle_centre=centre,
             needle_length=self.needle_length,
         )
         return Stage("governor", governor_stage, parameters)

@@ -1,4 +1,4 @@
-"""From joint angles to the needle: tool point, Jacobian, direction, depth, hub and tip."""
+"""From the machine's tool point to the needle: direction, depth, hub, tip and their velocities."""
 
 from dataclasses import dataclass
 from math import atan2, isfinite
@@ -10,23 +10,14 @@ from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
 from app.core.parameters import Stage, numbered, packed
 from app.device.control.vectors import norm_kernel, unit_kernel
-from app.mechanisms.geometry import Geometry
-from app.mechanisms.pantograph.kernels import (
-    axis_kernel,
-    forward_kernel,
-    hub_velocity_kernel,
-    jacobian_kernel,
-)
-from app.mechanisms.pantograph.status import OK
+from app.mechanisms.lever import axis_kernel, hub_velocity_kernel
 from app.mechanisms.profile import DeviceProfile
+from app.mechanisms.status import OK
 
 
 class _KinematicsPlaces(NamedTuple):
-    """Lengths of the mechanism [m], the limits of `Kinematics`, and memory."""
+    """Remote centre and needle [m], the limits of `Kinematics`, and memory."""
 
-    a1: int
-    a2: int
-    base: int
     fx: int
     fy: int
     fz: int
@@ -112,20 +103,14 @@ def angle_error_kernel(dx: float, dy: float, dz: float, px: float, py: float, pz
 def kinematics_stage(state: FloatArray, p: FloatArray) -> None:
     """Place the needle and clear the force accumulators.
 
-    Where the pose does not exist the status says so, velocities are zero and the last valid pose
-    stays: nothing downstream ever sees a NaN.
+    The machine's own stage before has written KINEMATICS, P3_* and J_*. Where the pose does not
+    exist the status says so, velocities are zero and the last valid pose stays: nothing downstream
+    ever sees a NaN.
     """
     _clear_forces(state)
-    q1, q2 = state[sv.Q_LEFT], state[sv.Q_RIGHT]
-    a1, a2, base = p[_AT.a1], p[_AT.a2], p[_AT.base]
-    status, x, y = forward_kernel(q1, q2, a1, a2, base, 1.0)
-    jxl = jxr = jyl = jyr = 0.0
-    if status == OK:
-        status, jxl, jxr, jyl, jyr = jacobian_kernel(q1, q2, x, y, a1, a2, base)
-    state[sv.KINEMATICS] = status
-    if status == OK:
-        state[sv.J_XL], state[sv.J_XR], state[sv.J_YL], state[sv.J_YR] = jxl, jxr, jyl, jyr
-        _place_needle(state, p, x, y)
+    if state[sv.KINEMATICS] == OK:
+        _place_needle(state, p, state[sv.P3_X], state[sv.P3_Y])
+        jxl, jxr, jyl, jyr = state[sv.J_XL], state[sv.J_XR], state[sv.J_YL], state[sv.J_YR]
         v1, v2 = state[sv.QD_LEFT], state[sv.QD_RIGHT]
         _set_velocities(state, jxl * v1 + jxr * v2, jyl * v1 + jyr * v2)
     else:
@@ -144,17 +129,19 @@ def kinematics_stage(state: FloatArray, p: FloatArray) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Kinematics:
-    """Kinematics of a needle pantograph whose depth the cameras measure.
+    """Kinematics of a needle that a machine points and whose depth the cameras measure.
 
     Attributes:
-        geometry: lengths of the mechanism.
+        fulcrum: remote centre in world [m].
+        needle_length: C, hub to tip [m].
         fresh: age up to which a fix counts as tracked [s].
         hold: age up to which the last fix is held [s]; beyond, L_out = C - L_in.
         blend: time over which the lever changes between the two [s].
         l_out_min: smallest L_out [m], so that the lever stays defined.
     """
 
-    geometry: Geometry
+    fulcrum: tuple[float, float, float]
+    needle_length: float
     fresh: float = staleness.TRACKER_FRESH
     hold: float = staleness.TRACKER_HOLD
     blend: float = 0.1
@@ -163,21 +150,17 @@ class Kinematics:
     @classmethod
     def of(cls, profile: DeviceProfile) -> "Kinematics":
         """Kinematics of a device profile."""
-        return cls(profile.pantograph)
+        return cls(profile.geometry.fulcrum, profile.needle_length)
 
     def stage(self) -> Stage:
         """Return the stage for a loop's table, with memory of its own."""
-        a1, a2, base = self.geometry.links
-        fx, fy, fz = self.geometry.fulcrum_xyz
+        fx, fy, fz = self.fulcrum
         parameters = packed(
             _AT,
-            a1=a1,
-            a2=a2,
-            base=base,
             fx=fx,
             fy=fy,
             fz=fz,
-            length=self.geometry.needle_length,
+            length=self.needle_length,
             fresh=self.fresh,
             hold=self.hold,
             blend=self.blend,

@@ -19,7 +19,7 @@ STOP_GIVES: Final = radians(2.0)
 
 def longest_lever(profile: DeviceProfile) -> float:
     """Largest L_out of a device [m]: the needle's length, and what it may be drawn out."""
-    return profile.geometry.needle_length - min(profile.workspace.depth_min, 0.0)
+    return profile.needle_length - min(profile.workspace.depth_min, 0.0)
 
 
 @njit

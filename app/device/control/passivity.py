@@ -34,8 +34,8 @@ from app.core.parameters import Stage, numbered, packed
 from app.device.control.law_kernels import STOP_GIVES, longest_lever
 from app.device.control.vectors import snapped
 from app.device.errors import DeviceError
-from app.mechanisms.pantograph.status import OK
 from app.mechanisms.profile import DeviceProfile
+from app.mechanisms.status import OK
 
 
 class Places(NamedTuple):
@@ -325,7 +325,7 @@ class PassivityGuard:
         """Guard of a device for what laws and effects declare to store together [J].
 
         No more can be in it than the largest force at the hand times the longest way across the
-        workspace. The damping is a tenth of what stops the driven link within a tick.
+        workspace. The damping is a tenth of what stops a joint alone within a tick.
         """
         widest = 2.0 * (profile.tilt_limit + STOP_GIVES)
         most = profile.limits.hand_force * longest_lever(profile) * widest
@@ -334,7 +334,7 @@ class PassivityGuard:
             fastest=20.0,
             count=2.0 * pi / profile.encoder.counts_per_turn,
             period=1.0 / profile.rate_hz,
-            damping=0.1 * profile.lumped_inertia.driven * profile.rate_hz,
+            damping=0.1 * profile.joint_inertia * profile.rate_hz,
             friction=(profile.friction.coulomb, profile.friction.viscous),
         )
 

@@ -14,9 +14,9 @@ from app.core.parameters import Stage, numbered, packed
 from app.device.control.depth_interval import shortest_lever
 from app.device.control.vectors import norm_kernel, shrink_kernel, snapped
 from app.device.faults import Fault
-from app.mechanisms.pantograph.kernels import felt_kernel, tool_force_kernel, torque_kernel
-from app.mechanisms.pantograph.status import OK
+from app.mechanisms.lever import felt_kernel, tool_force_kernel, torque_kernel
 from app.mechanisms.profile import DeviceProfile
+from app.mechanisms.status import OK
 
 
 @njit
@@ -113,7 +113,7 @@ _LET_GO = int(Fault.LET_GO)
 _NOT_HOMED = int(Fault.NOT_HOMED)
 _LINK_LOST = int(Fault.LINK_LOST)
 _BOARD_ERROR = int(Fault.BOARD_ERROR)
-# Faults by kinematic status (see `mechanisms.pantograph.status`).
+# Faults by kinematic status (see `mechanisms.status`).
 _OF_STATUS = np.array(
     [
         Fault.NONE,
@@ -176,6 +176,8 @@ def _latching_fault(state: FloatArray) -> int:
         return _LINK_LOST
     if state[sv.BOARD_ERROR] != 0.0:
         return _BOARD_ERROR
+    if state[sv.MACHINE_FAULT] != 0.0:
+        return int(state[sv.MACHINE_FAULT])
     return _LET_GO if state[sv.LET_GO] != 0.0 else 0
 
 
@@ -258,8 +260,9 @@ def _hold_at_zero(state: FloatArray, p: FloatArray) -> None:
 def safety_stage(state: FloatArray, p: FloatArray) -> None:
     """Let TORQUE_* pass, faded and limited, or hold it at zero and say why in FAULT.
 
-    LET_GO, LINK_LOST and BOARD_ERROR stay until the forces are disarmed: somebody looks, then arms
-    again. Any other fault ends with its cause, and the force comes back along the arming ramp.
+    LET_GO, LINK_LOST, BOARD_ERROR and what the machine's watch finds stay until the forces are
+    disarmed: somebody looks, then arms again. Any other fault ends with its cause, and the force
+    comes back along the arming ramp.
     """
     armed = state[sv.ENABLED] > 0.5
     freshness = fade(state[sv.TIME] - state[sv.Q_TIME], p[_AT.fade_from], p[_AT.fade_to])

@@ -36,8 +36,7 @@ from app.core.arrays import FloatArray
 from app.core.compiled import njit
 from app.core.parameters import numbered
 from app.device.control.vectors import norm_kernel
-from app.mechanisms.pantograph.dynamics import mass_matrix_kernel
-from app.mechanisms.pantograph.kernels import hub_velocity_kernel
+from app.mechanisms.lever import hub_velocity_kernel
 
 LIGHTEST: Final = 0.7
 """Least share of the profile's inertias that a bound must hold for."""
@@ -46,15 +45,8 @@ HEAVIEST: Final = 1.3
 
 
 class BodyPlaces(NamedTuple):
-    """The free mechanism: lengths [m], lumped inertias of the links [kg·m²], tool [kg], needle."""
+    """The needle: mass [kg], inertia [kg·m²], its centre and its tip from the hub [m]."""
 
-    a1: int
-    a2: int
-    base: int
-    driven: int
-    passive: int
-    coupling: int
-    tool: int
     needle_mass: int
     needle_inertia: int
     needle_centre: int
@@ -124,19 +116,7 @@ def turning(
         shallow: least depth of the tip that is possible [m].
         deep: greatest depth [m].
     """
-    m11, m12, m22 = mass_matrix_kernel(
-        state[sv.Q_LEFT],
-        state[sv.Q_RIGHT],
-        state[sv.P3_X],
-        state[sv.P3_Y],
-        p[BODY.a1],
-        p[BODY.a2],
-        p[BODY.base],
-        p[BODY.driven],
-        p[BODY.passive],
-        p[BODY.coupling],
-        p[BODY.tool],
-    )
+    m11, m12, m22 = state[sv.INERTIA_LEFT], state[sv.INERTIA_CROSS], state[sv.INERTIA_RIGHT]
     dx, dy, dz, l_in = state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z], state[sv.L_IN]
     lx, ly, lz = hub_velocity_kernel(state[sv.J_XL], state[sv.J_YL], dx, dy, dz, l_in, 1.0)
     rx, ry, rz = hub_velocity_kernel(state[sv.J_XR], state[sv.J_YR], dx, dy, dz, l_in, 1.0)

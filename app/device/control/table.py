@@ -21,19 +21,26 @@ from app.core.parameters import Stage
 from app.device.control.depth_interval import DepthInterval
 from app.device.control.governor import SpeedGovernor
 from app.device.control.kinematics import Kinematics
+from app.device.control.law import KIND
 from app.device.control.passivity import PassivityGuard
 from app.device.control.safety import Safety
 from app.device.control.transmission import Transmission
 from app.device.control.velocity import VelocityMethod, velocity_stage
+from app.device.errors import DeviceError
 from app.device.links.link import Link
-from app.mechanisms.pantograph import ForceLaw
+from app.mechanisms.lever import ForceLaw
 from app.mechanisms.profile import DeviceProfile
+from app.mechanisms.remote_centre import MachineStages
 
 _THEIRS: Final = sv.SUMS + sv.SCENE
 _SIZE: Final = sv.SLOTS + len(_THEIRS)
 
 SCRATCH: Final = ("keep", "give back")
 """Names of stages whose arrays hold nothing from one tick to the next."""
+
+
+WITHOUT_MEMORY: Final = ("machine", "dynamics")
+"""Names of a machine's stages: their arrays are what its profile says, and nothing else."""
 
 
 @stage
@@ -130,7 +137,32 @@ class Table:
         return len(self.compute) + len(self.write)
 
 
-def pantograph_stages(
+_DYNAMICS: Final = frozenset(
+    name
+    for vector in ("mass", "bias", "drift", "weight", "links_potential")
+    for name in sv.slots_named(vector)
+)
+"""Slots that a machine's stage of its dynamics writes; computed only where a law reads one."""
+
+
+def _dynamics(machine: MachineStages, laws: Iterable[Stage], device: str) -> list[Stage]:
+    """Return the machine's stage of its dynamics if one of these laws reads what it writes."""
+    known = KIND.names()
+    readers = [
+        law.name
+        for law in laws
+        if law.name in known and not _DYNAMICS.isdisjoint(KIND.find(law.name).reads)
+    ]
+    if not readers:
+        return []
+    if machine.dynamics is None:
+        raise DeviceError(
+            f"law {readers[0]!r} needs the dynamics of the machine, and {device} states none"
+        )
+    return [machine.dynamics]
+
+
+def machine_stages(
     profile: DeviceProfile,
     laws: Iterable[Stage],
     effects: Iterable[Stage],
@@ -139,8 +171,9 @@ def pantograph_stages(
     velocity: VelocityMethod | None = None,
     energy_bound: float | None = None,
 ) -> Table:
-    """Table of a needle pantograph: link read, velocity, depth, kinematics, force laws, effects,
-    transmission, speed governor, passivity guard, safety, link write.
+    """Table of a machine that points a needle: link read, velocity, depth, the machine's pose,
+    kinematics, its dynamics where a law reads them, force laws, effects, transmission, speed
+    governor, passivity guard, safety, the machine's efforts, link write.
 
     Laws and effects stand between two stages that keep all that is not theirs to write.
 
@@ -155,20 +188,26 @@ def pantograph_stages(
             out. None leaves the guard out, for tables whose forces declare nothing.
 
     Raises:
-        DeviceError: if the bound is no finite number of 0 or more.
+        DeviceError: if the bound is no finite number of 0 or more, or a law needs dynamics that the
+            machine does not state.
     """
+    machine, laws = profile.machine.stages(), [Stage(*law) for law in laws]
     guard = [] if energy_bound is None else [PassivityGuard.of(profile, energy_bound).stage()]
     return Table.of(
         [
             *link.read,
             velocity_stage(profile, velocity),
             DepthInterval.of(profile).stage(),
+            machine.pose,
+            *machine.watch,
             Kinematics.of(profile).stage(),
+            *_dynamics(machine, laws, profile.name),
             *protected([*laws, *effects]),
             Transmission.of(profile, force_law).stage(),
             SpeedGovernor.of(profile).stage(),
             *guard,
             Safety.of(profile).stage(),
+            *machine.efforts,
         ],
         link.write,
     )

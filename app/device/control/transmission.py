@@ -9,12 +9,7 @@ from app.core.compiled import stage
 from app.core.parameters import Stage, numbered, packed
 from app.device.control.depth_interval import shortest_lever
 from app.device.control.vectors import shrink_kernel
-from app.mechanisms.pantograph import ForceLaw
-from app.mechanisms.pantograph.kernels import (
-    force_map_kernel,
-    printed_force_kernel,
-    torque_kernel,
-)
+from app.mechanisms.lever import ForceLaw, force_map_kernel, printed_force_kernel, torque_kernel
 from app.mechanisms.profile import DeviceProfile
 
 

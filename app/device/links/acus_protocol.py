@@ -16,7 +16,7 @@ from app.device.links.link import BoardInfo
 from app.mechanisms.profile import DeviceProfile
 
 VERSION: Final = 1
-"""Version of the protocol that this program speaks."""
+"""Version of the protocol that this program speaks to a robot with motors on its joints."""
 
 HELLO: Final = 0x01
 COMMAND: Final = 0x02
@@ -46,9 +46,9 @@ FEATURE_EMULATED: Final = 2
 """Features of a board: it measures the force; it is a program, no hardware."""
 
 
-def hello() -> bytes:
+def hello(version: int = VERSION) -> bytes:
     """Frame that asks a board who it is; a zero before it ends whatever was on the line."""
-    return b"\x00" + framing.frame(bytes([HELLO, VERSION]))
+    return b"\x00" + framing.frame(bytes([HELLO, version]))
 
 
 def home(boot: int) -> bytes:
@@ -59,32 +59,38 @@ def home(boot: int) -> bytes:
 def pack_info(
     profile: DeviceProfile, serial: str, boot: int, gauge: bool, emulated: bool = False
 ) -> bytes:
-    """INFO of a board of a profile (without frame), as firmware would send it."""
+    """INFO of a board of a profile (without frame), as firmware would send it.
+
+    A robot with cables says version 2, and its largest tension [N] in place of the largest torque.
+    """
+    cables = profile.tension_range
+    version, most = (VERSION, profile.limits.joint_torque) if cables is None else (2, cables[1])
     features = FEATURE_GAUGE * gauge + FEATURE_EMULATED * emulated
     return struct.pack(
         INFO_FORMAT,
-        *(INFO, VERSION, 1, 0, boot, profile.encoder.counts_per_turn, profile.limits.joint_torque),
+        *(INFO, version, 1, 0, boot, profile.encoder.counts_per_turn, most),
         *(features, round(profile.wire.watchdog_ms)),
         *(serial.encode("ascii"), profile.name.encode("ascii")),
     )
 
 
-def read_info(payload: bytes) -> tuple[BoardInfo, int, float, float]:
-    """Parse an INFO.
+def read_info(payload: bytes, wanted: int = VERSION) -> tuple[BoardInfo, int, float, float]:
+    """Parse an INFO of a board that should speak the `wanted` version.
 
     Returns:
-        The board, its counts per turn, largest torque [N·m] and watchdog time [s].
+        The board, its counts per turn, largest torque [N·m] (of cables: tension [N]) and watchdog
+        time [s].
 
     Raises:
         BoardVersionError: if the board speaks another version; names both. Type and version stand
             in the same two bytes in every version.
     """
-    if len(payload) < 2 or payload[1] != VERSION or len(payload) != INFO_BYTES:
+    if len(payload) < 2 or payload[1] != wanted or len(payload) != INFO_BYTES:
         theirs = payload[1] if len(payload) > 1 else 0
         raise BoardVersionError(
-            f"the board speaks version {theirs} of the protocol, this program version {VERSION}"
+            f"the board speaks version {theirs} of the protocol, this program version {wanted}"
             f" ({len(payload)} bytes): update the"
-            f" {'board' if theirs < VERSION else 'program'} (docs/protocol.md)"
+            f" {'board' if theirs < wanted else 'program'} (docs/protocol.md)"
         )
     _, version, major, minor, boot, counts, torque, features, watchdog, serial, name = (
         struct.unpack(INFO_FORMAT, payload)
@@ -126,7 +132,8 @@ def _answered(p: FloatArray, sequence: int) -> bool:
 
 
 @njit
-def _take_state(state: FloatArray, p: FloatArray, data: Any, length: int) -> None:
+def take_joints(state: FloatArray, p: FloatArray, data: Any) -> bool:
+    """Take flags, error and joint angles of a STATE of either version; whether they are new."""
     flags = np.int64(data[1])
     p[host.BOARD_FLAGS] = flags
     p[host.ESTRANGED] = 0.0 if flags & GREETED else 1.0
@@ -138,10 +145,18 @@ def _take_state(state: FloatArray, p: FloatArray, data: Any, length: int) -> Non
     if (
         not flags & GREETED or not fresh
     ):  # restarted: its counters mean nothing yet; or old readings
-        return
+        return False
     state[sv.Q_LEFT] = p[host.OFFSET] + wire.get_int32(data, 8) * p[host.STEP]
     state[sv.Q_RIGHT] = p[host.OFFSET + 1] + wire.get_int32(data, 12) * p[host.STEP]
     state[sv.Q_TIME] = p[wire.NOW] - p[host.ROUND_TRIP]  # read after that, not when it came
+    return True
+
+
+@njit
+def _take_state(state: FloatArray, p: FloatArray, data: Any, length: int) -> None:
+    if not take_joints(state, p, data):
+        return
+    flags = np.int64(data[1])
     p[host.GAUGE] = 1.0 if flags & FORCE_VALID and length == STATE_WITH_FORCE_BYTES else 0.0
     if p[host.GAUGE] != 0.0:
         force = wire.get_float(p, data, 17)

@@ -9,7 +9,8 @@ protocols. The emulator's process and the link in memory run the same one. What 
 
 - torque zero at power-up, and until it is greeted in its own version (Acus) or set up (Haply);
 - torque zero within the watchdog's time of the last valid command with `enable`;
-- both torques scaled down together to the largest one; a torque that is not finite counts as zero.
+- both torques scaled down together to the largest one; a torque that is not finite counts as zero;
+- with four winches: each tension within 0 and the largest, each speed within the fastest.
 """
 
 from dataclasses import dataclass
@@ -17,11 +18,13 @@ from typing import Any, Final
 
 import numpy as np
 
+from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
 from app.device.errors import LinkError
 from app.device.links import acus_protocol as acus
 from app.device.links import board_layout as at
+from app.device.links import cable_protocol as cables
 from app.device.links import framing, line, wire
 from app.device.links import haply_protocol as haply
 from app.device.links.framing import RECEIVER
@@ -34,7 +37,9 @@ _HOME_REFUSED = int(BoardError.HOME_REFUSED)
 
 @njit
 def _stop(p: FloatArray) -> None:
-    p[at.TORQUE] = p[at.TORQUE + 1] = p[at.ENABLED] = 0.0
+    p[at.TORQUE] = p[at.TORQUE + 1] = p[at.ENABLED] = p[at.HOLDS] = 0.0
+    for k in range(cables.CHANNELS):
+        p[at.PULL + k] = 0.0
 
 
 @njit
@@ -75,6 +80,45 @@ def _apply(p: FloatArray, now: float, left: float, right: float, enable: bool) -
 
 
 @njit
+def _pull(p: FloatArray, now: float, data: Any) -> None:
+    """Obey a valid command of four channels; the watchdog begins anew."""
+    p[at.COMMANDS] += 1.0
+    p[at.COMMANDED], p[at.TRIPPED] = now, 0.0
+    total = 0.0
+    for k in range(cables.CHANNELS):
+        total += wire.get_float(p, data, 4 + 4 * k)
+    if not np.isfinite(total):
+        p[at.ERROR] = _BAD_TORQUE
+        _stop(p)
+        return
+    if p[at.ERROR] == _BAD_TORQUE:
+        p[at.ERROR] = 0.0
+    if data[1] & acus.ENABLE == 0 or p[at.GREETED] == 0.0 or p[at.ERROR] != 0.0:
+        _stop(p)
+        return
+    holds = data[1] & cables.HOLD != 0
+    low, high = (-p[at.FASTEST], p[at.FASTEST]) if holds else (0.0, p[at.LIMIT])
+    p[at.ENABLED], p[at.HOLDS] = 1.0, 1.0 if holds else 0.0
+    for k in range(cables.CHANNELS):
+        asked = min(max(wire.get_float(p, data, 4 + 4 * k), low), high)
+        p[at.PULL + k] = asked
+        if not holds:
+            p[at.LARGEST] = max(p[at.LARGEST], asked)
+
+
+@njit
+def winches(state: FloatArray, p: FloatArray) -> None:
+    """Let the board's winches do what it tells them: TENSION_*, REEL_RATE_* and HOLDING."""
+    if p[at.CHANNELS] == 0.0:
+        return
+    state[sv.HOLDING] = p[at.HOLDS]
+    for k in range(cables.CHANNELS):
+        held = p[at.HOLDS] != 0.0
+        state[sv.TENSION_1 + k] = 0.0 if held else p[at.PULL + k]
+        state[sv.REEL_RATE_1 + k] = p[at.PULL + k] if held else 0.0
+
+
+@njit
 def _say(p: FloatArray, message: Any, length: int) -> None:
     start = int(p[wire.OUT_COUNT])
     if start + length + 4 <= wire.OUT_BYTES:
@@ -98,13 +142,20 @@ def _say_state(p: FloatArray, now: float, sequence: int) -> None:
     message = p[at.WORK : at.RECEIVER_AT].view(np.uint8)
     flags = int(p[at.ENABLED]) | int(p[at.HOMED]) << 1 | int(p[at.TRIPPED]) << 2
     flags |= int(p[at.GAUGE]) << 3 | int(p[at.GREETED]) << 4
-    message[0], message[1], message[16] = acus.STATE, flags, int(p[at.ERROR])
+    channels = int(p[at.CHANNELS])
+    message[0] = cables.STATE if channels > 0 else acus.STATE
+    message[1], message[16] = flags, int(p[at.ERROR])
     wire.put_int(message, 2, sequence, 2)
     wire.put_int(message, 4, int((now - p[at.BORN]) * 1e6) & 0xFFFFFFFF, 4)
     wire.put_int(message, 8, _count(p, 0), 4)
     wire.put_int(message, 12, _count(p, 1), 4)
     length = acus.STATE_BYTES
-    if p[at.GAUGE] != 0.0:
+    if channels > 0:
+        for k in range(channels):
+            wire.put_float(p, message, length + 4 * k, p[at.CABLE + k])
+            wire.put_float(p, message, length + 4 * (channels + k), p[at.REEL + k])
+        length = cables.STATE_BYTES
+    elif p[at.GAUGE] != 0.0:
         wire.put_float(p, message, length, p[at.GAUGE_READING])
         length = acus.STATE_WITH_FORCE_BYTES
     _say(p, message, length)
@@ -128,7 +179,10 @@ def _message(p: FloatArray, now: float, data: Any, length: int) -> None:
         p[at.GREETED] = 1.0 if data[1] == p[at.VERSION] else 0.0
         p[at.ERROR] = 0.0
         _say_info(p)
-    elif kind == acus.COMMAND and length == acus.COMMAND_BYTES:
+    elif p[at.CHANNELS] > 0.0 and kind == cables.COMMAND and length == cables.COMMAND_BYTES:
+        _pull(p, now, data)
+        _say_state(p, now, wire.get_int(data, 2, 2))
+    elif p[at.CHANNELS] == 0.0 and kind == acus.COMMAND and length == acus.COMMAND_BYTES:
         left, right = wire.get_float(p, data, 4), wire.get_float(p, data, 8)
         _apply(p, now, left, right, data[1] & acus.ENABLE != 0)
         _say_state(p, now, wire.get_int(data, 2, 2))

@@ -44,7 +44,13 @@ MOTOR_SIGN: Final = wire.END + 34
 TEMPLATE: Final = wire.END + 36  # 56 bytes: the INFO message
 WORK: Final = TEMPLATE + 7  # 72 bytes: a message being built
 RECEIVER_AT: Final = WORK + 9
-SIZE: Final = RECEIVER_AT + RECEIVER
+CHANNELS: Final = RECEIVER_AT + RECEIVER  # 4 for winches, 0 for motors on the joints
+CABLE: Final = CHANNELS + 1  # true tensions [N], four
+REEL: Final = CABLE + 4  # reeled in [m], four
+PULL: Final = REEL + 4  # what its winches do: tension [N], or speed of reeling in [m/s]
+HOLDS: Final = PULL + 4  # 1 while those are speeds
+FASTEST: Final = HOLDS + 1  # of reeling [m/s]
+SIZE: Final = FASTEST + 1
 
 TRIPS_EARLY: Final = 2e-3
 """The watchdog trips this long before its time is over [s], so that the torque is zero by then."""
@@ -58,6 +64,9 @@ def new_board(profile: DeviceProfile, serial: str = "EMULATED", boot: int = 1) -
     p = np.zeros(SIZE)
     p[WATCHDOG], p[LIMIT] = profile.wire.watchdog_ms * 1e-3, profile.limits.joint_torque
     p[VERSION], p[BOOT] = acus.VERSION, boot
+    if profile.tension_range is not None:
+        p[VERSION], p[CHANNELS], p[LIMIT] = 2.0, 4.0, profile.tension_range[1]
+        p[FASTEST] = profile.fastest_reel
     p[STEP] = 2.0 * np.pi / profile.encoder.counts_per_turn
     p[ENCODER_SIGN : MOTOR_SIGN + 2] = 1.0
     p[RESET] = 1.0

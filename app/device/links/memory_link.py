@@ -24,7 +24,9 @@ from app.mechanisms.profile import DeviceProfile
 
 _BOX = host.SIZE
 _WANTED = _BOX + board.SIZE
-_SIZE = _WANTED + 2
+_CHANNELS = 4
+_PULLED = _WANTED + 2  # what four winches were asked: tensions, speeds, whether they hold
+_SIZE = _PULLED + 2 * _CHANNELS + 1
 
 
 @stage
@@ -43,6 +45,9 @@ def _carry(state: FloatArray, p: FloatArray) -> None:
     if end[wire.OUT_COUNT] > 0.0:
         wire.note_sent(end, now)
     box[at.Q], box[at.Q + 1] = state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT]
+    for k in range(_CHANNELS):
+        box[at.CABLE + k] = state[sv.PLANT_CABLE_1 + k]
+        box[at.REEL + k] = state[sv.PLANT_REEL_1 + k]
     box[at.GAUGE_READING] = np.sqrt(
         state[sv.PULL_X] ** 2 + state[sv.PULL_Y] ** 2 + state[sv.PULL_Z] ** 2
     )
@@ -57,12 +62,21 @@ def _carry(state: FloatArray, p: FloatArray) -> None:
     end[wire.OUT_COUNT] = 0.0
     p[_WANTED], p[_WANTED + 1] = state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT]
     state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = box[at.TORQUE], box[at.TORQUE + 1]
+    for k in range(_CHANNELS):
+        p[_PULLED + k] = state[sv.TENSION_1 + k]
+        p[_PULLED + _CHANNELS + k] = state[sv.REEL_RATE_1 + k]
+    p[_PULLED + 2 * _CHANNELS] = state[sv.HOLDING]
+    board.winches(state, box)
 
 
 @stage
 def _restore(state: FloatArray, p: FloatArray) -> None:
     """Put the torques that were sent back into TORQUE_*, for who reads the state."""
     state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = p[_WANTED], p[_WANTED + 1]
+    for k in range(_CHANNELS):
+        state[sv.TENSION_1 + k] = p[_PULLED + k]
+        state[sv.REEL_RATE_1 + k] = p[_PULLED + _CHANNELS + k]
+    state[sv.HOLDING] = p[_PULLED + 2 * _CHANNELS]
 
 
 class MemoryLink(DeviceLink):

@@ -12,6 +12,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.device.errors import LinkError
 from app.device.links import acus_protocol as acus
+from app.device.links import cable_protocol as cables
 from app.device.links import haply_protocol as haply
 from app.device.links import host_end as host
 from app.device.links import wire
@@ -54,19 +55,21 @@ class Speech(ABC):
 
 
 class AcusSpeech(Speech):
-    """Acus' own protocol."""
+    """Acus' own protocol: version 1 for motors on the joints, version 2 for four winches."""
 
     name = "acus"
-    stages = (acus.acus_read, acus.acus_write)
 
     def __init__(self, profile: DeviceProfile) -> None:
-        self._profile = profile
+        self._profile, self._version = profile, acus.VERSION
+        self.stages = (acus.acus_read, acus.acus_write)
+        if profile.tension_range is not None:
+            self._version, self.stages = cables.VERSION, (cables.cables_read, cables.cables_write)
 
     def greet(self, exchange: Exchange) -> BoardInfo:
         """Say HELLO until an INFO comes, and compare it with the profile."""
         deframer, seen = Deframer(), 0
         for _ in range(ATTEMPTS):
-            data = exchange(acus.hello())
+            data = exchange(acus.hello(self._version))
             seen += len(data)
             for payload in deframer.feed(data):
                 if payload[0] == acus.INFO:
@@ -74,7 +77,7 @@ class AcusSpeech(Speech):
         raise LinkError(silence(seen, "no board that speaks Acus' protocol"))
 
     def _checked(self, payload: bytes) -> BoardInfo:
-        info, counts, _, watchdog = acus.read_info(payload)
+        info, counts, _, watchdog = acus.read_info(payload, self._version)
         wanted = self._profile
         if info.profile and info.profile != wanted.name:
             raise LinkError(

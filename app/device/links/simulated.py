@@ -38,6 +38,14 @@ def encoder_stage(state: FloatArray, p: FloatArray) -> None:
     state[sv.Q_TIME] = state[sv.TIME]
 
 
+@stage
+def gauge_stage(state: FloatArray, p: FloatArray) -> None:
+    """Copy what the simulated cables' gauges and reels measure into CABLE_* and REEL_*."""
+    for k in range(4):
+        state[sv.CABLE_1 + k] = state[sv.PLANT_CABLE_1 + k]
+        state[sv.REEL_1 + k] = state[sv.PLANT_REEL_1 + k]
+
+
 @dataclass(frozen=True, slots=True)
 class SimulatedEncoders:
     """Encoders of the simulated robot.
@@ -62,11 +70,14 @@ def simulated_link(profile: DeviceProfile, plant: Iterable[Stage]) -> Link:
     """Link to a simulated plant.
 
     Args:
-        profile: gives the encoders' resolution.
+        profile: gives the encoders' resolution; cables have gauges beside them.
         plant: stages that read TORQUE_* and write PLANT_*, run after safety.
     """
     encoders = SimulatedEncoders(profile.encoder.counts_per_turn, profile.encoder.home_offsets)
-    return Link.of([encoders.stage()], plant)
+    read = [encoders.stage()]
+    if profile.tension_range is not None:
+        read.append(Stage("gauges", gauge_stage, np.zeros(1)))
+    return Link.of(read, plant)
 
 
 class SimulatedLink(DeviceLink):

@@ -27,7 +27,7 @@ from typing import Final
 
 from app.core.arrays import FloatArray, IntArray
 from app.core.compiled import njit
-from app.mechanisms.pantograph.status import DEGENERATE, NOT_FINITE, OK, UNREACHABLE
+from app.mechanisms.status import DEGENERATE, NOT_FINITE, OK, UNREACHABLE
 
 FIRST_AXIS: Final = 1
 SHOULDER: Final = 2

@@ -16,7 +16,7 @@ from app.core.transform import RigidTransform
 from app.mechanisms.arm import kernels
 from app.mechanisms.arm.profile import JOINTS, TWISTS, ArmProfile
 from app.mechanisms.errors import MechanismError, NotFiniteError
-from app.mechanisms.pantograph.status import check
+from app.mechanisms.status import check
 
 WRIST_CENTRE: Final = (0.0, 0.0, 0.0)
 """The point that the Jacobian means where none is named."""

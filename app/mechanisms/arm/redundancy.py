@@ -43,7 +43,7 @@ from app.mechanisms.arm.kinematics import (
 from app.mechanisms.arm.least_squares import CLOSED, WORK, iterate_kernel
 from app.mechanisms.arm.profile import JOINTS, ROOM_FOR_ROUNDING, ArmProfile
 from app.mechanisms.errors import MechanismError
-from app.mechanisms.pantograph.status import NOT_FINITE, OK, check
+from app.mechanisms.status import NOT_FINITE, OK, check
 
 CUTS: Final = 24
 """Most arm angles at which a joint stands at a limit: six joints, two limits, two roots."""

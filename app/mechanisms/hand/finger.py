@@ -28,7 +28,7 @@ from app.core.compiled import njit
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
 from app.mechanisms.errors import MechanismError, UnreachableError
-from app.mechanisms.pantograph.status import NOT_FINITE, OK, UNREACHABLE, check
+from app.mechanisms.status import NOT_FINITE, OK, UNREACHABLE, check
 
 _RELATIVE = 1e-12
 """Relative room for rounding: within it a stretched finger is stretched, not out of reach."""

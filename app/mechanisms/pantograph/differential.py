@@ -19,7 +19,7 @@ from app.mechanisms.pantograph.links import (
     speeds_kernel,
     turns_kernel,
 )
-from app.mechanisms.pantograph.status import NOT_FINITE, OK, SINGULAR
+from app.mechanisms.status import NOT_FINITE, OK, SINGULAR
 
 _RELATIVE = 1e-12
 

@@ -1,6 +1,6 @@
 """Closed-chain dynamics in the motor angles: M(q) q̈ + h(q, q̇) + g(q) + friction(q̇) = τ.
 
-Links (`links`), mass at P3 and needle (`needle_dynamics`, at the depth given), in closed form. For
+Links (`links`), mass at P3 and needle (`mechanisms.lever`, at the depth given), in closed form. For
 compiled code (call them only where `jacobian_kernel` says `OK`, with (x, y) the tool point):
 
 - `dynamics_kernel(q1, q2, v1, v2, x, y, depth, depth_rate, p, first)
@@ -9,6 +9,7 @@ compiled code (call them only where `jacobian_kernel` says `OK`, with (x, y) the
   stage keeps in its own parameters). With `depth_rate` = 0 the Coriolis term of a sliding needle
   is left out.
 - `friction_kernel(v, coulomb, viscous, smooth) -> torque`: opposes the motor, of the sign of v.
+- `links_potential_kernel(q1, q2, x, y, p, first) -> potential` of links and mass at P3 [J].
 - `axial_load_kernel(vx, vy, x, y, depth, p, first) -> force` along the needle, inwards [N].
 - `mass_matrix_kernel(q1, q2, x, y, a1, a2, base, driven, passive, coupling, tool)
   -> (m_left, m_cross, m_right)` and
@@ -16,7 +17,6 @@ compiled code (call them only where `jacobian_kernel` says `OK`, with (x, y) the
   -> (h_left, h_right)`: links and mass at P3 only.
 """
 
-from dataclasses import dataclass
 from math import tanh
 
 import numpy as np
@@ -25,88 +25,14 @@ from numpy.typing import ArrayLike
 from app.core.arrays import FloatArray, frozen
 from app.core.compiled import njit
 from app.mechanisms import dynamic_model as dm
+from app.mechanisms import lever
 from app.mechanisms.dynamic_model import DynamicModel
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.inertia import LumpedInertia
 from app.mechanisms.pantograph import kernels, links
 from app.mechanisms.pantograph.kinematics import forward, pair
-from app.mechanisms.pantograph.status import check
-
-
-@njit
-def needle_mass_kernel(
-    dx: float, dy: float, l_in: float, s: float, mass: float, inertia: float
-) -> tuple[float, float, float]:
-    """Inertia at P3 [kg] of the needle that P3 turns: (xx, xy, yy)."""
-    scale = (inertia + mass * s * s) / (l_in * l_in)
-    return scale * (1.0 - dx * dx), -scale * dx * dy, scale * (1.0 - dy * dy)
-
-
-@njit
-def needle_velocity_kernel(
-    vx: float,
-    vy: float,
-    ax: float,
-    ay: float,
-    dx: float,
-    dy: float,
-    l_in: float,
-    s: float,
-    rate: float,
-    mass: float,
-    inertia: float,
-) -> tuple[float, float]:
-    """Force at P3 [N] for velocity v and acceleration a of P3 at depth rate `rate` [m/s]: (x, y).
-
-    From L d = P3 - P_I, twice differentiated: L d̈ = (I - d dᵀ) a - 2 L̇ ḋ across the needle.
-    """
-    along = dx * vx + dy * vy  # = L̇
-    tx, ty = (vx - along * dx) / l_in, (vy - along * dy) / l_in  # ḋ on x and y
-    fall = dx * ax + dy * ay
-    scale = (inertia + mass * s * s) / (l_in * l_in)
-    slide = 2.0 * mass * s * rate / l_in
-    return (
-        scale * (ax - fall * dx - 2.0 * along * tx) + slide * tx,
-        scale * (ay - fall * dy - 2.0 * along * ty) + slide * ty,
-    )
-
-
-@njit
-def needle_gravity_kernel(
-    gx: float,
-    gy: float,
-    gz: float,
-    dx: float,
-    dy: float,
-    dz: float,
-    l_in: float,
-    s: float,
-    mass: float,
-) -> tuple[float, float]:
-    """dV/dP3 of the needle in gravity [N]: (x, y)."""
-    fall = dx * gx + dy * gy + dz * gz
-    scale = -mass * s / l_in
-    return scale * (gx - fall * dx), scale * (gy - fall * dy)
-
-
-@njit
-def needle_axial_kernel(
-    vx: float,
-    vy: float,
-    gx: float,
-    gy: float,
-    gz: float,
-    dx: float,
-    dy: float,
-    dz: float,
-    l_in: float,
-    s: float,
-    mass: float,
-) -> float:
-    """Force that draws the needle inwards [N]: m s |ḋ|² of its turning and m g·d of gravity."""
-    along = dx * vx + dy * vy
-    turning = (vx * vx + vy * vy - along * along) / (l_in * l_in)
-    return mass * (s * turning + dx * gx + dy * gy + dz * gz)
+from app.mechanisms.remote_centre import DynamicTerms
+from app.mechanisms.status import check
 
 
 @njit
@@ -162,7 +88,7 @@ def velocity_terms_kernel(
         turns, u, rates, speeds, alpha, alpha_r, passive, coupling
     )
     jxl, jxr, jyl, jyr = links.tool_jacobian_kernel(turns, u, rates, a1, a2)
-    t_left, t_right = kernels.torque_kernel(tool * ax, tool * ay, jxl, jxr, jyl, jyr)
+    t_left, t_right = lever.torque_kernel(tool * ax, tool * ay, jxl, jxr, jyl, jyr)
     return left + t_left, right + t_right
 
 
@@ -194,24 +120,39 @@ def dynamics_kernel(
     speeds = links.speeds_kernel(rates, v1, v2)
     alpha, alpha_r, ax, ay = links.passive_acceleration_kernel(turns, u, speeds, a1, a2)
     jxl, jxr, jyl, jyr = links.tool_jacobian_kernel(turns, u, rates, a1, a2)
-    dx, dy, dz, l_in = kernels.axis_kernel(
-        x, y, p[first + dm.FX], p[first + dm.FY], p[first + dm.FZ]
-    )
+    dx, dy, dz, l_in = lever.axis_kernel(x, y, p[first + dm.FX], p[first + dm.FY], p[first + dm.FZ])
 
     m11, m12, m22 = links.link_mass_kernel(turns, u, rates, p[first + dm.DRIVEN], passive, coupling)
-    xx, xy, yy = needle_mass_kernel(dx, dy, l_in, s, mass, inertia)
+    xx, xy, yy = lever.needle_mass_kernel(dx, dy, l_in, s, mass, inertia)
     n11, n12, n22 = links.at_joints_kernel(tool + xx, xy, tool + yy, jxl, jxr, jyl, jyr)
 
     h1, h2 = links.link_velocity_kernel(turns, u, rates, speeds, alpha, alpha_r, passive, coupling)
     vx, vy = jxl * v1 + jxr * v2, jyl * v1 + jyr * v2
-    fx, fy = needle_velocity_kernel(vx, vy, ax, ay, dx, dy, l_in, s, depth_rate, mass, inertia)
-    i1, i2 = kernels.torque_kernel(tool * ax + fx, tool * ay + fy, jxl, jxr, jyl, jyr)
+    fx, fy = lever.needle_velocity_kernel(
+        vx, vy, ax, ay, dx, dy, l_in, s, depth_rate, mass, inertia
+    )
+    i1, i2 = lever.torque_kernel(tool * ax + fx, tool * ay + fy, jxl, jxr, jyl, jyr)
 
     moment, moment_2 = p[first + dm.DRIVEN_MOMENT], p[first + dm.PASSIVE_MOMENT]
     g1, g2 = links.link_gravity_kernel(turns, u, rates, moment, moment_2, gx, gy)
-    wx, wy = needle_gravity_kernel(gx, gy, gz, dx, dy, dz, l_in, s, mass)
-    k1, k2 = kernels.torque_kernel(wx - tool * gx, wy - tool * gy, jxl, jxr, jyl, jyr)
+    wx, wy = lever.needle_gravity_kernel(gx, gy, gz, dx, dy, dz, l_in, s, mass)
+    k1, k2 = lever.torque_kernel(wx - tool * gx, wy - tool * gy, jxl, jxr, jyl, jyr)
     return m11 + n11, m12 + n12, m22 + n22, h1 + i1, h2 + i2, g1 + k1, g2 + k2
+
+
+@njit
+def links_potential_kernel(
+    q1: float, q2: float, x: float, y: float, p: FloatArray, first: int
+) -> float:
+    """Potential of gravity [J] of links and mass at P3, up to a constant."""
+    gx, gy = p[first + dm.GX], p[first + dm.GY]
+    a1, a2, base = p[first + dm.A1], p[first + dm.A2], p[first + dm.BASE]
+    c1, s1, c1r, s1r = turns = links.turns_kernel(q1, q2)
+    ux, uy, rx, ry = links.distal_kernel(turns, x, y, a1, a2, base)
+    driven, passive = p[first + dm.DRIVEN_MOMENT], p[first + dm.PASSIVE_MOMENT]
+    mx = driven * (c1 + c1r) + passive * (ux + rx) + p[first + dm.TOOL] * x
+    my = driven * (s1 + s1r) + passive * (uy + ry) + p[first + dm.TOOL] * y
+    return -(mx * gx + my * gy)
 
 
 @njit
@@ -219,35 +160,18 @@ def axial_load_kernel(
     vx: float, vy: float, x: float, y: float, depth: float, p: FloatArray, first: int
 ) -> float:
     """Force on the needle along its axis, inwards [N], at tool velocity (vx, vy)."""
-    dx, dy, dz, l_in = kernels.axis_kernel(
-        x, y, p[first + dm.FX], p[first + dm.FY], p[first + dm.FZ]
-    )
+    dx, dy, dz, l_in = lever.axis_kernel(x, y, p[first + dm.FX], p[first + dm.FY], p[first + dm.FZ])
     gx, gy, gz = p[first + dm.GX], p[first + dm.GY], p[first + dm.GZ]
     s = depth + p[first + dm.NEEDLE_OFFSET]
-    return needle_axial_kernel(vx, vy, gx, gy, gz, dx, dy, dz, l_in, s, p[first + dm.NEEDLE_MASS])
+    return lever.needle_axial_kernel(
+        vx, vy, gx, gy, gz, dx, dy, dz, l_in, s, p[first + dm.NEEDLE_MASS]
+    )
 
 
 @njit
 def friction_kernel(v: float, coulomb: float, viscous: float, smooth: float) -> float:
     """Friction torque of a joint [N·m] at speed v [rad/s]: Coulomb smoothed by tanh, viscous."""
     return coulomb * tanh(v / smooth) + viscous * v
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class DynamicTerms:
-    """Terms of M q̈ + h + g + friction = τ at one state.
-
-    Attributes:
-        mass: M [kg·m²], shape (2, 2).
-        velocity: h(q, q̇) [N·m], shape (2,).
-        gravity: g(q) [N·m], shape (2,).
-        friction: of the joints [N·m], shape (2,).
-    """
-
-    mass: FloatArray
-    velocity: FloatArray
-    gravity: FloatArray
-    friction: FloatArray
 
 
 def dynamic_terms(

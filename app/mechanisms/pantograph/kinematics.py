@@ -7,7 +7,7 @@ from app.core.arrays import FloatArray
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.pantograph import kernels
-from app.mechanisms.pantograph.status import check
+from app.mechanisms.status import check
 
 WORKING_MODE = (1, -1)
 """Elbows outwards: the thesis' own working mode."""

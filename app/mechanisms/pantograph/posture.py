@@ -11,7 +11,7 @@ from app.core.arrays import FloatArray, frozen
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.pantograph import differential, kernels
 from app.mechanisms.pantograph.kinematics import forward, pair
-from app.mechanisms.pantograph.status import NOT_FINITE, OK, Status, check
+from app.mechanisms.status import NOT_FINITE, OK, Status, check
 
 WORKING_MODES: Final = ((1, -1), (1, 1), (-1, 1), (-1, -1))
 """All working modes (left, right); +1 turns the driven link counterclockwise of the line from its

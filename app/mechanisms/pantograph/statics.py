@@ -11,36 +11,24 @@ dP3 = -(L_in/L_out)(I - d ẑᵀ/d_z) dP_u, whatever the mode. Forces go the oth
 """
 
 from dataclasses import dataclass
-from enum import StrEnum
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen
+from app.mechanisms import lever
 from app.mechanisms.errors import DegenerateError, MechanismError, NoGripError, SingularError
 from app.mechanisms.geometry import Geometry
-from app.mechanisms.pantograph import kernels
 from app.mechanisms.pantograph.kinematics import WORKING_MODE, forward, jacobian, pair
 from app.mechanisms.pantograph.posture import Singularity, singularity
-from app.mechanisms.pantograph.status import check
 from app.mechanisms.pantograph.system import (
     LengthMode,
     NeedleState,
     system_forward,
     system_inverse,
 )
-
-
-class ForceLaw(StrEnum):
-    """How a wanted force at the hand becomes a force at the tool.
-
-    `VIRTUAL_WORK` delivers it; `PRINTED` is equation 4.12 of the thesis, which delivers 1.66 times
-    the force at 39° and twice at 45° in the tilt plane.
-    """
-
-    VIRTUAL_WORK = "virtual_work"
-    PRINTED = "printed"
+from app.mechanisms.status import check
 
 
 def lever_map(needle: NeedleState) -> FloatArray:
@@ -48,14 +36,13 @@ def lever_map(needle: NeedleState) -> FloatArray:
 
     The hub's velocity is the part perpendicular to the needle; along it the needle slides freely.
     """
-    lever = _lever(needle)
-    columns = [kernels.hub_velocity_kernel(*e, *lever) for e in ((1.0, 0.0), (0.0, 1.0))]
+    columns = [lever.hub_velocity_kernel(*e, *_lever(needle)) for e in ((1.0, 0.0), (0.0, 1.0))]
     return np.array(columns).T
 
 
 def force_map(needle: NeedleState, force: ArrayLike) -> FloatArray:
     """Tool force γ = G_perpᵀ F [N], shape (2,), by virtual work; F at the hand [N], shape (3,)."""
-    return np.array(kernels.force_map_kernel(*_triple(force), *_lever(needle)))
+    return np.array(lever.force_map_kernel(*_triple(force), *_lever(needle)))
 
 
 def printed_force(needle: NeedleState, force: ArrayLike) -> FloatArray:
@@ -64,7 +51,7 @@ def printed_force(needle: NeedleState, force: ArrayLike) -> FloatArray:
     Raises:
         DegenerateError: if the needle lies in the plane of the links.
     """
-    return np.array(kernels.printed_force_kernel(*_triple(force), *_lever(needle)))
+    return np.array(lever.printed_force_kernel(*_triple(force), *_lever(needle)))
 
 
 def felt_force(needle: NeedleState, gamma: ArrayLike) -> FloatArray:
@@ -73,12 +60,12 @@ def felt_force(needle: NeedleState, gamma: ArrayLike) -> FloatArray:
     Raises:
         DegenerateError: if the needle lies in the plane of the links.
     """
-    return np.array(kernels.felt_kernel(*pair(gamma, "gamma"), *_lever(needle)))
+    return np.array(lever.felt_kernel(*pair(gamma, "gamma"), *_lever(needle)))
 
 
 def joint_torques(jacobian: ArrayLike, gamma: ArrayLike) -> FloatArray:
     """Joint torques τ = Jᵀ γ [N·m], shape (2,), for the Jacobian (2, 2) and a tool force (2,)."""
-    return np.array(kernels.torque_kernel(*pair(gamma, "gamma"), *_entries(jacobian)))
+    return np.array(lever.torque_kernel(*pair(gamma, "gamma"), *_entries(jacobian)))
 
 
 def tool_force(jacobian: ArrayLike, torques: ArrayLike) -> FloatArray:
@@ -87,7 +74,7 @@ def tool_force(jacobian: ArrayLike, torques: ArrayLike) -> FloatArray:
     Raises:
         SingularError: if the Jacobian has no inverse.
     """
-    status, gx, gy = kernels.tool_force_kernel(*pair(torques, "torques"), *_entries(jacobian))
+    status, gx, gy = lever.tool_force_kernel(*pair(torques, "torques"), *_entries(jacobian))
     check(status, f"tool force for the Jacobian {np.asarray(jacobian).tolist()} m/rad")
     return np.array([gx, gy])
 

@@ -7,11 +7,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen
+from app.mechanisms import lever
 from app.mechanisms.errors import MechanismError, NoGripError
 from app.mechanisms.geometry import Geometry
-from app.mechanisms.pantograph import kernels
 from app.mechanisms.pantograph.kinematics import WORKING_MODE, forward, inverse, pair
-from app.mechanisms.pantograph.status import check
+from app.mechanisms.status import check
 
 
 class LengthMode(StrEnum):
@@ -58,7 +58,7 @@ def needle_at(geometry: Geometry, p3: ArrayLike, l_out: float | None = None) -> 
         MechanismError: if `p3` has the wrong shape.
     """
     x, y = pair(p3, "p3")
-    dx, dy, dz, l_in = kernels.axis_kernel(x, y, *geometry.fulcrum_xyz)
+    dx, dy, dz, l_in = lever.axis_kernel(x, y, *geometry.fulcrum_xyz)
     length = geometry.needle_length
     outside = length - l_in if l_out is None else float(l_out)
     if not outside > 0.0:
@@ -116,7 +116,7 @@ def system_inverse(
     point = np.asarray(hub, dtype=np.float64)
     if point.shape != (3,):
         raise MechanismError(f"hub has shape {point.shape}; (3,) is needed")
-    status, x, y, _, l_out = kernels.tool_kernel(*point.tolist(), *geometry.fulcrum_xyz)
+    status, x, y, _, l_out = lever.tool_kernel(*point.tolist(), *geometry.fulcrum_xyz)
     check(status, f"hub point P_u = {point.tolist()} m above the fulcrum {geometry.fulcrum_xyz} m")
     p3 = np.array([x, y])
     return inverse(geometry, p3, mode), needle_at(geometry, p3, l_out)

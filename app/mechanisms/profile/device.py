@@ -1,18 +1,20 @@
 """One robot: its sections, and what the other rooms ask of it."""
 
-from math import atan2, degrees, hypot, radians, tan
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from importlib import import_module
+from math import radians
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Any, Final
 
 from pydantic import model_validator
 
+from app import mechanisms
 from app.core import paths
-from app.core.arrays import frozen
-from app.core.configuration import Strict, load
+from app.core.arrays import FloatArray, frozen
+from app.core.configuration import Strict, parse, parse_yaml, read_text
 from app.core.errors import ConfigurationError
-from app.mechanisms.dynamic_model import DynamicModel
-from app.mechanisms.geometry import Geometry
-from app.mechanisms.inertia import LumpedInertia
 from app.mechanisms.profile.control import (
     DEFAULT_VELOCITY,
     LET_GO_UNSTATED,
@@ -29,12 +31,15 @@ from app.mechanisms.profile.control import (
     WireSection,
 )
 from app.mechanisms.profile.mechanics import (
+    CentreSection,
     FrictionSection,
-    GeometrySection,
-    InertiaSection,
     MountingSection,
+    NeedleSection,
     WorkspaceSection,
 )
+
+if TYPE_CHECKING:
+    from app.mechanisms.remote_centre import RemoteCentre
 
 LONGEST_NEEDLE: Final = 0.5
 """No needle for this work is longer [m]."""
@@ -43,17 +48,19 @@ LONGEST_NEEDLE: Final = 0.5
 class DeviceProfile(Strict):
     """One robot. Values are SI; each section carries the provenance of its values.
 
-    `velocity` is how joint velocities come from its encoders' angles.
+    `kind` says what machine it is: the folder of `mechanisms` whose `profile.py` has the sections
+    of its own. `velocity` is how joint velocities come from its encoders' angles.
     """
 
+    kind: str
     name: str
     description: str
-    geometry: GeometrySection
+    geometry: CentreSection
     workspace: WorkspaceSection
     encoder: EncoderSection
     limits: LimitSection
     fixture: FixtureSection
-    inertia: InertiaSection
+    inertia: NeedleSection
     friction: FrictionSection
     motor: MotorSection
     mounting: MountingSection
@@ -64,23 +71,13 @@ class DeviceProfile(Strict):
     haply: HaplySection | None = None
 
     @model_validator(mode="after")
-    def _fits_the_needle(self) -> "DeviceProfile":
+    def _fits_the_needle(self) -> DeviceProfile:
         length, deepest = self.geometry.needle_length, self.workspace.depth_max
         if deepest >= length:
             raise ValueError(
                 f"workspace.depth_max {deepest:g} m must be below geometry.needle_length"
                 f" {length:g} m: the hub stays outside the fulcrum"
             )
-        section = self.geometry
-        x, y, height = section.fulcrum
-        reach = section.proximal + section.distal + hypot(abs(x) + 0.5 * section.base, y)
-        for name, tilt in self.workspace.tilt_limit_deg.items():
-            if (away := height * tan(radians(tilt))) > reach:
-                raise ValueError(
-                    f"workspace.tilt_limit_deg of joint {name!r} is {tilt:g}: there the tool would"
-                    f" be {away:.3g} m from under the fulcrum, and the links reach {reach:.3g} m at"
-                    f" most; give at most {degrees(atan2(reach, height)):.1f}"
-                )
         if self.inertia.needle_centre > length:
             raise ValueError(
                 f"inertia.needle_centre {self.inertia.needle_centre:g} m must lie on the needle of"
@@ -89,47 +86,56 @@ class DeviceProfile(Strict):
         return self
 
     @property
-    def pantograph(self) -> Geometry:
-        """Geometry for the functions of `mechanisms.pantograph`."""
-        section = self.geometry
-        return Geometry(
-            section.proximal,
-            section.distal,
-            section.base,
-            frozen(section.fulcrum),
-            section.needle_length,
-        )
+    def machine(self) -> RemoteCentre:
+        """What the robot is, to be asked about poses, forces and stages; loads compiled code."""
+        module = import_module(f"{mechanisms.__name__}.{self.kind}.machine")
+        found: RemoteCentre = module.machine(self)
+        return found
 
     @property
-    def lumped_inertia(self) -> LumpedInertia:
-        """Constants of the equations of motion, rotor included."""
-        part, lengths = self.inertia, self.geometry
-        return LumpedInertia(
-            driven=part.proximal_inertia
-            + part.proximal_mass * part.proximal_centre**2
-            + part.distal_mass * lengths.proximal**2
-            + part.reflected_rotor,
-            passive=part.distal_inertia + part.distal_mass * part.distal_centre**2,
-            coupling=part.distal_mass * lengths.proximal * part.distal_centre,
-            tool=part.tool_mass,
-            driven_moment=part.proximal_mass * part.proximal_centre
-            + part.distal_mass * lengths.proximal,
-            passive_moment=part.distal_mass * part.distal_centre,
-            needle_mass=part.needle_mass,
-            needle_inertia=part.needle_inertia,
-            needle_centre=part.needle_centre,
-        )
+    def fulcrum(self) -> FloatArray:
+        """Remote centre in world [m], shape (3,)."""
+        return frozen(self.geometry.fulcrum)
 
     @property
-    def dynamic_model(self) -> DynamicModel:
-        """Constants of `pantograph.dynamics`: links, needle, gravity and joint friction."""
-        return DynamicModel(
-            self.pantograph,
-            self.lumped_inertia,
-            frozen(self.mounting.gravity),
-            self.friction.coulomb,
-            self.friction.viscous,
-        )
+    def needle_length(self) -> float:
+        """Hub point to tip [m]."""
+        return self.geometry.needle_length
+
+    @property
+    def joint_inertia(self) -> float:
+        """Inertia of a joint alone, the lightest that it can be found with [kg·m²]."""
+        raise NotImplementedError
+
+    @property
+    def links_potential_bound(self) -> float:
+        """Bound of the magnitude of gravity's potential without the needle, over all poses [J]."""
+        raise NotImplementedError
+
+    @property
+    def holds_direction(self) -> bool:
+        """Whether the robot can hold a direction by itself, beyond the forces of laws."""
+        return False
+
+    @property
+    def tension_range(self) -> tuple[float, float] | None:
+        """Least and largest tension of its cables [N]; None where it has none."""
+        return None
+
+    @property
+    def fastest_reel(self) -> float:
+        """Fastest that its winches reel in [m/s]; 0 where it has none."""
+        return 0.0
+
+    @property
+    def gear(self) -> float:
+        """Motor turns per joint turn; 1 where no gear stands between them [-]."""
+        return 1.0
+
+    @property
+    def shortest_needle(self) -> float:
+        """Length that a needle must exceed [m]."""
+        return max(self.workspace.depth_max, self.inertia.needle_centre)
 
     @property
     def tilt_limit_deg(self) -> float:
@@ -164,7 +170,7 @@ class DeviceProfile(Strict):
         """Directions in which the device can push the needle."""
         return self.loop.renders
 
-    def with_joint(self, joint: str) -> "DeviceProfile":
+    def with_joint(self, joint: str) -> DeviceProfile:
         """Return the profile with another of its ball joints mounted.
 
         Raises:
@@ -178,13 +184,13 @@ class DeviceProfile(Strict):
         workspace = self.workspace.model_copy(update={"joint": joint})
         return self.model_copy(update={"workspace": workspace})
 
-    def with_needle(self, length: float) -> "DeviceProfile":
+    def with_needle(self, length: float) -> DeviceProfile:
         """Return the profile with a needle of another length mounted [m].
 
         Raises:
             ConfigurationError: if the device cannot hold or use it; says what would be valid.
         """
-        least = max(self.geometry.fulcrum[2], self.workspace.depth_max, self.inertia.needle_centre)
+        least = self.shortest_needle
         if not least < length < LONGEST_NEEDLE:
             raise ConfigurationError(
                 f"device {self.name}: a needle of {length:g} m; it holds needles longer than"
@@ -192,6 +198,54 @@ class DeviceProfile(Strict):
             )
         geometry = self.geometry.model_copy(update={"needle_length": length})
         return self.model_copy(update={"geometry": geometry})
+
+
+def kinds() -> list[str]:
+    """Kinds of machines: the program's own, and folders of the user's own."""
+    own = str(paths.plugins("mechanisms"))
+    if own not in mechanisms.__path__:
+        mechanisms.__path__.append(own)
+    return sorted(
+        {path.parent.name for folder in mechanisms.__path__ for path in _profiles_in(folder)}
+    )
+
+
+def _profiles_in(folder: str) -> Iterator[Path]:
+    return Path(folder).glob("*/profile.py")
+
+
+DEFAULT_KIND: Final = "pantograph"
+"""Kind of a profile or record that says none: all were, before there was another."""
+
+
+def profile_class(kind: object, origin: str) -> type[DeviceProfile]:
+    """Return what a profile of a kind is read as; `origin` names it in messages.
+
+    Raises:
+        ConfigurationError: if there is no such machine, naming the valid kinds, or its own file
+            cannot be used.
+    """
+    if kind not in kinds():
+        raise ConfigurationError(
+            f"{origin}: kind: there is no machine of kind {kind!r}; valid kinds:"
+            f" {', '.join(kinds())}"
+        )
+    try:
+        module = import_module(f"{mechanisms.__name__}.{kind}.profile")
+        found: type[DeviceProfile] = module.PROFILE
+    except Exception as error:  # whatever somebody's file does
+        raise ConfigurationError(f"{origin}: machine {kind!r} cannot be used: {error}") from error
+    return found
+
+
+def parse_profile(document: Any, origin: str, text: str = "") -> DeviceProfile:
+    """Check a profile that is in memory, as what its `kind` says it is; see `core.configuration`.
+
+    Raises:
+        ConfigurationError: for an unknown kind, or naming every field that is wrong.
+    """
+    kind = document.get("kind", DEFAULT_KIND) if isinstance(document, Mapping) else DEFAULT_KIND
+    return parse(document, profile_class(kind, origin), origin, text)
 
 
 def profile_names() -> list[str]:
@@ -206,15 +260,14 @@ def load_profile(name_or_path: str | Path) -> DeviceProfile:
         ConfigurationError: if there is none (names the valid names), or the file is wrong.
     """
     text = str(name_or_path)
-    if text in profile_names():
-        return load(_folder() / f"{text}.yaml", DeviceProfile)
-    path = Path(name_or_path)
+    path = _folder() / f"{text}.yaml" if text in profile_names() else Path(name_or_path)
     if path.suffix not in (".yaml", ".yml"):
         raise ConfigurationError(
             f"no device profile {text!r}; valid names: {', '.join(profile_names())},"
             " or the path of a .yaml file"
         )
-    return load(path, DeviceProfile)
+    content = read_text(path)
+    return parse_profile(parse_yaml(content, str(path)), str(path), content)
 
 
 def _folder() -> Path:

@@ -1,7 +1,6 @@
 """Sections of a profile that describe the mechanism: lengths, workspace, inertias, friction."""
 
 from enum import StrEnum
-from math import atan2, cos, hypot, sin
 from typing import Annotated
 
 from pydantic import Field, model_validator
@@ -36,13 +35,15 @@ class Provenance(StrEnum):
     """Where a value comes from.
 
     `MEASURED`: on this device. `PUBLISHED`: by whoever built it. `ESTIMATED`: by whoever wrote the
-    profile. `IMPORTED`: from a file that does not say, such as a URDF.
+    profile. `IMPORTED`: from a file that does not say, such as a URDF. `ASSUMED`: nobody says it,
+    and no robot was there to look at; a sensible value so that the rest can be tried.
     """
 
     MEASURED = "measured"
     PUBLISHED = "published"
     ESTIMATED = "estimated"
     IMPORTED = "imported"
+    ASSUMED = "assumed"
 
 
 class Section(Strict):
@@ -61,53 +62,14 @@ class Section(Strict):
         return self
 
 
-class GeometrySection(Section):
-    """Lengths [m]; see `geometry.Geometry`."""
+class CentreSection(Section):
+    """Lengths [m] that every machine has: where its remote centre stands in world, and the needle.
 
-    proximal: Length
-    distal: Length
-    base: Length
+    A machine's own section adds what it is made of.
+    """
+
     fulcrum: tuple[Coordinate, Coordinate, Length]
     needle_length: Length
-
-    @model_validator(mode="after")
-    def _possible(self) -> "GeometrySection":
-        """Refuse links that cannot hold the needle upright, and a needle that ends in the fulcrum.
-
-        Below the fulcrum both arms must reach and, elbows outwards, meet in assembly +1; behind the
-        motors (y < 0) elbows outwards would cross.
-        """
-        x, y, height = self.fulcrum
-        if not y > 0.0:
-            raise ValueError(
-                f"fulcrum stands at y = {y:g} m; it must be in front of the motors, y > 0"
-            )
-        low, high = abs(self.distal - self.proximal), self.distal + self.proximal
-        elbows = []
-        for side, name in ((-1.0, "left"), (1.0, "right")):
-            motor = 0.5 * side * self.base
-            away = hypot(x - motor, y)
-            if not low < away < high:
-                raise ValueError(
-                    f"fulcrum stands over a point {away:.4g} m from the {name} motor axis;"
-                    f" proximal and distal reach from {low:.4g} to {high:.4g} m"
-                )
-            cosine = (self.proximal**2 + away**2 - self.distal**2) / (2.0 * self.proximal * away)
-            opening = atan2((max(1.0 - cosine**2, 0.0)) ** 0.5, cosine)
-            turn = atan2(y, x - motor) - side * opening
-            elbows.append((motor + self.proximal * cos(turn), self.proximal * sin(turn)))
-        (lx, ly), (rx, ry) = elbows
-        if not (rx - lx) * (y - ly) - (ry - ly) * (x - lx) > 0.0:
-            raise ValueError(
-                f"fulcrum ({x:g}, {y:g}) m lies behind the elbows; with elbows outwards the links"
-                " meet on the far side of them (greater y)"
-            )
-        if not self.needle_length > height:
-            raise ValueError(
-                f"needle_length {self.needle_length:g} m must be greater than the lever below the"
-                f" fulcrum, {height:g} m, or nothing is left above it to hold"
-            )
-        return self
 
 
 class WorkspaceSection(Section):
@@ -129,26 +91,15 @@ class WorkspaceSection(Section):
         return self
 
 
-class InertiaSection(Section):
-    """Masses [kg], distances of the centres of mass [m], inertias about them [kg·m²]."""
+class NeedleSection(Section):
+    """The needle's mass [kg], centre of mass from the hub [m], inertia about it [kg·m²].
 
-    proximal_mass: LinkMass
-    proximal_centre: Distance
-    proximal_inertia: Inertia
-    distal_mass: LinkMass
-    distal_centre: Distance
-    distal_inertia: Inertia
-    tool_mass: MassOrNone
+    A machine's own section adds what else moves.
+    """
+
     needle_mass: MassOrNone
     needle_centre: Distance
     needle_inertia: InertiaOrNone
-    rotor_inertia: InertiaOrNone
-    gear: Annotated[float, Field(gt=0.0, le=1000.0)]
-
-    @property
-    def reflected_rotor(self) -> float:
-        """Rotor inertia seen at the joint [kg·m²]: times the gear squared."""
-        return self.rotor_inertia * self.gear**2
 
 
 class FrictionSection(Section):

@@ -20,11 +20,10 @@ from app.device.control.velocity import (
     VelocityMethod,
     velocity_stage,
 )
-from app.mechanisms.pantograph import inverse, jacobian
-from app.mechanisms.profile import load_profile
+from app.mechanisms.pantograph.profile import load_pantograph
 from app.studies.hard_cases.case import Defect, HardCase, analytic, answers, digits
 
-PROFILE: Final = load_profile("icube")
+PROFILE: Final = load_pantograph("icube")
 COUNT: Final = 2.0 * pi / PROFILE.encoder.counts_per_turn
 
 _Way = Callable[..., Any]
@@ -339,14 +338,12 @@ def _resting_governor() -> HardCase:
 
     def tiny(way: _Way) -> Any:
         stage = way(SpeedGovernor.of(PROFILE))
-        q = inverse(PROFILE.pantograph, PROFILE.pantograph.fulcrum[:2])
-        j = jacobian(PROFILE.pantograph, q)
-        state = sv.empty_state()
+        state, pose = sv.empty_state(), PROFILE.machine.stages().pose
+        state[sv.Q] = PROFILE.machine.usable((0.0, 0.0, -1.0))
+        pose.function(state, pose.parameters)
         state[[sv.AXIS_Z, sv.L_IN, sv.L_OUT, sv.DEPTH]] = -1.0, 0.09, 0.1, 0.1
         state[[sv.DEPTH_LEAST, sv.DEPTH_MOST, sv.DEPTH_SOURCE]] = 0.1, 0.1, 1.0
-        state[[sv.J_XL, sv.J_XR, sv.J_YL, sv.J_YR]] = j.ravel()
-        state[[sv.Q_LEFT, sv.Q_RIGHT]], state[sv.ENABLED] = q, 1.0
-        state[[sv.P3_X, sv.P3_Y]], state[sv.DT] = PROFILE.pantograph.fulcrum[:2], 5e-3
+        state[sv.ENABLED], state[sv.DT] = 1.0, 5e-3
         for tick in range(30_000):
             state[sv.TIME] = state[sv.Q_TIME] = 1.0 + 5e-3 * tick
             state[[sv.TORQUE_LEFT, sv.TORQUE_RIGHT]] = 0.01 if tick < 40 else 0.0

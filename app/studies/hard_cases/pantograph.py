@@ -34,7 +34,7 @@ from app.mechanisms.pantograph import (
     tool_force,
 )
 from app.mechanisms.pantograph.dynamics import friction_kernel
-from app.mechanisms.profile import load_profile
+from app.mechanisms.pantograph.profile import load_pantograph
 from app.studies.hard_cases.case import (
     Defect,
     HardCase,
@@ -45,7 +45,7 @@ from app.studies.hard_cases.case import (
     named,
 )
 
-PROFILE: Final = load_profile("icube")
+PROFILE: Final = load_pantograph("icube")
 GEOMETRY, MODEL = PROFILE.pantograph, PROFILE.dynamic_model
 A1, A2, BASE = GEOMETRY.links
 MEETING: Final = acos(BASE / (2.0 * A1)), pi - acos(BASE / (2.0 * A1))

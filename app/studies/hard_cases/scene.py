@@ -9,6 +9,7 @@ import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
+from app.mechanisms.needle_motion import dry
 from app.mechanisms.profile import load_profile
 from app.simulation import dry_friction
 from app.simulation.effects import (
@@ -19,7 +20,7 @@ from app.simulation.effects import (
     shaft_friction,
 )
 from app.simulation.errors import SimulationError
-from app.simulation.plant import SimulatedHand, dry, initial_plant, plant_stage
+from app.simulation.plant import SimulatedHand, initial_plant, plant_stage
 from app.simulation.scene import Binding, Scene, TissueLayer
 from app.studies.hard_cases.case import Defect, HardCase, analytic, answers, digits, named
 

@@ -11,7 +11,7 @@ from app.core.arrays import FloatArray, angle_between, unit
 from app.core.errors import NumericalError
 from app.core.rotation import closest_rotation, rotation_exp, rotation_log, skew
 from app.core.transform import RigidTransform, rotation_between
-from app.mechanisms.profile import load_profile
+from app.mechanisms.pantograph.profile import load_pantograph
 from app.planning.errors import PlanError
 from app.planning.limits import cone, tilt_of
 from app.planning.measurements import Angle
@@ -35,7 +35,7 @@ from app.studies.hard_cases.case import (
 from app.studies.hard_cases.volumes import volume_of
 
 DOWN: Final = np.array([0.0, 0.0, -1.0])
-PROFILE: Final = load_profile("icube")
+PROFILE: Final = load_pantograph("icube")
 FULCRUM: Final = PROFILE.pantograph.fulcrum
 
 _Way = Callable[..., Any]

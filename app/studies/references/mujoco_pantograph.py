@@ -15,7 +15,7 @@ from app.core.arrays import FloatArray
 from app.exchange.errors import ExchangeError, ExportError
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.pantograph import forward, inverse, jacobian, needle_at
-from app.mechanisms.profile import DeviceProfile
+from app.mechanisms.pantograph.profile import PantographProfile
 
 IMPEDANCE = 0.9999
 """Largest constraint impedance of MuJoCo: 1e-4 of an unconstrained acceleration passes."""
@@ -49,7 +49,7 @@ class MjcfSettings:
     stiffness: float = 1e7
 
 
-def write_mjcf(profile: DeviceProfile, settings: MjcfSettings | None = None) -> str:
+def write_mjcf(profile: PantographProfile, settings: MjcfSettings | None = None) -> str:
     """Return the profile as MJCF text.
 
     Raises:
@@ -83,7 +83,7 @@ def write_mjcf(profile: DeviceProfile, settings: MjcfSettings | None = None) -> 
     return ET.tostring(root, encoding="unicode")
 
 
-def _option(root: ET.Element, profile: DeviceProfile, how: MjcfSettings) -> None:
+def _option(root: ET.Element, profile: PantographProfile, how: MjcfSettings) -> None:
     option = ET.SubElement(
         root,
         "option",
@@ -99,7 +99,7 @@ def _option(root: ET.Element, profile: DeviceProfile, how: MjcfSettings) -> None
 
 def _arm(
     world: ET.Element,
-    profile: DeviceProfile,
+    profile: PantographProfile,
     how: MjcfSettings,
     x: float,
     names: tuple[str, str, str],
@@ -143,7 +143,7 @@ def _link(body: ET.Element, mass: float, centre: float, inertia: float, length: 
     _line(body, (0.0, 0.0, 0.0), (length, 0.0, 0.0), 0.006, "0.6 0.6 0.65 1")
 
 
-def _needle(world: ET.Element, profile: DeviceProfile, how: MjcfSettings) -> None:
+def _needle(world: ET.Element, profile: PantographProfile, how: MjcfSettings) -> None:
     lengths, part = profile.geometry, profile.inertia
     start = 0.0 if how.slides else how.fixed_depth
     needle = ET.SubElement(world, "body", name="needle", pos=_text(*lengths.fulcrum))
@@ -237,7 +237,7 @@ class MujocoPantograph:
         ExchangeError: if the extra is not installed, or MuJoCo refuses the model.
     """
 
-    def __init__(self, profile: DeviceProfile, settings: MjcfSettings | None = None) -> None:
+    def __init__(self, profile: PantographProfile, settings: MjcfSettings | None = None) -> None:
         self.mujoco = import_mujoco()
         self.profile, self.settings = profile, settings or MjcfSettings()
         try:
@@ -343,7 +343,7 @@ class MujocoPantograph:
 
 
 def felt_in_mujoco(
-    profile: DeviceProfile,
+    profile: PantographProfile,
     tilt: float,
     azimuth: float,
     torques: ArrayLike,

@@ -9,12 +9,13 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
+from app.mechanisms import lever
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.pantograph import kernels
 from app.mechanisms.pantograph.differential import assembly_kernel, dexterity_kernel
 from app.mechanisms.pantograph.kinematics import WORKING_MODE
-from app.mechanisms.pantograph.status import OK, Status
+from app.mechanisms.status import OK, Status
 
 _RINGS, _SPOKES = 121, 360
 _REACHED, _Q1, _Q2, _DEXTERITY, _LEVER = range(5)
@@ -193,7 +194,7 @@ def locate(
     point = np.asarray(hub, dtype=np.float64)
     if point.shape != (3,):
         raise MechanismError(f"hub has shape {point.shape}; (3,) is needed")
-    status, x, y, _, l_out = kernels.tool_kernel(*point.tolist(), *geometry.fulcrum_xyz)
+    status, x, y, _, l_out = lever.tool_kernel(*point.tolist(), *geometry.fulcrum_xyz)
     if status != OK:
         return Whereabouts(_IMPOSSIBLE[Status(status)], None, None, None)
     fx, fy, fz = geometry.fulcrum_xyz
@@ -261,7 +262,7 @@ def _survey_row(
         return
     row[_REACHED], row[_Q1], row[_Q2] = 1.0, q1, q2
     row[_DEXTERITY] = dexterity_kernel(jxl, jxr, jyl, jyr)
-    dx, dy, dz, l_in = kernels.axis_kernel(x, y, fx, fy, fz)
+    dx, dy, dz, l_in = lever.axis_kernel(x, y, fx, fy, fz)
     outside = l_out if l_out > 0.0 else needle - l_in
     if outside > 0.0:
         row[_LEVER] = outside / l_in

@@ -16,10 +16,10 @@ from app.core.compiled import njit, stage
 from app.core.parameters import Stage, numbered, packed
 from app.device.control.speed_bounds import speed_bounds, stoppable
 from app.device.control.vectors import norm_kernel, snapped
+from app.mechanisms.lever import hub_velocity_kernel
 from app.mechanisms.pantograph.dynamics import mass_matrix_kernel
-from app.mechanisms.pantograph.kernels import hub_velocity_kernel
-from app.mechanisms.pantograph.status import OK
-from app.mechanisms.profile import DeviceProfile
+from app.mechanisms.pantograph.profile import PantographProfile
+from app.mechanisms.status import OK
 
 _SHORTEST = 1e-4  # [s] of a tick
 _BEYOND = 1.2  # times the speed that the force can have caused: a hand
@@ -206,7 +206,7 @@ def fixed_speed_stage(state: FloatArray, p: FloatArray) -> None:
     state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = scale * left, scale * right
 
 
-def fixed_speed(profile: DeviceProfile) -> Stage:
+def fixed_speed(profile: PantographProfile) -> Stage:
     """Return the stage for a loop's table, under the name of the one it stands for."""
     a1, a2, base = profile.pantograph.links
     part = profile.lumped_inertia

@@ -15,17 +15,13 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import STAGE_TYPE, njit, stage
 from app.core.parameters import Stage, numbered
-from app.device.control import kernel, pantograph_stages
+from app.device.control import kernel, machine_stages
 from app.device.links.simulated import simulated_link
 from app.mechanisms import dynamic_model as dm
+from app.mechanisms.lever import axis_kernel, hub_velocity_kernel
 from app.mechanisms.pantograph.dynamics import dynamics_kernel
-from app.mechanisms.pantograph.kernels import (
-    axis_kernel,
-    forward_kernel,
-    hub_velocity_kernel,
-    jacobian_kernel,
-)
-from app.mechanisms.profile import DeviceProfile
+from app.mechanisms.pantograph.kernels import forward_kernel, jacobian_kernel
+from app.mechanisms.pantograph.profile import PantographProfile
 from app.simulation.plant import SimulatedHand, initial_plant, plant_stage
 from app.studies.releasing.before import fixed_speed
 
@@ -184,7 +180,7 @@ class Pose:
     depth: float
 
 
-def scaled(profile: DeviceProfile, factor: float) -> DeviceProfile:
+def scaled(profile: PantographProfile, factor: float) -> PantographProfile:
     """Return the profile with all its inertias times a factor."""
     names = (
         "proximal_mass",
@@ -201,7 +197,7 @@ def scaled(profile: DeviceProfile, factor: float) -> DeviceProfile:
 
 
 def release(
-    profile: DeviceProfile,
+    profile: PantographProfile,
     pose: Pose,
     rule: Rule,
     factor: float = 1.0,
@@ -254,10 +250,10 @@ def release(
     return Release(felt, pull, float(speed), float(energy), noticed)
 
 
-def _stages(profile: DeviceProfile, rule: Rule, want: FloatArray) -> Iterable[Stage]:
+def _stages(profile: PantographProfile, rule: Rule, want: FloatArray) -> Iterable[Stage]:
     """Stages of a tick up to safety, with the rule in the governor's place."""
     law = Stage("want", want_stage, want)
-    for item in pantograph_stages(profile, [law], [], simulated_link(profile, [])):
+    for item in machine_stages(profile, [law], [], simulated_link(profile, [])):
         if item.name != "governor" or rule is Rule.PROFILE:
             yield item
         elif rule is Rule.BEFORE:
@@ -274,7 +270,7 @@ def directions(axis: FloatArray, number: int) -> list[tuple[float, float, float]
     return [(float(v[0]), float(v[1]), float(v[2])) for v in found]
 
 
-def poses(profile: DeviceProfile, depth: float, number: int, around: int) -> list[Pose]:
+def poses(profile: PantographProfile, depth: float, number: int, around: int) -> list[Pose]:
     """Random poses, evenly over the cone of tilts, each with forces `around` it."""
     rng = np.random.default_rng(8)
     found = []

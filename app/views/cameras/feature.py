@@ -261,7 +261,7 @@ class CamerasFeature(Feature):
 
         profile, rig = self._conductor.profile, load_rig(chosen.rig)
         left, right = (camera.name for camera in rig.cameras)
-        fulcrum = (load_profile(DEVICE) if profile is None else profile).pantograph.fulcrum
+        fulcrum = (load_profile(DEVICE) if profile is None else profile).fulcrum
         job = CalibrationJob(
             board=last_board(str(self._settings.value(_BOARD, ""))),
             names=(left, right),

@@ -200,7 +200,7 @@ class ChecksFeature(Feature):
             return
         try:
             plan, placement, moved = measured_placement(
-                T_world_patient, edit.draft.plan(), edit.placement, profile.pantograph.fulcrum
+                T_world_patient, edit.draft.plan(), edit.placement, profile.fulcrum
             )
         except AcusError as error:
             self.failed.emit(error)

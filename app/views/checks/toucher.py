@@ -81,7 +81,7 @@ def move_there(run: ExerciseRun, point: object) -> None:
 
     from app.core.arrays import unit
 
-    way = np.asarray(point, dtype=np.float64) - run.profile.pantograph.fulcrum
+    way = np.asarray(point, dtype=np.float64) - run.profile.fulcrum
     x, y, _ = unit(way).tolist()
     run.trainer.hand(x, y, float(np.linalg.norm(way)))
 
@@ -92,7 +92,7 @@ def tell_tracker(run: ExerciseRun | None, touch: TouchFacts) -> None:
 
     if run is None or run.touched is None:
         return
-    fulcrum = run.profile.pantograph.fulcrum
+    fulcrum = run.profile.fulcrum
     along = unit(touch.p_known - fulcrum)
     measured, known = ((p - fulcrum) @ along for p in (touch.p_measured, touch.p_known))
     run.touched(float(measured), float(known))

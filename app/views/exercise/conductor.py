@@ -7,6 +7,7 @@ from typing import Any, Final
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
+from app.core import state_vector
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
 from app.core.transform import RigidTransform
@@ -62,6 +63,7 @@ class LiveNeedle:
     def __init__(self, workspace: WorkspacePage) -> None:
         self._workspace = workspace
         self._drawn: FloatArray | None = None
+        self._pulled: FloatArray = np.zeros(0)
         self._hidden = False
 
     def forget(self) -> None:
@@ -76,7 +78,7 @@ class LiveNeedle:
             return
         self._hidden = False
         pose, transform = snapshot.pose, run.placed.T_world_patient
-        length = run.profile.geometry.needle_length
+        length = run.profile.needle_length
         # Without a measured depth only the line is known: it ends at the entry, grey.
         p_end = pose.p_tip if pose.measured else run.placed.p_entry
         spread = pose.covariance if pose.measured else None
@@ -92,11 +94,12 @@ class LiveNeedle:
         if not run.shown.shows(ViewName.THREE_D):
             return
         ends = needle.points_mm
-        if self._drawn is None or _apart(self._drawn, ends):
-            self._drawn = ends
+        pulls = _pulls(run, snapshot)
+        if self._drawn is None or _apart(self._drawn, ends) or _otherwise(self._pulled, pulls):
+            self._drawn, self._pulled = ends, pulls
             self._workspace.scene.set_needle(needle)
             q = None if snapshot.device is None else snapshot.device.q
-            robot = RobotShape.of(run.profile.pantograph, q)
+            robot = RobotShape.of(run.profile, q, pulls)
             self._workspace.scene.set_robot(robot, transform.inverse())
 
     def hide(self) -> None:
@@ -105,6 +108,21 @@ class LiveNeedle:
         self._workspace.viewing.set_needle(None)
         self._workspace.scene.set_needle(None)
         self._workspace.scene.set_robot(None, RigidTransform.identity())
+
+
+def _pulls(run: ExerciseRun, snapshot: Snapshot) -> FloatArray:
+    """Tensions of the robot's cables [N]; none where it has none, or nothing is known."""
+    if run.profile.tension_range is None or snapshot.device is None:
+        return np.zeros(0)
+    pulls: FloatArray = np.array(snapshot.device.row[state_vector.CABLE])
+    return pulls
+
+
+def _otherwise(before: FloatArray, now: FloatArray) -> bool:
+    """Whether cables pull differently enough for another picture: by a tenth, or one went slack."""
+    if before.shape != now.shape:
+        return True
+    return bool((np.abs(now - before) > 0.1 * np.abs(before) + 0.5).any())
 
 
 def _apart(one: FloatArray, other: FloatArray) -> bool:

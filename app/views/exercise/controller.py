@@ -150,7 +150,7 @@ class ExerciseDisplay:
 
     def _show_pad(self, run: ExerciseRun, snapshot: Snapshot, limit: float) -> None:
         bullseye = self._views.bullseye
-        view = pad_view(snapshot, run.profile.geometry.needle_length, limit)
+        view = pad_view(snapshot, run.profile.needle_length, limit)
         if view is not None:
             bullseye.show_view(view)
         if run.shown.shows(ViewName.FORCE_GAUGE):

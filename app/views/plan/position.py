@@ -94,7 +94,7 @@ class PositionFeature(Feature):
             raise TransformError(
                 tr("choose an exercise first: its device says where its fulcrum is")
             )
-        return profile.pantograph.fulcrum
+        return profile.fulcrum
 
     def _export(self, path: Path) -> None:
         edit, fulcrum = self._editor.edit, self._fulcrum()

@@ -261,7 +261,7 @@ def depth_item(run: ExerciseRun, row: FloatArray) -> StatusItem:
     least, most = float(row[sv.DEPTH_LEAST]), float(row[sv.DEPTH_MOST])
     low, high = run.profile.depth_range
     whole = not most - least < 0.9 * (high - low)
-    shortest = run.profile.geometry.needle_length - max(most, least)
+    shortest = run.profile.needle_length - max(most, least)
     share = 100.0 * MILLIMETRE / max(shortest, MILLIMETRE)
     return StatusItem(
         Verdict.WARNING if whole else Verdict.GOOD,

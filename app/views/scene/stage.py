@@ -25,12 +25,13 @@ from app.planning.error_overlay import SMALLEST_MM
 from app.planning.needle_overlay import NeedleOverlay
 from app.planning.patient import Patient
 from app.views.kit import theme
+from app.views.kit.theme import Mark
 from app.views.plan.entry_map import COLOURS, SIZES_PX, EntryMap
 from app.views.scene.actors import Ball, Cloud, Ring, Rod, SurfaceActor
 from app.views.scene.display import ORGAN_COLOURS, SEEN_INTO, Display, Section, rgb
 from app.views.scene.mesh import Mesh
 from app.views.scene.orbit import Orbit
-from app.views.scene.robot import RobotShape
+from app.views.scene.robot import Cable, RobotShape
 from app.views.scene.sections import (
     GPU_CELLS,
     SOFTWARE_CELLS,
@@ -41,6 +42,7 @@ from app.views.scene.surfaces import Surfaces
 
 EYE_DISTANCE_MM = 2000.0
 LINK_RADIUS_MM, FULCRUM_RADIUS_MM = 4.0, 7.0
+CABLE_RADIUS_MM, CABLE_PX = 1.3, 2.5
 NEEDLE_RADIUS_MM, PATH_RADIUS_MM, POINT_RADIUS_MM, BEAD_RADIUS_MM = 1.2, 0.7, 3.0, 1.1
 NEEDLE_PX, PATH_PX, POINT_PX, BEAD_PX, RING_PX = 4.0, 2.0, 9.0, 4.5, 1.6
 """Widths that needle, path and points never fall below on the screen, however small the zoom."""
@@ -100,7 +102,8 @@ class Stage:
         self._cut_frame: Frame | None = None
         self._cut_section, self._cut_plane = SectionActor(scene), vtkPlane()
         self._volume: VolumeActor | None = None
-        self._links = [Rod(scene, theme.ROBOT, LINK_RADIUS_MM) for _ in range(5)]
+        self._links: list[Rod] = []
+        self._cables: list[Rod] = []
         self._fulcrum = Ball(scene, theme.ROBOT, FULCRUM_RADIUS_MM)
         self._needle = [self._new_piece()]
         self._tip = Ball(scene, theme.NEEDLE_TIP, 2 * NEEDLE_RADIUS_MM, 1.5 * NEEDLE_PX, over)
@@ -241,6 +244,7 @@ class Stage:
     def _solids(self) -> tuple[Rod | Ball | Ring, ...]:
         return (
             *self._links,
+            *self._cables,
             self._fulcrum,
             *self._needle,
             self._tip,
@@ -323,11 +327,22 @@ class Stage:
     def set_robot(self, robot: RobotShape | None, T_patient_world: RigidTransform) -> None:
         """Show the links and the ball; world metres are brought into the patient."""
         rods = [] if robot is None else robot.links()
+        while len(self._links) < len(rods):
+            self._links.append(Rod(self._renderer, theme.ROBOT, LINK_RADIUS_MM))
+            self._links[-1].show(self._display)
         for number, rod in enumerate(self._links):
             if number < len(rods):
                 rod.span(*(T_patient_world @ np.array(rods[number])) / MILLIMETRE)
             else:
                 rod.span(None, None)
+        pieces = [] if robot is None else _strung(robot.cables(), T_patient_world)
+        while len(self._cables) < len(pieces):
+            self._cables.append(Rod(self._renderer, theme.ROBOT, CABLE_RADIUS_MM, CABLE_PX))
+        for number, rod in enumerate(self._cables):
+            ends, mark = pieces[number] if number < len(pieces) else ((None, None), theme.ROBOT)
+            rod.show(self._display)
+            rod.set_mark(mark)
+            rod.span(*ends)
         fulcrum = None if robot is None else (T_patient_world @ robot.fulcrum) / MILLIMETRE
         self._fulcrum.put(fulcrum)
 
@@ -388,6 +403,18 @@ class Stage:
             self._cut_plane.SetOrigin(*frame.origin_mm)
             self._cut_plane.SetNormal(*(-side * frame.normal))
             self._cut_section.step_back(side * frame.normal)
+
+
+def _strung(
+    cables: list[Cable], T_patient_world: RigidTransform
+) -> list[tuple[tuple[FloatArray, FloatArray], Mark]]:
+    """Return the straight pieces of cables with their colours: one of a taut one, else dashes."""
+    pieces: list[tuple[tuple[FloatArray, FloatArray], Mark]] = []
+    for cable in cables:
+        ends = (T_patient_world @ np.array(cable.ends)) / MILLIMETRE
+        parts = dashed(ends, DASH_MM, DASHES) if cable.slack else [(ends[0], ends[1])]
+        pieces += [(part, cable.mark) for part in parts]
+    return pieces
 
 
 def dashed(points_mm: FloatArray, dash_mm: float, most: int) -> list[tuple[FloatArray, FloatArray]]:

@@ -114,6 +114,7 @@ class SceneView(QWidget):
         self.surfaces: Surfaces | None = None
         self.structures: tuple[tuple[Colour, Mesh], ...] = ()
         self.legend: tuple[Entry, ...] = ()
+        self._robot_legend: tuple[Entry, ...] = ()
         self._organs: tuple[str, ...] = ()
         self._enlargement = Enlargement()
         self._pressed, self._last = QPointF(), QPointF()
@@ -268,6 +269,10 @@ class SceneView(QWidget):
     def set_robot(self, robot: RobotShape | None, T_patient_world: RigidTransform) -> None:
         """Show the robot, placed under the patient."""
         self._feed.change("robot", lambda stage: stage.set_robot(robot, T_patient_world))
+        legend = () if robot is None else robot.legend()
+        if legend != self._robot_legend:
+            self._robot_legend = legend
+            self.update()
         if robot is None:
             return
         self._R_world_patient = T_patient_world.rotation.T
@@ -354,7 +359,8 @@ class SceneView(QWidget):
         draw_compass(painter, self.orbit, QPointF(50.0, self.height() - 50.0), display)
         error = self._feed.error and tr("3D view off: {why}", why=self._feed.error)
         scale, note = self._enlargement.scale, error or self.note
-        legend, button = (*self.legend, *self._organ_legend()), self._button.geometry()
+        legend = (*self.legend, *self._organ_legend(), *self._robot_legend)
+        button = self._button.geometry()
         draw_words(painter, self.rect(), display, scale, legend, note, button)
 
     def _organ_legend(self) -> tuple[Entry, ...]:

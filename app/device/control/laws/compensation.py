@@ -18,15 +18,12 @@ from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
 from app.core.parameters import numbered, packed
 from app.device.control.law_kernels import no_pose, store
-from app.mechanisms import dynamic_model as dm
-from app.mechanisms.pantograph.dynamics import dynamics_kernel
-from app.mechanisms.pantograph.links import distal_kernel, turns_kernel
-from app.mechanisms.pantograph.status import OK
 from app.mechanisms.profile import DeviceProfile
+from app.mechanisms.status import OK
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Compensation of gravity and joint friction",
-    "reads": ("kinematics", "q", "qd", "p3", "axis", "l_out", "depth", "dt"),
+    "reads": ("kinematics", "q", "qd", "axis", "l_out", "depth", "dt", "weight", "links_potential"),
     "writes": ("joint", "potential", "gain_work", "friction_work"),
     "energy": (
         "active",
@@ -43,31 +40,44 @@ DECLARATION: Final[dict[str, Any]] = {
 
 
 class _CompensationPlaces(NamedTuple):
-    """Shares and speeds, and memory; the model of the dynamics follows."""
+    """Shares and speeds; friction, needle and gravity by the profile; and memory."""
 
     gravity: int
     friction: int
     still: int
     fastest: int
     level: int
+    coulomb: int
+    viscous: int
+    needle_mass: int
+    needle_offset: int
+    gx: int
+    gy: int
+    gz: int
     last_depth: int = 0
     last_share: int = 0
 
 
 _AT: Final = numbered(_CompensationPlaces)
-_MODEL: Final = len(_AT)
 
 
 def parameters(values: Mapping[str, float], profile: DeviceProfile) -> FloatArray:
     """Return a fresh parameters array, its memory included."""
+    gx, gy, gz = profile.mounting.gravity
     return packed(
         _AT,
-        profile.dynamic_model.values,
         gravity=values["gravity"],
         friction=values["friction"],
         still=values["still"],
         fastest=values["fastest"],
         level=_level(profile),
+        coulomb=profile.friction.coulomb,
+        viscous=profile.friction.viscous,
+        needle_mass=profile.inertia.needle_mass,
+        needle_offset=_needle_offset(profile),
+        gx=gx,
+        gy=gy,
+        gz=gz,
     )
 
 
@@ -76,40 +86,29 @@ def energy_bound(values: Mapping[str, float], profile: DeviceProfile) -> float:
     return 2.0 * values["gravity"] * _level(profile)
 
 
+def _needle_offset(profile: DeviceProfile) -> float:
+    """Centre of the needle beyond the remote centre at zero depth [m]."""
+    return profile.inertia.needle_centre - profile.needle_length
+
+
 def _level(profile: DeviceProfile) -> float:
     """Return a bound of |U| over all poses and depths [J]."""
-    p = profile.dynamic_model.values
-    plane = sqrt(p[dm.GX] ** 2 + p[dm.GY] ** 2)
-    space = sqrt(plane**2 + p[dm.GZ] ** 2)
+    gx, gy, gz = profile.mounting.gravity
+    space = sqrt(sqrt(gx**2 + gy**2) ** 2 + gz**2)
     low, high = profile.depth_range
-    farthest = max(abs(low + p[dm.NEEDLE_OFFSET]), abs(high + p[dm.NEEDLE_OFFSET]))
-    arms = 2.0 * (p[dm.DRIVEN_MOMENT] + p[dm.PASSIVE_MOMENT])
-    tool = p[dm.TOOL] * (p[dm.A1] + p[dm.A2] + 0.5 * p[dm.BASE])
-    return float(plane * (arms + tool) + space * p[dm.NEEDLE_MASS] * farthest)
+    offset = _needle_offset(profile)
+    farthest = max(abs(low + offset), abs(high + offset))
+    return profile.links_potential_bound + space * profile.inertia.needle_mass * farthest
 
 
 @njit
 def gravity_potential(
-    q1: float,
-    q2: float,
-    x: float,
-    y: float,
-    axis: tuple[float, float, float],
-    depth: float,
-    p: FloatArray,
-    first: int,
+    links: float, dx: float, dy: float, dz: float, depth: float, p: FloatArray
 ) -> float:
-    """Potential of gravity [J] of links, mass at P3 and needle, up to a constant."""
-    gx, gy, gz = p[first + dm.GX], p[first + dm.GY], p[first + dm.GZ]
-    a1, a2, base = p[first + dm.A1], p[first + dm.A2], p[first + dm.BASE]
-    c1, s1, c1r, s1r = turns = turns_kernel(q1, q2)
-    ux, uy, rx, ry = distal_kernel(turns, x, y, a1, a2, base)
-    driven, passive = p[first + dm.DRIVEN_MOMENT], p[first + dm.PASSIVE_MOMENT]
-    mx = driven * (c1 + c1r) + passive * (ux + rx) + p[first + dm.TOOL] * x
-    my = driven * (s1 + s1r) + passive * (uy + ry) + p[first + dm.TOOL] * y
-    s = p[first + dm.NEEDLE_MASS] * (depth + p[first + dm.NEEDLE_OFFSET])
-    fall = gx * axis[0] + gy * axis[1] + gz * axis[2]
-    return -(mx * gx + my * gy) - s * fall
+    """Potential of gravity [J], up to a constant: `links` of all but the needle, and the needle."""
+    s = p[_AT.needle_mass] * (depth + p[_AT.needle_offset])
+    fall = p[_AT.gx] * dx + p[_AT.gy] * dy + p[_AT.gz] * dz
+    return links - s * fall
 
 
 @njit
@@ -128,20 +127,17 @@ def step(state: FloatArray, p: FloatArray) -> None:
     q1, q2, v1, v2 = state[sv.Q_LEFT], state[sv.Q_RIGHT], state[sv.QD_LEFT], state[sv.QD_RIGHT]
     if state[sv.KINEMATICS] != OK or no_pose(state) or not isfinite(q1 + q2 + v1 + v2):
         return
-    x, y, depth = state[sv.P3_X], state[sv.P3_Y], state[sv.DEPTH]
-    terms = dynamics_kernel(q1, q2, 0.0, 0.0, x, y, depth, 0.0, p, _MODEL)
-    g1, g2 = terms[5], terms[6]
+    g1, g2 = state[sv.WEIGHT_LEFT], state[sv.WEIGHT_RIGHT]
     if not isfinite(g1 + g2):
         return  # the distal links are in line
-    axis = (state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z])
+    links, depth = state[sv.LINKS_POTENTIAL], state[sv.DEPTH]
+    dx, dy, dz = state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z]
     level, share = p[_AT.level], p[_AT.gravity]
-    now = share * (level - gravity_potential(q1, q2, x, y, axis, depth, p, _MODEL))
-    last = p[_AT.last_share] * (
-        level - gravity_potential(q1, q2, x, y, axis, p[_AT.last_depth], p, _MODEL)
-    )
+    now = share * (level - gravity_potential(links, dx, dy, dz, depth, p))
+    last = p[_AT.last_share] * (level - gravity_potential(links, dx, dy, dz, p[_AT.last_depth], p))
     store(state, now, last)
     p[_AT.last_depth], p[_AT.last_share] = depth, share
-    coulomb, viscous = p[_MODEL + dm.COULOMB], p[_MODEL + dm.VISCOUS]
+    coulomb, viscous = p[_AT.coulomb], p[_AT.viscous]
     f1 = p[_AT.friction] * friction_share(v1, coulomb, viscous, p[_AT.still], p[_AT.fastest])
     f2 = p[_AT.friction] * friction_share(v2, coulomb, viscous, p[_AT.still], p[_AT.fastest])
     state[sv.FRICTION_WORK] += (f1 * v1 + f2 * v2) * max(state[sv.DT], 0.0)

@@ -129,7 +129,7 @@ def _scale(values: Mapping[str, float], start: FloatArray, axis: FloatArray) -> 
 def _placed(values: Mapping[str, float], profile: DeviceProfile) -> tuple[FloatArray, FloatArray]:
     """Return the capsule's start seen from the fulcrum, and its axis [m]."""
     ends = np.array([[values[f"{end}_{i}"] for i in "xyz"] for end in ("from", "to")])
-    start, axis = ends[0] - profile.pantograph.fulcrum, ends[1] - ends[0]
+    start, axis = ends[0] - profile.fulcrum, ends[1] - ends[0]
     reach, square = values["radius"] + values["margin"], float(axis @ axis)
     share = float(np.clip(-(start @ axis) / square, 0.0, 1.0)) if square > 0.0 else 0.0
     distance = float(np.linalg.norm(start + share * axis))

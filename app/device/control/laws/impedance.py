@@ -28,10 +28,9 @@ from app.core.compiled import njit, stage
 from app.core.parameters import numbered, packed
 from app.device.control.law_kernels import STOP_GIVES, no_pose, push, store
 from app.device.control.operational_space import velocity_torques
-from app.mechanisms import dynamic_model as dm
-from app.mechanisms.pantograph.kernels import felt_kernel
-from app.mechanisms.pantograph.status import OK
+from app.mechanisms.lever import felt_kernel
 from app.mechanisms.profile import DeviceProfile
+from app.mechanisms.status import OK
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Impedance at the tool point: virtual mass, spring and damper",
@@ -48,6 +47,9 @@ DECLARATION: Final[dict[str, Any]] = {
         "l_out",
         "depth",
         "dt",
+        "mass",
+        "bias",
+        "drift",
     ),
     "writes": ("guide", "force", "joint", "potential", "gain_work"),
     "energy": (
@@ -75,7 +77,7 @@ _FLATTEST: Final = 0.1  # -z of a path below which its P3 is too far away
 
 
 class _ImpedancePlaces(NamedTuple):
-    """Springs, dampers and mass, limits, and memory; the model of the dynamics follows."""
+    """Springs, dampers and mass, limits, remote centre [m], and memory."""
 
     k: int
     b: int
@@ -85,6 +87,9 @@ class _ImpedancePlaces(NamedTuple):
     limit: int
     share: int
     torque: int
+    fx: int
+    fy: int
+    fz: int
     started: int = 0
     zx: int = 0
     zy: int = 0
@@ -95,14 +100,13 @@ class _ImpedancePlaces(NamedTuple):
 
 
 _AT: Final = numbered(_ImpedancePlaces)
-_MODEL: Final = len(_AT)
 
 
 def parameters(values: Mapping[str, float], profile: DeviceProfile) -> FloatArray:
     """Return a fresh parameters array, its memory included."""
+    fx, fy, fz = profile.geometry.fulcrum
     return packed(
         _AT,
-        profile.dynamic_model.values,
         k=values["stiffness"],
         b=values["damping"],
         m=values["inertia"],
@@ -111,6 +115,9 @@ def parameters(values: Mapping[str, float], profile: DeviceProfile) -> FloatArra
         limit=values["limit"],
         share=values["coriolis"],
         torque=values["torque"],
+        fx=fx,
+        fy=fy,
+        fz=fz,
     )
 
 
@@ -180,7 +187,7 @@ def _coupling_force(p: FloatArray, x: float, y: float, vx: float, vy: float) -> 
 
 @njit
 def _take_coriolis_away(state: FloatArray, p: FloatArray) -> None:
-    t1, t2 = velocity_torques(state, p, _MODEL)
+    t1, t2 = velocity_torques(state)
     t1, t2 = p[_AT.share] * t1, p[_AT.share] * t2
     largest = max(abs(t1), abs(t2))
     if not isfinite(largest):
@@ -200,8 +207,8 @@ def step(state: FloatArray, p: FloatArray) -> None:
     if not (fine and -pz > _FLATTEST * length and isfinite(length)):
         p[_AT.started] = 0.0
         return
-    fall = p[_MODEL + dm.FZ] / pz
-    goal_x, goal_y = p[_MODEL + dm.FX] - fall * px, p[_MODEL + dm.FY] - fall * py
+    fall = p[_AT.fz] / pz
+    goal_x, goal_y = p[_AT.fx] - fall * px, p[_AT.fy] - fall * py
     if p[_AT.started] == 0.0:
         p[_AT.started] = 1.0
         p[_AT.zx], p[_AT.zy], p[_AT.wx], p[_AT.wy] = x, y, 0.0, 0.0

@@ -26,7 +26,7 @@ HELD: Final = 0.25
 
 SPEED: Final = 0.02
 """Fastest, along the needle [m/s]: an ordinary insertion. The simulated hand's own bound
-(`simulation.hand_motion`) is five times that, and holds here as everywhere."""
+(`mechanisms.hand_motion`) is five times that, and holds here as everywhere."""
 
 FINE: Final = 0.2
 """Share of the speed with Shift, as of the step."""
