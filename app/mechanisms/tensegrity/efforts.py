@@ -230,6 +230,7 @@ def _hold(state: FloatArray, p: FloatArray, goal1: float, goal2: float) -> None:
     _reel_pair(state, p, 0, share * way1, p1, q1)
     _reel_pair(state, p, 2, share * way2, p2, q2)
     state[sv.HOLDING] = 1.0
+    state[sv.GUIDANCE_LIMIT], state[sv.GUIDANCE_LIMITED_BY] = cleared, 0.0  # winches do not push
     for k in range(4):
         state[sv.TENSION_1 + k] = state[sv.CABLE_1 + k]
     state[sv.TORQUE_LEFT] = state[sv.TORQUE_RIGHT] = 0.0
