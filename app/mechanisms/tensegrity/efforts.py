@@ -186,10 +186,8 @@ def _tell_what_is_felt(state: FloatArray, p: FloatArray, b1: float, b2: float) -
     )
     if status != OK:
         return np.inf
-    fx, fy, fz = felt_kernel(
-        gx, gy, state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z], state[sv.L_IN],
-        state[sv.L_OUT],
-    )  # fmt: skip
+    dx, dy, dz = state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z]
+    fx, fy, fz = felt_kernel(gx, gy, dx, dy, dz, state[sv.L_IN], state[sv.L_OUT])
     size = sqrt(fx * fx + fy * fy + fz * fz)
     if not isfinite(size):
         return np.inf
