@@ -140,6 +140,7 @@ def test_an_unknown_extractor_is_refused_with_the_known_ones(save):
 def test_a_machine_points_the_needle_in_a_whole_attempt(tmp_path, monkeypatch):
     from machine_records import Made, make
 
+    from app.compose.plugins import plugin_files
     from app.compose.trainer import replay_recording
     from app.mechanisms.profile import kinds
     from app.planning.limits import ReachLimits
@@ -153,6 +154,9 @@ def test_a_machine_points_the_needle_in_a_whole_attempt(tmp_path, monkeypatch):
         (folder / f"{name}.py").write_text(text, encoding="utf-8")
     monkeypatch.setenv("ACUS_MECHANISMS", str(folder.parent))
     assert "gimbal" in kinds()
+    (listed,) = (one for one in plugin_files() if one.kind == "machine")
+    assert (listed.name, listed.refused) == ("gimbal", "")
+    assert "gimbal as a machine" in listed.title
     document = load_profile("icube").model_dump(mode="json", exclude_none=True)
     document |= {"kind": "gimbal", "name": "bench-gimbal"}
     rings = {"outer_inertia": 8e-4, "inner_inertia": 5e-4, "radius": 0.06}

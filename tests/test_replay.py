@@ -242,7 +242,7 @@ def test_a_changed_memory_of_a_stage_is_found(virtual: Recording) -> None:
     assert recorded is not None
     start = sum(recorded.checkpoint.sizes[: recorded.checkpoint.names.index("kinematics")])
     values = recorded.checkpoint.parameters.copy()
-    values[start] *= 1.5
+    values[start + 1] *= 1.5  # y of the remote centre
     changed = replace(recorded, checkpoint=replace(recorded.checkpoint, parameters=values))
     report = replay_recording(spoilt(virtual, checkpoint=changed))
     assert not report.identical

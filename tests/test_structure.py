@@ -23,7 +23,6 @@ WITHOUT_QT = {
     "app.views.exercise.run": "what compose hands the window of a running trainer: a port",
     "app.views.kit.themes": "the colours, as plain values",
     "app.views.scene.orbit": "where the 3D camera stands",
-    "app.views.scene.robot": "the robot's shape as the 3D view draws it",
     "app.views.slices.camera": "which part of a plane a pane shows",
     "app.views.slices.labels": "where labels find room on a pane",
     "app.views.slices.slab": "points and slabs as panes take them",

@@ -84,6 +84,7 @@ def main() -> None:
     own_settings("tools.pen_pictures")
     own_settings("tools.reading_pictures")
     own_settings("tools.scene_pictures")
+    own_settings("tools.holder_pictures")
     own_settings("tools.debrief_pictures")
     own_settings("tools.student_pictures")
     studies()

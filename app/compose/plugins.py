@@ -6,13 +6,14 @@ would find is said by the one who uses them.
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from app.core import paths
-from app.core.plugins import PluginKind
+from app.core.plugins import PluginKind, read_statements
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,8 +21,8 @@ class PluginFile:
     """A file that is not the program's own.
 
     Attributes:
-        kind: what it is: `force law`, `effect`, `metric`, `marker extractor` or `study`.
-        path: the file.
+        kind: what it is: `force law`, `effect`, `metric`, `marker extractor`, `study` or `machine`.
+        path: the file; of a machine its folder.
         title: as it declares it; empty if it is refused.
         refused: why it cannot be used, with file, line and what would be valid; empty if it can.
     """
@@ -48,12 +49,43 @@ def plugin_files() -> tuple[PluginFile, ...]:
             reason = reasons.get(path, "")
             title = "" if reason else kind.read(path).title
             found.append(PluginFile(kind.word, path, title, reason))
-    return tuple(found)
+    return (*found, *_machines())
+
+
+def _machines() -> list[PluginFile]:
+    """List the user's own machines: folders, read as text as the files of the other kinds are."""
+    found = []
+    for folder in sorted(paths.plugins("mechanisms").glob("*/")):
+        if folder.name.startswith(("_", ".")):
+            continue
+        title, reason = "", ""
+        for name, wanted in (("profile.py", "PROFILE"), ("machine.py", "machine")):
+            try:
+                body = read_statements(folder / name)
+            except (OSError, SyntaxError, ValueError) as error:
+                reason = f"{folder / name} cannot be read: {error}"
+                break
+            if wanted not in _defined(body):
+                reason = f"{folder / name} does not define {wanted}; see 'How to add a machine'"
+                break
+            title = (ast.get_docstring(ast.Module(body, [])) or folder.name).split("\n")[0]
+        found.append(PluginFile("machine", folder, "" if reason else title, reason))
+    return found
+
+
+def _defined(body: list[ast.stmt]) -> set[str]:
+    """Names that a file's statements define at its top level."""
+    names = {node.name for node in body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
+    for node in body:
+        targets = [node.target] if isinstance(node, ast.AnnAssign) else getattr(node, "targets", [])
+        names |= {target.id for target in targets if isinstance(target, ast.Name)}
+    return names
 
 
 def plugin_folders() -> dict[str, Path]:
     """Return where the user's own files of each kind lie; a folder need not exist."""
-    return {kind.word: paths.plugins(kind.folder) for kind, _ in _kinds()}
+    folders = {kind.word: paths.plugins(kind.folder) for kind, _ in _kinds()}
+    return folders | {"machine": paths.plugins("mechanisms")}
 
 
 def refused_files() -> tuple[PluginFile, ...]:

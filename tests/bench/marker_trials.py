@@ -47,7 +47,7 @@ class WindowRenderer(NeedleRenderer):
         self._buffer[self._changed] = self._background[self._changed]
         self._changed, self._rows = part, part[0]
         if scene.visible:
-            self._draw(self._buffer, scene)
+            self.draw(self._buffer, scene)
         return self._buffer, part
 
     def _spans(self, centre, axis, along):

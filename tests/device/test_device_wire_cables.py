@@ -2,15 +2,18 @@
 
 import numpy as np
 import pytest
+from device.wire_process import emulator, wait_for
 from tensegrity_rig import PROFILE, HolderRig, leaning
 
 from app.core import state_vector as sv
 from app.core.arrays import angle_between
+from app.device.control import Loop, laws, machine_stages
 from app.device.errors import BoardVersionError
 from app.device.faults import Fault
 from app.device.links import acus_protocol as acus
 from app.device.links import board_layout as at
 from app.device.links.board_layout import new_board
+from app.device.links.serial_link import SerialLink
 from app.mechanisms.profile import load_profile
 
 HOLDS, PULLS = {"hold_direction": {}}, {"fixture": {}}
@@ -75,3 +78,30 @@ def test_a_board_of_the_other_version_is_refused_with_both():
         acus.read_info(two)
     with pytest.raises(BoardVersionError, match=r"version 1 of .* program version 2"):
         acus.read_info(one, 2)
+
+
+def test_the_emulated_machine_behind_a_terminal_is_homed_armed_and_holds(tmp_path):
+    with emulator(tmp_path, "tensegrity", "--hand", "rest") as process:
+        link = SerialLink(process.path, PROFILE)
+        forces = laws.stages_of(HOLDS, PROFILE)
+        table = machine_stages(PROFILE, forces, [], link.stages(), energy_bound=0.0)
+        loop = Loop(table, PROFILE.rate_hz, link=link)
+        loop.open()
+        assert link.info().protocol == "acus 2"
+        assert link.info().emulated
+        loop.inbox.write(assistance=1.0, path_z=-1.0, homed=1.0, force_cap=5.0)
+        wait_for(lambda: loop.latest().row[sv.LINK_REPLIES] > 10)
+        link.home()
+        wait_for(lambda: link.is_homed)
+
+        def holds() -> bool:
+            now = loop.clock.now()
+            loop.inbox.write(
+                heartbeat=now, tracked_depth=0.02, tracked_time=now, homed=1.0, enabled=1.0
+            )
+            return bool(loop.latest().row[sv.HOLDING])
+
+        wait_for(holds)
+        assert loop.latest().row[sv.FAULT] == 0.0
+        assert (loop.latest().row[sv.TENSION] >= 0.0).all()
+        loop.close()

@@ -16,6 +16,7 @@ from app.exchange.text_export import write_text
 from app.exchange.urdf import Origin, profile_like, read_geometry, write_urdf
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.pantograph import forward, inverse, passive_angles
+from app.mechanisms.pantograph.profile import load_pantograph
 from app.mechanisms.profile import load_profile, profile_names
 
 PROFILE = load_profile("icube")
@@ -74,7 +75,9 @@ def test_an_origin_midway_between_the_motors_gives_the_same(tmp_path):
     assert found.base == pytest.approx(0.085, abs=1e-15)
 
 
-@pytest.mark.parametrize("name", profile_names())
+@pytest.mark.parametrize(
+    "name", [name for name in profile_names() if load_profile(name).kind == "pantograph"]
+)
 @pytest.mark.parametrize("origin", list(Origin))
 def test_what_is_exported_comes_back(tmp_path, name, origin):
     profile = load_profile(name)
@@ -248,3 +251,8 @@ def test_a_file_that_cannot_be_written_is_named(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(ExportError, match="cannot write"):
         write_text(tmp_path / "file" / "robot.urdf", "x")
+
+
+def test_a_machine_that_is_no_pantograph_has_no_urdf():
+    with pytest.raises(ConfigurationError, match="is of kind tensegrity"):
+        load_pantograph("tensegrity")

@@ -22,6 +22,7 @@ from app.scoring.trajectory import Trajectory
 
 SHIPPED = [
     "first-insertion",
+    "tensegrity-liver",
     "thick-tissue",
     "with-less-help",
     "breathing-liver",

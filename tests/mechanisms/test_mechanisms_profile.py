@@ -13,6 +13,7 @@ from app.mechanisms.profile import (
     Provenance,
     Section,
     load_profile,
+    parse_profile,
     profile_names,
 )
 
@@ -160,3 +161,18 @@ def test_a_tilt_at_which_no_link_reaches_the_tool_is_refused(tmp_path, document,
     document["workspace"]["tilt_limit_deg"]["new"] = tilt
     with pytest.raises(ConfigurationError, match=r"tilt_limit_deg.*links reach .* at most 78\.2"):
         load_profile(written(tmp_path, document))
+
+
+def test_a_needle_holder_of_impossible_bars_is_refused_with_the_reason():
+    document = load_profile("tensegrity").model_dump(mode="json")
+    short = document | {
+        "geometry": document["geometry"] | {"first_reach": 0.02, "second_reach": 0.02}
+    }
+    with pytest.raises(ConfigurationError, match="no pose closes both pantographs"):
+        parse_profile(short, "it")
+    order = document | {"cables": document["cables"] | {"least": 300.0}}
+    with pytest.raises(ConfigurationError, match="tensions must rise"):
+        parse_profile(order, "it")
+    with pytest.raises(ConfigurationError, match=r"needles longer than 0\.26"):
+        load_profile("tensegrity").with_needle(0.2)
+    assert load_profile("tensegrity").with_needle(0.3).needle_length == 0.3

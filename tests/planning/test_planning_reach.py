@@ -186,3 +186,14 @@ def test_points_that_the_links_cannot_hold_are_outside_the_workspace(
     holds = in_workspace(load_profile("icube"))
     assert not holds(*point)
     assert holds(0.0, 0.16056)
+
+
+def test_the_needle_holder_has_the_same_verdict_with_a_remedy():
+    profile = load_profile("tensegrity")
+    device = ReachLimits.of(profile)
+    assert device.holds(np.array([0.5, -0.2, -0.84]) / np.linalg.norm([0.5, -0.2, -0.84]))
+    answer = reach_within(tilted(55.0), Placement(), device)
+    assert not answer.reachable
+    assert "exceeds 40" in answer.message()
+    assert answer.remedy is not None
+    assert device.holds(answer.remedy.placement.rotation @ tilted(55.0).direction)

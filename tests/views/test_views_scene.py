@@ -684,3 +684,28 @@ def test_pictures_of_a_turn_get_as_small_as_the_machine_needs_and_grow_again():
         size = moving_size(size, 0.02)
     assert size == 1.0
     assert moving_size(0.7, 0.0) == 0.7
+
+
+def test_cables_are_coloured_by_tension_dashed_when_slack_and_the_reading_is_said():
+    profile = load_profile("tensegrity")
+    q = profile.machine.usable((0.2, -0.1, -0.95))
+    shape = RobotShape.of(profile, q, (0.1, 2.0, 50.0, 200.0))
+    assert [cable.slack for cable in shape.cables()] == [True, False, False, False]
+    assert len({cable.mark.colour for cable in shape.cables()}) == 4
+    assert shape.cables()[3].mark.colour == "#ffa000"
+    assert len(shape.links()) == 9
+    said = [words for _, words in shape.legend()]
+    assert any("one rhombus" in words for words in said)
+    assert any("slack" in words for words in said)
+    assert RobotShape.of(load_profile("icube"), None).legend() == ()
+    assert RobotShape.of(profile, q).cables()[0].slack is False
+
+
+def test_a_slack_cable_is_drawn_as_dashes(stage):
+    profile = load_profile("tensegrity")
+    q = profile.machine.usable((0.2, -0.1, -0.95))
+    stage.set_robot(RobotShape.of(profile, q, (30.0,) * 4), RigidTransform.identity())
+    taut = len(stage._cables)
+    stage.set_robot(RobotShape.of(profile, q, (0.0, *(30.0,) * 3)), RigidTransform.identity())
+    assert taut == 4
+    assert len(stage._cables) > 6

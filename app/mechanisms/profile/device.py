@@ -211,7 +211,8 @@ def kinds() -> list[str]:
 
 
 def _profiles_in(folder: str) -> Iterator[Path]:
-    return Path(folder).glob("*/profile.py")
+    """A machine's folder has both: the arm and the hand have profiles of their own, no machine."""
+    return (p for p in Path(folder).glob("*/profile.py") if (p.parent / "machine.py").is_file())
 
 
 DEFAULT_KIND: Final = "pantograph"

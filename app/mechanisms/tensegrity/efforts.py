@@ -186,10 +186,8 @@ def _tell_what_is_felt(state: FloatArray, p: FloatArray, b1: float, b2: float) -
     )
     if status != OK:
         return np.inf
-    fx, fy, fz = felt_kernel(
-        gx, gy, state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z], state[sv.L_IN],
-        state[sv.L_OUT],
-    )  # fmt: skip
+    dx, dy, dz = state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z]
+    fx, fy, fz = felt_kernel(gx, gy, dx, dy, dz, state[sv.L_IN], state[sv.L_OUT])
     size = sqrt(fx * fx + fy * fy + fz * fz)
     if not isfinite(size):
         return np.inf
@@ -230,6 +228,7 @@ def _hold(state: FloatArray, p: FloatArray, goal1: float, goal2: float) -> None:
     _reel_pair(state, p, 0, share * way1, p1, q1)
     _reel_pair(state, p, 2, share * way2, p2, q2)
     state[sv.HOLDING] = 1.0
+    state[sv.GUIDANCE_LIMIT], state[sv.GUIDANCE_LIMITED_BY] = cleared, 0.0  # winches do not push
     for k in range(4):
         state[sv.TENSION_1 + k] = state[sv.CABLE_1 + k]
     state[sv.TORQUE_LEFT] = state[sv.TORQUE_RIGHT] = 0.0

@@ -115,7 +115,7 @@ class RobotShape:
         _, most = self.tension_range
         rows = [
             (tension_shade(share), tr("cable at {force:.0f} N", force=most * share * share))
-            for share in (0.1, 0.5, 1.0)
+            for share in (0.1, 1.0)
         ]
         rows.append((_SHADES[0], tr("dashed: slack cable")))
         if self.drawing.reading:

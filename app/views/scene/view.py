@@ -359,7 +359,7 @@ class SceneView(QWidget):
         draw_compass(painter, self.orbit, QPointF(50.0, self.height() - 50.0), display)
         error = self._feed.error and tr("3D view off: {why}", why=self._feed.error)
         scale, note = self._enlargement.scale, error or self.note
-        legend = (*self.legend, *self._organ_legend(), *self._robot_legend)
+        legend = (*self._robot_legend, *self.legend, *self._organ_legend())
         button = self._button.geometry()
         draw_words(painter, self.rect(), display, scale, legend, note, button)
 
