@@ -211,7 +211,7 @@ def kinds() -> list[str]:
 
 
 def _profiles_in(folder: str) -> Iterator[Path]:
-    """A machine's folder has both: the arm and the hand have profiles of their own, no machine."""
+    # The folders of arm and hand have profiles of another kind, and no machine.
     return (p for p in Path(folder).glob("*/profile.py") if (p.parent / "machine.py").is_file())
 
 
