@@ -4,6 +4,9 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QWheelEvent
+from PySide6.QtWidgets import QApplication
 from views_exercise_fakes import snapshot, statistics
 from window_rig import plan
 
@@ -84,6 +87,23 @@ def test_a_model_is_chosen_in_the_panel_and_shown(running, settle) -> None:
     settle()
     rows = {row.effect.name: row for row in panel.rows}
     assert rows["lateral_tissue"].effect.model == "winkler"
+
+
+def test_the_wheel_over_a_model_without_the_keyboard_changes_no_model(running, settle) -> None:
+    panel = running.panel
+    running._shell.show_panel(panel)
+    settle()
+    box = next((row.models for row in panel.rows if row.models.isEnabled()), None)
+    if box is None:
+        pytest.skip("the exercise that is open first has no effects to choose a model of")
+    before, where = box.currentIndex(), QPointF(box.rect().center())
+    button, keys = Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier
+    for angle in (-120, 120):
+        turned = QPoint(0, angle)
+        phase = Qt.ScrollPhase.NoScrollPhase
+        wheel = QWheelEvent(where, where, QPoint(), turned, button, keys, phase, False)
+        QApplication.sendEvent(box, wheel)
+        assert box.currentIndex() == before
 
 
 def test_a_model_that_is_kept_goes_back_and_says_why(running, settle, monkeypatch) -> None:

@@ -15,6 +15,7 @@ from app.views.kit import theme
 from app.views.kit.parts import button, label
 from app.views.kit.text import tr
 from app.views.kit.verdict import Verdict, tell
+from app.views.kit.wheel import wheel_scrolls
 
 HUES: Final = ("#56b4e9", "#e69f00", "#009e73", "#cc79a7", "#f0e442", "#d55e00", "#0072b2")
 """Okabe and Ito's hues, one for each effect; its part of the bar also stands in its place."""
@@ -130,6 +131,7 @@ class EffectRow(QFrame):
         self.models.currentIndexChanged.connect(
             lambda _: self.chosen.emit(effect.name, self.models.currentData())
         )
+        wheel_scrolls(self.models)
         head = QHBoxLayout()
         head.addWidget(swatch)
         head.addWidget(label(effect.title), 1)

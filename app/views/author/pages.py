@@ -43,6 +43,7 @@ from app.views.kit import theme
 from app.views.kit.coordinates import lps_words
 from app.views.kit.parts import button, column, label, table
 from app.views.kit.text import tr
+from app.views.kit.wheel import wheel_scrolls
 from app.views.reading.lock_words import view_title
 
 Choice = Sequence[tuple[Any, str]]
@@ -409,6 +410,7 @@ class PatientPage(Form):
                     far.setKeyboardTracking(False)
                     rows.setCellWidget(row, 1, box)
                     rows.setCellWidget(row, 2, far)
+                    wheel_scrolls(far)
                     box.clicked.connect(lambda _: self._take_risks())
                     far.valueChanged.connect(lambda _: self._take_risks())
                 with QSignalBlocker(box), QSignalBlocker(far):

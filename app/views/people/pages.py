@@ -49,6 +49,7 @@ from app.views.kit.names import NAMES
 from app.views.kit.parts import button, label, table
 from app.views.kit.settings_dialog import SettingsDialog
 from app.views.kit.text import tr
+from app.views.kit.wheel import wheel_scrolls
 
 _DAY: Final = 86400.0
 _LEVEL: Final = 0.5
@@ -666,6 +667,7 @@ class CourseDialog(SettingsDialog):
         kind.setCurrentIndex(kind.findData(purpose.value))
         for column, widget in enumerate((pinned, allowed, kind), 1):
             self.items.setCellWidget(row, column, widget)
+            wheel_scrolls(widget)
         for column, text in ((4, opens), (5, closes)):
             day = QLineEdit(text)
             day.setPlaceholderText(tr("any day"))
