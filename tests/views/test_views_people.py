@@ -22,6 +22,7 @@ from app.session.summary import Summary
 from app.views.author.feature import AuthorFeature
 from app.views.debrief.feature import DebriefFeature
 from app.views.debrief.sessions import NOTE, SCORE, SIGNED, STUDENT
+from app.views.exercise.feature import ExerciseFeature
 from app.views.kit.access import ACCESS
 from app.views.people.feature import PeopleFeature
 from app.views.people.pages import GROUP_PDF, STUDENT_PDF, CourseDialog, EntryDialog
@@ -377,7 +378,7 @@ def test_a_student_begins_the_next_exercise_of_a_course_and_reads_why_another_is
     feature.failed.connect(said.append)
     tab.begin.click()
     assert wanted == [names[2]]
-    for row, why in ((0, "all 1 attempts are used"), (1, "it closed on 2020-01-01")):
+    for row, why in ((0, "the one attempt is used"), (1, "it closed on 2020-01-01")):
         tab.tree.setCurrentItem(rows[row])
         tab.begin.click()
         assert why in said[-1]
@@ -385,6 +386,51 @@ def test_a_student_begins_the_next_exercise_of_a_course_and_reads_why_another_is
     People().remark("a", void="the cable was loose")  # gives the attempt back
     feature.refresh()
     assert settle(lambda: tab.tree.topLevelItem(0).child(0).text(2) == "1 of 1 left")
+
+
+def test_an_assessment_of_a_course_is_begun_by_its_students_and_the_instructor_alone(
+    window, feature, settle
+):
+    people, name = People(), "first-insertion"
+    people.set_instructor("correct horse")
+    ada, _ = people.add(RosterLine("Ada", groups=("A",)))
+    bob, _ = people.add(RosterLine("Bob", groups=("B",)))
+    exercise = feature._exercises()[name]
+    item = {"exercise": name, "attempts": 1, "purpose": "assessment", "version": exercise.version}
+    course_of({"id": "c", "title": "Autumn", "groups": ["A"], "items": [item]}, "test").save()
+    feature.look()
+    assert settle(lambda: ACCESS.guarded and bool(ACCESS.refusal(name)))
+    beginning = window.feature(ExerciseFeature).beginning
+    page = beginning.page
+    beginning.brief(name)  # nobody is signed in
+    assert not page.begin.isEnabled()
+    assert "Any number" not in page.attempts.text()
+    assert "an assessment of the course Autumn" in page.attempts.text()
+    assert "Sign in as a student who takes it" in page.attempts.text()
+    assert (
+        "Autumn" in feature.context.conductor.controller.refusal() or not window.conductor.exercise
+    )
+    ACCESS.sign_in(bob)
+    feature.look()
+    assert settle(lambda: "which you do not take" in ACCESS.refusal(name))
+    beginning.brief(name)
+    assert settle(lambda: "which you do not take" in page.attempts.text())
+    assert not page.begin.isEnabled()
+    ACCESS.sign_in(ada)
+    feature.look()
+    assert settle(lambda: not ACCESS.refusal(name))
+    beginning.brief(name)
+    assert settle(
+        lambda: "1 of 1 attempts" in page.attempts.text() or "one attempt" in page.attempts.text()
+    )
+    assert page.begin.isEnabled()
+    record(feature.context.services.sessions(), "a", ada.key, 91.0, exercise.version)
+    feature.look()
+    assert settle(lambda: "the one attempt is used" in ACCESS.refusal(name))
+    ACCESS.sign_in(None)
+    assert "assessment" in ACCESS.refusal(name)
+    ACCESS.sign_in(None, instructor=True)
+    assert ACCESS.refusal(name) == ""
 
 
 def test_the_instructor_releases_all_results_of_a_course_at_once(window, feature, settle):

@@ -153,7 +153,7 @@ class AttemptsLeft:
     def words(self) -> str:
         """Say it."""
         if self.allowed is None:
-            said = tr("Any number of attempts.")
+            said = "" if self.refusal else tr("Any number of attempts.")
         elif self.used is None:
             said = tr("{n} attempts are allowed.", n=self.allowed)
         else:
@@ -163,7 +163,7 @@ class AttemptsLeft:
             said += " " + tr("Course: {title}.", title=self.course)
         if self.refusal:
             said += "\n" + tr("Not now: {why}.", why=self.refusal)
-        return said
+        return said.strip()
 
 
 # --- pictures ---------------------------------------------------------------------------------

@@ -22,11 +22,12 @@ from app.session.course import (
     Course,
     CourseError,
     CourseStanding,
+    assessed_by,
     course_standings,
     courses,
     not_void,
+    refusals,
     waiting_for_release,
-    why_not,
 )
 from app.session.errors import PeopleError
 from app.session.index import Index, Indexed
@@ -199,21 +200,16 @@ class PeopleFeature(Feature):
 
         def find(_: Progress) -> Known:
             people = self._people
-            known = Known(people.has_instructor(), people.pseudonyms(), people.keys())
+            given = courses()[0]
+            assessed = {name: held[0].title for name, held in assessed_by(given).items()}
+            known = Known(people.has_instructor(), people.pseudonyms(), people.keys(), {}, assessed)
             if student is None:
                 return known
             index = Index(self._folder)
             index.refresh()
             texts = [text for text, key in known.keys.items() if key == student.key]
             own, today = not_void(index.attempts(texts), people.remarks()), _today()
-            refused = {
-                item.exercise: why
-                for course in courses()[0]
-                if course.takes(student)
-                for item in course.items
-                if (why := why_not(course, item.exercise, own, today, titles))
-            }
-            return replace(known, refused=refused)
+            return replace(known, refused=refusals(given, student, own, today, titles))
 
         self._learning += 1
         asked = self._learning
@@ -574,7 +570,9 @@ class PeopleFeature(Feature):
         conductor.controller.finished.connect(lambda _: self._ended())
 
         def refusal() -> str:
-            return ACCESS.refusal(conductor.exercise.id) if conductor.exercise else ""
+            taken = conductor.exercise
+            why = "" if taken is None else ACCESS.refusal(taken.id)
+            return tr("It cannot be begun: {why}.", why=why) if why else ""
 
         conductor.controller.refusal = refusal
 
