@@ -252,7 +252,8 @@ class BreathCommand(QWidget):
         if breath.held:
             words = tr("holds: {s:.0f} s left").format(s=breath.left)
         elif breath.spent:
-            words = tr("has to breathe")
+            words = tr("breathes by himself")
+            self.button.setText(tr("Release (A)"))
         else:
             words = tr("breathes out and holds") if breath.asked else tr("breathes")
         self._words.setText(words)
