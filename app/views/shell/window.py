@@ -222,7 +222,7 @@ class MainWindow(QMainWindow):
         self._begin_menus(shell)
         self.features = tuple(feature(self.context) for feature in features)
         self._end_menus(shell)
-        self.notices = Notices(self, (self.progress, self.message_bar))
+        self.notices = Notices(self, (self.progress, self.message_bar), self.workspace.next_step)
         self._connect()
         self.remembered = Remembered(
             self, self.settings, self.workspace, self.conductor, self.projector
