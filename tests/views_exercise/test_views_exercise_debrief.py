@@ -11,6 +11,7 @@ from views_exercise_attempts import placed_plan, review, score
 
 from app.core.disclaimer import DISCLAIMER
 from app.core.events import Event
+from app.scoring.conditions import Conditions
 from app.scoring.risks import RiskMark
 from app.session.curves import Curves
 from app.session.facts import plan_record
@@ -21,7 +22,7 @@ from app.session.samples import Samples
 from app.views.debrief.curves import CurvesView, curves_of, peaks, value_range
 from app.views.debrief.page import DebriefPage, date_text
 from app.views.debrief.report import polylines, report_bytes, ticks, write_report
-from app.views.debrief.score_words import lessons, number, row_texts, verdict
+from app.views.debrief.score_words import facts_of, lessons, number, row_texts, short_words, verdict
 from app.views.kit import theme
 
 
@@ -491,3 +492,13 @@ def all_expert(judged):
         replace(row, value=row.tolerance.expert) if row.tolerance else row for row in judged.rows
     )
     return replace(judged, rows=rows).recomputed()
+
+
+def test_a_model_that_was_changed_during_the_attempt_is_told_beside_the_score(page):
+    under = Conditions("x", models=("lateral_tissue: winkler",))
+    words = "▲ model changed meanwhile: lateral tissue: winkler"
+    assert words in short_words(under)  # in the list, and in the debrief's line
+    page.show_review(replace(review(), conditions=under))
+    assert words in page.conditions.text()
+    assert ("Models changed meanwhile", "lateral tissue: winkler") in facts_of(under)
+    assert "changed" not in short_words(replace(under, models=()))

@@ -88,8 +88,16 @@ def short_words(conditions: Conditions | None) -> str:
         hand_word(conditions),
         kind_word(conditions.kind),
         tr("assistance {dial}", dial=dial) if dial else "",
+        tr("▲ model changed meanwhile: {models}", models=models_text(conditions))
+        if conditions.models
+        else "",
     )
     return "  ·  ".join(filter(None, parts))
+
+
+def models_text(conditions: Conditions) -> str:
+    """Name the effects, each with the model that was chosen while the attempt ran."""
+    return ", ".join(conditions.models).replace("_", " ")
 
 
 def facts_of(conditions: Conditions) -> tuple[tuple[str, str], ...]:
@@ -101,6 +109,7 @@ def facts_of(conditions: Conditions) -> tuple[tuple[str, str], ...]:
         (tr("Views"), _views(c)),
         (tr("Hand and robot"), f"{hand_word(c) or tr('not recorded')}, {_robot(c)}"),
         (tr("Screen and needle"), agreement_words(c)),
+        *(((tr("Models changed meanwhile"), models_text(c)),) if c.models else ()),
         (tr("Software"), _software(c)),
     )
 
