@@ -223,9 +223,25 @@ def test_who_was_erased_is_shown_as_erased(window, feature, settle):
     People().add(RosterLine("Bob"))
     feature.look()
     settle(lambda: ACCESS.shown(person.key) == "Ada")
+    record(feature.context.services.sessions(), "a", person.key)
+    said = []
+    feature.noted.connect(said.append)
     feature._erase("Ada", with_records=False)
     settle(lambda: ACCESS.shown(person.key) != "Ada")
+    assert settle(lambda: bool(said))
+    assert said == ["Ada was erased; records deleted: 0, kept as nobody's: 1"]
     assert ACCESS.shown(person.key) == "(erased)"
+
+
+def test_an_exercise_is_put_into_a_course_with_its_own_purpose(feature):
+    feature.edit_course(None)
+    dialog = feature.dialog
+    for row, (name, purpose) in enumerate(
+        (("scans-only", "assessment"), ("first-insertion", "practice"))
+    ):
+        assert load_exercise(name).purpose.value == purpose
+        dialog.add_item(name)
+        assert dialog.items.cellWidget(row, 3).currentData() == purpose
 
 
 def test_an_exercise_that_was_just_made_can_be_put_into_a_course(feature, monkeypatch):

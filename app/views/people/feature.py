@@ -16,7 +16,7 @@ from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.exchange.results import Results, ResultsFormat, results_text, write_results
 from app.exercises.schema import Exercise
-from app.session.archive import backup, erase_person
+from app.session.archive import Erased, backup, erase_person
 from app.session.board import ProgressBoard, board_of
 from app.session.course import (
     Course,
@@ -420,14 +420,19 @@ class PeopleFeature(Feature):
         self._open(box)
 
     def _erase(self, pseudonym: str, with_records: bool) -> None:
-        def work(_: Progress) -> tuple[int, int]:
+        def work(_: Progress) -> Erased:
             return erase_person(pseudonym, self._folder, with_records, self._people)
 
-        def done(found: tuple[int, int]) -> None:
+        def done(found: Erased) -> None:
             self._changed()
-            text = tr("{name} was erased, with {n} records", name=pseudonym, n=found[0])
-            if found[1]:
-                text += tr("; {n} older records keep the name that was typed", n=found[1])
+            text = tr(
+                "{name} was erased; records deleted: {n}, kept as nobody's: {m}",
+                name=pseudonym,
+                n=found.deleted,
+                m=found.anonymous,
+            )
+            if found.typed:
+                text += tr(", kept with the name that was typed: {n}", n=found.typed)
             self.noted.emit(text)
 
         self._beside(work, done, tr("Erasing"))

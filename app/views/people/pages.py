@@ -641,12 +641,17 @@ class CourseDialog(SettingsDialog):
         exercise: str,
         version: int = 0,
         attempts: int = 0,
-        purpose: Purpose = Purpose.PRACTICE,
+        purpose: Purpose | None = None,
         opens: str = "",
         closes: str = "",
     ) -> None:
-        """Add an exercise at the end; version 0 pins the one that the library has now."""
+        """Add an exercise at the end.
+
+        Version 0 pins the one that the library has now; without a purpose it has the exercise's.
+        """
         known = self._exercises.get(exercise)
+        if purpose is None:
+            purpose = known.purpose if known else Purpose.PRACTICE
         row = self.items.rowCount()
         self.items.insertRow(row)
         name = QTableWidgetItem(known.title if known else exercise)
