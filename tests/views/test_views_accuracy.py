@@ -1,12 +1,13 @@
 """The scene's effects in their panel, and what accuracy costs on its page."""
 
 from dataclasses import replace
+from threading import Event
 from types import SimpleNamespace
 
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QToolButton
 from views_exercise_fakes import snapshot, statistics
 from window_rig import plan
 
@@ -41,6 +42,10 @@ def test_no_effect_is_blamed_for_what_other_programs_take() -> None:
     assert "20.0 % of the ticks come too late" in said
     assert "no effect of this scene is the reason" in said
     assert advice((), float("nan"), 1e-3, 0.0) == ""
+    little = replace(DEAR, costs={"fine": 2e-6, "rough": 1e-6})
+    assert lowering((little,)) is not None
+    assert lowering((little,), 1e-3) is None  # no button where no effect is the reason
+    assert "no effect of this scene is the reason" in advice((little,), 1e-5, 1e-3, 0.2)
 
 
 @pytest.mark.parametrize(("share", "words"), [(12.0, "12 times"), (0.5, "50 %"), (1e-4, "0.01 %")])
@@ -138,3 +143,54 @@ def test_the_shares_of_frame_and_picture_are_shown_beside_the_tick(running, sett
     assert not panel._picture.isHidden()
     panel.show_snapshot(snapshot(running._runs.run.placed, timing=timing, time=2e6), 0.0)
     assert panel._frame.isHidden()
+
+
+def test_a_warning_brings_no_button_that_helps_nobody_and_moves_nothing(running, settle) -> None:
+    panel = running.panel
+    running._shell.show_panel(panel)
+    settle()
+    little = replace(DEAR, costs={"fine": 2e-6, "rough": 1e-6})
+    placed, places = running._runs.run.placed, []
+    for number, (effect, missed, lowered) in enumerate(
+        ((DEAR, 0, False), (little, 300, False), (DEAR, 300, True))
+    ):
+        panel.clear()
+        panel.show_scene(SceneCost((effect,), {}), "")
+        cost = 5e-6 if not lowered else 9e-4
+        start = 1e6 * (number + 1)
+        for time, ticks, late in ((start, 1000, 0), (start + 1.0, 2000, missed)):
+            timing = SimpleNamespace(cost=cost, rate_hz=1000.0, ticks=ticks, missed=late)
+            panel.show_snapshot(snapshot(placed, timing=timing, time=time), 0.0)
+        settle()
+        assert panel.lowering.isVisible() == lowered
+        places.append(panel.rows[0].y())
+    assert len(set(places)) == 1
+
+
+def test_while_something_is_measured_nothing_else_can_be_and_cancel_is_answered(
+    window, settle, monkeypatch
+) -> None:
+    feature = window.feature(AccuracyFeature)
+    feature.open_page()
+    page, seen, free = feature.page, [], Event()
+
+    def measure(name, progress):
+        while not free.wait(0.01):
+            pass
+        progress.report(0.5, "further")
+
+    monkeypatch.setattr("app.views.accuracy.feature._measure", measure)
+    page.measure.click()
+    assert not page.measure.isEnabled()
+    assert not page.hard.run.isEnabled()
+    feature.measure(page.name)
+    assert "cancel it at the top" in window.message_bar.text
+    feature.measured.connect(lambda: seen.append(page.measure.isEnabled()))
+    (cancel,) = [one for one in window.progress.findChildren(QToolButton) if one.isEnabled()]
+    cancel.click()
+    assert (cancel.text(), cancel.isEnabled()) == ("Cancelling…", False)
+    free.set()
+    assert settle(lambda: bool(seen))
+    assert seen == [True]
+    assert page.hard.run.isEnabled()
+    assert window.message_bar.isHidden()

@@ -165,6 +165,13 @@ class AccuracyPage(QWidget):
         rows.addWidget(self.tabs, 1)
         rows.addLayout(foot)
 
+    def set_measuring(self, on: bool) -> None:
+        """Let nothing be measured while something is."""
+        why = tr("Something is being measured: wait, or cancel it at the top") if on else ""
+        for one in (self.measure, self.hard.run):
+            one.setEnabled(not on)
+            one.setToolTip(why)
+
     @property
     def name(self) -> str:
         """Study that is shown; empty for none."""

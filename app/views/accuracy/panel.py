@@ -26,6 +26,9 @@ LATELY: Final = 10.0
 FRAME: Final = 1.0 / 60.0
 """A frame of the window has this long [s]."""
 
+WARNING_LINES: Final = 3
+"""Lines that the longest warning takes at the panel's width."""
+
 PERIOD: Final = 0.5
 """Words are refreshed this often [s]."""
 
@@ -177,6 +180,11 @@ class EffectsPanel(QWidget):
             tr("Computes the effect that costs most by its cheapest model, at once")
         )
         self.lowering.clicked.connect(self._lower)
+        # A warning comes and goes by itself: what is below stays where it is under the mouse.
+        self._verdict.setAlignment(Qt.AlignmentFlag.AlignTop)
+        kept = self.lowering.sizePolicy()
+        kept.setRetainSizeWhenHidden(True)
+        self.lowering.setSizePolicy(kept)
         self.page = button(tr("Cost of accuracy…"))
         self.page.setToolTip(tr("Error against time of every choice in the program"))
         self.page.clicked.connect(self.page_wanted)
@@ -220,6 +228,9 @@ class EffectsPanel(QWidget):
             locked: why the models cannot be chosen; empty if they can.
         """
         self._scene = scene
+        self._verdict.ensurePolished()
+        line = self._verdict.fontMetrics().lineSpacing()
+        self._verdict.setMinimumHeight(WARNING_LINES * line + line // 4)  # signs are taller
         self._fill(scene.effects, dict(scene.left_out), locked)
         self._state.setText(locked or ("" if scene.effects else tr("This scene has no effects.")))
         self._state.setVisible(bool(self._state.text()))
@@ -280,7 +291,7 @@ class EffectsPanel(QWidget):
         trouble = advice(scene.effects, tick, period, share)
         good = tr("held at {rate:.0f} Hz on this computer", rate=timing.rate_hz)
         tell(self._verdict, Verdict.WARNING if trouble else Verdict.GOOD, trouble or good)
-        best = lowering(scene.effects) if too_much(tick, period, share) else None
+        best = lowering(scene.effects, period) if too_much(tick, period, share) else None
         self.lowering.setVisible(best is not None and any(r.models.isEnabled() for r in self.rows))
         for widget in (self.bar, self._tick, self._verdict):
             widget.setVisible(True)
