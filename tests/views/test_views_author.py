@@ -521,3 +521,55 @@ def test_a_plan_that_an_exercise_holds_is_not_asked_for_any_more(opened, form, a
     assert not plan.dirty
     plan.place(Tool.TARGET, (6.0, 4.0, 140.0), True)
     assert plan.dirty
+
+
+def test_an_assessment_is_shown_with_the_locks_and_views_that_it_has(author, form):
+    write(form.task.name, "X")
+    author.editor.put("views", value=["bullseye", "three_d", "live_overlay"])
+    form.show_page(3)
+    sight = form.sight
+    free = [box.isEnabled() for box in (*sight.views.values(), *sight.locks.values())]
+    assert all(free)
+    assert sight.views["bullseye"].isChecked()
+    form.task._set_purpose("assessment")
+    exercise = author.editor.exercise
+    ticked = {value for value, box in sight.views.items() if box.isChecked()}
+    assert ticked == {view.value for view in exercise.shown_views} == {"three_d"}
+    assert {value for value, box in sight.locks.items() if box.isChecked()} == {
+        lock.value for lock in exercise.locked
+    }
+    assert not any(box.isEnabled() for box in sight.locks.values())
+    assert "control scans alone" in sight.views["bullseye"].toolTip()
+    sight.views["three_d"].click()  # what is not shown here is kept for practice
+    assert "bullseye" in author.editor.get("views")
+    form.task._set_purpose("practice")
+    assert sight.views["bullseye"].isChecked()
+    assert sight.views["bullseye"].isEnabled()
+    assert not any(box.isChecked() for box in sight.locks.values())
+
+
+def test_bone_before_the_target_is_said_with_its_depth_and_layers_end_there(author, form):
+    write(form.task.name, "X")
+    path = author.editor.exercise.plan.plan()
+    skin = {"name": "skin", "thickness_mm": 2.0}
+    bone = {"name": "bone", "thickness_mm": 3.0, "rigid": True}
+    author.editor.put("layers", value=[skin, bone])
+    form.show_page(6)
+    said = form.review.verdict.text()
+    assert said.startswith("▲ The exercise can be used, but: Bone stands in the way at 2 mm")
+    assert f"before the target at {path.length_mm:.0f} mm" in said
+    deep = skin | {"thickness_mm": path.length_mm + 1.0}
+    author.editor.put("layers", value=[deep, bone])
+    assert form.review.verdict.text() == "✔ The exercise can be used."
+
+
+def test_layers_from_a_ct_with_bone_on_the_path_come_with_a_warning(author, form):
+    write(form.task.name, "X")
+    form.effects.layers.from_ct.click()
+    layers = author.editor.get("layers")
+    length = author.editor.exercise.plan.plan().length_mm
+    before = sum(layer["thickness_mm"] for layer in layers[:-1])
+    assert layers[-1]["rigid"]
+    assert before < length
+    assert f"▲ {len(layers)} layers along the path" in said(form)
+    assert f"Bone stands in the way at {before:.0f} mm" in said(form)

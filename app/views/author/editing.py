@@ -210,6 +210,16 @@ def plain_words(problem: FieldProblem) -> str:
     return re.sub(r", got a (mapping|list) of \d+$", "", text)
 
 
+def bone_words(depth_mm: float, length_mm: float) -> str:
+    """Warn that the needle cannot reach the target."""
+    return tr(
+        "Bone stands in the way at {depth:.0f} mm, before the target at {length:.0f} mm: no needle "
+        "reaches it. Choose another entry.",
+        depth=depth_mm,
+        length=length_mm,
+    )
+
+
 PASS_MARK: Final = 75.0
 """Total needed to pass a new exercise: between what scripted novices and beginners score along a
 path of 75 mm."""

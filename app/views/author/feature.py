@@ -43,6 +43,7 @@ from app.session.pad.view import rings
 from app.views.author.editing import (
     ExerciseEditor,
     Where,
+    bone_words,
     finished,
     is_own,
     opened_document,
@@ -495,18 +496,23 @@ class AuthorFeature(Feature):
             why = tr("It takes a CT that is open, and an exercise without mistakes.")
             self._say(why, Verdict.BAD)
             return
-        from app.exercises.tissue import layers_along  # scipy
+        from app.exercises.tissue import bone_before, layers_along  # scipy
 
         try:
-            marked = self.context.editors.structures.structures
-            layers = layers_along(patient.volume, plan_of(exercise), tuple(marked))
+            marked, path = self.context.editors.structures.structures, plan_of(exercise)
+            layers = layers_along(patient.volume, path, tuple(marked))
         except AcusError as error:
             self._say(str(error), Verdict.BAD)
             return
         found = [layer.model_dump(mode="json", exclude_defaults=True) for layer in layers]
         self.editor.put("layers", value=found)
         names = ", ".join(layer.name for layer in layers)
-        self._say(tr("{count} layers along the path: {names}", count=len(layers), names=names))
+        said = tr("{count} layers along the path: {names}", count=len(layers), names=names)
+        bone = bone_before(layers, path.length_mm)
+        if bone is None:
+            self._say(said)
+        else:
+            self._say(f"{said}. {bone_words(bone, path.length_mm)}", Verdict.WARNING)
 
     def take_reading(self) -> None:
         """Take window and slab from the axial pane."""
