@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QEvent, QPoint, Qt
+from PySide6.QtGui import QKeyEvent, QKeySequence, QShortcut
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QFileDialog, QMessageBox
+from PySide6.QtWidgets import QApplication, QCheckBox, QFileDialog, QMessageBox
 from window_rig import plan
 
 from app.exercises.library import folders, load_exercise, versions
@@ -55,7 +56,7 @@ def said(dialog):
 def test_a_few_clicks_make_an_exercise_of_what_is_open(opened, author, form, settle):
     assert form.isVisible()
     assert not form.keep.isEnabled()
-    assert "title" in form.keep.toolTip()
+    assert form.keep.toolTip() == "Title: is empty: type something"
     write(form.task.name, "Lung, left")
     assert form.keep.isEnabled()
     QTest.mouseClick(form.keep, Qt.MouseButton.LeftButton)
@@ -149,7 +150,7 @@ def test_every_mistake_is_said_at_its_field_and_at_its_page(form, author):
     author.editor.put("tolerances", "angle_error", "good", value="two")
     note = next(one for where, one in form.score._notes if where == ("tolerances",))
     assert note.isVisibleTo(form.score)
-    assert "angle_error.good" in note.text()
+    assert "Angle error, good" in note.text()
     assert [mark.value for mark, _ in form.marks()] == ["good"] * 5 + ["bad", "bad"]
     assert form.list.item(5).text().startswith("✖")
     assert not form.attempt.isEnabled()
@@ -573,3 +574,53 @@ def test_layers_from_a_ct_with_bone_on_the_path_come_with_a_warning(author, form
     assert before < length
     assert f"▲ {len(layers)} layers along the path" in said(form)
     assert f"Bone stands in the way at {before:.0f} mm" in said(form)
+
+
+def test_the_keys_of_undo_are_the_forms_wherever_the_cursor_is(author, form):
+    write(form.task.name, "Title")
+    form.task.briefing.setFocus()
+    QTest.keyClicks(form.task.briefing, "Typed")
+    assert author.editor.get("description") == "Typed"
+    control, shift = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
+    for field in (form.task.briefing, form.task.name):
+        for key, modifiers in (
+            (Qt.Key.Key_Z, control),
+            (Qt.Key.Key_Y, control),
+            (Qt.Key.Key_Z, control | shift),
+        ):
+            press = QKeyEvent(QEvent.Type.ShortcutOverride, key, modifiers)
+            QApplication.sendEvent(field, press)
+            assert not press.isAccepted()  # else the field would undo letters of its own
+        press = QKeyEvent(QEvent.Type.ShortcutOverride, Qt.Key.Key_C, control)
+        QApplication.sendEvent(field, press)
+        assert press.isAccepted()
+    undo = next(one for one in form.findChildren(QShortcut) if one.key() == QKeySequence("Ctrl+Z"))
+    undo.activated.emit()
+    assert form.task.briefing.toPlainText() == ""
+
+
+@pytest.mark.parametrize(
+    ("where", "value", "words"),
+    [
+        (("title",), "x" * 121, "Title: is too long: at most 120 characters"),
+        (
+            ("effects", "lateral_tissue", "parameters", "stiffness"),
+            "soft",
+            "'soft' is no number: type one, such as 2.5",
+        ),
+        (
+            ("layers",),
+            [{"name": "x", "thickness_mm": "a"}],
+            "row 1, thickness mm: 'a' is no number",
+        ),
+        (("tolerances", "angle_error", "good"), "z", "Angle error, good: 'z' is no number"),
+        (("level",), 11, "Level (1 easiest): 11 is too large: at most 9"),
+    ],
+)
+def test_what_is_wrong_is_said_of_the_field_as_the_form_calls_it(author, form, where, value, words):
+    write(form.task.name, "X")
+    author.editor.put(*where, value=value)
+    form.show_page(6)
+    assert words in form.review.verdict.text()
+    assert "Input should" not in form.review.verdict.text()
+    assert "String should" not in form.keep.toolTip()

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from PySide6.QtCore import (
+    QEvent,
     QObject,
     QProcess,
     QProcessEnvironment,
@@ -19,11 +20,13 @@ from PySide6.QtCore import (
     Signal,
     SignalInstance,
 )
-from PySide6.QtGui import QCloseEvent, QKeySequence, QShortcut
+from PySide6.QtGui import QCloseEvent, QKeyEvent, QKeySequence, QShortcut
 from PySide6.QtWidgets import (
     QFileDialog,
     QHBoxLayout,
+    QLineEdit,
     QMessageBox,
+    QPlainTextEdit,
     QVBoxLayout,
     QWidget,
 )
@@ -47,7 +50,6 @@ from app.views.author.editing import (
     finished,
     is_own,
     opened_document,
-    plain_words,
     plan_document,
 )
 from app.views.author.pages import (
@@ -65,6 +67,7 @@ from app.views.author.pages import (
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
+from app.views.kit.field_words import problem_words
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.parts import button, label
 from app.views.kit.side_panel import scrolled
@@ -74,9 +77,26 @@ from app.views.kit.wizard import Wizard
 from app.views.shell.feature import Context, Feature
 from app.views.slices.panes import PaneId
 
+UNDO_KEYS = ("Ctrl+Z", "Ctrl+Y", "Ctrl+Shift+Z")
+
 COST_AFTER_MS = 400
 TRIAL_AFTER_MS = 700
 TRIAL_SEEDS = (2, 20)
+
+
+class _UndoOfTheForm(QObject):
+    """Keeps texts from undoing letters of their own: Ctrl+Z takes back the form's last step."""
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Leave the keys of undo and redo to the form's shortcuts."""
+        if event.type() is QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent):
+            keys = QKeySequence(event.keyCombination()).toString(
+                QKeySequence.SequenceFormat.PortableText
+            )
+            if keys in UNDO_KEYS:
+                event.ignore()
+                return True
+        return False
 
 
 class ExerciseDialog(Wizard):
@@ -97,7 +117,7 @@ class ExerciseDialog(Wizard):
         self.patient = PatientPage(editor, lambda: structures.structures)
         self.help, self.sight = HelpPage(editor), SightPage(editor)
         self.effects, self.score = EffectsPage(editor), ScorePage(editor)
-        self.review = ReviewPage(editor, self._file)
+        self.review = ReviewPage(editor, self._file, self.name_of)
         self.forms: tuple[Form, ...] = (
             self.task,
             self.patient,
@@ -120,6 +140,10 @@ class ExerciseDialog(Wizard):
             ("Ctrl+Shift+Z", editor.redo),
         ):
             QShortcut(QKeySequence(keys), self).activated.connect(command)
+        keeper = _UndoOfTheForm(self)
+        for kind in (QLineEdit, QPlainTextEdit):
+            for field in self.pages.findChildren(kind):
+                field.installEventFilter(keeper)
         self.undo.clicked.connect(editor.undo)
         self.redo.clicked.connect(editor.redo)
         self.may_close: Callable[[], bool] = lambda: True
@@ -154,9 +178,22 @@ class ExerciseDialog(Wizard):
         self.redo.setEnabled(self.editor.can_redo)
         for one in (self.keep, self.attempt, self.export):
             one.setEnabled(fine)
-            one.setToolTip("" if fine else first_problem(self.editor.problems))
+            one.setToolTip(self.first_problem())
         title = self.editor.get("title", default="") or tr("Exercise")
         self.setWindowTitle(f"{title} •" if self.editor.dirty else str(title))
+
+    def name_of(self, problem: FieldProblem) -> str:
+        """Name the field of a problem as the form calls it."""
+        for form in self.forms:
+            if problem.field and problem.field[0] in form.covers:
+                return form.name_of(problem)
+        return problem.name
+
+    def first_problem(self) -> str:
+        """Say the first thing that is wrong, with its field; empty where nothing is."""
+        problems = self.editor.problems
+        found = problems[0] if problems else None
+        return "" if found is None else f"{self.name_of(found)}: {problem_words(found)}"
 
     def say(self, text: str, verdict: Verdict = Verdict.GOOD) -> None:
         """Write the line above the buttons."""
@@ -279,11 +316,6 @@ class SkillTrial(QObject):
         self.found.emit(rows, seeds[0])
         if seeds[1:]:
             self._start(file, seeds[1:])
-
-
-def first_problem(problems: tuple[FieldProblem, ...]) -> str:
-    """Return the first thing that is wrong, with its field."""
-    return "" if not problems else f"{problems[0].name}: {plain_words(problems[0])}"
 
 
 class AuthorFeature(Feature):
@@ -580,7 +612,8 @@ class AuthorFeature(Feature):
         """Return the exercise with its structures written; None where something is wrong."""
         exercise, problems = self.editor.exercise, self.editor.problems
         if exercise is None or problems:
-            self._say(first_problem(problems), Verdict.BAD)
+            if self.dialog is not None:
+                self._say(self.dialog.first_problem(), Verdict.BAD)
             return None
         structures = self.context.editors.structures.structures
         try:

@@ -40,9 +40,10 @@ from app.scoring import metrics
 from app.scoring.defaults import PUBLISHED_TOLERANCES
 from app.simulation import effects
 from app.simulation.needles import OUTER_DIAMETER
-from app.views.author.editing import DRAWN, ExerciseEditor, Where, bone_words, plain_words
+from app.views.author.editing import DRAWN, ExerciseEditor, Where, bone_words
 from app.views.kit import theme
 from app.views.kit.coordinates import lps_words
+from app.views.kit.field_words import place_words, problem_words
 from app.views.kit.parts import button, column, label, table
 from app.views.kit.text import tr
 from app.views.kit.wheel import wheel_scrolls
@@ -73,13 +74,32 @@ class Form(QWidget):
             load()
         for where, note in self._notes:
             found = self.editor.problems_at(*where)
-            note.setText("\n".join(_sentence(one, where) for one in found))
+            note.setText("\n".join(self._sentence(one, where) for one in found))
             note.setVisible(bool(found))
 
     @property
     def problems(self) -> list[FieldProblem]:
         """What is wrong with the fields of this page."""
         return [one for one in self.editor.problems if one.field and one.field[0] in self.covers]
+
+    def _sentence(self, problem: FieldProblem, where: Where) -> str:
+        """Say what is wrong, and where within the field if it is a part of it."""
+        inner = self.inner_words(problem.field[len(where) :])
+        text = problem_words(problem)
+        return f"✖ {inner}: {text}" if inner else f"✖ {text}"
+
+    def inner_words(self, parts: Sequence[str | int]) -> str:
+        """Say where within a field of this page something stands."""
+        return place_words(parts)
+
+    def name_of(self, problem: FieldProblem) -> str:
+        """Name the field of a problem as this page calls it."""
+        for length in range(len(problem.field), 0, -1):
+            where = tuple(map(str, problem.field[:length]))
+            if where in self.names:
+                inner = self.inner_words(problem.field[length:])
+                return ", ".join(filter(None, (self.names[where].text(), inner)))
+        return ", ".join(filter(None, (self.title, self.inner_words(problem.field[1:]))))
 
     # --- kinds of fields ------------------------------------------------------------------------
     def add(self, where: Where, name: str, widget: QWidget, load: Callable[[], None]) -> None:
@@ -251,13 +271,6 @@ def _show_line(line: QLineEdit, text: object) -> None:
     if line.text() != str(text):
         with QSignalBlocker(line):
             line.setText(str(text))
-
-
-def _sentence(problem: FieldProblem, where: Where) -> str:
-    """Say what is wrong, and where within the field if it is a part of it."""
-    inner = ".".join(str(part) for part in problem.field[len(where) :])
-    text = plain_words(problem)
-    return f"✖ {inner}: {text}" if inner else f"✖ {text}"
 
 
 # --- pages --------------------------------------------------------------------------------------
@@ -1109,6 +1122,13 @@ class ScorePage(Form):
         )
         self.rows.addWidget(self.drawn)
 
+    def inner_words(self, parts: Sequence[str | int]) -> str:
+        """Name a metric by its title."""
+        known = self.metrics.get(str(parts[0])) if parts else None
+        if known is None:
+            return super().inner_words(parts)
+        return ", ".join(filter(None, (known.title, super().inner_words(parts[1:]))))
+
     def showEvent(self, event: QShowEvent) -> None:
         """Tell that somebody looks."""
         super().showEvent(event)
@@ -1165,9 +1185,14 @@ class ScorePage(Form):
 class ReviewPage(Form):
     """All that is wrong, and the file that it will be."""
 
-    def __init__(self, editor: ExerciseEditor, text: Callable[[], str]) -> None:
+    def __init__(
+        self,
+        editor: ExerciseEditor,
+        text: Callable[[], str],
+        named: Callable[[FieldProblem], str],
+    ) -> None:
         super().__init__(editor, tr("Check and keep"), ())
-        self._text = text
+        self._text, self._named = text, named
         self.verdict = label()
         self.file = QPlainTextEdit(self)
         self.file.setReadOnly(True)
@@ -1178,7 +1203,7 @@ class ReviewPage(Form):
     def load(self) -> None:
         """Say what is wrong, or that nothing is; show the file."""
         super().load()
-        said = [f"✖ {one.name}: {plain_words(one)}" for one in self.editor.problems]
+        said = [f"✖ {self._named(one)}: {problem_words(one)}" for one in self.editor.problems]
         warned = "" if said else self._warning()
         self.verdict.setText(
             "\n".join(said)
