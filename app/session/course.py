@@ -13,7 +13,7 @@ from typing import Annotated, Any, Final
 import yaml
 from pydantic import Field, model_validator
 
-from app.core.configuration import Strict, load, parse
+from app.core.configuration import Strict, load
 from app.core.errors import ConfigurationError
 from app.core.files import write_atomically
 from app.exercises.guidance import Purpose
@@ -131,11 +131,6 @@ def read_course(path: Path) -> Course:
         ConfigurationError: naming file, field, value and what would be valid.
     """
     return load(path, Course)
-
-
-def course_of(document: Mapping[str, Any], origin: str) -> Course:
-    """Return a course of what was typed; raises ConfigurationError naming field and value."""
-    return parse(document, Course, origin)
 
 
 def find_course(name: str, folder: Path | None = None) -> Course:

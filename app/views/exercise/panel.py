@@ -400,6 +400,9 @@ class ExercisePanel(QWidget):
         elif self._signed_in:
             self.student.setText(self._typed)
         self._signed_in = ACCESS.student is not None
+        self.student.setPlaceholderText(
+            tr("anonymous (instructor signed in)") if ACCESS.instructor else tr("anonymous")
+        )
         self._enable()
 
     def _enable(self) -> None:

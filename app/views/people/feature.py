@@ -129,7 +129,7 @@ class PeopleFeature(Feature):
         for task in tuple(self._running):
             task.close()
         if self.dialog is not None:
-            self.dialog.close()
+            self.dialog.done(QDialog.DialogCode.Rejected)  # whatever it would ask
         ACCESS.sign_in(None)
         ACCESS.learn(Known())
 
@@ -179,6 +179,7 @@ class PeopleFeature(Feature):
                     "station's key in a backup. It is kept nowhere."
                 ),
                 recovery,
+                once=True,
             )
 
         fields = ((tr("New password"), True), (tr("Again"), True))
@@ -311,6 +312,7 @@ class PeopleFeature(Feature):
                     tr("PIN"),
                     tr("Hand this out; it is kept nowhere."),
                     f"{person.pseudonym}  {drawn}",
+                    once=True,
                 )
 
         fields = [(name, False) for name in names]
@@ -350,7 +352,8 @@ class PeopleFeature(Feature):
         self.noted.emit(tr("{n} students added, {m} updated", n=added, m=updated))
         if report.pins:
             pins = "\n".join(f"{name}\t{pin}" for name, pin in report.pins.items())
-            self._tell(tr("PINs"), tr("Hand these out; they are kept nowhere."), pins)
+            words = tr("Hand these out; they are kept nowhere.")
+            self._tell(tr("PINs"), words, pins, once=True)
 
     def new_pin(self) -> None:
         """Draw another PIN for the student who is chosen."""
@@ -360,9 +363,8 @@ class PeopleFeature(Feature):
         if person is not None:
             pin = f"{secrets.randbelow(10**6):06d}"
             self._try(lambda: self._people.set_pin(person.pseudonym, pin))
-            self._tell(
-                tr("PIN"), tr("Hand this out; it is kept nowhere."), f"{person.pseudonym}  {pin}"
-            )
+            words = tr("Hand this out; it is kept nowhere.")
+            self._tell(tr("PIN"), words, f"{person.pseudonym}  {pin}", once=True)
 
     def assign(self) -> None:
         """Ask which typed name of old records is the student's who is chosen."""
@@ -449,7 +451,9 @@ class PeopleFeature(Feature):
             edited.save()
             self._changed()
 
-        self._open(CourseDialog(course, self._exercises(), take, self._shell.dialog_parent))
+        groups = sorted({name for one in self._people.everybody() for name in one.groups})
+        parent = self._shell.dialog_parent
+        self._open(CourseDialog(course, self._exercises(), take, groups, parent))
 
     def begin_of_course(self, standing: CourseStanding) -> None:
         """Begin an exercise of a course, or say why that cannot be."""
@@ -627,8 +631,8 @@ class PeopleFeature(Feature):
         self._running.append(task)
         task.finished.connect(lambda: self._running.remove(task))
 
-    def _tell(self, title: str, words: str, text: str) -> None:
-        self._open(text_dialog(title, words, text, self._shell.dialog_parent))
+    def _tell(self, title: str, words: str, text: str, once: bool = False) -> None:
+        self._open(text_dialog(title, words, text, self._shell.dialog_parent, once))
 
     def _open(self, dialog: QDialog) -> None:
         self.dialog = dialog
