@@ -4,6 +4,7 @@ from dataclasses import replace
 from threading import Event
 from types import SimpleNamespace
 
+import pyqtgraph as pg
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
@@ -15,6 +16,7 @@ from app.studies.findings import Findings, Sheet
 from app.studies.hard import COLUMNS
 from app.studies.kept import kept, kept_names
 from app.views.accuracy.budget import EffectCost, SceneCost, advice, lowering, too_much
+from app.views.accuracy.diagram import Diagram
 from app.views.accuracy.feature import AccuracyFeature
 from app.views.accuracy.page import AccuracyPage, share_words
 
@@ -194,3 +196,44 @@ def test_while_something_is_measured_nothing_else_can_be_and_cancel_is_answered(
     assert seen == [True]
     assert page.hard.run.isEnabled()
     assert window.message_bar.isHidden()
+
+
+def test_no_diagram_has_a_factor_beside_its_axis_or_a_label_cut_at_its_edge(window, settle) -> None:
+    diagram = Diagram(window)
+    diagram.resize(1060, 300)
+    diagram.show()
+    for name in kept_names():
+        study = kept(name)
+        diagram.show_study(study)
+        settle()
+        axis = diagram.plot.getAxis("bottom")
+        assert not axis.autoSIPrefix
+        assert "(x" not in axis.labelString()
+        (low, high), _ = diagram.plot.viewRange()
+        levels = axis.tickValues(low, high, 900.0)
+        ticks = [one for _, values in levels for one in values]
+        assert len(ticks) >= 2
+        words = axis.logTickStrings(ticks, 1.0, 1.0)
+        assert all("10" in one and "e" not in one for one in words)
+        assert high - low < 25.0  # decades: a way that blows up stands at the edge
+        box = diagram.plot.getViewBox()
+        whole = box.mapRectToScene(box.boundingRect())
+        for item in diagram.plot.getPlotItem().items:
+            text = item.label if isinstance(item, pg.InfiniteLine) else item
+            if isinstance(text, pg.TextItem):
+                at = text.mapRectToScene(text.boundingRect())
+                assert at.left() >= whole.left() - 1.0, (name, text.toPlainText())
+                assert at.right() <= whole.right() + 1.0, (name, text.toPlainText())
+    diagram.close()
+
+
+def test_four_ways_of_a_study_are_seen_in_a_low_window(window, settle) -> None:
+    window.resize(1366, 768)
+    feature = window.feature(AccuracyFeature)
+    feature.open_page()
+    for name in kept_names():
+        feature.page.choose(name)
+        settle()
+        ways = feature.page.ways
+        last = min(4, ways.rowCount()) - 1
+        assert ways.visualItemRect(ways.item(last, 0)).bottom() <= ways.viewport().height(), name

@@ -27,6 +27,9 @@ if TYPE_CHECKING:
     from app.studies.findings import Findings
     from app.studies.kept import Kept
 
+SHOWN_ROWS = 4
+"""So many rows of a table are seen at once, however low the window."""
+
 NAME = Qt.ItemDataRole.UserRole
 
 
@@ -114,6 +117,7 @@ class AccuracyPage(QWidget):
         super().__init__(parent)
         self.studies = QListWidget(self)
         self.studies.setMinimumWidth(theme.px(240))
+        self.studies.setResizeMode(QListWidget.ResizeMode.Adjust)
         self.studies.setWordWrap(True)
         self.studies.setTextElideMode(Qt.TextElideMode.ElideNone)
         self.studies.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -244,6 +248,9 @@ class AccuracyPage(QWidget):
             )
             for place, text in enumerate(cells):
                 self.ways.setItem(row, place, QTableWidgetItem(text))
+        shown = sum(self.ways.rowHeight(row) for row in range(min(SHOWN_ROWS, len(points))))
+        head = self.ways.horizontalHeader().sizeHint().height()
+        self.ways.setMinimumHeight(head + shown + 2 * self.ways.frameWidth() + theme.SPACING)
 
     def _choose(self, *_: object) -> None:
         if self.name:
