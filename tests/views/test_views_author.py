@@ -485,7 +485,7 @@ def test_what_skills_would_score_is_tried_while_the_page_is_looked_at_and_left_o
     assert form.score.skills.scores == {"novice": [40.0, 50.0], "expert": [98.0, 99.0, 100.0]}
     assert "novice 40, 50" in form.score.skills.accessibleDescription()
     assert not form.score.skills.grab().isNull()
-    assert "1 attempts" in form.score.tried.text()
+    assert "1 attempt of each skill" in form.score.tried.text()
     before = len(left)
     author.editor.put("title", value="Other words")
     settle(lambda: False, 0.1)

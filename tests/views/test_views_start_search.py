@@ -130,6 +130,6 @@ def test_f5_begins_the_exercise_that_is_chosen(page, settle):
 
 
 def test_the_hardest_level_has_room_for_all_of_its_discs(page):
-    font = QFont(page.font())
+    font = QFont(page[0].font())
     font.setPixelSize(theme.FONT_PX)
     assert QFontMetrics(font).horizontalAdvance("●" * 9) <= dict(COLUMNS)["level"]

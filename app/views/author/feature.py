@@ -71,7 +71,7 @@ from app.views.kit.field_words import problem_words
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.parts import button, label
 from app.views.kit.side_panel import scrolled
-from app.views.kit.text import tr
+from app.views.kit.text import counted, tr
 from app.views.kit.verdict import Verdict
 from app.views.kit.wizard import Wizard
 from app.views.shell.feature import Context, Feature
@@ -812,7 +812,9 @@ class AuthorFeature(Feature):
         if exercise is None or dialog is None:
             return
         dialog.score.skills.show_scores(rows, exercise.rules.pass_mark)
-        said = tr("{n} attempts of each skill, without structures of risk", n=seeds)
+        one = tr("1 attempt of each skill, without structures of risk")
+        many = tr("{n} attempts of each skill, without structures of risk", n=seeds)
+        said = counted(seeds, one, many)
         if self.trial.running or seeds < TRIAL_SEEDS[-1]:
             said += "; " + tr("more are on their way …")
         dialog.score.tried.setText(said)

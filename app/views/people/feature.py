@@ -37,7 +37,7 @@ from app.views.kit.access import ACCESS, Known
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
-from app.views.kit.text import tr
+from app.views.kit.text import counted, tr
 from app.views.people.pages import (
     GROUP_PDF,
     STUDENT_PDF,
@@ -471,7 +471,9 @@ class PeopleFeature(Feature):
         ids = list(self._look.waiting.get(course.id, ())) if self._look is not None else []
         box = QMessageBox(self._shell.dialog_parent)
         box.setWindowTitle(tr("Release results"))
-        box.setText(tr("Release {n} results of {title}?", n=len(ids), title=course.title))
+        many = tr("Release {n} results of {title}?", n=len(ids), title=course.title)
+        one = tr("Release 1 result of {title}?", title=course.title)
+        box.setText(counted(len(ids), one, many))
         box.setInformativeText(
             tr("Their students see score, replay and your comments then. Each can be held back.")
         )
@@ -481,7 +483,8 @@ class PeopleFeature(Feature):
         def answered(clicked: object) -> None:
             if clicked is release and ids and self._may():
                 self._try(lambda: self._people.remark_all(ids, released=True))
-                self.noted.emit(tr("{n} results released", n=len(ids)))
+                many = tr("{n} results released", n=len(ids))
+                self.noted.emit(counted(len(ids), tr("1 result released"), many))
                 self._changed()
 
         box.buttonClicked.connect(answered)

@@ -52,7 +52,7 @@ from app.views.kit.field_words import problem_words
 from app.views.kit.names import NAMES
 from app.views.kit.parts import button, label, table
 from app.views.kit.settings_dialog import SettingsDialog
-from app.views.kit.text import tr
+from app.views.kit.text import counted, tr
 from app.views.kit.verdict import Verdict, tell
 from app.views.kit.wheel import wheel_scrolls
 
@@ -93,7 +93,8 @@ def since_words(since: datetime.timedelta) -> str:
 
 def cell_details(cell: BoardCell) -> str:
     """Say the rest of a cell: how many count, the trend, what does not count and why."""
-    lines = [tr("{n} attempts count", n=cell.attempts)]
+    many = tr("{n} attempts count", n=cell.attempts)
+    lines = [counted(cell.attempts, tr("1 attempt counts"), many)]
     if cell.trend is not None:
         lines.append(tr("trend {trend:+.1f} points a time", trend=cell.trend))
     lines += [tr("{n} not counted: {why}", n=n, why=why) for why, n in cell.why]
