@@ -151,7 +151,13 @@ def test_a_breath_held_on_command_is_told_recorded_and_recomputed(tmp_path: Path
     told = [event.message.split(",")[0] for event in recording.events if event.kind == "breath"]
     hold = ["the patient is told to hold", "the patient holds the breath"]
     may = "the patient may breathe"
-    assert told == [*hold, "the patient has to breathe: let him", may, *hold, may]
+    assert told == [
+        *hold,
+        "the patient could hold no longer and breathes: release him",
+        may,
+        *hold,
+        may,
+    ]
     left = [seen[time].left for time in sorted(seen) if seen[time].held]
     assert left[0] == pytest.approx(19.0, abs=0.3)
     assert min(left) < 0.2

@@ -213,14 +213,18 @@ def erase(
 
     people = People()
     instructor(people)
-    gone, typed = erase_person(pseudonym, records_folder(folder), records, people)
-    lines = [f"{pseudonym} was erased, with {gone} records"]
-    if typed:
+    found = erase_person(pseudonym, records_folder(folder), records, people)
+    lines = [
+        f"{pseudonym} was erased; records deleted: {found.deleted}, kept as nobody's: "
+        f"{found.anonymous}"
+    ]
+    if found.typed:
         lines.append(
-            f"{typed} older records hold the name that was typed: erase with --records to be rid "
-            "of them"
+            f"{found.typed} older records hold the name that was typed: erase with --records to be "
+            "rid of them"
         )
-    return Answer({"pseudonym": pseudonym, "records": gone, "typed": typed}, lines)
+    facts = {"pseudonym": pseudonym, "records": found.deleted, "typed": found.typed}
+    return Answer(facts | {"anonymous": found.anonymous}, lines)
 
 
 def set_instructor(

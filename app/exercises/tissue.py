@@ -53,6 +53,21 @@ def layers_along(
     return tuple(layers)
 
 
+def bone_before(layers: Sequence[LayerPart], length_mm: float) -> float | None:
+    """Return the depth at which bone stands in the way of a target, None where it does not [mm].
+
+    Args:
+        layers: from the skin inwards.
+        length_mm: of the path, from the entry to the target.
+    """
+    depth = 0.0
+    for layer in layers:
+        if layer.rigid:
+            return depth if depth < length_mm else None
+        depth += layer.thickness_mm
+    return None
+
+
 def with_tissue(
     exercise: Exercise, volume: Volume | None, plan: Plan, structures: Sequence[Structure] = ()
 ) -> Exercise:

@@ -20,7 +20,7 @@ from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 from uuid import uuid4
 
 from app import __version__
@@ -178,10 +178,24 @@ def restore_backup(
     return found
 
 
+class Erased(NamedTuple):
+    """What became of the records of somebody who was erased.
+
+    Attributes:
+        deleted: how many went.
+        anonymous: how many stay as nobody's.
+        typed: how many stay and hold the name that was typed.
+    """
+
+    deleted: int
+    anonymous: int
+    typed: int
+
+
 def erase_person(
     pseudonym: str, folder: Path, delete_records: bool, people: People | None = None
-) -> tuple[int, int]:
-    """Erase a person for good; return how many records went, and how many keep a typed name.
+) -> Erased:
+    """Erase a person for good; return what became of the records.
 
     Name, PIN, groups, comments and assignments go. Records of attempts made signed in hold a random
     key only: they go too, or stay as nobody's. Older records may hold a name that was typed: what
@@ -206,8 +220,9 @@ def erase_person(
     if delete_records:
         finish_erasing(folder, people)
         index.refresh()
-        return len(ids), 0
-    return 0, sum(student in texts for student in own.values())
+        return Erased(len(ids), 0, 0)
+    typed = sum(student in texts for student in own.values())
+    return Erased(0, len(own) - typed, typed)
 
 
 def finish_erasing(folder: Path, people: People) -> int:

@@ -13,7 +13,7 @@ from typing import Annotated, Any, Final
 import yaml
 from pydantic import Field, model_validator
 
-from app.core.configuration import Strict, load, parse
+from app.core.configuration import Strict, load
 from app.core.errors import ConfigurationError
 from app.core.files import write_atomically
 from app.exercises.guidance import Purpose
@@ -133,11 +133,6 @@ def read_course(path: Path) -> Course:
     return load(path, Course)
 
 
-def course_of(document: Mapping[str, Any], origin: str) -> Course:
-    """Return a course of what was typed; raises ConfigurationError naming field and value."""
-    return parse(document, Course, origin)
-
-
 def find_course(name: str, folder: Path | None = None) -> Course:
     """Return a course by its id.
 
@@ -195,7 +190,8 @@ def why_not(
         return f"it closed on {item.closes}"
     done = attempts_used(own, item)
     if item.attempts is not None and len(done) >= item.attempts:
-        return f"all {item.attempts} attempts are used"
+        many = item.attempts > 1
+        return f"all {item.attempts} attempts are used" if many else "the one attempt is used"
     if course.ordered and place > 0:
         before = course.items[place - 1]
         tries = attempts_used(own, before)
@@ -203,6 +199,49 @@ def why_not(
         if not used and not any(one.passed for one in tries):
             return f"first pass {titled.get(before.exercise, before.exercise)}"
     return ""
+
+
+def assessed_by(known: Iterable[Course]) -> dict[str, list[Course]]:
+    """Return which exercises courses hold as assessments, by id: nobody rehearses those."""
+    found: dict[str, list[Course]] = {}
+    for course in known:
+        for item in course.items:
+            if item.purpose is Purpose.ASSESSMENT:
+                found.setdefault(item.exercise, []).append(course)
+    return found
+
+
+def refusals(
+    known: Sequence[Course],
+    person: Person,
+    own: Sequence[Indexed],
+    today: datetime.date,
+    titles: Mapping[str, str] | None = None,
+) -> dict[str, str]:
+    """Say which exercises a student may not begin, by id, and why.
+
+    The courses that he takes decide; an assessment of others is not his to begin.
+
+    Args:
+        known: all courses.
+        person: the student.
+        own: his attempts, those that are void left out.
+        today: by the station's calendar.
+        titles: of exercises, as people read them.
+    """
+    taken = [course for course in known if course.takes(person)]
+    mine = {item.exercise for course in taken for item in course.items}
+    found = {
+        name: f"it is an assessment of the course {held[0].title}, which you do not take: ask the "
+        "instructor"
+        for name, held in assessed_by(known).items()
+        if name not in mine
+    }
+    for course in taken:
+        for item in course.items:
+            if why := why_not(course, item.exercise, own, today, titles):
+                found[item.exercise] = why
+    return found
 
 
 @dataclass(frozen=True, slots=True)

@@ -308,7 +308,7 @@ class BreathWatch:
         if now.held and not before.held:
             return f"the patient holds the breath, for {now.left:.0f} s at most"
         if now.spent and not before.spent:
-            return "the patient has to breathe: let him, and ask again"
+            return "the patient could hold no longer and breathes: release him, and ask again"
         if now.asked != before.asked:
             return "the patient is told to hold" if now.asked else "the patient may breathe"
         return ""

@@ -122,7 +122,7 @@ def test_a_record_that_is_another_one_here_is_kept_and_said(one: Place, tmp_path
 def test_erasing_leaves_the_record_anonymous_or_takes_it_too(one: Place) -> None:
     key = one.people.find("Ada").key
     one.people.assign("typed ada", "Ada")
-    assert erase_person("Ada", one.folder, delete_records=False) == (0, 2)
+    assert erase_person("Ada", one.folder, delete_records=False) == (0, 1, 2)
     assert len(records(one.folder)) == 3
     assert {s.signature for s in list_sessions(one.folder)} == {"verified"}
     assert key in {s.student for s in list_sessions(one.folder)}
@@ -134,7 +134,7 @@ def test_a_backup_brings_nobody_back_who_was_erased(one: Place, tmp_path: Path) 
     one.people.add(RosterLine("Bob"))
     delete(one.folder, list_sessions(one.folder)[0].id)
     backup(tmp_path / "b", one.folder)
-    assert erase_person("Ada", one.folder, delete_records=True) == (3, 0)
+    assert erase_person("Ada", one.folder, delete_records=True) == (3, 0, 0)
     assert list(one.folder.glob("*.mcap")) == list((one.folder / TRASH).iterdir()) == []
     done = restore_backup(tmp_path / "b", one.folder, replace_people=True)
     assert (done.records, done.erased, done.people) == (0, 3, "restored")

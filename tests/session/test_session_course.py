@@ -17,11 +17,13 @@ from app.session.course import (
     Course,
     CourseError,
     CourseItem,
+    assessed_by,
     courses,
     courses_folder,
     find_course,
     pinned_problems,
     read_course,
+    refusals,
     why_not,
 )
 from app.session.index import Indexed
@@ -203,6 +205,23 @@ def test_days_attempts_and_order_decide_who_may_begin() -> None:
     cut = attempt("a3", "p-a", None, state="unfinished")
     assert why_not(COURSE, "lung", [one, cut], inside) == "all 2 attempts are used"
     assert why_not(COURSE, "lung", [one, attempt("s", "p-a", 9, scripted="x")], inside) == ""
+
+
+def test_an_assessment_of_a_course_is_closed_to_who_does_not_take_it() -> None:
+    day = date(2026, 11, 20)
+    items = (
+        CourseItem(exercise="ribs", attempts=1, purpose=Purpose.ASSESSMENT),
+        CourseItem(exercise="lung"),
+    )
+    course = Course(id="c", title="Autumn", groups=("A",), items=items)
+    assert list(assessed_by([course])) == ["ribs"]
+    assert refusals([course], ADA, [], day) == {}
+    assert "Autumn, which you do not take" in refusals([course], BOB, [], day)["ribs"]
+    assert "lung" not in refusals([course], BOB, [], day)
+    used = attempt("a1", "p-a", 50, exercise="ribs")
+    assert refusals([course], ADA, [used], day) == {"ribs": "the one attempt is used"}
+    practice = Course(id="d", title="D", items=(CourseItem(exercise="ribs"),))
+    assert refusals([course, practice], BOB, [], day) == {}
 
 
 def test_a_pinned_version_that_the_library_does_not_have_is_said() -> None:

@@ -1,11 +1,15 @@
 """The scene's effects in their panel, and what accuracy costs on its page."""
 
 from dataclasses import replace
+from threading import Event
 from types import SimpleNamespace
 
+import pyqtgraph as pg
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QToolButton
 from views_exercise_fakes import snapshot, statistics
 from window_rig import plan
 
@@ -15,6 +19,7 @@ from app.studies.findings import Findings, Sheet
 from app.studies.hard import COLUMNS
 from app.studies.kept import kept, kept_names
 from app.views.accuracy.budget import EffectCost, SceneCost, advice, lowering, too_much
+from app.views.accuracy.diagram import Diagram
 from app.views.accuracy.feature import AccuracyFeature
 from app.views.accuracy.page import AccuracyPage, share_words
 
@@ -42,6 +47,10 @@ def test_no_effect_is_blamed_for_what_other_programs_take() -> None:
     assert "20.0 % of the ticks come too late" in said
     assert "no effect of this scene is the reason" in said
     assert advice((), float("nan"), 1e-3, 0.0) == ""
+    little = replace(DEAR, costs={"fine": 2e-6, "rough": 1e-6})
+    assert lowering((little,)) is not None
+    assert lowering((little,), 1e-3) is None  # no button where no effect is the reason
+    assert "no effect of this scene is the reason" in advice((little,), 1e-5, 1e-3, 0.2)
 
 
 @pytest.mark.parametrize(("share", "words"), [(12.0, "12 times"), (0.5, "50 %"), (1e-4, "0.01 %")])
@@ -88,6 +97,23 @@ def test_a_model_is_chosen_in_the_panel_and_shown(running, settle) -> None:
     settle()
     rows = {row.effect.name: row for row in panel.rows}
     assert rows["lateral_tissue"].effect.model == "winkler"
+
+
+def test_the_wheel_over_a_model_without_the_keyboard_changes_no_model(running, settle) -> None:
+    panel = running.panel
+    running._shell.show_panel(panel)
+    settle()
+    box = next((row.models for row in panel.rows if row.models.isEnabled()), None)
+    if box is None:
+        pytest.skip("the exercise that is open first has no effects to choose a model of")
+    before, where = box.currentIndex(), QPointF(box.rect().center())
+    button, keys = Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier
+    for angle in (-120, 120):
+        turned = QPoint(0, angle)
+        phase = Qt.ScrollPhase.NoScrollPhase
+        wheel = QWheelEvent(where, where, QPoint(), turned, button, keys, phase, False)
+        QApplication.sendEvent(box, wheel)
+        assert box.currentIndex() == before
 
 
 def test_a_model_that_is_kept_goes_back_and_says_why(running, settle, monkeypatch) -> None:
@@ -139,3 +165,95 @@ def test_the_keys_of_the_attempt_work_whichever_panel_is_in_front(running, windo
     for key in (Qt.Key.Key_S, Qt.Key.Key_A, Qt.Key.Key_Return):
         QTest.keyClick(window.workspace, key)
     assert asked == ["scan", "breath", "end"]
+
+
+def test_a_warning_brings_no_button_that_helps_nobody_and_moves_nothing(running, settle) -> None:
+    panel = running.panel
+    running._shell.show_panel(panel)
+    settle()
+    little = replace(DEAR, costs={"fine": 2e-6, "rough": 1e-6})
+    placed, places = running._runs.run.placed, []
+    for number, (effect, missed, lowered) in enumerate(
+        ((DEAR, 0, False), (little, 300, False), (DEAR, 300, True))
+    ):
+        panel.clear()
+        panel.show_scene(SceneCost((effect,), {}), "")
+        cost = 5e-6 if not lowered else 9e-4
+        start = 1e6 * (number + 1)
+        for time, ticks, late in ((start, 1000, 0), (start + 1.0, 2000, missed)):
+            timing = SimpleNamespace(cost=cost, rate_hz=1000.0, ticks=ticks, missed=late)
+            panel.show_snapshot(snapshot(placed, timing=timing, time=time), 0.0)
+        settle()
+        assert panel.lowering.isVisible() == lowered
+        places.append(panel.rows[0].y())
+    assert len(set(places)) == 1
+
+
+def test_while_something_is_measured_nothing_else_can_be_and_cancel_is_answered(
+    window, settle, monkeypatch
+) -> None:
+    feature = window.feature(AccuracyFeature)
+    feature.open_page()
+    page, seen, free = feature.page, [], Event()
+
+    def measure(name, progress):
+        while not free.wait(0.01):
+            pass
+        progress.report(0.5, "further")
+
+    monkeypatch.setattr("app.views.accuracy.feature._measure", measure)
+    page.measure.click()
+    assert not page.measure.isEnabled()
+    assert not page.hard.run.isEnabled()
+    feature.measure(page.name)
+    assert "cancel it at the top" in window.message_bar.text
+    feature.measured.connect(lambda: seen.append(page.measure.isEnabled()))
+    (cancel,) = [one for one in window.progress.findChildren(QToolButton) if one.isEnabled()]
+    cancel.click()
+    assert (cancel.text(), cancel.isEnabled()) == ("Cancelling…", False)
+    free.set()
+    assert settle(lambda: bool(seen))
+    assert seen == [True]
+    assert page.hard.run.isEnabled()
+    assert window.message_bar.isHidden()
+
+
+def test_no_diagram_has_a_factor_beside_its_axis_or_a_label_cut_at_its_edge(window, settle) -> None:
+    diagram = Diagram(window)
+    diagram.resize(1060, 300)
+    diagram.show()
+    for name in kept_names():
+        study = kept(name)
+        diagram.show_study(study)
+        settle()
+        axis = diagram.plot.getAxis("bottom")
+        assert not axis.autoSIPrefix
+        assert "(x" not in axis.labelString()
+        (low, high), _ = diagram.plot.viewRange()
+        levels = axis.tickValues(low, high, 900.0)
+        ticks = [one for _, values in levels for one in values]
+        assert len(ticks) >= 2
+        words = axis.logTickStrings(ticks, 1.0, 1.0)
+        assert all("10" in one and "e" not in one for one in words)
+        assert high - low < 25.0  # decades: a way that blows up stands at the edge
+        box = diagram.plot.getViewBox()
+        whole = box.mapRectToScene(box.boundingRect())
+        for item in diagram.plot.getPlotItem().items:
+            text = item.label if isinstance(item, pg.InfiniteLine) else item
+            if isinstance(text, pg.TextItem):
+                at = text.mapRectToScene(text.boundingRect())
+                assert at.left() >= whole.left() - 1.0, (name, text.toPlainText())
+                assert at.right() <= whole.right() + 1.0, (name, text.toPlainText())
+    diagram.close()
+
+
+def test_four_ways_of_a_study_are_seen_in_a_low_window(window, settle) -> None:
+    window.resize(1366, 768)
+    feature = window.feature(AccuracyFeature)
+    feature.open_page()
+    for name in kept_names():
+        feature.page.choose(name)
+        settle()
+        ways = feature.page.ways
+        last = min(4, ways.rowCount()) - 1
+        assert ways.visualItemRect(ways.item(last, 0)).bottom() <= ways.viewport().height(), name

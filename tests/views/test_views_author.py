@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QEvent, QPoint, Qt
+from PySide6.QtGui import QKeyEvent, QKeySequence, QShortcut
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QFileDialog, QMessageBox
+from PySide6.QtWidgets import QApplication, QCheckBox, QFileDialog, QMessageBox
 from window_rig import plan
 
 from app.exercises.library import folders, load_exercise, versions
@@ -55,7 +56,7 @@ def said(dialog):
 def test_a_few_clicks_make_an_exercise_of_what_is_open(opened, author, form, settle):
     assert form.isVisible()
     assert not form.keep.isEnabled()
-    assert "title" in form.keep.toolTip()
+    assert form.keep.toolTip() == "Title: is empty: type something"
     write(form.task.name, "Lung, left")
     assert form.keep.isEnabled()
     QTest.mouseClick(form.keep, Qt.MouseButton.LeftButton)
@@ -149,7 +150,7 @@ def test_every_mistake_is_said_at_its_field_and_at_its_page(form, author):
     author.editor.put("tolerances", "angle_error", "good", value="two")
     note = next(one for where, one in form.score._notes if where == ("tolerances",))
     assert note.isVisibleTo(form.score)
-    assert "angle_error.good" in note.text()
+    assert "Angle error, good" in note.text()
     assert [mark.value for mark, _ in form.marks()] == ["good"] * 5 + ["bad", "bad"]
     assert form.list.item(5).text().startswith("✖")
     assert not form.attempt.isEnabled()
@@ -484,7 +485,7 @@ def test_what_skills_would_score_is_tried_while_the_page_is_looked_at_and_left_o
     assert form.score.skills.scores == {"novice": [40.0, 50.0], "expert": [98.0, 99.0, 100.0]}
     assert "novice 40, 50" in form.score.skills.accessibleDescription()
     assert not form.score.skills.grab().isNull()
-    assert "1 attempts" in form.score.tried.text()
+    assert "1 attempt of each skill" in form.score.tried.text()
     before = len(left)
     author.editor.put("title", value="Other words")
     settle(lambda: False, 0.1)
@@ -521,3 +522,105 @@ def test_a_plan_that_an_exercise_holds_is_not_asked_for_any_more(opened, form, a
     assert not plan.dirty
     plan.place(Tool.TARGET, (6.0, 4.0, 140.0), True)
     assert plan.dirty
+
+
+def test_an_assessment_is_shown_with_the_locks_and_views_that_it_has(author, form):
+    write(form.task.name, "X")
+    author.editor.put("views", value=["bullseye", "three_d", "live_overlay"])
+    form.show_page(3)
+    sight = form.sight
+    free = [box.isEnabled() for box in (*sight.views.values(), *sight.locks.values())]
+    assert all(free)
+    assert sight.views["bullseye"].isChecked()
+    form.task._set_purpose("assessment")
+    exercise = author.editor.exercise
+    ticked = {value for value, box in sight.views.items() if box.isChecked()}
+    assert ticked == {view.value for view in exercise.shown_views} == {"three_d"}
+    assert {value for value, box in sight.locks.items() if box.isChecked()} == {
+        lock.value for lock in exercise.locked
+    }
+    assert not any(box.isEnabled() for box in sight.locks.values())
+    assert "control scans alone" in sight.views["bullseye"].toolTip()
+    sight.views["three_d"].click()  # what is not shown here is kept for practice
+    assert "bullseye" in author.editor.get("views")
+    form.task._set_purpose("practice")
+    assert sight.views["bullseye"].isChecked()
+    assert sight.views["bullseye"].isEnabled()
+    assert not any(box.isChecked() for box in sight.locks.values())
+
+
+def test_bone_before_the_target_is_said_with_its_depth_and_layers_end_there(author, form):
+    write(form.task.name, "X")
+    path = author.editor.exercise.plan.plan()
+    skin = {"name": "skin", "thickness_mm": 2.0}
+    bone = {"name": "bone", "thickness_mm": 3.0, "rigid": True}
+    author.editor.put("layers", value=[skin, bone])
+    form.show_page(6)
+    said = form.review.verdict.text()
+    assert said.startswith("▲ The exercise can be used, but: Bone stands in the way at 2 mm")
+    assert f"before the target at {path.length_mm:.0f} mm" in said
+    deep = skin | {"thickness_mm": path.length_mm + 1.0}
+    author.editor.put("layers", value=[deep, bone])
+    assert form.review.verdict.text() == "✔ The exercise can be used."
+
+
+def test_layers_from_a_ct_with_bone_on_the_path_come_with_a_warning(author, form):
+    write(form.task.name, "X")
+    form.effects.layers.from_ct.click()
+    layers = author.editor.get("layers")
+    length = author.editor.exercise.plan.plan().length_mm
+    before = sum(layer["thickness_mm"] for layer in layers[:-1])
+    assert layers[-1]["rigid"]
+    assert before < length
+    assert f"▲ {len(layers)} layers along the path" in said(form)
+    assert f"Bone stands in the way at {before:.0f} mm" in said(form)
+
+
+def test_the_keys_of_undo_are_the_forms_wherever_the_cursor_is(author, form):
+    write(form.task.name, "Title")
+    form.task.briefing.setFocus()
+    QTest.keyClicks(form.task.briefing, "Typed")
+    assert author.editor.get("description") == "Typed"
+    control, shift = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
+    for field in (form.task.briefing, form.task.name):
+        for key, modifiers in (
+            (Qt.Key.Key_Z, control),
+            (Qt.Key.Key_Y, control),
+            (Qt.Key.Key_Z, control | shift),
+        ):
+            press = QKeyEvent(QEvent.Type.ShortcutOverride, key, modifiers)
+            QApplication.sendEvent(field, press)
+            assert not press.isAccepted()  # else the field would undo letters of its own
+        press = QKeyEvent(QEvent.Type.ShortcutOverride, Qt.Key.Key_C, control)
+        QApplication.sendEvent(field, press)
+        assert press.isAccepted()
+    undo = next(one for one in form.findChildren(QShortcut) if one.key() == QKeySequence("Ctrl+Z"))
+    undo.activated.emit()
+    assert form.task.briefing.toPlainText() == ""
+
+
+@pytest.mark.parametrize(
+    ("where", "value", "words"),
+    [
+        (("title",), "x" * 121, "Title: is too long: at most 120 characters"),
+        (
+            ("effects", "lateral_tissue", "parameters", "stiffness"),
+            "soft",
+            "'soft' is no number: type one, such as 2.5",
+        ),
+        (
+            ("layers",),
+            [{"name": "x", "thickness_mm": "a"}],
+            "row 1, thickness mm: 'a' is no number",
+        ),
+        (("tolerances", "angle_error", "good"), "z", "Angle error, good: 'z' is no number"),
+        (("level",), 11, "Level (1 easiest): 11 is too large: at most 9"),
+    ],
+)
+def test_what_is_wrong_is_said_of_the_field_as_the_form_calls_it(author, form, where, value, words):
+    write(form.task.name, "X")
+    author.editor.put(*where, value=value)
+    form.show_page(6)
+    assert words in form.review.verdict.text()
+    assert "Input should" not in form.review.verdict.text()
+    assert "String should" not in form.keep.toolTip()

@@ -47,12 +47,25 @@ def test_button_and_key_say_and_ask_the_other_of_what_is(command):
         (BreathHold(), "Have the breath held (A): Push"),
         (BreathHold(asked=True), "Wait: he breathes out and holds"),
         (HELD, "Held, 12 s left: Push"),
-        (BreathHold(asked=True, spent=True), "He has to breathe: let him (A)"),
+        (
+            BreathHold(asked=True, spent=True),
+            "He breathes by himself (A releases, A asks anew): Push",
+        ),
     ],
 )
 def test_the_line_says_how_he_stands_and_what_to_do(breath, words):
     assert breath_words(breath, "Push", True) == words
 
 
+def test_who_breathes_by_himself_is_not_said_to_be_held(command):
+    command.show_breath(BreathHold(asked=True, spent=True), True)
+    assert command.button.text() == "Release (A)"
+    assert command._words.text() == "breathes by himself"
+    command.show_breath(BreathHold(), True)
+    assert command.button.text() == "Hold the breath (A)"
+
+
 def test_who_only_watches_is_not_told_to_command():
+    spent = BreathHold(asked=True, spent=True)
+    assert breath_words(spent, "Push", False) == "He breathes by himself: Push"
     assert breath_words(BreathHold(), "Push", False) == "Push"

@@ -1,9 +1,9 @@
 """Messages and progress: said without moving anything, gone when they are no longer true."""
 
 import pytest
-from PySide6.QtCore import QEvent, QPointF, Qt
+from PySide6.QtCore import QEvent, QPoint, QPointF, QRect, Qt
 from PySide6.QtGui import QMouseEvent
-from PySide6.QtWidgets import QMainWindow, QWidget
+from PySide6.QtWidgets import QLabel, QMainWindow, QWidget
 
 from app.views.shell.message_bar import PAUSE, REFUSAL, ROBOT, MessageBar, Notices
 from app.views.slices.pane import SlicePane
@@ -42,6 +42,28 @@ def test_a_message_moves_nothing_and_leaves_the_menus_free(window, application):
     assert window.notices.geometry().right() == window.width() - 1
     text = window.bar._text
     assert text.height() >= text.heightForWidth(text.width())
+
+
+@pytest.mark.parametrize("words", ["the folder is not readable " * 9, "cannot write"])
+def test_a_message_never_covers_the_next_step_and_no_line_of_it_is_cut(window, application, words):
+    step = QLabel("Push 71 mm deeper", window.centralWidget())
+    step.setGeometry(380, 0, 820, 32)
+    step.show()
+    notices = Notices(window, (window.strip, window.bar), step)
+    window.strip.setMinimumHeight(0)
+    window.strip.hide()
+    window.bar.show_error(words)
+    application.processEvents()
+    where = QRect(step.mapTo(window, QPoint(0, 0)), step.size())
+    assert not notices.geometry().intersects(where)
+    menus = [window.menuBar().actionGeometry(action) for action in window.menuBar().actions()]
+    assert not any(notices.geometry().intersects(menu) for menu in menus)
+    text = window.bar._text
+    assert text.height() >= text.heightForWidth(text.width())
+    assert (notices.y() == 0) == (len(words) < 20)
+    step.hide()
+    application.processEvents()
+    assert notices.y() == 0
 
 
 def test_nothing_is_left_when_all_is_said(window, application):

@@ -7,11 +7,12 @@ from types import MappingProxyType
 
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLineEdit, QPlainTextEdit
 
 from app.exercises.library import load_exercise
 from app.scoring.conditions import Conditions
-from app.session.course import course_of, courses
+from app.session.course import Course, courses
 from app.session.header import SessionHeader
 from app.session.people import People
 from app.session.recorder import Recorder
@@ -22,6 +23,7 @@ from app.session.summary import Summary
 from app.views.author.feature import AuthorFeature
 from app.views.debrief.feature import DebriefFeature
 from app.views.debrief.sessions import NOTE, SCORE, SIGNED, STUDENT
+from app.views.exercise.feature import ExerciseFeature
 from app.views.kit.access import ACCESS
 from app.views.people.feature import PeopleFeature
 from app.views.people.pages import GROUP_PDF, STUDENT_PDF, CourseDialog, EntryDialog
@@ -78,7 +80,9 @@ def test_a_student_signs_in_and_the_record_will_name_a_key(window, feature, sett
     fill(dialog, "Ada", "000000")
     assert dialog.isVisible()
     assert "pseudonym or PIN is wrong" in dialog.note.text()
-    assert dialog.lines[1].text() == ""
+    assert dialog.focusWidget() is dialog.lines[1]
+    assert dialog.lines[1].selectedText()  # typed over at once
+    assert [line.text() for line in dialog.lines] == ["Ada", "000000"]
     fill(dialog, "ada", pin)
     assert ACCESS.student == person
     assert (panel.student.text(), panel.student.isEnabled()) == ("Ada", False)
@@ -103,7 +107,17 @@ def test_the_first_password_shows_a_recovery_key_and_closes_what_students_must_n
     fill(feature.dialog, "correct horse", "correct horse")
     key = feature.dialog.findChild(QPlainTextEdit).toPlainText()
     assert len(key) == 39
-    feature.dialog.close()
+    shown_once = feature.dialog
+    QTest.keyClick(shown_once, Qt.Key.Key_Escape)
+    shown_once.close()
+    assert feature.dialog is shown_once
+    assert shown_once.isVisible()
+    assert "this once only" in shown_once.asked.text()
+    shown_once.written.setChecked(True)
+    QTest.keyClick(shown_once, Qt.Key.Key_Escape)
+    assert feature.dialog is None
+    assert "signed in as the instructor" in window.windowTitle()
+    assert "instructor" in feature.context.conductor.views.panel.student.placeholderText()
     settle(lambda: ACCESS.guarded)
     sessions = shown(window, settle)
     settle(lambda: sessions.model.rowCount() == 2)
@@ -166,17 +180,39 @@ def test_a_course_is_made_in_a_form_that_says_what_is_wrong(window, feature, set
     feature.page.courses.new.click()
     dialog = feature.dialog
     assert isinstance(dialog, CourseDialog)
+    assert dialog.focusWidget() is dialog.id
     dialog.title.setText("Autumn")
+    dialog.id.setText("Autumn 2026!")
     dialog.save()
-    assert "id" in dialog.note.text()
+    assert "✖ File name: 'Autumn 2026!' cannot be used: small letters" in dialog.note.text()
     dialog.id.setText("autumn")
+    dialog.title.setText("x" * 121)
+    dialog.save()
+    assert "✖ Title: is too long: at most 120 characters" in dialog.note.text()
+    assert dialog.focusWidget() is dialog.title
+    dialog.title.setText("Autumn")
     dialog.groups.setText("A, B")
+    dialog.save()
+    assert "Groups: no student is in A; there are none yet" in dialog.note.text()
+    dialog._known = ("B", "C")
+    dialog.save()
+    assert "Groups: no student is in A; there are: B, C" in dialog.note.text()
+    assert dialog.focusWidget() is dialog.groups
+    dialog._known = ("A", "B")
     dialog.add.click()
     day = dialog.items.cellWidget(0, 4)
     assert isinstance(day, QLineEdit)
     day.setText("soon")
     dialog.save()
-    assert "opens" in dialog.note.text()
+    title = dialog.items.item(0, 0).text()
+    assert f"✖ {title}, Opens: 'soon' is no day: write year-month-day" in dialog.note.text()
+    assert dialog.focusWidget() is day
+    day.setText("2099-02-01")
+    dialog.items.cellWidget(0, 5).setText("2099-01-01")
+    dialog.save()
+    assert f"✖ {title}: closes on 2099-01-01, before it opens" in dialog.note.text()
+    assert "Value error" not in dialog.note.text()
+    dialog.items.cellWidget(0, 5).setText("")
     day.setText("2099-01-01")
     dialog.save()
     course = courses()[0][0]
@@ -192,7 +228,7 @@ def test_a_student_may_not_begin_before_an_exercise_opens(window, feature, settl
     _, pin = People().add(RosterLine("Ada"))
     known = next(iter(feature._exercises()))
     text = {"id": "c", "title": "C", "items": [{"exercise": known, "opens": "2099-01-01"}]}
-    course_of(text, "test").save()
+    Course.model_validate(text).save()
     feature.sign_in_student()
     fill(feature.dialog, "Ada", pin)
     settle(lambda: bool(ACCESS.refusal(known)))
@@ -222,9 +258,25 @@ def test_who_was_erased_is_shown_as_erased(window, feature, settle):
     People().add(RosterLine("Bob"))
     feature.look()
     settle(lambda: ACCESS.shown(person.key) == "Ada")
+    record(feature.context.services.sessions(), "a", person.key)
+    said = []
+    feature.noted.connect(said.append)
     feature._erase("Ada", with_records=False)
     settle(lambda: ACCESS.shown(person.key) != "Ada")
+    assert settle(lambda: bool(said))
+    assert said == ["Ada was erased; records deleted: 0, kept as nobody's: 1"]
     assert ACCESS.shown(person.key) == "(erased)"
+
+
+def test_an_exercise_is_put_into_a_course_with_its_own_purpose(feature):
+    feature.edit_course(None)
+    dialog = feature.dialog
+    for row, (name, purpose) in enumerate(
+        (("scans-only", "assessment"), ("first-insertion", "practice"))
+    ):
+        assert load_exercise(name).purpose.value == purpose
+        dialog.add_item(name)
+        assert dialog.items.cellWidget(row, 3).currentData() == purpose
 
 
 def test_an_exercise_that_was_just_made_can_be_put_into_a_course(feature, monkeypatch):
@@ -359,7 +411,7 @@ def test_a_student_begins_the_next_exercise_of_a_course_and_reads_why_another_is
     ]
     for item in items:
         item["version"] = feature._exercises()[item["exercise"]].version
-    course_of({"id": "c", "title": "Autumn", "items": items}, "test").save()
+    Course.model_validate({"id": "c", "title": "Autumn", "items": items}).save()
     ACCESS.sign_in(ada)
     feature.look()
     feature.show()
@@ -377,7 +429,7 @@ def test_a_student_begins_the_next_exercise_of_a_course_and_reads_why_another_is
     feature.failed.connect(said.append)
     tab.begin.click()
     assert wanted == [names[2]]
-    for row, why in ((0, "all 1 attempts are used"), (1, "it closed on 2020-01-01")):
+    for row, why in ((0, "the one attempt is used"), (1, "it closed on 2020-01-01")):
         tab.tree.setCurrentItem(rows[row])
         tab.begin.click()
         assert why in said[-1]
@@ -387,10 +439,53 @@ def test_a_student_begins_the_next_exercise_of_a_course_and_reads_why_another_is
     assert settle(lambda: tab.tree.topLevelItem(0).child(0).text(2) == "1 of 1 left")
 
 
+def test_an_assessment_of_a_course_is_begun_by_its_students_and_the_instructor_alone(
+    window, feature, settle
+):
+    people, name = People(), "first-insertion"
+    people.set_instructor("correct horse")
+    ada, _ = people.add(RosterLine("Ada", groups=("A",)))
+    bob, _ = people.add(RosterLine("Bob", groups=("B",)))
+    exercise = feature._exercises()[name]
+    item = {"exercise": name, "attempts": 1, "purpose": "assessment", "version": exercise.version}
+    Course.model_validate({"id": "c", "title": "Autumn", "groups": ["A"], "items": [item]}).save()
+    feature.look()
+    assert settle(lambda: ACCESS.guarded and bool(ACCESS.refusal(name)))
+    beginning = window.feature(ExerciseFeature).beginning
+    page = beginning.page
+    beginning.brief(name)  # nobody is signed in
+    assert not page.begin.isEnabled()
+    assert "Any number" not in page.attempts.text()
+    assert "an assessment of the course Autumn" in page.attempts.text()
+    assert "Sign in as a student who takes it" in page.attempts.text()
+    assert (
+        "Autumn" in feature.context.conductor.controller.refusal() or not window.conductor.exercise
+    )
+    ACCESS.sign_in(bob)
+    feature.look()
+    assert settle(lambda: "which you do not take" in ACCESS.refusal(name))
+    beginning.brief(name)
+    assert settle(lambda: "which you do not take" in page.attempts.text())
+    assert not page.begin.isEnabled()
+    ACCESS.sign_in(ada)
+    feature.look()
+    assert settle(lambda: not ACCESS.refusal(name))
+    beginning.brief(name)
+    assert settle(lambda: "The one attempt is left." in page.attempts.text())
+    assert page.begin.isEnabled()
+    record(feature.context.services.sessions(), "a", ada.key, 91.0, exercise.version)
+    feature.look()
+    assert settle(lambda: "the one attempt is used" in ACCESS.refusal(name))
+    ACCESS.sign_in(None)
+    assert "assessment" in ACCESS.refusal(name)
+    ACCESS.sign_in(None, instructor=True)
+    assert ACCESS.refusal(name) == ""
+
+
 def test_the_instructor_releases_all_results_of_a_course_at_once(window, feature, settle):
     ada, _ = People().add(RosterLine("Ada"))
     item = {"exercise": "first-insertion", "purpose": "assessment"}
-    course_of({"id": "c", "title": "Autumn", "items": [item]}, "test").save()
+    Course.model_validate({"id": "c", "title": "Autumn", "items": [item]}).save()
     for name in ("a", "b"):
         record(feature.context.services.sessions(), name, ada.key)
     feature.show()

@@ -8,11 +8,13 @@ from types import SimpleNamespace
 
 import numpy as np
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QFont, QFontMetrics
 from PySide6.QtTest import QTest
 
 from app.exercises.portrait import Portrait
 from app.session.board import Standing
-from app.views.shell.start_page import StartPage, _fitting, standing_words
+from app.views.kit import theme
+from app.views.shell.start_page import COLUMNS, StartPage, _fitting, standing_words
 
 EXERCISES = tuple(
     SimpleNamespace(id=name.lower(), title=name, description=what, level=level)
@@ -125,3 +127,9 @@ def test_f5_begins_the_exercise_that_is_chosen(page, settle):
     settle(start.isActiveWindow)
     QTest.keyClick(start, Qt.Key.Key_F5)
     assert chosen == ["liver"]
+
+
+def test_the_hardest_level_has_room_for_all_of_its_discs(page):
+    font = QFont(page[0].font())
+    font.setPixelSize(theme.FONT_PX)
+    assert QFontMetrics(font).horizontalAdvance("●" * 9) <= dict(COLUMNS)["level"]

@@ -11,6 +11,7 @@ from views_exercise_attempts import placed_plan, review, score
 
 from app.core.disclaimer import DISCLAIMER
 from app.core.events import Event
+from app.scoring.conditions import Conditions
 from app.scoring.risks import RiskMark
 from app.session.curves import Curves
 from app.session.facts import plan_record
@@ -21,7 +22,16 @@ from app.session.samples import Samples
 from app.views.debrief.curves import CurvesView, curves_of, peaks, value_range
 from app.views.debrief.page import DebriefPage, date_text
 from app.views.debrief.report import polylines, report_bytes, ticks, write_report
-from app.views.debrief.score_words import lessons, number, row_texts, verdict
+from app.views.debrief.score_words import (
+    facts_of,
+    lessons,
+    number,
+    points_words,
+    row_texts,
+    short_words,
+    verdict,
+)
+from app.views.exercise.briefing import AttemptsLeft
 from app.views.kit import theme
 
 
@@ -52,6 +62,8 @@ def test_the_table_shows_value_band_points_and_weight_of_every_metric(page):
     points = [float(text.split(" / ")[0]) for text in column(page, 3) if "/" in text]
     assert sum(points) == pytest.approx(shown.score.total, abs=0.2)
     assert "held" in page.table.item(page.table.rowCount() - 1, 0).toolTip()
+    for row, name in enumerate(column(page, 0)):  # a name may be cut: it is whole there
+        assert page.table.item(row, 0).toolTip().startswith(f"{name}\n")
 
 
 def test_structures_of_risk_are_told_worst_first_with_a_sign_and_words(page):
@@ -491,3 +503,22 @@ def all_expert(judged):
         replace(row, value=row.tolerance.expert) if row.tolerance else row for row in judged.rows
     )
     return replace(judged, rows=rows).recomputed()
+
+
+def test_a_model_that_was_changed_during_the_attempt_is_told_beside_the_score(page):
+    under = Conditions("x", models=("lateral_tissue: winkler",))
+    words = "▲ model changed meanwhile: lateral tissue: winkler"
+    assert words in short_words(under)  # in the list, and in the debrief's line
+    page.show_review(replace(review(), conditions=under))
+    assert words in page.conditions.text()
+    assert ("Models changed meanwhile", "lateral tissue: winkler") in facts_of(under)
+    assert "changed" not in short_words(replace(under, models=()))
+
+
+def test_one_point_is_said_as_one():
+    assert points_words(1.2) == "1 point"
+    assert points_words(11.6) == "12 points"
+    assert AttemptsLeft(1, 0).words() == "The one attempt is left."
+    assert AttemptsLeft(1, 1).words() == "The one attempt is used."
+    assert AttemptsLeft(1).words() == "1 attempt is allowed."
+    assert AttemptsLeft(3, 1).words() == "2 of 3 attempts are left."

@@ -105,11 +105,21 @@ def too_much(tick: float, period: float, missed: float) -> bool:
     return (isfinite(tick) and tick > FULL * period) or missed > MISSING
 
 
-def lowering(effects: Sequence[EffectCost]) -> Lowering | None:
-    """Return what saves most of a tick; None where every effect has its cheapest model."""
+def lowering(effects: Sequence[EffectCost], period: float = 0.0) -> Lowering | None:
+    """Return what saves most of a tick.
+
+    Args:
+        effects: of the scene.
+        period: from tick to tick [s]; what saves less than a share of `MISSING` of it helps nobody.
+
+    Returns:
+        None where every effect has its cheapest model, or none is the reason.
+    """
     found = [Lowering(e, e.cheapest, e.cost - e.costs[e.cheapest]) for e in effects if e.costs]
     best = max(found, key=lambda one: one.saved, default=None)
-    return best if best is not None and best.saved > 0.0 else None
+    if best is None or best.saved <= 0.0 or best.saved < MISSING * period:
+        return None
+    return best
 
 
 def advice(effects: Sequence[EffectCost], tick: float, period: float, missed: float) -> str:
@@ -119,9 +129,8 @@ def advice(effects: Sequence[EffectCost], tick: float, period: float, missed: fl
     late = tr("{share:.1f} % of the ticks come too late", share=100.0 * missed)
     long = tr("a tick takes {us:.0f} µs of {period:.0f} µs", us=1e6 * tick, period=1e6 * period)
     what = long if isfinite(tick) and tick > FULL * period else late
-    best = lowering(effects)
-    share = best.saved / period if best is not None else 0.0
-    if best is None or share < MISSING:
+    best = lowering(effects, period)
+    if best is None:
         return tr(
             "{what}: no effect of this scene is the reason; close other programs, or use a faster "
             "computer",

@@ -8,7 +8,7 @@ from statistics import median
 from time import perf_counter
 from typing import TYPE_CHECKING, ClassVar
 
-from PySide6.QtCore import QTimer, SignalInstance
+from PySide6.QtCore import QTimer, Signal, SignalInstance
 
 from app.core import paths
 from app.core.errors import AcusError
@@ -39,12 +39,16 @@ REPEATS = 5
 class AccuracyFeature(Feature):
     """Panel of effects, page of studies.
 
+    Signals:
+        measured(): what was being measured has ended, or was cancelled.
+
     Attributes:
         panel: effects of the scene that runs.
         page: studies; None until it is shown.
     """
 
     topic: ClassVar[str] = "accuracy"
+    measured = Signal()
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
@@ -67,7 +71,7 @@ class AccuracyFeature(Feature):
 
     def over(self) -> tuple[SignalInstance, ...]:
         """Return what ends a message of this feature."""
-        return (self.noted, self.context.conductor.controller.finished)
+        return (self.noted, self.measured, self.context.conductor.controller.finished)
 
     def close(self) -> None:
         """End what runs beside the window; idempotent."""
@@ -162,6 +166,7 @@ class AccuracyFeature(Feature):
             title=tr("Trying hard cases"),
             indicator=self._shell.progress,
         )
+        self._follow_work(self._measured, page)
 
     def measure(self, name: str) -> None:
         """Measure a study on this computer, beside the window; not while an attempt runs."""
@@ -176,6 +181,14 @@ class AccuracyFeature(Feature):
             title=tr("Measuring on this computer"),
             indicator=self._shell.progress,
         )
+        if self.page is not None:
+            self._follow_work(self._measured, self.page)
+
+    def _follow_work(self, task: BackgroundTask, page: AccuracyPage) -> None:
+        """Let nothing else be measured until this has ended."""
+        page.set_measuring(True)
+        task.finished.connect(lambda: page.set_measuring(False))
+        task.finished.connect(self.measured)
 
     def _may_work(self) -> bool:
         """Whether a measurement may begin now; says why not."""
@@ -184,7 +197,9 @@ class AccuracyFeature(Feature):
             self.failed.emit(tr("End the attempt first: measuring takes processor time from it"))
             return False
         if self._measured is not None and self._measured.is_running():
-            self.failed.emit(tr("Something is being measured already; wait, or cancel it below"))
+            self.failed.emit(
+                tr("Something is being measured already: wait, or cancel it at the top")
+            )
             return False
         return True
 

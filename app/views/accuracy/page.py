@@ -27,6 +27,9 @@ if TYPE_CHECKING:
     from app.studies.findings import Findings
     from app.studies.kept import Kept
 
+SHOWN_ROWS = 4
+"""So many rows of a table are seen at once, however low the window."""
+
 NAME = Qt.ItemDataRole.UserRole
 
 
@@ -114,6 +117,7 @@ class AccuracyPage(QWidget):
         super().__init__(parent)
         self.studies = QListWidget(self)
         self.studies.setMinimumWidth(theme.px(240))
+        self.studies.setResizeMode(QListWidget.ResizeMode.Adjust)
         self.studies.setWordWrap(True)
         self.studies.setTextElideMode(Qt.TextElideMode.ElideNone)
         self.studies.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -164,6 +168,13 @@ class AccuracyPage(QWidget):
         self.tabs.addTab(self.hard, tr("Hard cases"))
         rows.addWidget(self.tabs, 1)
         rows.addLayout(foot)
+
+    def set_measuring(self, on: bool) -> None:
+        """Let nothing be measured while something is."""
+        why = tr("Something is being measured: wait, or cancel it at the top") if on else ""
+        for one in (self.measure, self.hard.run):
+            one.setEnabled(not on)
+            one.setToolTip(why)
 
     @property
     def name(self) -> str:
@@ -237,6 +248,9 @@ class AccuracyPage(QWidget):
             )
             for place, text in enumerate(cells):
                 self.ways.setItem(row, place, QTableWidgetItem(text))
+        shown = sum(self.ways.rowHeight(row) for row in range(min(SHOWN_ROWS, len(points))))
+        head = self.ways.horizontalHeader().sizeHint().height()
+        self.ways.setMinimumHeight(head + shown + 2 * self.ways.frameWidth() + theme.SPACING)
 
     def _choose(self, *_: object) -> None:
         if self.name:

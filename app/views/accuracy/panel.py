@@ -15,6 +15,7 @@ from app.views.kit import theme
 from app.views.kit.parts import button, label
 from app.views.kit.text import tr
 from app.views.kit.verdict import Verdict, tell
+from app.views.kit.wheel import wheel_scrolls
 
 HUES: Final = ("#56b4e9", "#e69f00", "#009e73", "#cc79a7", "#f0e442", "#d55e00", "#0072b2")
 """Okabe and Ito's hues, one for each effect; its part of the bar also stands in its place."""
@@ -24,6 +25,9 @@ LATELY: Final = 10.0
 
 FRAME: Final = 1.0 / 60.0
 """A frame of the window has this long [s]."""
+
+WARNING_LINES: Final = 3
+"""Lines that the longest warning takes at the panel's width."""
 
 PERIOD: Final = 0.5
 """Words are refreshed this often [s]."""
@@ -130,6 +134,7 @@ class EffectRow(QFrame):
         self.models.currentIndexChanged.connect(
             lambda _: self.chosen.emit(effect.name, self.models.currentData())
         )
+        wheel_scrolls(self.models)
         head = QHBoxLayout()
         head.addWidget(swatch)
         head.addWidget(label(effect.title), 1)
@@ -175,6 +180,11 @@ class EffectsPanel(QWidget):
             tr("Computes the effect that costs most by its cheapest model, at once")
         )
         self.lowering.clicked.connect(self._lower)
+        # A warning comes and goes by itself: what is below stays where it is under the mouse.
+        self._verdict.setAlignment(Qt.AlignmentFlag.AlignTop)
+        kept = self.lowering.sizePolicy()
+        kept.setRetainSizeWhenHidden(True)
+        self.lowering.setSizePolicy(kept)
         self.page = button(tr("Cost of accuracy…"))
         self.page.setToolTip(tr("Error against time of every choice in the program"))
         self.page.clicked.connect(self.page_wanted)
@@ -218,6 +228,9 @@ class EffectsPanel(QWidget):
             locked: why the models cannot be chosen; empty if they can.
         """
         self._scene = scene
+        self._verdict.ensurePolished()
+        line = self._verdict.fontMetrics().lineSpacing()
+        self._verdict.setMinimumHeight(WARNING_LINES * line + line // 4)  # signs are taller
         self._fill(scene.effects, dict(scene.left_out), locked)
         self._state.setText(locked or ("" if scene.effects else tr("This scene has no effects.")))
         self._state.setVisible(bool(self._state.text()))
@@ -278,7 +291,7 @@ class EffectsPanel(QWidget):
         trouble = advice(scene.effects, tick, period, share)
         good = tr("held at {rate:.0f} Hz on this computer", rate=timing.rate_hz)
         tell(self._verdict, Verdict.WARNING if trouble else Verdict.GOOD, trouble or good)
-        best = lowering(scene.effects) if too_much(tick, period, share) else None
+        best = lowering(scene.effects, period) if too_much(tick, period, share) else None
         self.lowering.setVisible(best is not None and any(r.models.isEnabled() for r in self.rows))
         for widget in (self.bar, self._tick, self._verdict):
             widget.setVisible(True)

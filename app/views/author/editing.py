@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import re
 from collections.abc import Callable, Mapping
 from copy import deepcopy
 from pathlib import Path
@@ -202,12 +201,14 @@ def _set(document: Document, where: Where, value: Any) -> None:
         document[where[-1]] = value
 
 
-def plain_words(problem: FieldProblem) -> str:
-    """Say what is wrong with a field, for people."""
-    text = problem.text.removeprefix("Value error, ")
-    if text.startswith("String should have at least 1 character"):
-        return tr("is empty: type something")
-    return re.sub(r", got a (mapping|list) of \d+$", "", text)
+def bone_words(depth_mm: float, length_mm: float) -> str:
+    """Warn that the needle cannot reach the target."""
+    return tr(
+        "Bone stands in the way at {depth:.0f} mm, before the target at {length:.0f} mm: no needle "
+        "reaches it. Choose another entry.",
+        depth=depth_mm,
+        length=length_mm,
+    )
 
 
 PASS_MARK: Final = 75.0

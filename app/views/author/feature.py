@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from PySide6.QtCore import (
+    QEvent,
     QObject,
     QProcess,
     QProcessEnvironment,
@@ -19,11 +20,13 @@ from PySide6.QtCore import (
     Signal,
     SignalInstance,
 )
-from PySide6.QtGui import QCloseEvent, QKeySequence, QShortcut
+from PySide6.QtGui import QCloseEvent, QKeyEvent, QKeySequence, QShortcut
 from PySide6.QtWidgets import (
     QFileDialog,
     QHBoxLayout,
+    QLineEdit,
     QMessageBox,
+    QPlainTextEdit,
     QVBoxLayout,
     QWidget,
 )
@@ -43,10 +46,10 @@ from app.session.pad.view import rings
 from app.views.author.editing import (
     ExerciseEditor,
     Where,
+    bone_words,
     finished,
     is_own,
     opened_document,
-    plain_words,
     plan_document,
 )
 from app.views.author.pages import (
@@ -64,18 +67,36 @@ from app.views.author.pages import (
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
+from app.views.kit.field_words import problem_words
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.parts import button, label
 from app.views.kit.side_panel import scrolled
-from app.views.kit.text import tr
+from app.views.kit.text import counted, tr
 from app.views.kit.verdict import Verdict
 from app.views.kit.wizard import Wizard
 from app.views.shell.feature import Context, Feature
 from app.views.slices.panes import PaneId
 
+UNDO_KEYS = ("Ctrl+Z", "Ctrl+Y", "Ctrl+Shift+Z")
+
 COST_AFTER_MS = 400
 TRIAL_AFTER_MS = 700
 TRIAL_SEEDS = (2, 20)
+
+
+class _UndoOfTheForm(QObject):
+    """Keeps texts from undoing letters of their own: Ctrl+Z takes back the form's last step."""
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Leave the keys of undo and redo to the form's shortcuts."""
+        if event.type() is QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent):
+            keys = QKeySequence(event.keyCombination()).toString(
+                QKeySequence.SequenceFormat.PortableText
+            )
+            if keys in UNDO_KEYS:
+                event.ignore()
+                return True
+        return False
 
 
 class ExerciseDialog(Wizard):
@@ -96,7 +117,7 @@ class ExerciseDialog(Wizard):
         self.patient = PatientPage(editor, lambda: structures.structures)
         self.help, self.sight = HelpPage(editor), SightPage(editor)
         self.effects, self.score = EffectsPage(editor), ScorePage(editor)
-        self.review = ReviewPage(editor, self._file)
+        self.review = ReviewPage(editor, self._file, self.name_of)
         self.forms: tuple[Form, ...] = (
             self.task,
             self.patient,
@@ -119,6 +140,10 @@ class ExerciseDialog(Wizard):
             ("Ctrl+Shift+Z", editor.redo),
         ):
             QShortcut(QKeySequence(keys), self).activated.connect(command)
+        keeper = _UndoOfTheForm(self)
+        for kind in (QLineEdit, QPlainTextEdit):
+            for field in self.pages.findChildren(kind):
+                field.installEventFilter(keeper)
         self.undo.clicked.connect(editor.undo)
         self.redo.clicked.connect(editor.redo)
         self.may_close: Callable[[], bool] = lambda: True
@@ -153,9 +178,22 @@ class ExerciseDialog(Wizard):
         self.redo.setEnabled(self.editor.can_redo)
         for one in (self.keep, self.attempt, self.export):
             one.setEnabled(fine)
-            one.setToolTip("" if fine else first_problem(self.editor.problems))
+            one.setToolTip(self.first_problem())
         title = self.editor.get("title", default="") or tr("Exercise")
         self.setWindowTitle(f"{title} •" if self.editor.dirty else str(title))
+
+    def name_of(self, problem: FieldProblem) -> str:
+        """Name the field of a problem as the form calls it."""
+        for form in self.forms:
+            if problem.field and problem.field[0] in form.covers:
+                return form.name_of(problem)
+        return problem.name
+
+    def first_problem(self) -> str:
+        """Say the first thing that is wrong, with its field; empty where nothing is."""
+        problems = self.editor.problems
+        found = problems[0] if problems else None
+        return "" if found is None else f"{self.name_of(found)}: {problem_words(found)}"
 
     def say(self, text: str, verdict: Verdict = Verdict.GOOD) -> None:
         """Write the line above the buttons."""
@@ -278,11 +316,6 @@ class SkillTrial(QObject):
         self.found.emit(rows, seeds[0])
         if seeds[1:]:
             self._start(file, seeds[1:])
-
-
-def first_problem(problems: tuple[FieldProblem, ...]) -> str:
-    """Return the first thing that is wrong, with its field."""
-    return "" if not problems else f"{problems[0].name}: {plain_words(problems[0])}"
 
 
 class AuthorFeature(Feature):
@@ -495,18 +528,23 @@ class AuthorFeature(Feature):
             why = tr("It takes a CT that is open, and an exercise without mistakes.")
             self._say(why, Verdict.BAD)
             return
-        from app.exercises.tissue import layers_along  # scipy
+        from app.exercises.tissue import bone_before, layers_along  # scipy
 
         try:
-            marked = self.context.editors.structures.structures
-            layers = layers_along(patient.volume, plan_of(exercise), tuple(marked))
+            marked, path = self.context.editors.structures.structures, plan_of(exercise)
+            layers = layers_along(patient.volume, path, tuple(marked))
         except AcusError as error:
             self._say(str(error), Verdict.BAD)
             return
         found = [layer.model_dump(mode="json", exclude_defaults=True) for layer in layers]
         self.editor.put("layers", value=found)
         names = ", ".join(layer.name for layer in layers)
-        self._say(tr("{count} layers along the path: {names}", count=len(layers), names=names))
+        said = tr("{count} layers along the path: {names}", count=len(layers), names=names)
+        bone = bone_before(layers, path.length_mm)
+        if bone is None:
+            self._say(said)
+        else:
+            self._say(f"{said}. {bone_words(bone, path.length_mm)}", Verdict.WARNING)
 
     def take_reading(self) -> None:
         """Take window and slab from the axial pane."""
@@ -574,7 +612,8 @@ class AuthorFeature(Feature):
         """Return the exercise with its structures written; None where something is wrong."""
         exercise, problems = self.editor.exercise, self.editor.problems
         if exercise is None or problems:
-            self._say(first_problem(problems), Verdict.BAD)
+            if self.dialog is not None:
+                self._say(self.dialog.first_problem(), Verdict.BAD)
             return None
         structures = self.context.editors.structures.structures
         try:
@@ -773,7 +812,9 @@ class AuthorFeature(Feature):
         if exercise is None or dialog is None:
             return
         dialog.score.skills.show_scores(rows, exercise.rules.pass_mark)
-        said = tr("{n} attempts of each skill, without structures of risk", n=seeds)
+        one = tr("1 attempt of each skill, without structures of risk")
+        many = tr("{n} attempts of each skill, without structures of risk", n=seeds)
+        said = counted(seeds, one, many)
         if self.trial.running or seeds < TRIAL_SEEDS[-1]:
             said += "; " + tr("more are on their way …")
         dialog.score.tried.setText(said)

@@ -26,23 +26,27 @@ from PySide6.QtWidgets import (
 )
 
 from app.core.configuration import FieldProblem
+from app.core.errors import AcusError
 from app.core.plugins import StageDeclaration
 from app.device.control.law import KIND as LAWS
-from app.exercises.guidance import FadingKind
+from app.exercises.guidance import FadingKind, GuidanceMode, Purpose
 from app.exercises.library import profile_names
 from app.exercises.locks import Lock
-from app.exercises.parts import LayerPart, ViewName
+from app.exercises.parts import TELLING, LayerPart, OwnPlan, ViewName
+from app.exercises.scene import plan_of
 from app.imaging.structures.structure import StructureSet
 from app.imaging.window import PRESETS
 from app.scoring import metrics
 from app.scoring.defaults import PUBLISHED_TOLERANCES
 from app.simulation import effects
 from app.simulation.needles import OUTER_DIAMETER
-from app.views.author.editing import DRAWN, ExerciseEditor, Where, plain_words
+from app.views.author.editing import DRAWN, ExerciseEditor, Where, bone_words
 from app.views.kit import theme
 from app.views.kit.coordinates import lps_words
+from app.views.kit.field_words import place_words, problem_words
 from app.views.kit.parts import button, column, label, table
 from app.views.kit.text import tr
+from app.views.kit.wheel import wheel_scrolls
 from app.views.reading.lock_words import view_title
 
 Choice = Sequence[tuple[Any, str]]
@@ -70,13 +74,32 @@ class Form(QWidget):
             load()
         for where, note in self._notes:
             found = self.editor.problems_at(*where)
-            note.setText("\n".join(_sentence(one, where) for one in found))
+            note.setText("\n".join(self._sentence(one, where) for one in found))
             note.setVisible(bool(found))
 
     @property
     def problems(self) -> list[FieldProblem]:
         """What is wrong with the fields of this page."""
         return [one for one in self.editor.problems if one.field and one.field[0] in self.covers]
+
+    def _sentence(self, problem: FieldProblem, where: Where) -> str:
+        """Say what is wrong, and where within the field if it is a part of it."""
+        inner = self.inner_words(problem.field[len(where) :])
+        text = problem_words(problem)
+        return f"✖ {inner}: {text}" if inner else f"✖ {text}"
+
+    def inner_words(self, parts: Sequence[str | int]) -> str:
+        """Say where within a field of this page something stands."""
+        return place_words(parts)
+
+    def name_of(self, problem: FieldProblem) -> str:
+        """Name the field of a problem as this page calls it."""
+        for length in range(len(problem.field), 0, -1):
+            where = tuple(map(str, problem.field[:length]))
+            if where in self.names:
+                inner = self.inner_words(problem.field[length:])
+                return ", ".join(filter(None, (self.names[where].text(), inner)))
+        return ", ".join(filter(None, (self.title, self.inner_words(problem.field[1:]))))
 
     # --- kinds of fields ------------------------------------------------------------------------
     def add(self, where: Where, name: str, widget: QWidget, load: Callable[[], None]) -> None:
@@ -187,15 +210,20 @@ class Form(QWidget):
         self.add(where, name, box, load)
         return box
 
-    def flags(self, *where: str, name: str, among: Choice) -> QWidget:
-        """Add a list of which any may hold."""
+    def flags(self, *where: str, name: str, among: Choice) -> dict[Any, QCheckBox]:
+        """Add a list of which any may hold; what cannot be chosen now keeps what was said of it."""
         frame = QWidget(self)
         inner = QVBoxLayout(frame)
         inner.setContentsMargins(0, 0, 0, 0)
         boxes = {value: QCheckBox(title, frame) for value, title in among}
 
         def put() -> None:
-            chosen = [value for value, box in boxes.items() if box.isChecked()]
+            held = self.editor.get(*where, default=[])
+            chosen = [
+                value
+                for value, box in boxes.items()
+                if (box.isChecked() if box.isEnabled() else value in held)
+            ]
             self.editor.put(*where, value=chosen)
 
         def load() -> None:
@@ -208,7 +236,7 @@ class Form(QWidget):
             inner.addWidget(box)
             box.clicked.connect(lambda _: put())
         self.add(where, name, frame, load)
-        return frame
+        return boxes
 
     def check(self, *where: str, name: str) -> QCheckBox:
         """Add a yes or no."""
@@ -223,6 +251,15 @@ class Form(QWidget):
         return box
 
 
+def _hold(box: QCheckBox, on: bool | None, why: str) -> None:
+    """Let a box stand on or off, whatever was chosen, and say why; None sets it free."""
+    box.setEnabled(on is None)
+    box.setToolTip("" if on is None else why)
+    if on is not None:
+        with QSignalBlocker(box):
+            box.setChecked(on)
+
+
 def _shown(value: object) -> str:
     """Return a value for a list that does not have it: a window, or a file of one's own."""
     if isinstance(value, Mapping) and "width" in value:
@@ -234,13 +271,6 @@ def _show_line(line: QLineEdit, text: object) -> None:
     if line.text() != str(text):
         with QSignalBlocker(line):
             line.setText(str(text))
-
-
-def _sentence(problem: FieldProblem, where: Where) -> str:
-    """Say what is wrong, and where within the field if it is a part of it."""
-    inner = ".".join(str(part) for part in problem.field[len(where) :])
-    text = plain_words(problem)
-    return f"✖ {inner}: {text}" if inner else f"✖ {text}"
 
 
 # --- pages --------------------------------------------------------------------------------------
@@ -409,6 +439,7 @@ class PatientPage(Form):
                     far.setKeyboardTracking(False)
                     rows.setCellWidget(row, 1, box)
                     rows.setCellWidget(row, 2, far)
+                    wheel_scrolls(far)
                     box.clicked.connect(lambda _: self._take_risks())
                     far.valueChanged.connect(lambda _: self._take_risks())
                 with QSignalBlocker(box), QSignalBlocker(far):
@@ -551,7 +582,7 @@ class SightPage(Form):
     def __init__(self, editor: ExerciseEditor) -> None:
         covers = ("views", "locks", "hand", "reading", "guidance")
         super().__init__(editor, tr("What is seen"), covers)
-        self.flags(
+        self.views = self.flags(
             "views", name=tr("Views"), among=[(one.value, view_title(one)) for one in ViewName]
         )
         locks = {
@@ -561,7 +592,7 @@ class SightPage(Form):
             Lock.HAND: tr("What moves the hand"),
             Lock.MODELS: tr("The way effects are computed"),
         }
-        self.flags(
+        self.locks = self.flags(
             "locks",
             name=tr("Locked for the student"),
             among=[(one.value, title) for one, title in locks.items()],
@@ -640,6 +671,19 @@ class SightPage(Form):
         there = self.editor.get("reading", "slab") is not None
         self.fields[where].setVisible(there)
         self.names[where].setVisible(there)
+        self._show_what_holds()
+
+    def _show_what_holds(self) -> None:
+        """Show what an assessment, or guidance by control scans alone, makes of views and locks."""
+        assesses = self.editor.get("purpose") == Purpose.ASSESSMENT.value
+        usual = GuidanceMode.CONTROL_CT if assesses else GuidanceMode.LIVE
+        scans = self.editor.get("guidance", "mode", default=usual) == GuidanceMode.CONTROL_CT
+        hidden = {view.value for view in TELLING} if scans else set()
+        only_scans = tr("Not shown: the needle is seen on control scans alone")
+        for value, box in self.views.items():
+            _hold(box, False if value in hidden else None, only_scans)
+        for box in self.locks.values():
+            _hold(box, True if assesses else None, tr("An assessment locks all of them"))
 
     def _set_slab(self, kind: str | None) -> None:
         thick = self.editor.get("reading", "slab", "thickness_mm", default=5.0)
@@ -1078,6 +1122,13 @@ class ScorePage(Form):
         )
         self.rows.addWidget(self.drawn)
 
+    def inner_words(self, parts: Sequence[str | int]) -> str:
+        """Name a metric by its title."""
+        known = self.metrics.get(str(parts[0])) if parts else None
+        if known is None:
+            return super().inner_words(parts)
+        return ", ".join(filter(None, (known.title, super().inner_words(parts[1:]))))
+
     def showEvent(self, event: QShowEvent) -> None:
         """Tell that somebody looks."""
         super().showEvent(event)
@@ -1134,9 +1185,14 @@ class ScorePage(Form):
 class ReviewPage(Form):
     """All that is wrong, and the file that it will be."""
 
-    def __init__(self, editor: ExerciseEditor, text: Callable[[], str]) -> None:
+    def __init__(
+        self,
+        editor: ExerciseEditor,
+        text: Callable[[], str],
+        named: Callable[[FieldProblem], str],
+    ) -> None:
         super().__init__(editor, tr("Check and keep"), ())
-        self._text = text
+        self._text, self._named = text, named
         self.verdict = label()
         self.file = QPlainTextEdit(self)
         self.file.setReadOnly(True)
@@ -1147,7 +1203,26 @@ class ReviewPage(Form):
     def load(self) -> None:
         """Say what is wrong, or that nothing is; show the file."""
         super().load()
-        said = [f"✖ {one.name}: {plain_words(one)}" for one in self.editor.problems]
-        self.verdict.setText("\n".join(said) or tr("✔ The exercise can be used."))
-        self.verdict.setStyleSheet(f"color: {theme.BAD if said else theme.GOOD};")
+        said = [f"✖ {self._named(one)}: {problem_words(one)}" for one in self.editor.problems]
+        warned = "" if said else self._warning()
+        self.verdict.setText(
+            "\n".join(said)
+            or (tr("▲ The exercise can be used, but: {why}", why=warned) if warned else "")
+            or tr("✔ The exercise can be used.")
+        )
+        colour = theme.BAD if said else theme.WARNING if warned else theme.GOOD
+        self.verdict.setStyleSheet(f"color: {colour};")
         self.file.setPlainText(self._text())
+
+    def _warning(self) -> str:
+        """Say that bone stands before the target; empty where it does not."""
+        from app.exercises.tissue import bone_before  # scipy
+
+        exercise = self.editor.exercise
+        if exercise is None or isinstance(exercise.plan, OwnPlan):
+            return ""
+        with suppress(AcusError):
+            length = plan_of(exercise).length_mm
+            depth = bone_before(exercise.layers, length)
+            return "" if depth is None else bone_words(depth, length)
+        return ""

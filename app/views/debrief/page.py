@@ -178,7 +178,8 @@ class ScoreTable(QTableWidget):
                 item = _cell(text, column)
                 colour = texts.colour if column == 2 else theme.TEXT_DIM if dim else theme.TEXT
                 item.setForeground(QColor(theme.now(colour)))
-                item.setToolTip(texts.help)
+                # The column of names is the one that is cut where there is little room.
+                item.setToolTip(f"{texts.label}\n{texts.help}" if column == 0 else texts.help)
                 self.setItem(index, column, item)
 
     def resizeEvent(self, event: QResizeEvent) -> None:

@@ -25,7 +25,7 @@ from app.session.people import NOTHING_SAID, People, Remarks
 from app.views.kit.access import ACCESS
 from app.views.kit.parts import label
 from app.views.kit.settings_dialog import SettingsDialog
-from app.views.kit.text import tr
+from app.views.kit.text import counted, tr
 
 
 def said_words(said: Remarks, held: str = "") -> list[str]:
@@ -205,7 +205,8 @@ class RemarkActions(QObject):
         if not why:
             raise PeopleError(tr("Say why: the student reads it in the list and in the debrief."))
         self._write(ids, void=why)
-        self.noted.emit(tr("{n} attempts declared void", n=len(ids)))
+        many = tr("{n} attempts declared void", n=len(ids))
+        self.noted.emit(counted(len(ids), tr("1 attempt declared void"), many))
 
     def _say(self, done: str, **said: str | bool) -> None:
         ids = self._ids()
@@ -218,7 +219,8 @@ class RemarkActions(QObject):
         except AcusError as error:
             self.failed.emit(error)
         else:
-            self.noted.emit(tr("{done}: {n} attempts", done=done, n=len(ids)))
+            many = tr("{done}: {n} attempts", done=done, n=len(ids))
+            self.noted.emit(counted(len(ids), tr("{done}: 1 attempt", done=done), many))
 
     def _write(self, ids: Sequence[str], **said: str | bool) -> None:
         if not ACCESS.may_manage:

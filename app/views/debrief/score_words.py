@@ -15,7 +15,7 @@ from app.session.next_exercise import Proposal, ProposalReason
 from app.session.review import Review
 from app.views.exercise.readouts import clock_text
 from app.views.kit import theme
-from app.views.kit.text import tr
+from app.views.kit.text import counted, tr
 
 
 def risk_line(mark: RiskMark, origin: float) -> str:
@@ -88,8 +88,16 @@ def short_words(conditions: Conditions | None) -> str:
         hand_word(conditions),
         kind_word(conditions.kind),
         tr("assistance {dial}", dial=dial) if dial else "",
+        tr("▲ model changed meanwhile: {models}", models=models_text(conditions))
+        if conditions.models
+        else "",
     )
     return "  ·  ".join(filter(None, parts))
+
+
+def models_text(conditions: Conditions) -> str:
+    """Name the effects, each with the model that was chosen while the attempt ran."""
+    return ", ".join(conditions.models).replace("_", " ")
 
 
 def facts_of(conditions: Conditions) -> tuple[tuple[str, str], ...]:
@@ -101,6 +109,7 @@ def facts_of(conditions: Conditions) -> tuple[tuple[str, str], ...]:
         (tr("Views"), _views(c)),
         (tr("Hand and robot"), f"{hand_word(c) or tr('not recorded')}, {_robot(c)}"),
         (tr("Screen and needle"), agreement_words(c)),
+        *(((tr("Models changed meanwhile"), models_text(c)),) if c.models else ()),
         (tr("Software"), _software(c)),
     )
 
@@ -301,22 +310,29 @@ def _loss(points: float, row: Row) -> str:
     expert = row.tolerance.knots[0] if row.tolerance else 0.0
     more = row.tolerance is not None and row.tolerance.knots[0] > row.tolerance.knots[2]
     text = (
-        tr("{label}: {value} cost {points:.0f} points; {expert} or more costs none.")
+        tr("{label}: {value} cost {points}; {expert} or more costs none.")
         if more
-        else tr("{label}: {value} cost {points:.0f} points; {expert} or less costs none.")
+        else tr("{label}: {value} cost {points}; {expert} or less costs none.")
     )
     value = "–" if row.value is None else with_unit(row.value, row.unit)
     limit = with_unit(expert, row.unit)
-    return text.format(label=row.label, value=value, points=points, expert=limit)
+    cost = points_words(points)
+    return text.format(label=row.label, value=value, points=cost, expert=limit)
+
+
+def points_words(points: float) -> str:
+    """Say so many points."""
+    n = round(points)
+    return counted(n, tr("1 point"), tr("{n} points", n=n))
 
 
 def proposal_words(proposal: Proposal) -> str:
     """Say in one or two sentences what comes next, and why."""
     cost = (
         tr(
-            " {metric} cost most: {points:.0f} points.",
+            " {metric} cost most: {points}.",
             metric=proposal.metric,
-            points=proposal.points,
+            points=points_words(proposal.points),
         )
         if proposal.metric
         else ""
@@ -329,9 +345,9 @@ def proposal_words(proposal: Proposal) -> str:
         + tr(" This one is passed; it is of level {level}.", level=proposal.level),
         ProposalReason.WEAKNESS: next_one
         + tr(
-            " This one is passed; {metric} cost most here ({points:.0f} points), and counts there.",
+            " This one is passed; {metric} cost most here ({points}), and counts there.",
             metric=proposal.metric,
-            points=proposal.points,
+            points=points_words(proposal.points),
         ),
         ProposalReason.AGAIN: tr("The same again: it is not passed yet.") + cost,
         ProposalReason.EASIER: next_one

@@ -22,7 +22,7 @@ from app.core import state_vector as sv
 from app.exercises.guidance import Purpose
 from app.exercises.portrait import Portrait, kept_portrait
 from app.exercises.schema import Exercise
-from app.session.course import attempts_used, courses, not_void, why_not
+from app.session.course import attempts_used, courses, not_void, refusals, why_not
 from app.session.index import Index
 from app.session.motion import ShownMotion
 from app.session.people import Person
@@ -208,6 +208,7 @@ class Beginning(QObject):
 
     def _show_page(self, exercise: Exercise) -> None:
         self.page.show_exercise(exercise, kept_portrait(exercise))
+        self.page.set_allowance(AttemptsLeft(refusal=ACCESS.refusal(exercise.id)))
         self._shell.show_page(self.page)
         self.page.begin.setFocus()
         self._asked += 1
@@ -482,20 +483,20 @@ def attempts_left(
     """
     from app.session.people import People
 
-    item = None
-    for course in courses()[0]:
+    item, known = None, courses()[0]
+    for course in known:
         found = [one for one in course.items if one.exercise == exercise.id]
         if found and course.takes(student):
             item = found[0]
             break
+    today = datetime.datetime.now().astimezone().date()
     if item is None:
-        return AttemptsLeft()
+        return AttemptsLeft(refusal=refusals(known, student, (), today).get(exercise.id, ""))
     index = Index(folder)
     index.refresh()
     people = People()
     texts = [text for text, key in people.keys().items() if key == student.key]
     own = not_void(index.attempts(texts), people.remarks())
-    today = datetime.datetime.now().astimezone().date()
     refusal = why_not(course, exercise.id, own, today, titles)
     return AttemptsLeft(item.attempts, len(attempts_used(own, item)), course.title, refusal)
 

@@ -29,7 +29,7 @@ from app.scoring.metrics import available
 from app.scoring.tolerance import Tolerance
 from app.views.kit import theme
 from app.views.kit.parts import button, label
-from app.views.kit.text import tr
+from app.views.kit.text import counted, tr
 from app.views.reading.lock_words import view_title
 from app.views.shell.shortcuts import disclaimer_label
 
@@ -153,17 +153,20 @@ class AttemptsLeft:
     def words(self) -> str:
         """Say it."""
         if self.allowed is None:
-            said = tr("Any number of attempts.")
+            said = "" if self.refusal else tr("Any number of attempts.")
         elif self.used is None:
-            said = tr("{n} attempts are allowed.", n=self.allowed)
+            many = tr("{n} attempts are allowed.", n=self.allowed)
+            said = counted(self.allowed, tr("1 attempt is allowed."), many)
         else:
             left = max(0, self.allowed - self.used)
-            said = tr("{left} of {n} attempts are left.", left=left, n=self.allowed)
+            many = tr("{left} of {n} attempts are left.", left=left, n=self.allowed)
+            one = tr("The one attempt is left.") if left else tr("The one attempt is used.")
+            said = counted(self.allowed, one, many)
         if self.course:
             said += " " + tr("Course: {title}.", title=self.course)
         if self.refusal:
             said += "\n" + tr("Not now: {why}.", why=self.refusal)
-        return said
+        return said.strip()
 
 
 # --- pictures ---------------------------------------------------------------------------------

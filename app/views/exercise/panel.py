@@ -266,7 +266,8 @@ class BreathCommand(QWidget):
         if breath.held:
             words = tr("holds: {s:.0f} s left").format(s=breath.left)
         elif breath.spent:
-            words = tr("has to breathe")
+            words = tr("breathes by himself")
+            self.button.setText(tr("Release (A)"))
         else:
             words = tr("breathes out and holds") if breath.asked else tr("breathes")
         self._words.setText(words)
@@ -418,6 +419,9 @@ class ExercisePanel(QWidget):
         elif self._signed_in:
             self.student.setText(self._typed)
         self._signed_in = ACCESS.student is not None
+        self.student.setPlaceholderText(
+            tr("anonymous (instructor signed in)") if ACCESS.instructor else tr("anonymous")
+        )
         self._enable()
 
     def _enable(self) -> None:

@@ -193,7 +193,11 @@ def breath_words(breath: BreathHold, words: str, commands: bool) -> str:
     if breath.held:
         return tr("Held, {s:.0f} s left: ").format(s=breath.left) + words
     if breath.spent:
-        return tr("He has to breathe: let him (A)") if commands else tr("He has to breathe")
+        return (
+            tr("He breathes by himself (A releases, A asks anew): {step}", step=words)
+            if commands
+            else tr("He breathes by himself: {step}", step=words)
+        )
     if breath.asked:
         return tr("Wait: he breathes out and holds")
     return tr("Have the breath held (A): {step}", step=words) if commands else words

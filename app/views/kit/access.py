@@ -26,12 +26,14 @@ class Known:
         pseudonyms: by what records name.
         keys: of students, likewise.
         refused: why the student who is signed in may not begin an exercise, by its id.
+        assessed: exercises that a course holds as assessments -> title of the course.
     """
 
     guarded: bool = False
     pseudonyms: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
     keys: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
     refused: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    assessed: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
 
 
 class Access(QObject):
@@ -103,7 +105,16 @@ class Access(QObject):
 
     def refusal(self, exercise: str) -> str:
         """Say why who is here may not begin an exercise; empty if nothing speaks against it."""
-        return "" if self.student is None else self._known.refused.get(exercise, "")
+        if self.student is not None:
+            return self._known.refused.get(exercise, "")
+        course = self._known.assessed.get(exercise, "")
+        if self.may_manage or not course:
+            return ""
+        return tr(
+            "it is an assessment of the course {course}. Sign in as a student who takes it "
+            "(Sessions ▸ Sign in as a student…), or as the instructor",
+            course=course,
+        )
 
 
 ACCESS = Access()

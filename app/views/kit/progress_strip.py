@@ -92,6 +92,7 @@ class ProgressStrip(QWidget):
     def show_task(self, task: BackgroundTask, title: str) -> None:
         """Follow a task."""
         row = _Row(title, self)
+        row.cancel.clicked.connect(row.say_cancelling)
         row.cancel.clicked.connect(task.cancel)
         task.progressed.connect(row.show_progress)
         task.finished.connect(lambda: self._remove(row))
@@ -119,8 +120,9 @@ class _Row(QWidget):
         self._bar.setMinimumWidth(80)
         self.cancel = QToolButton(self)
         self.cancel.setText(tr("Cancel"))
+        self.cancel.setProperty("role", "notice")
         row = QHBoxLayout(self)
-        row.setContentsMargins(theme.MARGIN, 2, theme.SPACING, 2)
+        row.setContentsMargins(theme.MARGIN, 1, theme.SPACING, 1)
         row.addWidget(self._text)
         row.addWidget(self._bar, 1, Qt.AlignmentFlag.AlignVCenter)
         row.addWidget(self.cancel)
@@ -132,6 +134,11 @@ class _Row(QWidget):
         self._bar.setValue(int(1000 * fraction))
         self._line = f"{self._title}: {text}" if text else self._title
         self._write()
+
+    def say_cancelling(self) -> None:
+        """Say that the wish was heard: the work ends where it can."""
+        self.cancel.setEnabled(False)
+        self.cancel.setText(tr("Cancelling…"))
 
     def _write(self) -> None:
         """Write the title, without names while they are hidden."""

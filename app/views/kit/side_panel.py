@@ -16,6 +16,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.views.kit.wheel import wheel_scrolls
+
 IN_A_ROW = 4
 """Names in a row: more would be cut at the panel's width."""
 
@@ -115,4 +117,5 @@ def scrolled(panel: QWidget, parent: QWidget | None = None) -> QScrollArea:
     area.setWidgetResizable(True)
     area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
     area.setWidget(panel)
+    wheel_scrolls(panel)
     return area

@@ -21,6 +21,11 @@ def tr(text: str, **values: object) -> str:
     return translated.format(**values) if values else translated
 
 
+def counted(number: int, one: str, several: str) -> str:
+    """Return the words for one, or those for another number of things; both translated."""
+    return one if number == 1 else several
+
+
 def disclaimer() -> str:
     """Return `core.disclaimer.DISCLAIMER` in the user's language.
 

@@ -16,17 +16,18 @@ from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.exchange.results import Results, ResultsFormat, results_text, write_results
 from app.exercises.schema import Exercise
-from app.session.archive import backup, erase_person
+from app.session.archive import Erased, backup, erase_person
 from app.session.board import ProgressBoard, board_of
 from app.session.course import (
     Course,
     CourseError,
     CourseStanding,
+    assessed_by,
     course_standings,
     courses,
     not_void,
+    refusals,
     waiting_for_release,
-    why_not,
 )
 from app.session.errors import PeopleError
 from app.session.index import Index, Indexed
@@ -36,7 +37,7 @@ from app.views.kit.access import ACCESS, Known
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
-from app.views.kit.text import tr
+from app.views.kit.text import counted, tr
 from app.views.people.pages import (
     GROUP_PDF,
     STUDENT_PDF,
@@ -128,7 +129,7 @@ class PeopleFeature(Feature):
         for task in tuple(self._running):
             task.close()
         if self.dialog is not None:
-            self.dialog.close()
+            self.dialog.done(QDialog.DialogCode.Rejected)  # whatever it would ask
         ACCESS.sign_in(None)
         ACCESS.learn(Known())
 
@@ -178,6 +179,7 @@ class PeopleFeature(Feature):
                     "station's key in a backup. It is kept nowhere."
                 ),
                 recovery,
+                once=True,
             )
 
         fields = ((tr("New password"), True), (tr("Again"), True))
@@ -199,21 +201,16 @@ class PeopleFeature(Feature):
 
         def find(_: Progress) -> Known:
             people = self._people
-            known = Known(people.has_instructor(), people.pseudonyms(), people.keys())
+            given = courses()[0]
+            assessed = {name: held[0].title for name, held in assessed_by(given).items()}
+            known = Known(people.has_instructor(), people.pseudonyms(), people.keys(), {}, assessed)
             if student is None:
                 return known
             index = Index(self._folder)
             index.refresh()
             texts = [text for text, key in known.keys.items() if key == student.key]
             own, today = not_void(index.attempts(texts), people.remarks()), _today()
-            refused = {
-                item.exercise: why
-                for course in courses()[0]
-                if course.takes(student)
-                for item in course.items
-                if (why := why_not(course, item.exercise, own, today, titles))
-            }
-            return replace(known, refused=refused)
+            return replace(known, refused=refusals(given, student, own, today, titles))
 
         self._learning += 1
         asked = self._learning
@@ -315,6 +312,7 @@ class PeopleFeature(Feature):
                     tr("PIN"),
                     tr("Hand this out; it is kept nowhere."),
                     f"{person.pseudonym}  {drawn}",
+                    once=True,
                 )
 
         fields = [(name, False) for name in names]
@@ -354,7 +352,8 @@ class PeopleFeature(Feature):
         self.noted.emit(tr("{n} students added, {m} updated", n=added, m=updated))
         if report.pins:
             pins = "\n".join(f"{name}\t{pin}" for name, pin in report.pins.items())
-            self._tell(tr("PINs"), tr("Hand these out; they are kept nowhere."), pins)
+            words = tr("Hand these out; they are kept nowhere.")
+            self._tell(tr("PINs"), words, pins, once=True)
 
     def new_pin(self) -> None:
         """Draw another PIN for the student who is chosen."""
@@ -364,9 +363,8 @@ class PeopleFeature(Feature):
         if person is not None:
             pin = f"{secrets.randbelow(10**6):06d}"
             self._try(lambda: self._people.set_pin(person.pseudonym, pin))
-            self._tell(
-                tr("PIN"), tr("Hand this out; it is kept nowhere."), f"{person.pseudonym}  {pin}"
-            )
+            words = tr("Hand this out; it is kept nowhere.")
+            self._tell(tr("PIN"), words, f"{person.pseudonym}  {pin}", once=True)
 
     def assign(self) -> None:
         """Ask which typed name of old records is the student's who is chosen."""
@@ -424,14 +422,19 @@ class PeopleFeature(Feature):
         self._open(box)
 
     def _erase(self, pseudonym: str, with_records: bool) -> None:
-        def work(_: Progress) -> tuple[int, int]:
+        def work(_: Progress) -> Erased:
             return erase_person(pseudonym, self._folder, with_records, self._people)
 
-        def done(found: tuple[int, int]) -> None:
+        def done(found: Erased) -> None:
             self._changed()
-            text = tr("{name} was erased, with {n} records", name=pseudonym, n=found[0])
-            if found[1]:
-                text += tr("; {n} older records keep the name that was typed", n=found[1])
+            text = tr(
+                "{name} was erased; records deleted: {n}, kept as nobody's: {m}",
+                name=pseudonym,
+                n=found.deleted,
+                m=found.anonymous,
+            )
+            if found.typed:
+                text += tr(", kept with the name that was typed: {n}", n=found.typed)
             self.noted.emit(text)
 
         self._beside(work, done, tr("Erasing"))
@@ -448,7 +451,9 @@ class PeopleFeature(Feature):
             edited.save()
             self._changed()
 
-        self._open(CourseDialog(course, self._exercises(), take, self._shell.dialog_parent))
+        groups = sorted({name for one in self._people.everybody() for name in one.groups})
+        parent = self._shell.dialog_parent
+        self._open(CourseDialog(course, self._exercises(), take, groups, parent))
 
     def begin_of_course(self, standing: CourseStanding) -> None:
         """Begin an exercise of a course, or say why that cannot be."""
@@ -466,7 +471,9 @@ class PeopleFeature(Feature):
         ids = list(self._look.waiting.get(course.id, ())) if self._look is not None else []
         box = QMessageBox(self._shell.dialog_parent)
         box.setWindowTitle(tr("Release results"))
-        box.setText(tr("Release {n} results of {title}?", n=len(ids), title=course.title))
+        many = tr("Release {n} results of {title}?", n=len(ids), title=course.title)
+        one = tr("Release 1 result of {title}?", title=course.title)
+        box.setText(counted(len(ids), one, many))
         box.setInformativeText(
             tr("Their students see score, replay and your comments then. Each can be held back.")
         )
@@ -476,7 +483,8 @@ class PeopleFeature(Feature):
         def answered(clicked: object) -> None:
             if clicked is release and ids and self._may():
                 self._try(lambda: self._people.remark_all(ids, released=True))
-                self.noted.emit(tr("{n} results released", n=len(ids)))
+                many = tr("{n} results released", n=len(ids))
+                self.noted.emit(counted(len(ids), tr("1 result released"), many))
                 self._changed()
 
         box.buttonClicked.connect(answered)
@@ -574,7 +582,9 @@ class PeopleFeature(Feature):
         conductor.controller.finished.connect(lambda _: self._ended())
 
         def refusal() -> str:
-            return ACCESS.refusal(conductor.exercise.id) if conductor.exercise else ""
+            taken = conductor.exercise
+            why = "" if taken is None else ACCESS.refusal(taken.id)
+            return tr("It cannot be begun: {why}.", why=why) if why else ""
 
         conductor.controller.refusal = refusal
 
@@ -624,8 +634,8 @@ class PeopleFeature(Feature):
         self._running.append(task)
         task.finished.connect(lambda: self._running.remove(task))
 
-    def _tell(self, title: str, words: str, text: str) -> None:
-        self._open(text_dialog(title, words, text, self._shell.dialog_parent))
+    def _tell(self, title: str, words: str, text: str, once: bool = False) -> None:
+        self._open(text_dialog(title, words, text, self._shell.dialog_parent, once))
 
     def _open(self, dialog: QDialog) -> None:
         self.dialog = dialog

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime
 from collections.abc import Callable, Mapping, Sequence
+from itertools import pairwise
 from typing import Final
 
 from PySide6.QtCore import QPointF, QRectF, Qt, Signal
@@ -38,17 +39,22 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.core.configuration import FieldProblem, checked
+from app.core.errors import AcusError
 from app.exercises.guidance import Purpose
 from app.exercises.schema import Exercise
 from app.session.board import BoardCell, CurvePoint, ProgressBoard
-from app.session.course import Course, CourseStanding, course_of, next_of_course
+from app.session.course import Course, CourseError, CourseStanding, next_of_course
 from app.session.people import Person
 from app.views.debrief.page import date_text
 from app.views.kit import theme
+from app.views.kit.field_words import problem_words
 from app.views.kit.names import NAMES
 from app.views.kit.parts import button, label, table
 from app.views.kit.settings_dialog import SettingsDialog
-from app.views.kit.text import tr
+from app.views.kit.text import counted, tr
+from app.views.kit.verdict import Verdict, tell
+from app.views.kit.wheel import wheel_scrolls
 
 _DAY: Final = 86400.0
 _LEVEL: Final = 0.5
@@ -87,7 +93,8 @@ def since_words(since: datetime.timedelta) -> str:
 
 def cell_details(cell: BoardCell) -> str:
     """Say the rest of a cell: how many count, the trend, what does not count and why."""
-    lines = [tr("{n} attempts count", n=cell.attempts)]
+    many = tr("{n} attempts count", n=cell.attempts)
+    lines = [counted(cell.attempts, tr("1 attempt counts"), many)]
     if cell.trend is not None:
         lines.append(tr("trend {trend:+.1f} points a time", trend=cell.trend))
     lines += [tr("{n} not counted: {why}", n=n, why=why) for why, n in cell.why]
@@ -535,6 +542,13 @@ class PeoplePage(QWidget):
             self.tabs.setCurrentWidget(self.board)
 
 
+def lead(dialog: QDialog, *fields: QWidget) -> None:
+    """Let a dialog open with the cursor in the first of its fields, and Tab go through them."""
+    for one, following in pairwise(fields):
+        QWidget.setTabOrder(one, following)
+    fields[0].setFocus()
+
+
 class EntryDialog(SettingsDialog):
     """A form of lines that are taken together; what is wrong is said below.
 
@@ -563,6 +577,8 @@ class EntryDialog(SettingsDialog):
             line.setAccessibleName(name)
             if hidden:
                 line.setEchoMode(QLineEdit.EchoMode.Password)
+        self.names = [name for name, _ in fields]
+        lead(self, *self.lines)
         column = QVBoxLayout(self)
         if words:
             column.addWidget(label(words, "dim"))
@@ -574,29 +590,46 @@ class EntryDialog(SettingsDialog):
         """Everything is checked when it is taken."""
 
     def keep(self) -> None:
-        """Take the entries; a secret that was wrong is typed anew."""
+        """Take the entries; where one was wrong the cursor stands in it, and nothing is lost."""
         try:
             self._take(*(line.text() for line in self.lines))
-        except Exception:
-            for line in self.lines:
-                if line.echoMode() == QLineEdit.EchoMode.Password:
-                    line.clear()
-                    line.setFocus()
+        except AcusError as error:
+            wrong = self._wrong(str(error))
+            wrong.setFocus()
+            wrong.selectAll()
             raise
+
+    def _wrong(self, said: str) -> QLineEdit:
+        """Return the line that a message names, secrets first, else the first secret, or line."""
+        ordered = sorted(
+            zip(self.names, self.lines, strict=True),
+            key=lambda one: one[1].echoMode() is not QLineEdit.EchoMode.Password,
+        )
+        named = (line for name, line in ordered if name.casefold() in said.casefold())
+        return next(named, ordered[0][1])
 
 
 class CourseDialog(SettingsDialog):
-    """A course as a form: exercises in a table, each with version, attempts, purpose and days."""
+    """A course as a form: exercises in a table, each with version, attempts, purpose and days.
+
+    Args:
+        course: to be changed; None for a new one.
+        exercises: that the library has, by id.
+        take: takes the course; raises an AcusError if it cannot be taken.
+        groups: that students are in.
+        parent: window.
+    """
 
     def __init__(
         self,
         course: Course | None,
         exercises: Mapping[str, Exercise],
         take: Callable[[Course], object],
+        groups: Sequence[str] = (),
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(tr("Course"), (860, 520), QDialogButtonBox.StandardButton.Save, parent)
-        self._take, self._exercises = take, exercises
+        self._take, self._exercises, self._known = take, exercises, tuple(groups)
         self.id, self.title, self.groups = (QLineEdit(self) for _ in range(3))
         self.ordered = QCheckBox(tr("In order: the next opens when the one before was passed"))
         self.offered = QComboBox(self)
@@ -632,6 +665,7 @@ class CourseDialog(SettingsDialog):
         column.addWidget(self.buttons)
         self.add.clicked.connect(lambda: self.add_item(self.offered.currentData()))
         self.remove.clicked.connect(lambda: self.items.removeRow(self.items.currentRow()))
+        lead(self, *((self.id,) if course is None else ()), self.title, self.groups)
         if course is not None:
             self._show(course)
 
@@ -640,12 +674,17 @@ class CourseDialog(SettingsDialog):
         exercise: str,
         version: int = 0,
         attempts: int = 0,
-        purpose: Purpose = Purpose.PRACTICE,
+        purpose: Purpose | None = None,
         opens: str = "",
         closes: str = "",
     ) -> None:
-        """Add an exercise at the end; version 0 pins the one that the library has now."""
+        """Add an exercise at the end.
+
+        Version 0 pins the one that the library has now; without a purpose it has the exercise's.
+        """
         known = self._exercises.get(exercise)
+        if purpose is None:
+            purpose = known.purpose if known else Purpose.PRACTICE
         row = self.items.rowCount()
         self.items.insertRow(row)
         name = QTableWidgetItem(known.title if known else exercise)
@@ -666,6 +705,7 @@ class CourseDialog(SettingsDialog):
         kind.setCurrentIndex(kind.findData(purpose.value))
         for column, widget in enumerate((pinned, allowed, kind), 1):
             self.items.setCellWidget(row, column, widget)
+            wheel_scrolls(widget)
         for column, text in ((4, opens), (5, closes)):
             day = QLineEdit(text)
             day.setPlaceholderText(tr("any day"))
@@ -676,7 +716,7 @@ class CourseDialog(SettingsDialog):
         """Return the course as it stands in the form.
 
         Raises:
-            ConfigurationError: naming the field, its value and what would be valid.
+            CourseError: naming the field as the form does, its value and what would be valid.
         """
         groups = [name.strip() for name in self.groups.text().split(",") if name.strip()]
         document = {
@@ -686,15 +726,59 @@ class CourseDialog(SettingsDialog):
             "ordered": self.ordered.isChecked(),
             "items": [self._item(row) for row in range(self.items.rowCount())],
         }
-        return course_of(document, tr("the course"))
+        course, problems = checked(document, Course)
+        if course is None:
+            raise self._refused(problems[0])
+        return course
+
+    def _refused(self, problem: FieldProblem) -> CourseError:
+        """Say what is wrong with a field as the form calls it, and put the cursor there."""
+        place, words = problem.field, problem_words(problem)
+        first = str(place[0]) if place else ""
+        lines = {"id": self.id, "title": self.title, "groups": self.groups}
+        names = {"id": tr("File name"), "title": tr("Title"), "groups": tr("Groups")}
+        name, field = names.get(first, tr("Course")), lines.get(first)
+        if first == "items" and len(place) > 1:
+            row, key = int(place[1]), str(place[2]) if len(place) > 2 else ""
+            column = ("exercise", "version", "attempts", "purpose", "opens", "closes")
+            at = column.index(key) if key in column else 0
+            item, head = self.items.item(row, 0), self.items.horizontalHeaderItem(at)
+            parts = ("" if item is None else item.text(), head.text() if at and head else "")
+            name = ", ".join(filter(None, parts))
+            self.items.setCurrentCell(row, at)
+            cell = self.items.cellWidget(row, at)
+            (self.items if cell is None else cell).setFocus()
+        elif field is not None:
+            field.setFocus()
+        return CourseError(f"{name}: {words}")
 
     def check(self) -> None:
-        """Read the form."""
-        self.course()
+        """Read the form; refuse groups that nobody is in."""
+        course = self.course()
+        unknown = [name for name in course.groups if name not in self._known]
+        if unknown:
+            self.groups.setFocus()
+            there = (
+                tr("there are: {names}", names=", ".join(self._known))
+                if self._known
+                else tr("there are none yet: add students with their groups first")
+            )
+            raise CourseError(
+                tr(
+                    "Groups: no student is in {name}; {there}. Empty means everybody.",
+                    name=unknown[0],
+                    there=there,
+                )
+            )
 
     def keep(self) -> None:
-        """Hand the course on."""
-        self._take(self.course())
+        """Hand the course on; a name that is taken is typed anew."""
+        try:
+            self._take(self.course())
+        except CourseError:
+            self.id.setFocus()
+            self.id.selectAll()
+            raise
 
     def _item(self, row: int) -> dict[str, object]:
         name = self.items.item(row, 0)
@@ -836,9 +920,39 @@ class CurveDialog(QDialog):
         self.accept()
 
 
-def text_dialog(title: str, words: str, text: str, parent: QWidget) -> QDialog:
-    """Return a dialog with text to copy or write down: a recovery key, PINs, errors."""
-    dialog = QDialog(parent)
+class OnceDialog(QDialog):
+    """Something that is shown once only: it closes when somebody says that it is written down.
+
+    Attributes:
+        written: says so.
+    """
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.written = QCheckBox(tr("I have written it down"), self)
+        self.asked = label()
+
+    def reject(self) -> None:
+        """Close, unless nobody has said that it is written down: then ask."""
+        if self.written.isChecked():
+            super().reject()
+            return
+        why = tr("It is shown this once only: write it down, tick the box, then close.")
+        tell(self.asked, Verdict.WARNING, why)
+        self.written.setFocus()
+
+
+def text_dialog(title: str, words: str, text: str, parent: QWidget, once: bool = False) -> QDialog:
+    """Return a dialog with text to copy or write down: a recovery key, PINs, errors.
+
+    Args:
+        title: of the dialog.
+        words: what it is.
+        text: to be copied.
+        parent: window.
+        once: whether it is shown this once only, so that it closes only when it is written down.
+    """
+    dialog = OnceDialog(parent) if once else QDialog(parent)
     dialog.setWindowTitle(title)
     dialog.resize(560, 360)
     shown = QPlainTextEdit(text)
@@ -848,5 +962,8 @@ def text_dialog(title: str, words: str, text: str, parent: QWidget) -> QDialog:
     column = QVBoxLayout(dialog)
     column.addWidget(label(words))
     column.addWidget(shown, 1)
+    if isinstance(dialog, OnceDialog):
+        column.addWidget(dialog.written)
+        column.addWidget(dialog.asked)
     column.addWidget(buttons)
     return dialog

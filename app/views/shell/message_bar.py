@@ -1,6 +1,7 @@
 """Errors and notes over the free end of the menu bar: they stop nothing and go when closed.
 
 A bar that pushed the panes down would move the image under the mouse, in the middle of a drag.
+Where the next step is said they keep clear of it: what needs more than the menus' line lies below.
 Notes go by themselves after a while. What belongs to a state stands as long as the state does
 (`message_topics` says which): another message covers it, and it is back when that one goes.
 """
@@ -26,16 +27,31 @@ from app.views.kit.names import NAMES
 from app.views.kit.text import tr
 
 GAP_PX = 12
+CLEAR_CHANGES = (
+    QEvent.Type.Show,
+    QEvent.Type.Hide,
+    QEvent.Type.Move,
+    QEvent.Type.Resize,
+)
+
 NARROWEST_PX = 340
 """Where the menus leave less room the notices lie over them."""
 
 
 class Notices(QWidget):
-    """Stacks its parts from the top of the window and is there only while one of them is."""
+    """Stacks its parts from the top of the window and is there only while one of them is.
 
-    def __init__(self, window: QMainWindow, parts: tuple[QWidget, ...]) -> None:
+    Args:
+        window: whose menus they lie beside.
+        parts: from the top.
+        clear: what they never cover while it is seen, below the menus.
+    """
+
+    def __init__(
+        self, window: QMainWindow, parts: tuple[QWidget, ...], clear: QWidget | None = None
+    ) -> None:
         super().__init__(window)
-        self._window, self._parts = window, parts
+        self._window, self._parts, self._clear = window, parts, clear
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self._column = column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
@@ -44,6 +60,8 @@ class Notices(QWidget):
             column.addWidget(part)
             part.installEventFilter(self)
         window.installEventFilter(self)
+        if clear is not None:
+            clear.installEventFilter(self)
         self.place()
 
     def place(self) -> None:
@@ -57,12 +75,19 @@ class Notices(QWidget):
         left = max(ends, default=0) + GAP_PX
         if self._window.width() - left < NARROWEST_PX:
             left = 0
-        width = self._window.width() - left
+        top, needed = 0, self._needed(self._window.width() - left)
+        if self._clear is not None and self._clear.isVisible() and needed > bar.height():
+            corner = self._clear.mapTo(self._window, self._clear.rect().bottomLeft())
+            left, top = corner.x(), corner.y() + 1
+            needed = self._needed(self._window.width() - left)
+        self.setGeometry(left, top, self._window.width() - left, max(bar.height(), needed))
+        self.raise_()
+
+    def _needed(self, width: int) -> int:
+        """Return the height [px] that the notices need at a width [px]."""
         column = self._column
         wraps = column.hasHeightForWidth()
-        needed = column.totalHeightForWidth(width) if wraps else self.sizeHint().height()
-        self.setGeometry(left, 0, width, max(bar.height(), needed))
-        self.raise_()
+        return column.totalHeightForWidth(width) if wraps else self.sizeHint().height()
 
     def event(self, event: QEvent) -> bool:
         """Follow the size that the parts ask for."""
@@ -74,7 +99,8 @@ class Notices(QWidget):
         """Follow the window's size, and parts that come and go."""
         resized = watched is self._window and event.type() is QEvent.Type.Resize
         changed = event.type() in (QEvent.Type.ShowToParent, QEvent.Type.HideToParent)
-        if resized or (changed and watched is not self._window):
+        seen = watched is self._clear and event.type() in CLEAR_CHANGES
+        if resized or seen or (changed and watched not in (self._window, self._clear)):
             self.place()
         return False
 
@@ -107,11 +133,13 @@ class MessageBar(QWidget):
         self._more, self._close = QToolButton(self), QToolButton(self)
         self._more.setText(tr("Details"))
         self._close.setText("✕")
+        for button in (self._more, self._close):
+            button.setProperty("role", "notice")
         self._close.setAccessibleName(tr("Close message"))
         self._more.clicked.connect(self.show_details)
         self._close.clicked.connect(self.close_message)
         row = QHBoxLayout(self)
-        row.setContentsMargins(theme.MARGIN, 0, theme.SPACING, 0)
+        row.setContentsMargins(theme.MARGIN, 1, theme.SPACING, 2)  # above the line of 2 px
         row.addWidget(self._symbol)
         row.addWidget(self._text, 1)
         row.addWidget(self._more)
@@ -188,7 +216,7 @@ class MessageBar(QWidget):
         self._topic = ""
         colour, symbol = theme.VERDICTS[verdict]
         self._symbol.setText(symbol)
-        self._symbol.setStyleSheet(f"color: {colour}; font-size: {theme.TITLE_PX}px;")
+        self._symbol.setStyleSheet(f"color: {colour}; font-size: {theme.FONT_PX}px;")
         self.setStyleSheet(
             f"MessageBar {{ background: {theme.RAISED}; border-bottom: 2px solid {colour}; }}"
         )

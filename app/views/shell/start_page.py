@@ -54,7 +54,7 @@ if TYPE_CHECKING:
 OWN_WIDTH: Final = 330
 ROW: Final = 68
 PICTURE: Final = 88
-COLUMNS: Final = (("level", 92), ("done", 84), ("best", 62))
+COLUMNS: Final = (("level", 120), ("done", 84), ("best", 62))
 """Columns at the right of a row, with their width."""
 
 AnyIndex = QModelIndex | QPersistentModelIndex

@@ -30,6 +30,7 @@ from app.views.exercise.conductor import Conductor
 from app.views.exercise.equipment import Equipment
 from app.views.exercise.feature import ExerciseFeature
 from app.views.exercise.runs import Runs
+from app.views.kit.access import ACCESS
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.progress_strip import ProgressStrip
@@ -222,7 +223,7 @@ class MainWindow(QMainWindow):
         self._begin_menus(shell)
         self.features = tuple(feature(self.context) for feature in features)
         self._end_menus(shell)
-        self.notices = Notices(self, (self.progress, self.message_bar))
+        self.notices = Notices(self, (self.progress, self.message_bar), self.workspace.next_step)
         self._connect()
         self.remembered = Remembered(
             self, self.settings, self.workspace, self.conductor, self.projector
@@ -294,7 +295,8 @@ class MainWindow(QMainWindow):
         conductor, patient = self.conductor, self.conductor.patient
         taken = conductor.exercise if patient and conductor.fits(patient) else None
         name = "" if patient is None else NAMES.shown(patient.label)
-        parts = ("" if taken is None else taken.title, name, "Acus")
+        here = tr("signed in as the instructor") if ACCESS.instructor else ""
+        parts = ("" if taken is None else taken.title, name, here, "Acus")
         self.setWindowTitle(" – ".join(filter(None, parts)))
         self.undo_action.setEnabled(self.undo.can_undo)
         self.redo_action.setEnabled(self.undo.can_redo)
@@ -358,6 +360,7 @@ class MainWindow(QMainWindow):
         conductor.patient_changed.connect(self.refresh)
         conductor.exercise_taken.connect(lambda _: self.refresh())
         self.undo.changed.connect(self.refresh)
+        ACCESS.changed.connect(self.refresh)
         self.projector.changed.connect(self._suit_room)
         start.set_exercises(self.services.exercises())
         conductor.exercises_changed.connect(lambda: start.set_exercises(self.services.exercises()))

@@ -25,6 +25,7 @@ from app.planning.clearance import Nearness, PathClearance
 from app.views.kit import theme
 from app.views.kit.names import NAMES
 from app.views.kit.text import tr
+from app.views.kit.wheel import wheel_scrolls
 from app.views.structures.book import StructureBook
 from app.views.structures.brush import Brush, Mode
 from app.views.structures.layer import NEARNESS_STYLES, SIGNS, kind_names
@@ -91,6 +92,8 @@ class StructureTable(QTableWidget):
         spin.valueChanged.connect(lambda value: self._set_warn(row, value))
         self.setCellWidget(row, KIND, box)
         self.setCellWidget(row, WARN, spin)
+        for one in (box, spin):
+            wheel_scrolls(one)
         return box, spin
 
     def _show_path(self, row: int, clearance: PathClearance | None) -> None:
