@@ -70,7 +70,7 @@ def test_insertion_through_the_fulcrum_and_a_sweep_within_keep_the_shaft_in_it()
     inside = follow(ARM, line, TOOL.T_tool_needle, pivot=PIVOT)
     last = inside.path.q[-1]
     tip = TOOL.needle_pose(ARM, last).translation
-    sweep = Sweep(PIVOT, tip, tip + [0.03, 0.02, -0.02], PIVOT.state(last).roll)
+    sweep = Sweep(PIVOT, [tip, tip + [0.03, 0.02, -0.02]], PIVOT.state(last).roll)
     swept = follow(ARM, sweep, TOOL.T_tool_needle, start=last, pivot=PIVOT)
     for one in (inside, swept):
         seen = max(PIVOT.state(q).off for q in one.path.at(S))
@@ -126,9 +126,25 @@ def test_dexterity_asked_for_is_kept_or_refused():
 
 def test_a_sweep_through_the_fulcrum_is_refused_as_undefined():
     d = PIVOT.inward_world
-    sweep = Sweep(PIVOT, PIVOT.p_world + 0.05 * d, PIVOT.p_world - 0.05 * d)
+    sweep = Sweep(PIVOT, [PIVOT.p_world + 0.05 * d, PIVOT.p_world - 0.05 * d])
     with pytest.raises(FulcrumError):
         follow(ARM, sweep, TOOL.T_tool_needle, pivot=PIVOT)
+
+
+def test_a_sweep_through_several_places_is_one_smooth_way_and_is_kept():
+    axis, depth, roll = PIVOT.inward_world, 0.1, 2.1
+    tip = PIVOT.p_world + depth * axis
+    tips = [tip, tip + [0.02, 0.0, 0.0], tip + [0.02, 0.02, -0.01], tip + [0.0, 0.02, -0.02]]
+    sweep = Sweep(PIVOT, tips, roll)
+    swept = follow(ARM, sweep, TOOL.T_tool_needle, pivot=PIVOT)
+    found = np.array([TOOL.needle_pose(ARM, q).translation for q in swept.path.at(S)])
+    wanted = [sweep.at(float(s)).translation for s in S]
+    assert np.linalg.norm(found - wanted, axis=1).max() <= swept.miss <= WITHIN
+    assert min(np.linalg.norm(found - tips[1], axis=1)) < 1e-4
+    assert max(PIVOT.state(q).off for q in swept.path.at(S)) <= swept.off <= SHAFT_OFF
+    for wrong in ([tip], [tip, tip], [1.0, 2.0]):
+        with pytest.raises(MotionError):
+            Sweep(PIVOT, wrong)
 
 
 def test_the_orientation_goes_the_shortest_way():

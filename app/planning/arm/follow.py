@@ -9,13 +9,14 @@ which all joints keep half the margin that the postures had.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import islice
 from typing import Final, Protocol
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
-from app.core.arrays import FloatArray, cross, unit
+from app.core.arrays import FloatArray, cross, frozen, unit
 from app.core.rotation import rotation_exp, rotation_log
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
@@ -151,23 +152,38 @@ class Arc:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sweep:
-    """The tip goes straight within the body; the shaft stays in the fulcrum.
+    """The tip moves within the body; the shaft stays in the fulcrum.
 
     Attributes:
         pivot: the trocar and the tool.
-        start, end: of the tip in the world [m], shape (3,).
+        tips: places of the tip in the world [m], shape (n, 3): straight from one to another, or
+            the cubic spline through more.
         roll: of the tool about its shaft, kept [rad].
+
+    Raises:
+        MotionError: if there are fewer than two places, or two that follow are the same.
     """
 
     pivot: Pivot
-    start: FloatArray
-    end: FloatArray
+    tips: FloatArray
     roll: float = 0.0
+    _spline: CubicSpline = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        tips = frozen(self.tips, name="tips")
+        if tips.ndim != 2 or tips.shape[1] != 3 or len(tips) < 2:
+            raise MotionError(f"tips have shape {tips.shape}; (n, 3) with two or more are needed")
+        lengths = np.linalg.norm(np.diff(tips, axis=0), axis=1)
+        if not lengths.min() > 0.0:
+            raise MotionError("a sweep has two places of the tip that follow and are the same")
+        s = np.append(0.0, np.cumsum(lengths)) / lengths.sum()
+        object.__setattr__(self, "tips", tips)
+        object.__setattr__(self, "_spline", CubicSpline(s, tips))
 
     @property
     def bend(self) -> float:
-        """None: the tip goes straight, at even speed."""
-        return 0.0
+        """Of the spline: its second derivative is largest at a knot."""
+        return float(np.linalg.norm(self._spline(self._spline.x, 2), axis=1).max())
 
     @property
     def turn_bend(self) -> None:
@@ -175,9 +191,8 @@ class Sweep:
         return
 
     def at(self, s: float) -> RigidTransform:
-        """Pose at s; `FulcrumError` where the line passes the fulcrum or is too flat."""
-        start = np.asarray(self.start)
-        return self.pivot.tip_pose(start + s * (np.asarray(self.end) - start), self.roll)
+        """Pose at s; `FulcrumError` where the way passes the fulcrum or is too flat."""
+        return self.pivot.tip_pose(self._spline(s), self.roll)
 
 
 @dataclass(frozen=True, slots=True)
