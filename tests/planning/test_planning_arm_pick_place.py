@@ -59,7 +59,7 @@ def test_the_hand_grips_the_tool_where_it_lies_and_carries_it_to_its_depth(done)
     assert end.off < 1e-9
 
 
-def test_the_shaft_is_in_the_fulcrum_all_through_the_insertion_and_the_tool_held_from_the_lift(
+def test_the_shaft_stays_in_the_fulcrum_while_it_goes_in_and_the_tool_is_held_from_the_lift(
     done,
 ):
     insert = done.phases[-1]

@@ -355,36 +355,56 @@ class _Run:
         planner: Planner,
         attempt: int = 0,
     ) -> list[FloatArray]:
-        """Return places from start to goal, straight between them, as OMPL finds them."""
-        ompl = import_ompl()
-        base, count = ompl.base, len(start)
-        with _quiet(ompl.util):
-            ompl.util.RNG.setSeed(self.budget.seed + 1_000_003 * attempt)
-            space, bounds = base.RealVectorStateSpace(count), base.RealVectorBounds(count)
+        """Return places from start to goal, straight between them, as OMPL finds them.
+
+        Raises:
+            SearchError: if it finds none.
+        """
+        seed = self.budget.seed + 1_000_003 * attempt
+        found = _places(box, (start, goal), valid, step, planner, seed, self.spent)
+        if found is None:
+            raise SearchError(
+                f"{planner.value} found no way in {time.perf_counter() - self.begun:.3g} s and"
+                f" {self.tests} tests (budget {self.budget.seconds:g} s, {self.budget.tests} tests,"
+                f" seed {self.budget.seed}): give it more, or make room"
+            )
+        return found
+
+
+def _places(
+    box: tuple[FloatArray, FloatArray],
+    ends: tuple[FloatArray, FloatArray],
+    valid: Callable[[FloatArray], bool],
+    step: float,
+    planner: Planner,
+    seed: int,
+    spent: Callable[[], bool],
+) -> list[FloatArray] | None:
+    """Let OMPL search; None if it finds no way. What it made is gone when this returns."""
+    ompl = import_ompl()
+    base, count = ompl.base, len(ends[0])
+    with _quiet(ompl.util):
+        ompl.util.RNG.setSeed(seed)
+        space, bounds = base.RealVectorStateSpace(count), base.RealVectorBounds(count)
+        for k in range(count):
+            bounds.setLow(k, float(box[0][k]))
+            bounds.setHigh(k, float(box[1][k]))
+        space.setBounds(bounds)
+        setup = ompl.geometric.SimpleSetup(space)
+        setup.setStateValidityChecker(lambda s: valid(np.array([s[k] for k in range(count)])))
+        information = setup.getSpaceInformation()
+        information.setStateValidityCheckingResolution(step / space.getMaximumExtent())
+        states = space.allocState(), space.allocState()
+        for state, place in zip(states, ends, strict=True):
             for k in range(count):
-                bounds.setLow(k, float(box[0][k]))
-                bounds.setHigh(k, float(box[1][k]))
-            space.setBounds(bounds)
-            setup = ompl.geometric.SimpleSetup(space)
-            setup.setStateValidityChecker(lambda s: valid(np.array([s[k] for k in range(count)])))
-            information = setup.getSpaceInformation()
-            information.setStateValidityCheckingResolution(step / space.getMaximumExtent())
-            ends = space.allocState(), space.allocState()
-            for state, place in zip(ends, (start, goal), strict=True):
-                for k in range(count):
-                    state[k] = float(place[k])
-            setup.setStartAndGoalStates(*ends)
-            setup.setPlanner(getattr(ompl.geometric, planner.value)(information))
-            setup.solve(base.PlannerTerminationCondition(self.spent))
-            if not setup.haveExactSolutionPath():
-                raise SearchError(
-                    f"{planner.value} found no way in {time.perf_counter() - self.begun:.3g} s and"
-                    f" {self.tests} tests (budget {self.budget.seconds:g} s,"
-                    f" {self.budget.tests} tests, seed {self.budget.seed}): give it more, or make"
-                    " room"
-                )
-            states = setup.getSolutionPath().getStates()
-            return [np.array([state[k] for k in range(count)]) for state in states]
+                state[k] = float(place[k])
+        setup.setStartAndGoalStates(*states)
+        setup.setPlanner(getattr(ompl.geometric, planner.value)(information))
+        setup.solve(base.PlannerTerminationCondition(spent))
+        if not setup.haveExactSolutionPath():
+            return None
+        way = setup.getSolutionPath().getStates()
+        return [np.array([state[k] for k in range(count)]) for state in way]
 
 
 @contextmanager
