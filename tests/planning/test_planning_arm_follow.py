@@ -13,9 +13,9 @@ from app.mechanisms.arm import load_arm
 from app.planning.arm.follow import (
     TURN_WITHIN,
     WITHIN,
-    Arc,
-    Line,
     MotionRefusedError,
+    PoseArc,
+    PoseLine,
     Sweep,
     follow,
 )
@@ -44,9 +44,11 @@ def missed(followed, motion, T_tool_moved):
 
 
 MOTIONS = {
-    "line": Line(HERE, RigidTransform(DOWN @ rotation_exp([0.2, 0.3, 0.4]), [0.4, -0.2, 0.4])),
-    "turn in place": Line(HERE, RigidTransform(DOWN @ rotation_exp([0, 0, 1]), [0.5, 0.2, 0.3])),
-    "arc": Arc(HERE, RigidTransform(DOWN, [0.3, 0.4, 0.3]), [0.3, 0.2, 0.3], [0.0, 0.0, 1.0]),
+    "line": PoseLine(HERE, RigidTransform(DOWN @ rotation_exp([0.2, 0.3, 0.4]), [0.4, -0.2, 0.4])),
+    "turn in place": PoseLine(
+        HERE, RigidTransform(DOWN @ rotation_exp([0, 0, 1]), [0.5, 0.2, 0.3])
+    ),
+    "arc": PoseArc(HERE, RigidTransform(DOWN, [0.3, 0.4, 0.3]), [0.3, 0.2, 0.3], [0.0, 0.0, 1.0]),
 }
 
 
@@ -66,7 +68,7 @@ def test_a_motion_is_kept_to_within_its_bound_also_between_the_places_looked_at(
 
 def test_insertion_through_the_fulcrum_and_a_sweep_within_keep_the_shaft_in_it():
     d = PIVOT.inward_world
-    line = Line(PIVOT.pose(d, -0.05), PIVOT.pose(d, 0.1))
+    line = PoseLine(PIVOT.pose(d, -0.05), PIVOT.pose(d, 0.1))
     inside = follow(ARM, line, TOOL.T_tool_needle, pivot=PIVOT)
     last = inside.path.q[-1]
     tip = TOOL.needle_pose(ARM, last).translation
@@ -91,14 +93,14 @@ def test_arc_ends_where_it_should_and_turns_right_handed():
     arc = MOTIONS["arc"]
     assert abs(arc.angle - 0.5 * np.pi) < 1e-15
     assert np.abs(arc.at(1.0).matrix() - arc.end.matrix()).max() < 1e-15
-    whole = Arc(HERE, HERE, [0.3, 0.2, 0.3], [0.0, 0.0, 1.0])
+    whole = PoseArc(HERE, HERE, [0.3, 0.2, 0.3], [0.0, 0.0, 1.0])
     assert whole.angle == 2.0 * np.pi
     with pytest.raises(MotionError, match="no arc"):
-        Arc(HERE, RigidTransform(DOWN, [0.3, 0.5, 0.3]), [0.3, 0.2, 0.3], [0.0, 0.0, 1.0])
+        PoseArc(HERE, RigidTransform(DOWN, [0.3, 0.5, 0.3]), [0.3, 0.2, 0.3], [0.0, 0.0, 1.0])
 
 
 def test_a_line_out_of_reach_is_refused_with_place_reason_and_a_base_that_could():
-    line = Line(HERE, RigidTransform(DOWN, [0.9, 0.4, 0.3]))
+    line = PoseLine(HERE, RigidTransform(DOWN, [0.9, 0.4, 0.3]))
     with pytest.raises(MotionRefusedError, match=r"unreachable.*with its base at") as caught:
         follow(ARM, line, HAND)
     error = caught.value
@@ -111,7 +113,7 @@ def test_a_line_out_of_reach_is_refused_with_place_reason_and_a_base_that_could(
 def test_a_line_that_no_base_can_reach_says_so():
     far = RigidTransform(DOWN, [3.0, 0.0, 0.3])
     with pytest.raises(MotionRefusedError, match=r"no base within 0\.5 m"):
-        follow(ARM, Line(HERE, far), HAND)
+        follow(ARM, PoseLine(HERE, far), HAND)
 
 
 def test_a_start_that_is_not_the_motions_own_is_refused():

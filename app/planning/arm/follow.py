@@ -50,7 +50,7 @@ _FEW_STARTS: Final = 3  # where the base is moved
 _SHIFTS: Final = (0.1, 0.2, 0.3, 0.4, 0.5)  # of the base, when a better place is looked for [m]
 
 
-class Motion(Protocol):
+class PoseMotion(Protocol):
     """A pose along a parameter from 0 to 1."""
 
     @property
@@ -69,7 +69,7 @@ class Motion(Protocol):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Line:
+class PoseLine:
     """Straight from a pose to another, orientation on the shortest way (slerp)."""
 
     start: RigidTransform
@@ -92,7 +92,7 @@ class Line:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Arc:
+class PoseArc:
     """A circle's arc about an axis through a centre, orientation on the shortest way.
 
     Attributes:
@@ -278,7 +278,7 @@ def margins(arm: ArmProfile, path: JointPath) -> Margins:
 
 def follow(
     arm: ArmProfile,
-    motion: Motion,
+    motion: PoseMotion,
     T_tool_moved: RigidTransform,
     start: FloatArray | None = None,
     pivot: Pivot | None = None,
@@ -334,7 +334,7 @@ def place_base(arm: ArmProfile, possible: Callable[[ArmProfile], bool]) -> Rigid
 @dataclass(frozen=True, slots=True)
 class _Job:
     arm: ArmProfile
-    motion: Motion
+    motion: PoseMotion
     T_moved_tool: RigidTransform
     pivot: Pivot | None
     within: float

@@ -27,7 +27,7 @@ from app.core.units import MILLIMETRE
 from app.mechanisms.arm import ArmProfile
 from app.mechanisms.arm.kinematics import seven
 from app.mechanisms.errors import MechanismError
-from app.planning.arm.follow import Line, MotionRefusedError, follow
+from app.planning.arm.follow import MotionRefusedError, PoseLine, follow
 from app.planning.arm.path import JointPath
 from app.planning.arm.pivot import HeldTool, Pivot
 from app.planning.arm.search import Budget, Collisions, SearchError, search
@@ -76,7 +76,7 @@ class Errand:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Phase:
+class ArmPhase:
     """A phase with its times.
 
     Attributes:
@@ -109,7 +109,7 @@ class PickPlace:
         tried: grips that could not, and why.
     """
 
-    phases: tuple[Phase, ...]
+    phases: tuple[ArmPhase, ...]
     pivot: Pivot
     tried: tuple[str, ...]
 
@@ -118,7 +118,7 @@ class PickPlace:
         """How long it takes [s]."""
         return self.phases[-1].end
 
-    def phase_at(self, t: float) -> Phase:
+    def phase_at(self, t: float) -> ArmPhase:
         """Return the phase at a time [s]; the last one after the end."""
         return next((one for one in self.phases if t < one.end), self.phases[-1])
 
@@ -223,7 +223,7 @@ class _Errands:
         """Follow a line of the tip's frame, or say in which phase it cannot be."""
         try:
             made = follow(
-                self.arm, Line(a, b), self.pivot.tool.T_tool_needle, suggest=False, **more
+                self.arm, PoseLine(a, b), self.pivot.tool.T_tool_needle, suggest=False, **more
             )
         except (MotionRefusedError, MechanismError) as error:
             raise _StuckError(f"{name.value}: {error}") from error
@@ -291,17 +291,17 @@ class _Errands:
             _Leg(PhaseName.INSERT, inserted, True),
         ]
 
-    def phases(self, picked: list[_Leg], placed: list[_Leg]) -> tuple[Phase, ...]:
+    def phases(self, picked: list[_Leg], placed: list[_Leg]) -> tuple[ArmPhase, ...]:
         """Give all legs their times."""
         slow = (PhaseName.GRASP, PhaseName.ALIGN, PhaseName.INSERT)
-        done: list[Phase] = []
+        done: list[ArmPhase] = []
         for name in PhaseName:
             legs = [leg for leg in (*picked, *placed) if leg.name is name]
             if not legs:
                 continue
             scale = SLOW if name in slow else 1.0
             done.append(
-                Phase(
+                ArmPhase(
                     name,
                     done[-1].end if done else 0.0,
                     tuple(timed(self.arm, leg.path, scale) for leg in legs),

@@ -143,7 +143,7 @@ class Collisions:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Found:
+class FoundWay:
     """A way.
 
     Attributes:
@@ -187,7 +187,7 @@ def search(
     goal: ArrayLike,
     planner: Planner = Planner.RRT_CONNECT,
     budget: Budget | None = None,
-) -> Found:
+) -> FoundWay:
     """Find a way between two postures; the straight line of the joints, where that is free.
 
     Args:
@@ -239,7 +239,7 @@ def search_tips(
     goal_tip: ArrayLike,
     planner: Planner = Planner.RRT_CONNECT,
     budget: Budget | None = None,
-) -> Found:
+) -> FoundWay:
     """Find a way of the tip within the body; the shaft stays in the fulcrum.
 
     Postures are taken near the first one while searching, and each near the one before in the path
@@ -340,10 +340,10 @@ class _Run:
         late = time.perf_counter() - self.begun > self.budget.seconds
         return late or self.tests > self.budget.tests
 
-    def found(self, paths: tuple[JointPath, ...], first: float) -> Found:
+    def found(self, paths: tuple[JointPath, ...], first: float) -> FoundWay:
         """Wrap a way."""
         seconds = time.perf_counter() - self.begun
-        return Found(paths, self.tests, seconds, first, sum(path.length for path in paths))
+        return FoundWay(paths, self.tests, seconds, first, sum(path.length for path in paths))
 
     def search(
         self,

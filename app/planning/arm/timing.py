@@ -36,11 +36,12 @@ SHARES: Final = (0.5, 0.8)
 """Shares of an acceleration tried for what the path's bend takes at full speed."""
 
 _SHARE_JERK: Final = 1.0 / 3.0  # of a jerk, for each of its three terms
+_FAR: Final = 1e3  # times what can be reached
 _TOUCH: Final = 1e-9  # of a speed, as room for rounding at the cuts
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Profile:
+class TimeProfile:
     """Polynomials of third degree one after the other.
 
     Attributes:
@@ -73,7 +74,7 @@ class JointMotion:
         path: the path.
     """
 
-    profile: Profile
+    profile: TimeProfile
     path: JointPath | None
 
     @property
@@ -149,7 +150,9 @@ def free_move(arm: ArmProfile, start: ArrayLike, goal: ArrayLike) -> JointMotion
     return JointMotion(_ruckig(begin, end, arm.speed, arm.acceleration, arm.jerk), None)
 
 
-def _timed(arm: ArmProfile, path: JointPath, count: int, turning: float, scale: float) -> Profile:
+def _timed(
+    arm: ArmProfile, path: JointPath, count: int, turning: float, scale: float
+) -> TimeProfile:
     cuts = np.linspace(path.s[0], path.s[-1], count + 1)
     limits = _limits(arm, path, cuts, turning, scale)
     speeds = _speeds(np.diff(cuts), limits)
@@ -165,7 +168,7 @@ def _timed(arm: ArmProfile, path: JointPath, count: int, turning: float, scale: 
     ]
     begins = np.concatenate([[0.0], np.cumsum([part.t[-1] for part in parts])])
     times = [part.t[:-1] + begin for part, begin in zip(parts, begins, strict=False)]
-    return Profile(
+    return TimeProfile(
         read_only(np.append(np.concatenate(times), begins[-1])),
         read_only(np.concatenate([part.terms for part in parts])),
     )
@@ -237,13 +240,44 @@ def _ruckig(
     speed: FloatArray,
     acceleration: FloatArray,
     jerk: FloatArray,
-) -> Profile:
-    """Return Ruckig's fastest profile between places and speeds, no acceleration at the ends."""
-    ruckig = import_ruckig()
-    count = len(speed)
+) -> TimeProfile:
+    """Return Ruckig's fastest profile between places and speeds, no acceleration at the ends.
+
+    Asked in units of the way and of the time that it takes by jerk alone: Ruckig's tolerances are
+    numbers without a unit, and a way of a nanoradian has limits of 1e9 of it.
+    """
+    way = goal[0] - start[0]
+    length = float(np.abs(way).max()) or 1.0
+    unit = float(np.cbrt(length / jerk.min()))
+    orders = length / unit ** np.arange(4)  # of place, speed, acceleration, jerk
+    ends = start[1] / orders[1], way / length, goal[1] / orders[1]
+    # what is far above all that can be reached on the way is no limit
+    most = [
+        np.minimum(limit / order, _FAR * (1.0 + ends[0] + ends[2]))
+        for limit, order in zip((speed, acceleration, jerk), orders[1:], strict=True)
+    ]
+    answer = _asked(*ends, *most)
+    if isinstance(answer, str):
+        raise MotionError(f"Ruckig finds no motion: {answer}")
+    t, terms = answer
+    terms *= orders[:, None]
+    terms[:, 0] += start[0]
+    return TimeProfile(frozen(unit * t), frozen(terms))
+
+
+def _asked(
+    begins: FloatArray,
+    way: FloatArray,
+    ends: FloatArray,
+    speed: FloatArray,
+    acceleration: FloatArray,
+    jerk: FloatArray,
+) -> tuple[FloatArray, FloatArray] | str:
+    """Return times (n + 1,) and terms (n, 4, m) from place 0; or what Ruckig says against it."""
+    ruckig, count = import_ruckig(), len(way)
     asked = ruckig.InputParameter(count)
-    asked.current_position, asked.current_velocity = start[0].tolist(), start[1].tolist()
-    asked.target_position, asked.target_velocity = goal[0].tolist(), goal[1].tolist()
+    asked.current_position, asked.current_velocity = [0.0] * count, begins.tolist()
+    asked.target_position, asked.target_velocity = way.tolist(), ends.tolist()
     asked.current_acceleration = asked.target_acceleration = [0.0] * count
     asked.max_velocity, asked.max_acceleration = speed.tolist(), acceleration.tolist()
     asked.max_jerk = jerk.tolist()
@@ -251,9 +285,9 @@ def _ruckig(
     try:
         result = ruckig.Ruckig(count).calculate(asked, found)
     except ruckig.RuckigError as error:
-        raise MotionError(f"Ruckig refuses the motion: {error}") from error
+        return str(error).splitlines()[0]
     if result not in (ruckig.Result.Working, ruckig.Result.Finished):
-        raise MotionError(f"Ruckig finds no motion ({result})")
+        return str(result)
     profiles = found.profiles[0]
     times = [np.cumsum([0.0, *one.t]) + one.brake.duration for one in profiles]
     t = np.unique(np.concatenate([*times, [0.0, found.duration]]).clip(0.0, found.duration))
@@ -265,4 +299,4 @@ def _ruckig(
         for joint, one in enumerate(profiles):
             part = int(np.searchsorted(times[joint], 0.5 * (begin + end), "right")) - 1
             terms[k, 3, joint] = one.j[part] if 0 <= part < 7 else 0.0
-    return Profile(frozen(t), frozen(terms))
+    return t, terms
