@@ -1,5 +1,6 @@
 """Ways around things: found again with the same seed, free all along, short, and in the fulcrum."""
 
+import subprocess
 import sys
 from dataclasses import replace
 
@@ -112,3 +113,11 @@ def test_the_tip_goes_around_something_within_the_body_with_the_shaft_in_the_ful
     assert found.first_length > 0.07
     with pytest.raises(SearchError, match="at the goal"):
         search_tips(PIVOT, things, start, vessel)
+
+
+def test_neither_package_is_imported_before_it_is_used():
+    code = (
+        "import sys, app.planning.arm.pick_place;"
+        "sys.exit(bool({'ompl', 'ruckig', 'mujoco'} & set(sys.modules)))"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
