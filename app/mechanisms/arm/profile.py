@@ -44,6 +44,8 @@ class ArmProfile:
         flange: wrist centre to flange [m].
         lower, upper: joint limits [rad], shape (7,).
         speed: largest joint speeds [rad/s], shape (7,).
+        acceleration: largest joint accelerations [rad/s²], shape (7,).
+        jerk: largest joint jerks [rad/s³], shape (7,).
         resolution: standard deviation of a joint angle as its encoder says it [rad].
         T_world_base: where the arm stands, the paper's ᵁT₀.
         T_flange_tool: what it holds.
@@ -63,6 +65,8 @@ class ArmProfile:
     lower: FloatArray
     upper: FloatArray
     speed: FloatArray
+    acceleration: FloatArray
+    jerk: FloatArray
     resolution: float
     T_world_base: RigidTransform
     T_flange_tool: RigidTransform
@@ -76,7 +80,7 @@ class ArmProfile:
                     f"arm {self.name}: {name} is {getattr(self, name)} m; a positive length is"
                     " needed"
                 )
-        for name in ("lower", "upper", "speed"):
+        for name in ("lower", "upper", "speed", "acceleration", "jerk"):
             object.__setattr__(self, name, frozen(getattr(self, name), (JOINTS,), name))
         for name in ("base_covariance", "tool_covariance"):
             object.__setattr__(self, name, frozen(getattr(self, name), (6, 6), name))
@@ -123,7 +127,10 @@ _Degrees = Annotated[float, Field(ge=-360.0, le=360.0)]
 _Limit = Annotated[float, Field(gt=0.0, le=360.0)]
 _Spread = Annotated[float, Field(ge=0.0, le=1.0)]
 _Place = Annotated[float, Field(ge=-10.0, le=10.0)]
+_Rate = Annotated[float, Field(gt=0.0, le=1e6)]
 _Seven = Annotated[tuple[_Limit, ...], Field(min_length=JOINTS, max_length=JOINTS)]
+
+_SevenRates = Annotated[tuple[_Rate, ...], Field(min_length=JOINTS, max_length=JOINTS)]
 
 
 class _LengthSection(Section):
@@ -136,6 +143,8 @@ class _LengthSection(Section):
 class _JointSection(Section):
     limit_deg: _Seven
     speed_deg: _Seven
+    acceleration_deg: _SevenRates
+    jerk_deg: _SevenRates
     resolution_deg: _Spread
 
 
@@ -189,6 +198,8 @@ def load_arm(name_or_path: str | Path = "iiwa14") -> ArmProfile:
         lower=-limit,
         upper=limit,
         speed=np.radians(file.joints.speed_deg),
+        acceleration=np.radians(file.joints.acceleration_deg),
+        jerk=np.radians(file.joints.jerk_deg),
         resolution=float(np.radians(file.joints.resolution_deg)),
         T_world_base=file.base.transform,
         T_flange_tool=file.tool.transform,

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray
+from app.core.extras import not_installed
 from app.exchange.errors import ExchangeError, ExportError
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.pantograph import forward, inverse, jacobian, needle_at
@@ -224,9 +225,7 @@ def import_mujoco() -> Any:
     try:
         import mujoco
     except ImportError as error:
-        raise ExchangeError(
-            "MuJoCo is not installed; install the extra `physics`: pip install 'acus[physics]'"
-        ) from error
+        raise not_installed(ExchangeError, "MuJoCo", "physics") from error
     return mujoco
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.extras import not_installed
 from app.core.transform import RigidTransform
 from app.mechanisms.arm.published import PublishedArm
 from app.studies.errors import StudyError
@@ -22,9 +23,7 @@ def import_pinocchio() -> Any:
     try:
         import pinocchio
     except ImportError as error:
-        raise StudyError(
-            "Pinocchio is not installed; install the extra `arm`: pip install 'acus[arm]'"
-        ) from error
+        raise not_installed(StudyError, "Pinocchio", "arm") from error
     return pinocchio
 
 

@@ -1,0 +1,1 @@
+"""Motion of the simulated arm: pivoting, Cartesian motion, timing, search, pick and place."""
