@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from html import escape
 from math import ceil, floor, isfinite, log10
 from typing import TYPE_CHECKING, Final
@@ -40,7 +41,7 @@ class Diagram(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        axes = {"left": _TimeAxis("left"), "bottom": _ErrorAxis("bottom")}
+        axes: dict[str, pg.AxisItem] = {"left": _TimeAxis("left"), "bottom": _ErrorAxis("bottom")}
         for axis in axes.values():
             axis.enableAutoSIPrefix(False)
         self.plot = pg.PlotWidget(background=theme.IMAGE_BACKGROUND, axisItems=axes)
@@ -85,7 +86,7 @@ class Diagram(QWidget):
         for number, point in enumerate(sorted(far, key=lambda one: -one.seconds)):
             self._say(point, f"{point.way}: {point.error:.1e} →", below=bool(number % 2))
 
-    def _fit(self, points: list[Point], *limits: float) -> None:
+    def _fit(self, points: Sequence[Point], *limits: float) -> None:
         """Show the points, and the lines that they keep, with room for what is written on them."""
         noticed, deadline = ([one] if isfinite(one) and one > 0.0 else [] for one in limits)
         x = [log10(one) for one in (*(self._error(p) for p in points), *noticed)]
