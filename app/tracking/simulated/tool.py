@@ -141,6 +141,7 @@ class ToolRenderer:
         trocar: None where there is none.
         blur_px: standard deviation of the picture of a point.
         seed: of the background's unevenness.
+        table: what tool and trocar lie on.
     """
 
     def __init__(
@@ -150,9 +151,10 @@ class ToolRenderer:
         trocar: TrocarPlace | None = None,
         blur_px: float = _BLUR_PX,
         seed: int = 0,
+        table: tuple[HousingBox, ...] = TABLE,
     ) -> None:
         self.model = model
-        self._needle = NeedleRenderer(model, tool.needle, blur_px, seed, TABLE)
+        self._needle = NeedleRenderer(model, tool.needle, blur_px, seed, table)
         self._shape = tool.needle.shape
         self._colours = np.array([tool.colour, tool.colour])
         self._behind = self._needle.background
