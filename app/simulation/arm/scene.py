@@ -50,6 +50,7 @@ class SceneBox:
 
 SURROUNDINGS: Final = (
     SceneBox("table", (-0.6, -0.5, -0.04), (0.6, 0.5, _TABLE), (150.0, 152.0, 156.0), hole=0.06),
+    SceneBox("stand", (-0.12, 0.56, -0.60), (0.12, 0.80, 0.0), (120.0, 122.0, 126.0)),
     SceneBox("tray", (-0.34, -0.22, _TABLE), (-0.06, 0.22, _TRAY), (176.0, 178.0, 182.0)),
     *(
         SceneBox(
@@ -71,7 +72,7 @@ SURROUNDINGS: Final = (
         )
     ),
 )
-"""Table, tray with two rails, and a skin over a hollow body."""
+"""Table, the arm's stand, tray with two rails, and a skin over a hollow body."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,7 +170,7 @@ class ArmScene:
         default_factory=lambda: frozen(np.radians([0.0, -20.0, 0.0, -110.0, 0.0, 90.0, 0.0]))
     )
     hand_mass: float = 0.98
-    finger_stiffness: float = 20.0
+    finger_stiffness: float = 60.0
     friction: float = 0.8
     step: float = 0.001
 
