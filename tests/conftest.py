@@ -13,6 +13,7 @@ from hypothesis import settings
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")  # tests are not heard
+os.environ.setdefault("MUJOCO_GL", "egl")
 # Each process of the tests shares the cores with the others: threads of its linear algebra would
 # only wait for each other, and take the processor meanwhile. Read when numpy is imported.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")

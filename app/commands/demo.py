@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from app.commands import completion
+from app.core.errors import AcusError
 
 if TYPE_CHECKING:
     from app.session.result import AttemptResult
@@ -23,6 +24,13 @@ class SkillName(StrEnum):
     COMPETENT = "competent"
     PROFICIENT = "proficient"
     EXPERT = "expert"
+
+
+class DemoDevice(StrEnum):
+    """Machines that a demonstration shows."""
+
+    PANTOGRAPH = "pantograph"
+    ARM = "arm"
 
 
 def register(app: typer.Typer) -> None:
@@ -57,16 +65,45 @@ def demo(
     pen: Annotated[
         bool, typer.Option("--pen", help="No robot: a pen with printed markers, simulated.")
     ] = False,
+    device: Annotated[
+        DemoDevice,
+        typer.Option(help="arm: a simulated arm fetches a tool by pictures alone; no exercise."),
+    ] = DemoDevice.PANTOGRAPH,
 ) -> None:
     """Show a whole exercise, from the plan to the debrief.
 
     Without a display it runs as with --headless.
+
+    With --device arm a simulated arm finds a tool and a trocar by the pictures of two cameras,
+    grasps the tool and brings it over the trocar: always into memory, with pictures and a report.
+    It is a simulation only and never drives a real arm. Ends with code 3 if the tool is not
+    brought; says why.
     """
+    if device is DemoDevice.ARM:
+        if ct is not None or pen or cameras != "simulated":
+            raise AcusError(
+                "the arm is shown on its own table before its own simulated cameras; leave out"
+                " --ct, --pen and --cameras"
+            )
+        _show_arm(seed, out or Path("out") / "demo-arm")
+        return
     from app.views.shell.application import has_display
 
     hidden = headless or not has_display()
     folder = out or (Path("out") / "demo" if hidden else None)
     _show(ct, exercise, hidden, folder, seed, skill, cameras, pen)
+
+
+def _show_arm(seed: int, folder: Path) -> None:
+    from app.compose.arm import SIMULATION_ONLY, demonstrate
+    from app.core.exits import Exit
+
+    typer.echo(SIMULATION_ONLY)
+    shown = demonstrate(seed, folder, typer.echo)
+    typer.echo(f"pictures and report are in {folder}")
+    if shown.failure is not None:
+        typer.echo(f"the tool was not brought ({shown.failure}): {shown.message}")
+        raise typer.Exit(Exit.NO)
 
 
 def _show(
@@ -80,7 +117,6 @@ def _show(
     pen: bool,
 ) -> None:
     from app.compose.desktop import Desktop
-    from app.core.errors import AcusError
     from app.exercises.errors import UnknownExerciseError
     from app.exercises.library import library
     from app.imaging.reading import choose

@@ -75,7 +75,7 @@ def felt(where: _Pose, gamma: FloatArray) -> FloatArray:
     """Force [N] that a still hand feels of a tool force, by MuJoCo; shape (3,).
 
     Raises:
-        ExchangeError: if MuJoCo is not installed; names the extra.
+        SimulationError: if MuJoCo is not installed; names the extra.
     """
     torques = joint_torques(where.jacobian, gamma)
     return felt_in_mujoco(where.profile, where.tilt, _LEAN, torques)

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from app.core.arrays import frozen
-from app.exchange.errors import ExchangeError, ExportError
+from app.exchange.errors import ExportError
 from app.mechanisms.pantograph import (
     dynamic_terms,
     force_map,
@@ -20,6 +20,7 @@ from app.mechanisms.pantograph import (
 )
 from app.mechanisms.pantograph.dynamics import axial_load_kernel
 from app.mechanisms.profile import load_profile
+from app.simulation.errors import SimulationError
 from app.studies.references.mujoco_pantograph import (
     MjcfSettings,
     MujocoPantograph,
@@ -149,5 +150,5 @@ def test_a_tool_without_mass_is_refused_by_name():
 
 def test_a_missing_mujoco_names_the_extra(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "mujoco", None)
-    with pytest.raises(ExchangeError, match=r"pip install 'acus\[physics\]'"):
+    with pytest.raises(SimulationError, match=r"pip install 'acus\[physics\]'"):
         felt_in_mujoco(PROFILE, 0.1, 0.0, (0.0, 0.0))

@@ -5,9 +5,9 @@ import sys
 import numpy as np
 import pytest
 
-from app.exchange.errors import ExchangeError
 from app.mechanisms.pantograph import felt_force, needle_at
 from app.mechanisms.profile import load_profile
+from app.simulation.errors import SimulationError
 from app.studies.force_map import STUDY, felt, pose, tool_force
 from app.studies.runner import run
 
@@ -51,5 +51,5 @@ def test_the_study_condemns_the_printed_law_only():
 
 def test_without_mujoco_the_extra_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
-    with pytest.raises(ExchangeError, match="physics"):
+    with pytest.raises(SimulationError, match="physics"):
         run(STUDY, repeats=1)

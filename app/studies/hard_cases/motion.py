@@ -28,10 +28,10 @@ def _tip_at_the_fulcrum() -> HardCase:
     tip = np.array([0.0, 0.0, -depth])
 
     def unscaled(*_: Any) -> Any:
-        class Rates:
+        class MotionRates:
             velocity = -ASIDE
 
-        return Rates()
+        return MotionRates()
 
     def undefined() -> bool:
         places = (np.zeros(3), 1e-300 * tip, 0.5 * tip)

@@ -6,17 +6,16 @@ For studies: `felt_in_mujoco(profile, tilt, azimuth, torques, l_out=None) -> for
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 from math import sqrt
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray
-from app.core.extras import not_installed
 from app.exchange.errors import ExchangeError, ExportError
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.pantograph import forward, inverse, jacobian, needle_at
 from app.mechanisms.pantograph.profile import PantographProfile
+from app.simulation.arm.mjcf import import_mujoco, line, text
 
 IMPEDANCE = 0.9999
 """Largest constraint impedance of MuJoCo: 1e-4 of an unconstrained acceleration passes."""
@@ -88,8 +87,8 @@ def _option(root: ET.Element, profile: PantographProfile, how: MjcfSettings) -> 
     option = ET.SubElement(
         root,
         "option",
-        timestep=_text(how.step),
-        gravity=_text(*(profile.mounting.gravity if how.gravity is None else how.gravity)),
+        timestep=text(how.step),
+        gravity=text(*(profile.mounting.gravity if how.gravity is None else how.gravity)),
         integrator="RK4",
         solver="Newton",
         tolerance="1e-16",
@@ -109,19 +108,17 @@ def _arm(
     lengths, part = profile.geometry, profile.inertia
     driven, passive, side = names
     damping = profile.friction.viscous if how.damped else 0.0
-    body = ET.SubElement(world, "body", name=f"{side}_driven", pos=_text(x, 0.0, 0.0))
+    body = ET.SubElement(world, "body", name=f"{side}_driven", pos=text(x, 0.0, 0.0))
     ET.SubElement(
         body,
         "joint",
         name=driven,
         axis="0 0 1",
-        armature=_text(part.reflected_rotor),
-        damping=_text(damping),
+        armature=text(part.reflected_rotor),
+        damping=text(damping),
     )
     _link(body, part.proximal_mass, part.proximal_centre, part.proximal_inertia, lengths.proximal)
-    body = ET.SubElement(
-        body, "body", name=f"{side}_passive", pos=_text(lengths.proximal, 0.0, 0.0)
-    )
+    body = ET.SubElement(body, "body", name=f"{side}_passive", pos=text(lengths.proximal, 0.0, 0.0))
     ET.SubElement(body, "joint", name=passive, axis="0 0 1")
     mass, centre, inertia = part.distal_mass, part.distal_centre, part.distal_inertia
     if carries:  # the tool's mass at the link's end, lumped into it
@@ -129,7 +126,7 @@ def _arm(
         inertia += mass * part.tool_mass / total * (lengths.distal - centre) ** 2
         mass, centre = total, (mass * centre + part.tool_mass * lengths.distal) / total
     _link(body, mass, centre, inertia, lengths.distal)
-    ET.SubElement(body, "site", name=f"{side}_end", pos=_text(lengths.distal, 0.0, 0.0))
+    ET.SubElement(body, "site", name=f"{side}_end", pos=text(lengths.distal, 0.0, 0.0))
 
 
 def _link(body: ET.Element, mass: float, centre: float, inertia: float, length: float) -> None:
@@ -137,17 +134,17 @@ def _link(body: ET.Element, mass: float, centre: float, inertia: float, length: 
     ET.SubElement(
         body,
         "inertial",
-        pos=_text(centre, 0.0, 0.0),
-        mass=_text(mass),
-        diaginertia=_text(0.01 * inertia, inertia, inertia),
+        pos=text(centre, 0.0, 0.0),
+        mass=text(mass),
+        diaginertia=text(0.01 * inertia, inertia, inertia),
     )
-    _line(body, (0.0, 0.0, 0.0), (length, 0.0, 0.0), 0.006, "0.6 0.6 0.65 1")
+    line(body, (0, 0, 0), (length, 0, 0), 0.006, "0.6 0.6 0.65 1")
 
 
 def _needle(world: ET.Element, profile: PantographProfile, how: MjcfSettings) -> None:
     lengths, part = profile.geometry, profile.inertia
     start = 0.0 if how.slides else how.fixed_depth
-    needle = ET.SubElement(world, "body", name="needle", pos=_text(*lengths.fulcrum))
+    needle = ET.SubElement(world, "body", name="needle", pos=text(*lengths.fulcrum))
     ET.SubElement(needle, "joint", name="needle_x", axis="1 0 0")
     ET.SubElement(needle, "joint", name="needle_y", axis="0 1 0")
     if how.slides:
@@ -156,21 +153,21 @@ def _needle(world: ET.Element, profile: PantographProfile, how: MjcfSettings) ->
     ET.SubElement(
         needle,
         "inertial",
-        pos=_text(0.0, 0.0, hub - part.needle_centre),
-        mass=_text(max(part.needle_mass, _NOTHING)),
-        diaginertia=_text(*(2 * [max(part.needle_inertia, _NOTHING)]), _NOTHING),
+        pos=text(0.0, 0.0, hub - part.needle_centre),
+        mass=text(max(part.needle_mass, _NOTHING)),
+        diaginertia=text(*(2 * [max(part.needle_inertia, _NOTHING)]), _NOTHING),
     )
-    ET.SubElement(needle, "site", name="hub", pos=_text(0.0, 0.0, hub))
-    ET.SubElement(needle, "site", name="tip", pos=_text(0.0, 0.0, -start))
-    _line(needle, (0.0, 0.0, hub), (0.0, 0.0, -start), 0.0025, "0.85 0.85 0.9 1")
+    ET.SubElement(needle, "site", name="hub", pos=text(0.0, 0.0, hub))
+    ET.SubElement(needle, "site", name="tip", pos=text(0.0, 0.0, -start))
+    line(needle, (0, 0, hub), (0, 0, -start), 0.0025, "0.85 0.85 0.9 1")
     carriage = ET.SubElement(needle, "body", name="carriage")
     ET.SubElement(carriage, "joint", name="lever", type="slide", axis="0 0 -1")
     ET.SubElement(
         carriage,
         "inertial",
         pos="0 0 0",
-        mass=_text(part.tool_mass),
-        diaginertia=_text(*(3 * [_NOTHING])),
+        mass=text(part.tool_mass),
+        diaginertia=text(*(3 * [_NOTHING])),
     )
     ET.SubElement(carriage, "site", name="carriage")
 
@@ -182,62 +179,25 @@ def _connect(equality: ET.Element, how: MjcfSettings, one: str, other: str) -> N
         name=f"{one}_{other}",
         site1=one,
         site2=other,
-        solref=_text(-how.stiffness, -2.0 * sqrt(how.stiffness)),
-        solimp=_text(IMPEDANCE, IMPEDANCE, 1e-3, 0.5, 1.0),
+        solref=text(-how.stiffness, -2.0 * sqrt(how.stiffness)),
+        solimp=text(IMPEDANCE, IMPEDANCE, 1e-3, 0.5, 1.0),
     )
-
-
-def _line(
-    body: ET.Element,
-    start: tuple[float, float, float],
-    end: tuple[float, float, float],
-    radius: float,
-    colour: str,
-) -> None:
-    # To be seen only.
-    ET.SubElement(
-        body,
-        "geom",
-        type="capsule",
-        fromto=_text(*start, *end),
-        size=_text(radius),
-        mass="0",
-        contype="0",
-        conaffinity="0",
-        rgba=colour,
-    )
-
-
-def _text(*numbers: float) -> str:
-    return " ".join(repr(float(number)) for number in numbers)
 
 
 _REST = 1e-9
 """Joint speed below which the mechanism counts as at rest [rad/s]."""
 
 
-def import_mujoco() -> Any:
-    """Return the module `mujoco`.
-
-    Raises:
-        ExchangeError: if the extra is not installed.
-    """
-    try:
-        import mujoco
-    except ImportError as error:
-        raise not_installed(ExchangeError, "MuJoCo", "physics") from error
-    return mujoco
-
-
 class MujocoPantograph:
     """A profile as a running MuJoCo model; coordinates are the motor angles and the depth.
 
     Raises:
-        ExchangeError: if the extra is not installed, or MuJoCo refuses the model.
+        SimulationError: if the extra is not installed.
+        ExchangeError: if MuJoCo refuses the model.
     """
 
     def __init__(self, profile: PantographProfile, settings: MjcfSettings | None = None) -> None:
-        self.mujoco = import_mujoco()
+        self.mujoco = import_mujoco("physics")
         self.profile, self.settings = profile, settings or MjcfSettings()
         try:
             self.model = self.mujoco.MjModel.from_xml_string(write_mjcf(profile, self.settings))
@@ -364,7 +324,8 @@ def felt_in_mujoco(
         Force at the hub [N] in world, shape (3,).
 
     Raises:
-        ExchangeError: if the extra is not installed, or the model does not come to rest.
+        SimulationError: if the extra is not installed.
+        ExchangeError: if the model does not come to rest.
         MechanismError: if the pose does not exist.
     """
     geometry = profile.pantograph

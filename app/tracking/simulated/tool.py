@@ -141,6 +141,7 @@ class ToolRenderer:
         trocar: None where there is none.
         blur_px: standard deviation of the picture of a point.
         seed: of the background's unevenness.
+        table: what tool and trocar lie on.
     """
 
     def __init__(
@@ -150,9 +151,10 @@ class ToolRenderer:
         trocar: TrocarPlace | None = None,
         blur_px: float = _BLUR_PX,
         seed: int = 0,
+        table: tuple[HousingBox, ...] = TABLE,
     ) -> None:
         self.model = model
-        self._needle = NeedleRenderer(model, tool.needle, blur_px, seed, TABLE)
+        self._needle = NeedleRenderer(model, tool.needle, blur_px, seed, table)
         self._shape = tool.needle.shape
         self._colours = np.array([tool.colour, tool.colour])
         self._behind = self._needle.background
@@ -236,14 +238,20 @@ def draw_ring(
                 image[v, u, k] = np.uint8(mixed / count + 0.5)
 
 
+_SIDES: Final = ((-0.62, -0.55, 0.56), (0.62, -0.55, 0.56))
+
+
 def eyes(
-    image_size: tuple[int, int] = (640, 480), distance: float = 0.8
+    image_size: tuple[int, int] = (640, 480),
+    distance: float = 0.8,
+    stands: tuple[tuple[float, float, float], tuple[float, float, float]] = _SIDES,
 ) -> tuple[CameraModel, CameraModel]:
-    """Return two cameras on stands that look down at the table from both sides.
+    """Return two cameras on stands that look down at the table, by default from both sides.
 
     Args:
         image_size: width and height [px]; the field of view stays the same.
         distance: from the middle of the table [m].
+        stands: directions from there to the cameras, of any length.
     """
     width, height = image_size
     focal = 1.1 * width
@@ -254,14 +262,14 @@ def eyes(
             focal_px=(focal, focal),
             centre_px=(0.5 * (width - 1), 0.5 * (height - 1)),
             distortion=(-0.11, 0.14, 0.0004, -0.0003, 0.0),
-            position_mm=_stand(side, distance),
+            position_mm=_stand(towards, distance),
             looks_at_mm=(20.0, 0.0, 30.0),
         ).model()
-        for name, side in (("left", -1.0), ("right", 1.0))
+        for name, towards in zip(("left", "right"), stands, strict=True)
     )
     return first, second
 
 
-def _stand(side: float, distance: float) -> tuple[float, float, float]:
-    x, y, z = (distance / MILLIMETRE * unit([0.62 * side, -0.55, 0.56])).tolist()
+def _stand(towards: tuple[float, float, float], distance: float) -> tuple[float, float, float]:
+    x, y, z = (distance / MILLIMETRE * unit(towards)).tolist()
     return x + 20.0, y, z + 30.0

@@ -1,0 +1,37 @@
+"""The scene of the laparoscopic manipulator in MuJoCo: arm, hand, tool, tray, trocar.
+
+Simulation only: it never drives a real arm. MuJoCo (the extra `arm`) is imported when a scene is
+opened.
+"""
+
+from app.simulation.arm.carrying import (
+    CarryError,
+    CarryFailure,
+    CarryPhase,
+    SeenTool,
+    carry,
+    true_tool,
+)
+from app.simulation.arm.running import ArmSceneState, RunningScene, SceneClearance
+from app.simulation.arm.scene import (
+    ArmScene,
+    SceneBox,
+    ToolBody,
+    TrocarRing,
+)
+
+__all__ = [
+    "ArmScene",
+    "ArmSceneState",
+    "CarryError",
+    "CarryFailure",
+    "CarryPhase",
+    "RunningScene",
+    "SceneBox",
+    "SceneClearance",
+    "SeenTool",
+    "ToolBody",
+    "TrocarRing",
+    "carry",
+    "true_tool",
+]
