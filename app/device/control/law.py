@@ -22,8 +22,14 @@ class Law(StageDeclaration):
         """Complete `given` with the defaults for a device and check every value.
 
         Raises:
-            LawError: for an unknown name, or a value that is no number or out of range.
+            LawError: for an unknown name, or a value that is no number or out of range; if the law
+                lets a robot hold a direction and this one cannot.
         """
+        if "hold" in self.writes and not profile.holds_direction:
+            raise LawError(
+                f"law {self.name!r}: {profile.name} cannot hold a direction by itself, its motors"
+                " push; take the law 'fixture', or a device that can, such as tensegrity"
+            )
         return complete(KIND, self, given, profile)
 
 

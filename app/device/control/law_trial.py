@@ -30,7 +30,7 @@ STATES: Final = 10_000
 SECONDS: Final = 10
 """Processor time that they may take together, once the law is compiled [s]."""
 
-_PROFILES: Final = ("icube", "haply-2diy")
+_PROFILES: Final = ("icube", "haply-2diy", "tensegrity")
 _ODD: Final = (np.nan, np.inf, -np.inf, 0.0, -0.0, 1.0, -1.0, 1e308, -1e308, 1e-308, 0.5, 1e6)
 _CODES: Final = 20  # of faults and of statuses
 

@@ -233,6 +233,8 @@ def _hold(state: FloatArray, p: FloatArray, goal1: float, goal2: float) -> None:
         state[sv.TENSION_1 + k] = state[sv.CABLE_1 + k]
     state[sv.TORQUE_LEFT] = state[sv.TORQUE_RIGHT] = 0.0
     state[sv.SHORTFALL_LEFT] = state[sv.SHORTFALL_RIGHT] = 0.0
+    for k in range(3):  # no force of a law is had while winches stand
+        state[sv.FORCE_X + k] = state[sv.GUIDE_X + k] = 0.0
 
 
 @stage

@@ -12,7 +12,6 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import stage
 from app.core.parameters import numbered, packed
-from app.device.errors import LawError
 from app.mechanisms.profile import DeviceProfile
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -40,16 +39,7 @@ _AT: Final = numbered(_Places)
 
 
 def parameters(values: Mapping[str, float], profile: DeviceProfile) -> FloatArray:
-    """Return a fresh parameters array.
-
-    Raises:
-        LawError: if the robot cannot hold a direction.
-    """
-    if not profile.holds_direction:
-        raise LawError(
-            f"law 'hold_direction': {profile.name} cannot hold a direction by itself, its motors"
-            " push; take the law 'fixture', or a device of kind tensegrity"
-        )
+    """Return a fresh parameters array."""
     return packed(_AT, from_dial=values["from_dial"])
 
 
