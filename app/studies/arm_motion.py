@@ -36,7 +36,7 @@ from app.studies.findings import Figure, Findings, Sheet, Survey
 DECLARATION: Final[dict[str, Any]] = {
     "title": "The arm's motion: planner and budget against success and length",
     "question": "Which planner finds a way in which budget, and is a longer search a shorter way?",
-    "reference": "distances along the way, looked at 2000 times; the joints' limits",
+    "reference": "distances along the way, looked at 500 times a path; the joints' limits",
 }
 
 COLOURS: Final = {

@@ -82,7 +82,8 @@ class Collisions:
     Attributes:
         free: of joint angles [rad], shape (7,).
         distance: to what is nearest [m], never too large; None where nobody knows it.
-        beyond: how far what is held reaches from the flange [m]: a lever of every joint.
+        beyond: how far hand and what it holds reach from the flange [m], and the thickness of the
+            links: what the levers of the joints, which `distance` relies on, are longer than links.
         step: largest turn of a joint between tests where there is no distance [rad].
     """
 

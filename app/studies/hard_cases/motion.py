@@ -2,6 +2,7 @@
 
 from functools import partial
 from math import atan2, cos, pi, sin
+from types import SimpleNamespace
 from typing import Any, Final
 
 import numpy as np
@@ -28,10 +29,7 @@ def _tip_at_the_fulcrum() -> HardCase:
     tip = np.array([0.0, 0.0, -depth])
 
     def unscaled(*_: Any) -> Any:
-        class MotionRates:
-            velocity = -ASIDE
-
-        return MotionRates()
+        return SimpleNamespace(velocity=-ASIDE)
 
     def undefined() -> bool:
         places = (np.zeros(3), 1e-300 * tip, 0.5 * tip)
