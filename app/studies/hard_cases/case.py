@@ -32,6 +32,7 @@ SUBSYSTEMS: Final = (
     "force laws",
     "governor",
     "guard",
+    "cables and encoders",
     "effects",
     "integrators",
     "velocity",
