@@ -1,7 +1,7 @@
 """Hard cases of the needle holder in the loop: what fails of its cables and encoders, how soon."""
 
 from collections.abc import Callable
-from typing import Any, Final
+from typing import Any, Final, cast
 
 import numpy as np
 
@@ -10,9 +10,10 @@ from app.core.arrays import FloatArray
 from app.device.faults import Fault
 from app.mechanisms.profile import load_profile
 from app.mechanisms.tensegrity.efforts import watch_stage
+from app.mechanisms.tensegrity.profile import TensegrityProfile
 from app.studies.hard_cases.case import Defect, HardCase, analytic, answers
 
-PROFILE: Final = load_profile("tensegrity")
+PROFILE: Final = cast(TensegrityProfile, load_profile("tensegrity"))
 _STARTED: Final = 150  # ticks after which all cables have been taut for long enough
 _LATEST: Final = 20
 """Ticks of a millisecond from what shows to the end of the force."""
