@@ -337,6 +337,7 @@ class Emulator:
             plant_stage(profile, UPRIGHT, DEPTH),
         ]
         self._loop = Loop(stages, RATE_HZ, initial=start)
+        self._columns = COLUMNS | (CABLE_COLUMNS if profile.tension_range is not None else {})
         self._record: IO[str] | None = None
         self._recorded = 0
 
@@ -350,7 +351,7 @@ class Emulator:
         self._hand.work(SystemClock().now(), self._loop.inbox)
         if self.setup.record is not None:
             self._record = self.setup.record.open("w", encoding="utf-8")
-            self._record.write(",".join(COLUMNS) + "\n")
+            self._record.write(",".join(self._columns) + "\n")
         self._terminal.open()
         self._loop.open()
         while self._loop.latest().tick == 0:
@@ -407,7 +408,7 @@ class Emulator:
         rows = self._loop.rows(self._recorded)
         if len(rows):
             self._recorded = int(rows[-1, sv.TICK])
-            table = rows[:, list(COLUMNS.values())]
+            table = rows[:, list(self._columns.values())]
             self._record.writelines(",".join(f"{x:.9g}" for x in row) + "\n" for row in table)
             self._record.flush()
 
@@ -424,7 +425,6 @@ def _understood(order: str) -> tuple[str, float]:
         raise LinkError(f"fault {name}: {text!r} is no number, on or off") from error
 
 
-_CHANNELS: Final = ("tension", "reel_rate", "plant_cable")
 COLUMNS: Final = {
     "tick": sv.TICK,
     "time": sv.TIME,
@@ -439,6 +439,12 @@ COLUMNS: Final = {
     "homed": sv.HOMED,
     "q_left": sv.PLANT_Q_LEFT,
     "q_right": sv.PLANT_Q_RIGHT,
-    **{f"{what}_{k}": sv.INDEX[f"{what}_{k}"] for what in _CHANNELS for k in range(1, 5)},
 }
 """Columns of the record -> slots of the emulator's own loop; `tripped` is 2 after the watchdog."""
+
+CABLE_COLUMNS: Final = {
+    f"{what}_{k}": sv.INDEX[f"{what}_{k}"]
+    for what in ("tension", "reel_rate", "plant_cable")
+    for k in range(1, 5)
+}
+"""Further columns of a robot with cables."""

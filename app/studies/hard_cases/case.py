@@ -33,6 +33,7 @@ SUBSYSTEMS: Final = (
     "force laws",
     "governor",
     "guard",
+    "cables and encoders",
     "effects",
     "integrators",
     "velocity",
