@@ -4,7 +4,7 @@ import typer
 
 from app.commands.answer import Answer, Commands
 
-app = Commands(help="Your own laws, effects, metrics, extractors, studies, machines.")
+app = Commands(help="Your own laws, effects, metrics, studies, machines.")
 
 
 def register(root: typer.Typer) -> None:

@@ -26,8 +26,9 @@ PLAN = Plan(np.array([0.0, -100.0, 0.0]), np.array([15.0, -35.0, 10.0]), "test")
 
 
 @pytest.fixture
-def opened(window, patient, settle):
-    """Open an exercise on the small patient, with a run."""
+def opened(window, patient, settle, monkeypatch):
+    """Open an exercise on the small patient, which stands for its own, with a run."""
+    monkeypatch.setattr(window.conductor, "_why_not_here", lambda: "")
 
     def open_(exercise):
         window.conductor.set_exercise(exercise)
