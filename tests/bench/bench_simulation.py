@@ -18,7 +18,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
 from app.core.compiled import njit, stage
-from app.device.control import Loop, kernel, pantograph_stages
+from app.device.control import Loop, kernel, machine_stages
 from app.device.control.table import protected
 from app.device.links.simulated import simulated_link
 from app.imaging.interpolation import Interpolation
@@ -172,7 +172,7 @@ def change() -> None:
 
     def table(names: Sequence[str]) -> Any:
         link = simulated_link(profile, [plant_stage(profile)])
-        return pantograph_stages(profile, [], scene_of(names).stages(), link)
+        return machine_stages(profile, [], scene_of(names).stages(), link)
 
     names = loop_effects()
     loop = Loop(table([]), profile.rate_hz, VirtualClock(10.0))
