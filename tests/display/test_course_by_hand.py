@@ -60,6 +60,8 @@ def become_instructor(user: User, first: bool = False) -> None:
         user.write("Again", PASSWORD)
         user.key("Return")
         user.keep_picture("course-01-recovery-key")
+        user.press("Close", "button")  # too early: it asks whether the key is written down
+        user.key("space")
         user.press("Close", "button")
     else:
         user.write("Password", PASSWORD)
