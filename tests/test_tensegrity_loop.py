@@ -67,6 +67,19 @@ def test_while_it_turns_by_itself_the_hub_is_slow_and_a_hand_that_resists_is_not
     assert angle_between(rig.axis, leaning(30.0, 60.0)) > np.radians(20.0)
 
 
+def test_a_hand_that_presses_by_more_than_five_newtons_is_not_pushed_on_near_the_path_either():
+    lever = PROFILE.needle_length - HolderRig(HOLDS, leaning(0.0, 0.0)).depth
+    path = leaning(np.degrees(6.5 / (300.0 * lever)), 60.0)  # at the path the hand presses by 6.5 N
+    rig = HolderRig(HOLDS, path)
+    rig.hand((0.0, 0.0, -1.0), holds=True)
+    rows = rig.run(6.0)
+    pull = np.linalg.norm(rows[:, [sv.PULL_X, sv.PULL_Y, sv.PULL_Z]], axis=1)
+    assert 4.5 < pull[-1] < PROFILE.limits.hand_force + 0.3
+    rig.hand(path, holds=True)  # it gives way, and the guide goes on
+    rig.run(6.0)
+    assert angle_between(rig.axis, path) < np.radians(0.6)
+
+
 def test_tensions_give_the_torques_within_their_limits_or_say_what_is_missing():
     for dial, path in ((1.0, leaning(25.0, 30.0)), (-1.0, leaning(5.0, 200.0))):
         rig = HolderRig(PULLS, path, dial=dial)

@@ -12,7 +12,8 @@ is; reels and tensions say by how much it has changed since, as l_i = rest_i + x
     Δβ = Σ l_i' Δl_i / Σ l_i'²,   kept within the count that is read,
 
 so that every edge that passes corrects what has gathered. While the hand is pushed by more than
-what it is cleared for, the guide does not turn.
+what it is cleared for, the guide does not turn towards a path; where it has arrived at one, it is
+held there against any hand, which then feels its own push.
 
 The *watch* compares the same three. A tension that is missing where the lengths say that the cable
 is stretched is a broken cable, where they say that it hangs a slack one; cables that agree with
@@ -72,13 +73,17 @@ class CablePlaces(NamedTuple):
     free2: int = 0
     free3: int = 0
     free4: int = 0
+    arrived: int = 0  # 1 once the guide stood at the goal
+    goal1: int = 0
+    goal2: int = 0
 
 
 AT: Final = numbered(CablePlaces, SIZE + FRAME_SIZE)
 
 _GAIN: Final = 10.0  # [1/s] of the guide towards the path
 _RATE: Final = 0.25  # [rad/s] fastest of a joint while it turns by itself
-_NEAR: Final = 0.02  # [rad] to the path: there it is held against any hand
+_NEAR: Final = 0.02  # [rad] to the path: where it has arrived, it is held so near against any hand
+_ARRIVED: Final = 0.005  # [rad] to the path: there it has arrived
 _TIGHTEN: Final = 0.01  # [m/s/N] of the reels towards the pretension
 
 Slopes = tuple[float, float, float, float]
@@ -222,7 +227,12 @@ def _hold(state: FloatArray, p: FloatArray, goal1: float, goal2: float) -> None:
     way1, way2 = _GAIN * (goal1 - b1), _GAIN * (goal2 - b2)
     largest = max(abs(way1), abs(way2))
     share *= min(1.0, _RATE / largest) if largest > 0.0 else 1.0
-    if felt > cleared and largest > _GAIN * _NEAR:  # it does not turn against a hand like that
+    if goal1 != p[AT.goal1] or goal2 != p[AT.goal2]:
+        p[AT.arrived], p[AT.goal1], p[AT.goal2] = 0.0, goal1, goal2
+    if largest <= _GAIN * _ARRIVED and felt <= cleared:
+        p[AT.arrived] = 1.0
+    held = p[AT.arrived] != 0.0 and largest <= _GAIN * _NEAR
+    if felt > cleared and not held:  # it does not turn against a hand like that
         share = 0.0
     p1, q1, p2, q2 = _slopes(p, b1, b2)
     _reel_pair(state, p, 0, share * way1, p1, q1)
@@ -261,6 +271,7 @@ def efforts_stage(state: FloatArray, p: FloatArray) -> None:
         if there:
             _hold(state, p, goal1, goal2)
             return
+    p[AT.arrived] = 0.0
     _, t1, t2, t3, t4, short1, short2 = tensions_kernel(
         b1,
         b2,
