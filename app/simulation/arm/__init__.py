@@ -12,6 +12,7 @@ from app.simulation.arm.carrying import (
     carry,
     true_tool,
 )
+from app.simulation.arm.performance import ArmMoment, ArmPerformance, ArmTimeline
 from app.simulation.arm.running import ArmSceneState, RunningScene, SceneClearance
 from app.simulation.arm.scene import (
     ArmScene,
@@ -21,8 +22,11 @@ from app.simulation.arm.scene import (
 )
 
 __all__ = [
+    "ArmMoment",
+    "ArmPerformance",
     "ArmScene",
     "ArmSceneState",
+    "ArmTimeline",
     "CarryError",
     "CarryFailure",
     "CarryPhase",
