@@ -84,13 +84,14 @@ def log_dimensionless_jerk(speed: FloatArray, rate: float) -> float:
 def insertion_speed(trajectory: Trajectory) -> FloatArray:
     """Speed of the tip in the last insertion [m/s], `RATE` times a second, shape (n,).
 
-    Only samples with a measured depth count; between them the tip goes straight on. Positions are
+    A pause has no pace: of an insertion that one broke, the longest part counts. Only samples with
+    a measured depth count; between them the tip goes straight on. Positions are
     smoothed over `SMOOTHING` first: jerk is a third derivative, and would be that of the tracking.
 
     Raises:
         MetricUnavailableError: if the insertion is too short or too long, or the tip stood still.
     """
-    last = trajectory.measured_stays()[-1]
+    last = trajectory.longest_part(trajectory.measured_stays()[-1])
     time = trajectory.time[last]
     if not SHORTEST <= time[-1] - time[0] <= LONGEST:
         raise MetricUnavailableError(
@@ -113,7 +114,7 @@ def repeated_speeds(trajectory: Trajectory) -> tuple[FloatArray, ...]:
     Raises:
         MetricUnavailableError: if it was not recorded how well the tip was known.
     """
-    last = trajectory.measured_stays()[-1]
+    last = trajectory.longest_part(trajectory.measured_stays()[-1])
     errors = picture_errors(trajectory, last, np.random.default_rng(SEED))
     time, tip = trajectory.time[last], trajectory.tip[last]
     return tuple(even_speed(time, tip + next(errors)) for _ in range(REPEATS))

@@ -67,6 +67,7 @@ class Trajectory:
         agreement: within this screen and needle agreed at the target with 95 % [m]; 0 where nobody
             had to check.
         clamped: whether the force was at the robot's limit, shape (n,); None if not known.
+        pauses_end_stays: whether a pause ends a stay in the body, as up to scoring version 3.
 
     Raises:
         TrajectoryError: naming the array and the first bad sample.
@@ -90,6 +91,7 @@ class Trajectory:
     spread: FloatArray | None = None
     agreement: float = 0.0
     clamped: NDArray[np.bool_] | None = None
+    pauses_end_stays: bool = False
 
     def __post_init__(self) -> None:
         time = _samples(self.time, "time", None, ())
@@ -150,7 +152,9 @@ class Trajectory:
         return self.felt
 
     def insertions(self) -> list[slice]:
-        """Uninterrupted stays in the body, in order.
+        """Stretches with the needle in the body and the attempt running, in order.
+
+        A pause ends one: the force is off in it. Where the needle went is asked of `stays`.
 
         Raises:
             MetricUnavailableError: if there is none.
@@ -159,6 +163,20 @@ class Trajectory:
         if not found:
             raise MetricUnavailableError("the needle was never inserted")
         return found
+
+    def stays(self) -> list[NDArray[np.intp]]:
+        """Find the samples of each stay in the body, in order.
+
+        A pause ends none, as the needle stays where it is while the cameras are waited for; its own
+        samples are left out.
+
+        Raises:
+            MetricUnavailableError: if there is none.
+        """
+        insertions = self.insertions()
+        found = insertions if self.pauses_end_stays else runs(self._in_body())
+        stays = [np.arange(stay.start, stay.stop) for stay in found]
+        return [stay[~self.paused[stay]] for stay in stays]
 
     def measured_stays(self) -> list[NDArray[np.intp]]:
         """Find the samples with a measured depth in each stay in the body.
@@ -169,12 +187,17 @@ class Trajectory:
         Raises:
             MetricUnavailableError: if there is none.
         """
-        stays = [np.arange(stay.start, stay.stop) for stay in self.insertions()]
-        seen = [stay[self.depth_valid[stay]] for stay in stays]
+        seen = [stay[self.depth_valid[stay]] for stay in self.stays()]
         found = [stay for stay in seen if len(stay)]
         if not found:
             raise MetricUnavailableError("the depth of the tip was not measured in the body")
         return found
+
+    def longest_part(self, stay: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Return the longest part of a stay that no pause broke: what has a pace."""
+        pauses = np.cumsum(self.paused)[stay]
+        parts = np.split(stay, np.flatnonzero(np.diff(pauses)) + 1)
+        return max(parts, key=lambda part: float(self.time[part[-1]] - self.time[part[0]]))
 
     def final(self) -> int:
         """Index of the sample that the result is read from: the last one with a measured depth.

@@ -7,7 +7,7 @@ sessions takes it from here. Deliberate forgery of the samples themselves is not
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 from pydantic import ValidationError
@@ -16,7 +16,7 @@ from app.core.errors import AcusError
 from app.scoring.conditions import Conditions
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import ScoreFormatError
-from app.scoring.result import SCORING_VERSION, Score
+from app.scoring.result import FIRST_OVER_PAUSES, SCORING_VERSION, Score
 from app.scoring.rows import ScoreRules
 from app.scoring.score import score
 from app.scoring.tolerance import Tolerance
@@ -153,7 +153,7 @@ def verify(recording: Recording) -> Verification:
     now, unscored = _recomputed(recording, written)
     changes = [Change(SCORE_FILE, unreadable, "a score")] if unreadable else []
     if written is not None or now is not None:
-        own = now.by_version(written.version) if written and now else now
+        own = _as_then(recording, written, now) if written and now else now
         changes += _changes(written, own, unscored)
     return Verification(recording.id, written, now, unscored, tuple(changes), finished)
 
@@ -192,6 +192,14 @@ def _recomputed(recording: Recording, written: Score | None) -> tuple[Score | No
         return score(recording.trajectory(), tolerances, rules), ""
     except AcusError as error:
         return None, str(error)
+
+
+def _as_then(recording: Recording, written: Score, now: Score) -> Score:
+    """Return what the rules that the score was written under give."""
+    if written.version < FIRST_OVER_PAUSES:
+        then = replace(recording.trajectory(), pauses_end_stays=True)
+        now = score(then, *_judged_by(recording, written))
+    return now.by_version(written.version)
 
 
 def _judged_by(

@@ -1,9 +1,12 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scoring_attempts import Attempt
 
 from app.scoring.errors import MetricUnavailableError, TrajectoryError
-from app.scoring.trajectory import Phase, runs
+from app.scoring.metrics import find
+from app.scoring.trajectory import Phase, Trajectory, runs
 
 
 def test_arrays_are_read_only_copies() -> None:
@@ -125,3 +128,50 @@ def test_runs_are_the_stretches_of_true() -> None:
     assert runs(mask) == [slice(0, 1), slice(2, 4), slice(5, 6)]
     assert runs(np.zeros(3, dtype=bool)) == []
     assert runs(np.zeros(0, dtype=bool)) == []
+
+
+def _paused_on_the_way() -> Trajectory:
+    """Half-way in the cameras lose the marker, and the attempt waits for two seconds."""
+    whole = Attempt().trajectory()
+    phase = whole.phase.copy()
+    wait = (whole.time > 29.0) & (whole.time < 31.0)
+    phase[wait] = Phase.PAUSED
+    return Attempt().trajectory(phase=phase, depth_valid=~wait)
+
+
+def test_an_insertion_goes_on_after_a_pause() -> None:
+    broken = _paused_on_the_way()
+    assert len(broken.insertions()) == 2
+    (stay,) = broken.stays()
+    assert not broken.paused[stay].any()
+    assert stay[0] == Attempt().trajectory().insertions()[0].start
+    assert len(replace(broken, pauses_end_stays=True).stays()) == 2
+
+
+def test_a_needle_drawn_out_before_it_goes_on_has_two_stays() -> None:
+    whole = Attempt().trajectory()
+    phase = whole.phase.copy()
+    phase[(whole.time > 29.0) & (whole.time < 31.0)] = Phase.PAUSED
+    phase[(whole.time >= 31.0) & (whole.time < 33.0)] = Phase.ALIGNING
+    assert len(Attempt().trajectory(phase=phase).stays()) == 2
+
+
+def test_the_longest_part_of_a_broken_insertion_has_no_pause_in_it() -> None:
+    broken = _paused_on_the_way()
+    part = broken.longest_part(broken.stays()[-1])
+    assert broken.time[part[0]] == 31.0  # the second half, with the time at the target
+    assert (np.diff(part) == 1).all()
+
+
+@pytest.mark.parametrize("name", ["frechet_distance", "dtw_distance", "path_ratio"])
+def test_a_pause_on_the_way_in_takes_nothing_from_the_path_before_it(name: str) -> None:
+    metric = find(name)
+    straight = metric.compute(Attempt().trajectory())
+    assert metric.compute(_paused_on_the_way()) == pytest.approx(straight, abs=0.02)
+
+
+def test_the_angle_at_the_skin_is_that_at_the_skin_after_a_pause_too() -> None:
+    broken = _paused_on_the_way()
+    turned = Attempt(tilt=0.2).trajectory().axis
+    axis = np.where((broken.time > 30.0)[:, None], turned, broken.axis)
+    assert find("angle_at_skin").compute(replace(broken, axis=axis)) == pytest.approx(0.0, abs=1e-6)

@@ -17,7 +17,7 @@ DECLARATION: Final[dict[str, Any]] = {
 
 def compute(trajectory: Trajectory) -> float:
     """Return the angle [°], 0 ... 180."""
-    i = trajectory.insertions()[-1].start
+    i = int(trajectory.stays()[-1][0])
     return angle_between(trajectory.axis[i], trajectory.offset(i).path) / DEGREE
 
 
