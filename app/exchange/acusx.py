@@ -17,7 +17,7 @@ import zipfile
 import zlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Final, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
 from uuid import uuid4
 
 from pydantic import Field
@@ -25,6 +25,7 @@ from pydantic import Field
 from app import __version__
 from app.core import paths
 from app.core.configuration import LARGEST_FILE, Strict, parse, parse_text
+from app.core.errors import AcusError
 from app.core.files import write_atomically
 from app.core.progress import Progress
 from app.core.temporary import temporary_folder
@@ -35,6 +36,9 @@ from app.exercises.parts import PlanPoints
 from app.exercises.schema import Exercise
 from app.exercises.writing import exercise_text, save, taken_ids
 from app.imaging.volume import Volume, VolumeDigest, digest_of
+
+if TYPE_CHECKING:
+    from app.imaging.series import Series
 
 SUFFIX: Final = ".acusx"
 FORMAT: Final = 1
@@ -299,7 +303,7 @@ def unpack(
     Args:
         path: the file.
         ct: folder of its CT where the file does not hold it; must be the same by its digest.
-        series: SeriesInstanceUID, where that folder holds several.
+        series: SeriesInstanceUID, where that folder holds several; None finds it by the digest.
         name: id to keep it under; empty for its own.
         replace: whether an exercise of that id becomes an earlier version of this one.
         progress: told how far it is; cancels, leaving nothing.
@@ -324,10 +328,10 @@ def unpack(
         exercise, targets = _placed(folder, exercise)
         there = _same_there(exercise, replace)
         if exercise.ct.phantom is None:
-            place = _ct_folder(
+            place, key = _ct_folder(
                 folder, exercise, manifest, (ct, series), path, progress.part(0.3, 1.0)
             )
-            known = {"folder": place, "series": None if (folder / _CT).is_dir() else series}
+            known = {"folder": place, "series": key}
             exercise = exercise.model_copy(update={"ct": exercise.ct.model_copy(update=known)})
         if there is not None:
             return UnpackedExercise(there, True, there.ct.folder, ())
@@ -338,7 +342,7 @@ def unpack(
     except UnicodeDecodeError as error:
         raise PackageError(f"{path}: {_EXERCISE} is no text in UTF-8") from error
     except OSError as error:
-        if isinstance(error, ExchangeError):
+        if isinstance(error, AcusError):
             raise
         raise PackageError(f"cannot unpack {path}: {error.strerror or error}") from error
     finally:
@@ -457,8 +461,13 @@ def _ct_folder(
     given: tuple[Path | None, str | None],
     path: Path,
     progress: Progress,
-) -> Path:
-    """Find the exercise's CT in the folder and series given, or take it into the library."""
+) -> tuple[Path, str | None]:
+    """Find the exercise's CT in the folder given, or take it into the library.
+
+    Returns:
+        Its folder, and which series of several it is; None for the only one.
+    """
+    from app.imaging.errors import SeriesAmbiguousError
     from app.imaging.library import CtLibrary, discard
     from app.imaging.reading import choose
     from app.imaging.resampling import read_with
@@ -475,10 +484,23 @@ def _ct_folder(
                 f"{path} does not hold its CT: name the folder of the one with the digest "
                 f"{wanted[:12]}… (--ct DIR; acus ct digest tells it)"
             )
-        series = choose(scan_folder(ct, progress.part(0.0, 0.2)), uid, remedy)
-        volume = read_with(series, remedy, progress.part(0.2, 1.0))
-        _require_same(volume.digest, wanted, f"the CT in {ct}")
-        return ct.resolve()
+        listing = scan_folder(ct, progress.part(0.0, 0.2))
+        asked: tuple[Series, ...]
+        try:
+            asked = (choose(listing, uid, remedy),)
+        except SeriesAmbiguousError as error:  # the digest says which of them it is
+            asked = error.series
+        for k, series in enumerate(asked):
+            part = progress.part(0.2 + 0.8 * k / len(asked), 0.2 + 0.8 * (k + 1) / len(asked))
+            digest = read_with(series, remedy, part).digest
+            if digest == wanted:
+                return ct.resolve(), series.key if len(asked) > 1 else uid
+        if len(asked) > 1:
+            raise CtMissingError(
+                f"none of the {len(asked)} CT series in {ct} is that of {path}: one with the digest"
+                f" {wanted[:12]}… is needed; name the folder that holds it"
+            )
+        _require_same(digest, wanted, f"the CT in {ct}")
     volume = read_with(_only(packed), remedy, progress.part(0.0, 0.4))
     _require_same(volume.digest, wanted, f"the CT in {path}")
     library = CtLibrary()
@@ -492,7 +514,7 @@ def _ct_folder(
             f"digest is {again.digest[:12]}…, {wanted[:12]}… is needed; remove it first "
             f"(acus library remove {taken.entry.name})"
         )
-    return taken.entry.folder
+    return taken.entry.folder, None
 
 
 def _placed(folder: Path, exercise: Exercise) -> tuple[Exercise, dict[Path, Path]]:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from dicom_factory import Slices
+from dicom_factory import SERIES, Slices
 from typer.testing import CliRunner
 
 from app.commands import build
@@ -149,6 +149,24 @@ def test_without_its_ct_it_says_which_one_is_needed(file, ct, elsewhere):
         unpack(file)
     assert not elsewhere.exists()
     assert unpack(file, ct=ct).exercise.ct.folder == ct
+
+
+def test_among_several_series_of_a_folder_the_digest_finds_the_ct(file, ct, elsewhere):
+    Slices(series="1.2.3.9", offsets=(0.0, 2.5, 5.0, 7.5)).write(ct, prefix="t")
+    Slices(series="1.2.3.8", origin=(0.0, 0.0, 0.0)).write(ct, prefix="u")
+    found = unpack(file, ct=ct).exercise.ct
+    assert (found.folder, found.series) == (ct, SERIES)
+    assert load_ct(ct, found.series).digest == found.digest
+
+
+def test_where_none_of_several_series_is_the_ct_all_are_said_to_be_others(
+    file, tmp_path, elsewhere
+):
+    folder = tmp_path / "others"
+    Slices(series="1.2.3.9", offsets=(0.0, 2.5, 5.0, 7.5)).write(folder)
+    Slices(series="1.2.3.8", origin=(0.0, 0.0, 0.0)).write(folder, prefix="u")
+    with pytest.raises(CtMissingError, match=r"none of the 2 CT series in .*others is that of"):
+        unpack(file, ct=folder)
 
 
 def test_another_ct_is_refused_in_whatever_folder_it_lies(file, tmp_path, elsewhere):

@@ -4,14 +4,19 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from dicom_factory import SERIES, Slices
 from PySide6.QtCore import QEvent, QPoint, Qt
 from PySide6.QtGui import QKeyEvent, QKeySequence, QShortcut
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QCheckBox, QFileDialog, QMessageBox
 from window_rig import plan
 
+from app.core import paths
+from app.exchange.acusx import pack
 from app.exercises.library import folders, load_exercise, versions
 from app.exercises.parts import OwnPlan, PlanPoints
+from app.exercises.schema import Exercise
+from app.imaging.reading import load_ct
 from app.imaging.structures.structure import Structure, StructureKind, StructureSet
 from app.imaging.window import WindowLevel
 from app.planning.placement import PatientOrientation, Placement
@@ -390,6 +395,32 @@ def test_an_exercise_is_exported_and_imported_elsewhere(
     opened.open_dropped(path)
     assert settle(lambda: bool(asked))
     assert "does not hold its CT" in str(errors[0])
+
+
+def test_an_exercise_on_the_ct_that_is_open_is_imported_without_asking_for_it(
+    window, patient, author, settle, tmp_path, monkeypatch
+):
+    folder = tmp_path / "open"
+    Slices().write(folder)
+    Slices(series="1.2.3.9", offsets=(0.0, 2.5, 5.0, 7.5)).write(folder, prefix="t")
+    volume = load_ct(folder, SERIES)
+    exercise = Exercise.model_validate(
+        {
+            "id": "mine", "title": "Mine", "description": "of the open CT",
+            "ct": {"folder": folder, "series": SERIES, "digest": volume.digest},
+            "plan": {"entry_mm": [1.0, -2.0, 3.0], "target_mm": [1.0, 20.0, 3.0]},
+        }
+    )  # fmt: skip
+    pack(tmp_path / "mine.acusx", exercise, volume)
+    author._conductor.patient = replace(patient, volume=volume, folder=folder)
+    monkeypatch.setattr(
+        QFileDialog, "getExistingDirectory", staticmethod(lambda *_: pytest.fail("asked"))
+    )
+    errors = []
+    author.failed.connect(errors.append)
+    author.import_from(tmp_path / "mine.acusx")
+    assert settle(lambda: bool(errors) or (paths.data() / "exercises" / "mine.yaml").is_file())
+    assert not errors
 
 
 def test_another_ct_in_the_exercises_folder_is_said(opened, form, author, settle):

@@ -6,6 +6,7 @@ import json
 import os
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
@@ -36,12 +37,21 @@ from app.core.configuration import FieldProblem
 from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.core.units import MILLIMETRE
-from app.exchange.acusx import SUFFIX, CtMissingError, TakenError, UnpackedExercise, pack, unpack
+from app.exchange.acusx import (
+    SUFFIX,
+    CtMissingError,
+    TakenError,
+    UnpackedExercise,
+    pack,
+    read_manifest,
+    unpack,
+)
 from app.exercises.errors import ExerciseError
 from app.exercises.library import folders
 from app.exercises.scene import plan_of
 from app.exercises.schema import Exercise
 from app.exercises.writing import exercise_document, exercise_text, free_id, taken_ids
+from app.imaging.errors import ImagingError
 from app.session.pad.view import rings
 from app.views.author.editing import (
     ExerciseEditor,
@@ -685,8 +695,11 @@ class AuthorFeature(Feature):
     def import_from(
         self, path: Path, ct: Path | None = None, name: str = "", replace: bool = False
     ) -> None:
-        """Take an exercise in; asks for its CT, and what to do where its name is taken."""
-        again = partial(self.import_from, path)
+        """Take an exercise in; asks for its CT, and what to do where its name is taken.
+
+        Nobody is asked for the CT that is open.
+        """
+        again, patient = partial(self.import_from, path), self._conductor.patient
 
         def fail(error: Exception) -> None:
             self._task = None
@@ -697,8 +710,16 @@ class AuthorFeature(Feature):
             else:
                 self.failed.emit(error)
 
+        def take_in(progress: Progress) -> UnpackedExercise:
+            here = None if patient is None or ct is not None else patient.folder
+            if patient is not None and here is not None:
+                same = read_manifest(path).ct.digest == patient.volume.digest
+                with suppress(ImagingError):  # it may have gone from its folder meanwhile
+                    return unpack(path, here if same else None, None, name, replace, progress)
+            return unpack(path, ct, None, name, replace, progress)
+
         self._run(
-            lambda progress: unpack(path, ct, None, name, replace, progress),
+            take_in,
             self._taken_in,
             tr("Importing the exercise"),
             fail,
