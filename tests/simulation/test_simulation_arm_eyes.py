@@ -116,19 +116,3 @@ def test_what_the_arm_cannot_show_is_refused():
     found = acus("demo", "--device", "arm", "--pen")
     assert found.returncode == 2
     assert "leave out --ct, --pen and --cameras" in found.stderr
-
-
-def test_an_exercise_without_the_arm_imports_no_package_of_it():
-    code = (
-        "import sys\n"
-        "from app.compose.trial import attempt, trial_plan\n"
-        "from app.exercises.library import load_exercise\n"
-        "from app.exercises.scene import device_of, placed_plan_of\n"
-        "import app.simulation.arm, app.compose.arm\n"
-        "one = load_exercise('first-insertion')\n"
-        "found = attempt(one, placed_plan_of(one, device_of(one), trial_plan(one)), 'expert', 1)\n"
-        "heavy = ('mujoco', 'ompl', 'ruckig', 'pinocchio', 'coal', 'eaik')\n"
-        "print(found.score.total > 0, [name for name in heavy if name in sys.modules])"
-    )
-    found = acus(code=code)
-    assert found.stdout.strip() == "True []", found.stderr
