@@ -5,9 +5,14 @@ from pathlib import Path
 
 import pytest
 import typer
+import yaml
+from typer.testing import CliRunner
 
 from app.__main__ import main
 from app.commands import build
+from app.core.errors import AcusError
+
+ROOT = Path(__file__).resolve().parents[1]
 
 
 def acus(*arguments, **options):
@@ -92,6 +97,47 @@ def test_a_demonstration_of_an_exercise_that_there_is_not_names_those_that_there
     assert done.returncode == 2
     assert one_line(done.stderr)
     assert "plan-it-yourself" in done.stderr
+
+
+def mine(tmp_path, **changes):
+    """A file of an exercise that is in no library."""
+    text = (ROOT / "resources" / "exercises" / "first-insertion.yaml").read_text("utf-8")
+    document = yaml.safe_load(text) | {"id": "mine", "title": "Mine"} | changes
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump(document), encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("given", ["mine.yaml", "first-insertion"])
+def test_a_demonstration_is_of_the_exercise_of_a_file_or_of_a_name(tmp_path, monkeypatch, given):
+    mine(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    offered = []
+
+    def no_window(desktop):
+        offered.extend(desktop.exercises())
+        raise AcusError("no window")
+
+    monkeypatch.setattr("app.views.shell.application.start", lambda offscreen: None)
+    monkeypatch.setattr("app.views.shell.window.open_window", no_window)
+    done = CliRunner().invoke(build(), ["demo", "--headless", "--exercise", given])
+    assert str(done.exception) == "no window"
+    names = [one.id for one in offered]
+    assert len(names) == len(set(names))
+    assert ("mine" in names) == given.endswith(".yaml")
+    assert [one.level for one in offered] == sorted(one.level for one in offered)
+
+
+def test_a_demonstration_of_a_file_that_is_not_there_or_wrong_says_so_in_one_line(tmp_path):
+    path = mine(tmp_path, device="leg")
+    for file, words in (
+        (path, "device: 'leg' is not known"),
+        (tmp_path / "no.yaml", "cannot read"),
+    ):
+        done = acus("demo", "--headless", "--exercise", file, "--out", tmp_path / "out")
+        assert done.returncode == 2
+        assert one_line(done.stderr)
+        assert words in done.stderr
 
 
 def test_a_demonstration_on_a_folder_without_ct_is_refused_at_once(tmp_path):

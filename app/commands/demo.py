@@ -45,7 +45,7 @@ def demo(
     exercise: Annotated[
         str,
         typer.Option(
-            help="Name of the exercise, on its own patient or on --ct.",
+            help="Name or file of the exercise, on its own patient or on --ct.",
             autocompletion=completion.exercises,
         ),
     ] = "first-insertion",
@@ -117,8 +117,7 @@ def _show(
     pen: bool,
 ) -> None:
     from app.compose.desktop import Desktop
-    from app.exercises.errors import UnknownExerciseError
-    from app.exercises.library import library
+    from app.exercises.library import load_exercise
     from app.imaging.reading import choose
     from app.imaging.scanning import scan_folder
     from app.tracking.cameras.settings import parse_cameras
@@ -127,21 +126,19 @@ def _show(
     from app.views.shell.demonstration import Demonstration, DemonstrationScript
     from app.views.shell.window import open_window
 
-    known = library().ids()
-    if exercise not in known:
-        raise UnknownExerciseError(f"no exercise {exercise!r}; there are {', '.join(known)}")
+    shown = load_exercise(exercise)
     if ct is not None:
         choose(scan_folder(ct))  # says here what a dialog would have to ask
     chosen = parse_cameras(cameras)
     application = start(offscreen=hidden)
     sessions = None if out is None else out / "sessions"
-    window = open_window(Desktop(skill.value, seed, sessions))
+    window = open_window(Desktop(skill.value, seed, sessions, (shown,)))
     if pen:
         window.equipment.take_pen("simulated")
     else:
         window.equipment.take("")  # nobody stands beside the robot that is remembered
     window.equipment.take_cameras(chosen)
-    script = DemonstrationScript(exercise, ct, pictures=out)
+    script = DemonstrationScript(shown.id, ct, pictures=out)
     collector = collect_for(window)
     show = Demonstration(window, script)
     failures: list[str] = []

@@ -54,7 +54,7 @@ def study(
 
         repeats = QUICK
     if name == "all":
-        return _all(out, repeats, fresh, write)
+        return _all(out, repeats, fresh, write, quick)
     from rich.console import Console
 
     from app.studies.errors import StudyError
@@ -80,7 +80,7 @@ def study(
     if out is not None:
         from app.studies.files import write as write_files
 
-        for path in write_files(result, out, repeats):
+        for path in write_files(result, out, repeats, quick=quick):
             typer.echo(f"wrote {path}", err=True)
     console = Console()
     if not console.is_terminal:  # a pipe or a file has no edge at which figures must be cut
@@ -110,7 +110,7 @@ def lent(name: str) -> Any:
     return getattr(import_module(module), attribute)
 
 
-def _all(out: Path | None, repeats: int, fresh: bool, write: bool) -> Answer:
+def _all(out: Path | None, repeats: int, fresh: bool, write: bool, quick: bool) -> Answer:
     from app.commands.calibrate_parts import with_progress
     from app.core import paths
     from app.studies.batch import Done, StudyOutcome, run_all
@@ -126,7 +126,7 @@ def _all(out: Path | None, repeats: int, fresh: bool, write: bool) -> Answer:
             keep(done.result, repeats, folder() / f"{done.name}.json")
 
     found = with_progress(
-        lambda progress: run_all(study_names(), where, repeats, fresh, progress, told, lent)
+        lambda progress: run_all(study_names(), where, repeats, fresh, progress, told, lent, quick)
     )
     broken = [done for done in found if done.outcome is StudyOutcome.BROKEN]
     rows = [{"study": d.name, "outcome": d.outcome.value, "text": d.text} for d in found]

@@ -67,6 +67,7 @@ class Desktop:
         skill: a scripted trainee inserts the needle instead of the mouse; None for the mouse.
         seed: of everything random; None takes each exercise's own.
         sessions: folder of the records.
+        besides: exercises of other files; each stands for one of its name in the library.
     """
 
     def __init__(
@@ -74,13 +75,15 @@ class Desktop:
         skill: str | None = None,
         seed: int | None = None,
         sessions: Path | None = None,
+        besides: tuple[Exercise, ...] = (),
     ) -> None:
-        self._skill, self._seed = skill, seed
+        self._skill, self._seed, self._besides = skill, seed, besides
         self._sessions = sessions or paths.sessions()
 
     def exercises(self) -> tuple[Exercise, ...]:
         """Exercises to choose from, easiest first."""
-        return tuple(library())
+        found = {one.id: one for one in (*library(), *self._besides)}
+        return tuple(sorted(found.values(), key=lambda one: one.level))
 
     def check_exercise(
         self, exercise: Exercise

@@ -260,20 +260,23 @@ def _problem(problem: ErrorDetails, model: type[Strict]) -> FieldProblem:
     if problem["type"] == "missing":
         return FieldProblem(problem["loc"], "required and missing", missing=True)
     value = problem.get("input")
-    text = f"{problem['msg']}, got "
-    if isinstance(value, dict | list):
+    said = problem["msg"].removeprefix("Value error, ")  # of the library, about our own words
+    text = f"{said}, got "
+    if isinstance(value, dict | list) and problem["type"] == "value_error":
+        text = said  # our own words name what is wrong within
+    elif isinstance(value, dict | list):
         text += f"a {'mapping' if isinstance(value, dict) else 'list'} of {len(value)}"
     else:
         text += shown(value)
     if problem["type"] == "extra_forbidden" and len(problem["loc"]) == 1:
         valid = (field.alias or name for name, field in model.model_fields.items())
         text += f"; valid names: {', '.join(valid)}"
-    return FieldProblem(problem["loc"] or _first_word(problem["msg"], model), text)
+    return FieldProblem(problem["loc"] or _first_word(said, model), text)
 
 
 def _first_word(message: str, model: type[Strict]) -> tuple[str, ...]:
     """Field that a message about the whole document begins with; empty if it names none."""
-    word = message.removeprefix("Value error, ").split()[:1]
+    word = message.split()[:1]
     return tuple(name for name in (one.rstrip(":") for one in word) if name in model.model_fields)
 
 

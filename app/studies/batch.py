@@ -58,6 +58,7 @@ def run_all(
     progress: Progress | None = None,
     told: Callable[[Done], object] = lambda done: None,
     lend: Callable[[str], Any] | None = None,
+    quick: bool = False,
 ) -> tuple[Done, ...]:
     """Run studies one after the other and write what they find.
 
@@ -70,6 +71,8 @@ def run_all(
         progress: told how far it is; may cancel between two settings.
         told: called with each study that is done.
         lend: gives what studies borrow from rooms above.
+        quick: surveys on less, where they know how; what a quick one found is not kept for one
+            that is not.
 
     Raises:
         Cancelled: when the progress says so; what is finished stays.
@@ -78,7 +81,7 @@ def run_all(
     for number, name in enumerate(chosen):
         watch.report(number / len(chosen), name)
         part = watch.part(number / len(chosen), (number + 1) / len(chosen))
-        found.append(_done(name, folder, repeats, fresh, part, lend))
+        found.append(_done(name, folder, repeats, fresh, part, lend, quick))
         told(found[-1])
     return tuple(found)
 
@@ -90,21 +93,22 @@ def _done(
     fresh: bool,
     progress: Progress,
     lend: Callable[[str], Any] | None,
+    quick: bool,
 ) -> Done:
     try:
         study = find_study(name)
-        if not fresh and _is_there(study, folder / f"{name}.json", repeats):
+        if not fresh and _is_there(study, folder / f"{name}.json", repeats, quick):
             return Done(name, StudyOutcome.KEPT)
         if isinstance(study, Survey) and study.inputs:
             return Done(
                 name, StudyOutcome.LEFT_OUT, f"it needs {study.inputs}: acus study {name} DIR"
             )
         result: Result | SurveyResult = (
-            examine(study, progress)
+            examine(study, progress, quick=quick)
             if isinstance(study, Survey)
             else run(study, repeats, progress, lend=lend)
         )
-        write(result, folder, repeats, pictures=find_spec("matplotlib") is not None)
+        write(result, folder, repeats, find_spec("matplotlib") is not None, quick)
     except Cancelled:
         raise
     except AcusError as error:
@@ -117,14 +121,15 @@ def _done(
     return Done(name, StudyOutcome.MEASURED, "", result)
 
 
-def _is_there(study: Study | Survey, path: Path, repeats: int) -> bool:
+def _is_there(study: Study | Survey, path: Path, repeats: int, quick: bool) -> bool:
     """Whether a run before has left the result of this very study."""
     if not path.is_file():
         return False
     try:
         if isinstance(study, Survey):
-            data = json.loads(path.read_text(encoding="utf-8"))
-            return bool(data["measured"]["version"] == __version__)
+            was_measured = json.loads(path.read_text(encoding="utf-8"))["measured"]
+            enough = quick or not was_measured.get("quick", False)
+            return bool(enough and was_measured["version"] == __version__)
         was: Kept = read(path)
     except (StudyError, ValueError, KeyError, TypeError):
         return False  # broken off while it was written, or of an older form

@@ -68,7 +68,7 @@ class Tried(NamedTuple):
     half: float
 
 
-def tried(progress: Progress | None = None) -> list[Tried]:
+def tried(progress: Progress | None = None, pictures: int = _PICTURES) -> list[Tried]:
     """Render and refine every kind of picture; what the finder does not find is left out."""
     watch = progress or Progress()
     board = parse_board(_BOARD)
@@ -84,7 +84,9 @@ def tried(progress: Progress | None = None) -> list[Tried]:
     for number, (square, slant, blur, noise) in enumerate(kinds):
         watch.report(number / len(kinds), f"squares of {square:g} px")
         rng = np.random.default_rng(1000 + number)
-        shots = list(_shots(BoardRenderer(camera, board, 2), square, slant, blur, noise, rng))
+        shots = list(
+            _shots(BoardRenderer(camera, board, 2), square, slant, blur, noise, rng, pictures)
+        )
         if shots:
             short, edge, half, *errors = zip(*shots, strict=True)
             unrefined, chosen, usual = (np.concatenate(part) for part in (errors[0], *errors[2:]))
@@ -115,10 +117,11 @@ def _shots(
     blur: float,
     noise: float,
     rng: np.random.Generator,
+    pictures: int,
 ) -> Iterator[Shot]:
     """Short way, edge, the rule's window and squared errors of pictures of one kind."""
     board, camera = renderer.board, renderer.model
-    for _ in range(_PICTURES):
+    for _ in range(pictures):
         T = _pose(board, square, slant, rng)
         truth, seen = camera.project(T @ board.points)
         if not seen.all():
@@ -198,8 +201,12 @@ def _summary(kinds: list[Tried]) -> list[tuple[Cell, ...]]:
     return rows
 
 
-def _measure(progress: Progress | None = None) -> Findings:
-    kinds = tried(progress)
+def _quick(progress: Progress | None = None) -> Findings:
+    return _measure(progress, 1)
+
+
+def _measure(progress: Progress | None = None, pictures: int = _PICTURES) -> Findings:
+    kinds = tried(progress, pictures)
     sheets = (
         Sheet(
             "share",
@@ -266,5 +273,6 @@ def _draw(figure: Any, kinds: list[Tried]) -> None:
 
 STUDY: Final = Survey(
     measure=_measure,
+    quick=_quick,
 )
 """Corner error against window, edge and square."""

@@ -16,9 +16,20 @@ PICTURES: Final = ("png", "svg")
 
 
 def write(
-    result: Result | SurveyResult, folder: Path, repeats: int, pictures: bool = True
+    result: Result | SurveyResult,
+    folder: Path,
+    repeats: int,
+    pictures: bool = True,
+    quick: bool = False,
 ) -> list[Path]:
     """Write tables and pictures of a result, its JSON last; return the paths.
+
+    Args:
+        result: of a study.
+        folder: made if it is not there.
+        repeats: timings per way and setting.
+        pictures: whether to draw.
+        quick: whether a survey was asked to do less; its JSON says so if it did.
 
     Raises:
         StudyError: if a picture cannot be written, or matplotlib is not installed.
@@ -41,7 +52,8 @@ def write(
     data: dict[str, Any] = (
         kept_document(result, repeats)
         if isinstance(result, Result)
-        else survey_document(result) | {"measured": measured(1)}
+        else survey_document(result)
+        | {"measured": measured(1) | {"quick": quick and result.survey.quick is not None}}
     )
     written.append(folder / f"{name}.json")
     write_atomically(written[-1], json.dumps(data, indent=2, ensure_ascii=False) + "\n")

@@ -26,6 +26,8 @@ class Sheet:
     rows: tuple[tuple[Cell, ...], ...]
 
     def __post_init__(self) -> None:
+        if len(set(self.columns)) != len(self.columns):  # files keep a row as heading: value
+            raise StudyError(f"table {self.name}: two of its headings are alike: {self.columns}")
         for row in self.rows:
             if len(row) != len(self.columns):
                 raise StudyError(

@@ -1,7 +1,9 @@
 """Study: which law of friction is calm in a still hand and right in a moving one.
 
 The depth is measured in counts of 33 µm. A hand that has come to the edge of a count rests there
-with a tremor of 5 µm; or it inserts, or turns back and forth. The friction slides at 1 N.
+with a tremor of 5 µm; or it inserts, or turns back and forth. The friction slides at 1 N. The same
+laws hold the needle in its ball joints, felt at the hub when it tilts in counts of the encoders: of
+both designs, without the play of the printed one.
 """
 
 from collections.abc import Callable
@@ -12,7 +14,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
 from app.simulation import dry_friction
-from app.simulation.effects import declaration, shaft_friction
+from app.simulation.effects import ball_joint, declaration, shaft_friction
 from app.studies.findings import Findings, Sheet
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 
@@ -28,6 +30,7 @@ DECLARATION: Final[dict[str, Any]] = {
 COUNT: Final = shaft_friction.COUNT
 TREMOR: Final = 5e-6  # [m]
 LEVEL: Final = 1.0  # [N]
+HUB: Final = 0.110  # of the hub from the fulcrum [m]
 STEP: Final = 1e-3  # [s]
 _FINE: Final = 100
 _STILL: Final = 2000  # ticks
@@ -90,9 +93,9 @@ LAWS: Final[dict[str, tuple[str, Callable[..., None], str]]] = {
 }
 
 
-def motion(kind: str) -> FloatArray:
-    """Depth of the hand [m] at a hundredth of the tick, without tremor, from a rest on the way."""
-    edge = 3030.0 * COUNT
+def motion(kind: str, count: float = COUNT) -> FloatArray:
+    """Way of the hand [m] at a hundredth of the tick, without tremor, from a rest on the way."""
+    edge = 3030.0 * count
     if kind == "still":
         come = np.linspace(edge - 5e-3, edge, 500 * _FINE, endpoint=False)
         return np.concatenate([come, np.full(_STILL * _FINE, edge)])
@@ -104,11 +107,34 @@ def motion(kind: str) -> FloatArray:
     return np.asarray(0.05 + 0.01 * np.sin(2.0 * np.pi * times / 0.5))
 
 
-def seen(depths: FloatArray, seed: int = 4) -> FloatArray:
-    """Return what is measured of a motion once a tick: with tremor, in counts."""
+def seen(depths: FloatArray, seed: int = 4, count: float = COUNT) -> FloatArray:
+    """Return what is measured of a motion once a tick: with tremor, in counts [m]."""
     ticks = depths[::_FINE]
     shaken = ticks + np.random.default_rng(seed).normal(0.0, TREMOR, len(ticks))
-    return np.asarray(COUNT * np.floor(shaken / COUNT))
+    return np.asarray(count * np.floor(shaken / count))
+
+
+def at_the_hub(design: int) -> dict[str, float]:
+    """Friction of both ball joints as the hub feels it, `HUB` from the fulcrum.
+
+    Args:
+        design: `ball_joint.PRINTED` or `ball_joint.REDESIGNED`.
+
+    Returns:
+        `level` [N] without break-away, `stiffness` [N/m] before it slides, `count` [m] of the
+        encoders; of the effect's own numbers.
+    """
+    name, radius = {
+        ball_joint.PRINTED: ("printed_coefficient", ball_joint.PRINTED_RADIUS),
+        ball_joint.REDESIGNED: ("redesigned_coefficient", ball_joint.REDESIGNED_RADIUS),
+    }[design]
+    of = {key: given[0] for key, given in ball_joint.DECLARATION["parameters"].items()}
+    level = 2.0 * of[name] * of["clamping"] * radius / HUB
+    return {
+        "level": level,
+        "stiffness": level / (of["presliding_angle"] * HUB),
+        "count": ball_joint.COUNT * HUB,
+    }
 
 
 def _rms(values: FloatArray) -> float:
@@ -117,15 +143,16 @@ def _rms(values: FloatArray) -> float:
 
 
 def _case(setting: Setting) -> Case:
-    name = setting.name.split(",")[0]
-    stiffness = setting.values["stiffness"]
-    path = motion(name)
+    name = setting.name.split(": ")[-1].split(",")[0]
+    given = {"level": LEVEL, "count": COUNT, **setting.values}
+    level, stiffness, count = given["level"], given["stiffness"], given["count"]
+    path = motion(name, count)
     truth = np.zeros(len(path))
-    by_kikuuwe(path, LEVEL, stiffness, truth)
+    by_kikuuwe(path, level, stiffness, truth)
     truth = truth[::_FINE]
     first = 500 if name == "still" else 50
     return Case(
-        data=(seen(path), stiffness),
+        data=(seen(path, count=count), level, stiffness),
         error=lambda found: _rms((found - truth)[first:]),
         perception=0.1,
     )
@@ -133,11 +160,11 @@ def _case(setting: Setting) -> Case:
 
 def _way(kernel: Callable[..., None]) -> Callable[[Case], Prepared]:
     def prepare(case: Case) -> Prepared:
-        depths, stiffness = case.data
+        depths, level, stiffness = case.data
         out = np.zeros(len(depths))
 
         def run() -> FloatArray:
-            kernel(depths, LEVEL, stiffness, out)
+            kernel(depths, level, stiffness, out)
             return out
 
         return Prepared(run, len(depths))
@@ -185,6 +212,14 @@ STUDY: Final = Study(
         *(
             Setting(f"{kind}, σ = {_STIFFNESS:g} N/m", {"stiffness": _STIFFNESS})
             for kind in ("insertion", "fast", "back and forth")
+        ),
+        *(
+            Setting(f"ball joint, {name}: {kind}", at_the_hub(design))
+            for name, design in (
+                ("printed", ball_joint.PRINTED),
+                ("redesigned", ball_joint.REDESIGNED),
+            )
+            for kind in ("still", "back and forth")
         ),
     ),
     case=_case,

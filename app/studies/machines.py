@@ -3,11 +3,15 @@
 All are asked the same: the needle pointed at by rings of directions about the vertical, hub 110 mm
 above the remote centre, tip 90 mm below it; the worst direction of each ring counts. A further
 machine is one more entry of `MACHINES`.
+
+The arm's hub is the gripped point of its tool, its remote centre the middle of the skin of its
+scene, and its base stands as in that scene; how the distance of the base matters is a table.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, partial
+from itertools import product
 from typing import Any, Final
 
 import numpy as np
@@ -15,8 +19,10 @@ import numpy as np
 from app.core.arrays import FloatArray, cross, unit
 from app.core.compiled import njit
 from app.core.progress import Progress
-from app.core.units import MILLIMETRE
+from app.core.units import DEGREE, MILLIMETRE
 from app.mechanisms import tensegrity
+from app.mechanisms.arm import ArmSolution, arm_singularity
+from app.mechanisms.arm import kernels as arm_kernels
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.lever import axis_kernel, force_map_kernel, torque_kernel
 from app.mechanisms.pantograph import (
@@ -30,6 +36,7 @@ from app.mechanisms.pantograph.kernels import forward_kernel, jacobian_kernel
 from app.mechanisms.pantograph.profile import load_pantograph
 from app.mechanisms.tensegrity import kernels as guide_kernels
 from app.mechanisms.tensegrity.cable_kernels import hub_torque_kernel, tensions_kernel
+from app.studies.arm_trocar import ArmInTrocar
 from app.studies.findings import Cell, Figure, Findings, Sheet, Survey
 from app.studies.tensegrity import seconds
 
@@ -46,9 +53,16 @@ DEPTH: Final = 0.090
 """From the remote centre to the tip [m]."""
 
 TILTS_DEG: Final = (0.0, 10.0, 20.0, 30.0, 39.0, 45.0)
+STIFFEST: Final = 5000.0
+"""Largest stiffness that the arm's own controller takes for its tool [N/m], as published."""
+
+STANDS: Final = (0.45, 0.6, 0.8, 0.9)
+"""Distances of the arm's base from the remote centre, on the floor [m]."""
+
 _RING: Final = 24
 _TURNS: Final = 36
 _COLOURS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
+_DASHES: Final = ("o-", "s--", "^:", "v-.")
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +72,8 @@ class ComparedMachine:
     Attributes:
         name: for tables.
         said: what its numbers rest on.
-        turning: d -> dd/dq [1/rad], shape (3, 2).
+        turning: d -> dd/dq [1/rad], shape (3, n), of motions with the needle in the centre.
+        tip: d -> motion of the tip per angle of each joint [m/rad], shape (3, n).
         step: by which a joint is measured [rad].
         efforts: (d, force at the hub [N], shape (3,)) -> what the actuators give, any shape.
         unit: of an effort.
@@ -67,12 +82,13 @@ class ComparedMachine:
         stiff_by: what gives that stiffness.
         tick: what a tick computes, and how often a call of it does so: pose, Jacobian, efforts.
 
-    `turning`, `efforts`, `force` and `stiffness` raise a `MechanismError` out of reach.
+    `turning`, `tip`, `efforts`, `force` and `stiffness` raise a `MechanismError` out of reach.
     """
 
     name: str
     said: str
     turning: Callable[[FloatArray], FloatArray]
+    tip: Callable[[FloatArray], FloatArray]
     step: float
     efforts: Callable[[FloatArray, FloatArray], FloatArray]
     unit: str
@@ -164,6 +180,7 @@ def _pantograph() -> ComparedMachine:
         "pantograph (icube)",
         "lengths and encoders published, torque limit estimated; force within the profile's limit",
         turning,
+        lambda d: DEPTH * turning(d),
         2.0 * np.pi / profile.encoder.counts_per_turn,
         efforts,
         "N·m",
@@ -208,6 +225,7 @@ def _tensegrity() -> ComparedMachine:
         "tensegrity (paper)",
         "lengths and encoder lines published; tilts, four edges a line, cables and limits assumed",
         turning,
+        lambda d: DEPTH * turning(d),
         2.0 * np.pi / steps,
         efforts,
         "N",
@@ -218,13 +236,74 @@ def _tensegrity() -> ComparedMachine:
     )
 
 
+@njit
+def _arm_often(q: FloatArray, lengths: Any, at: Any, force: FloatArray, out: FloatArray) -> None:
+    rotation, position, moved = np.empty((3, 3)), np.empty(3), np.empty((6, 7))
+    for k in range(len(q)):
+        arm_kernels.forward_kernel(q[k], lengths, rotation, position)
+        arm_kernels.jacobian_kernel(q[k], lengths, at, moved)
+        for j in range(7):
+            out[k, j] = moved[0, j] * force[0] + moved[1, j] * force[1] + moved[2, j] * force[2]
+
+
+def _arm() -> ComparedMachine:
+    held = ArmInTrocar.standing(L_OUT, DEPTH)
+    arm = held.pivot.arm
+    found: dict[bytes, ArmSolution | MechanismError] = {}
+
+    def posture(d: FloatArray) -> FloatArray:
+        key = d.tobytes()  # all quantities of a direction ask for it, and it takes milliseconds
+        if key not in found:
+            try:
+                found[key] = held.posture(d)
+            except MechanismError as error:
+                found[key] = error
+        known = found[key]
+        if isinstance(known, MechanismError):
+            raise known
+        return known.q
+
+    def efforts(d: FloatArray, force: FloatArray) -> FloatArray:
+        return np.asarray(held.hub_jacobian(posture(d)).T @ force)
+
+    def most(d: FloatArray) -> float:
+        q = posture(d)
+        return held.sideways(q, held.hub_jacobian(q), across(d))[0]
+
+    def stiffness(d: FloatArray) -> float:
+        posture(d)
+        return STIFFEST
+
+    def tick() -> tuple[Callable[[], object], int]:
+        poses = np.concatenate([ring(np.deg2rad(tilt)) for tilt in TILTS_DEG])
+        q = np.tile([posture(d) for d in poses], (50, 1))
+        at = tuple(arm.T_wrist_tool.translation.tolist())
+        out, force = np.empty((len(q), 7)), np.array([1.0, -0.5, 0.2])
+        return partial(_arm_often, q, arm.lengths, at, force, out), len(q)
+
+    return ComparedMachine(
+        "arm through a trocar (iiwa14)",
+        "lengths, limits, torques, masses published; encoders assumed; trocar to 60°; nothing in"
+        " the way; what the fingers hold by friction is far less",
+        lambda d: held.turning(posture(d)),
+        lambda d: held.pivot.tip_jacobian(posture(d)),
+        float(np.sqrt(12.0) * arm.resolution),  # a step whose rounding spreads so
+        efforts,
+        "N·m",
+        most,
+        stiffness,
+        "the arm's controller at its stiffest; how far its joints give way is not published",
+        tick,
+    )
+
+
 @cache
 def machines() -> tuple[ComparedMachine, ...]:
     """Return the machines that are compared."""
     return tuple(make() for make in MACHINES)
 
 
-MACHINES: Final[tuple[Callable[[], ComparedMachine], ...]] = (_pantograph, _tensegrity)
+MACHINES: Final[tuple[Callable[[], ComparedMachine], ...]] = (_pantograph, _tensegrity, _arm)
 """What makes each of them, in the order of the tables."""
 
 
@@ -232,20 +311,20 @@ def at_tilt(machine: ComparedMachine, tilt: float) -> dict[str, float]:
     """Worst of a ring of directions at a tilt [rad]; NaN where some of the ring is out of reach.
 
     Returns:
-        `reached` share; `condition` of dd/dq; `resolution` at the tip [m], half a step of both
-        joints in the worse combination; `force` [N]; `effort` for 1 N; `stiffness` [N/m].
+        `reached` share; `condition` of dd/dq; `resolution` at the tip [m], half a step of all
+        joints in the worst combination; `force` [N]; `effort` for 1 N; `stiffness` [N/m].
     """
-    corners = 0.5 * machine.step * np.array([[1.0, 1.0], [1.0, -1.0]])
     found: list[tuple[float, ...]] = []
     poses = ring(tilt)
     for d in poses:
         try:
-            by_joints = machine.turning(d)
-            values = np.linalg.svd(by_joints, compute_uv=False)
+            values = np.linalg.svd(machine.turning(d), compute_uv=False)
+            tip = machine.tip(d)
+            corners = 0.5 * machine.step * np.array([*product((1.0, -1.0), repeat=tip.shape[1])]).T
             found.append(
                 (
-                    float(values[0] / values[-1]),
-                    DEPTH * float(np.linalg.norm(by_joints @ corners, axis=0).max()),
+                    float(values[0] / values[1]),  # a direction has two ways to turn
+                    float(np.linalg.norm(tip @ corners, axis=0).max()),
                     -machine.force(d),
                     max(float(np.abs(machine.efforts(d, way)).max()) for way in across(d)),
                     -machine.stiffness(d),
@@ -294,7 +373,7 @@ def by_tilt() -> Sheet:
             "condition",
             "resolution at the tip [mm]",
             "stiffness at the hub [N/m]",
-            "largest force at the hand [N]",
+            "largest force at the hub [N]",
             "largest effort for 1 N",
             "unit",
         ),
@@ -307,12 +386,10 @@ def reach() -> Sheet:
     times = seconds(*(machine.tick() for machine in machines()))
     rows: list[tuple[Cell, ...]] = []
     for machine, taken in zip(machines(), times, strict=True):
-        tilts = np.arange(0.0, 90.25, 0.25)
-        free = [tilt for tilt in tilts if _reached(machine, tilt) < 1.0]
         rows.append(
             (
                 machine.name,
-                float(free[0] - 0.25) if free else 90.0,
+                _all_round(machine),
                 float(np.rad2deg(machine.step)),
                 1e9 * taken,
                 100.0 * taken / 1e-3,
@@ -336,41 +413,149 @@ def reach() -> Sheet:
     )
 
 
-def _reached(machine: ComparedMachine, tilt_deg: float) -> float:
-    poses = ring(np.deg2rad(tilt_deg), 72)
-    count = 0
-    for d in poses:
-        try:
-            machine.turning(d)
-        except MechanismError:
-            continue
-        count += 1
-    return count / len(poses)
+def holds(machine: ComparedMachine, d: FloatArray) -> bool:
+    """Whether a machine can point the needle in a direction, shape (3,)."""
+    try:
+        machine.tip(d)
+    except MechanismError:
+        return False
+    return True
+
+
+def _all_round(machine: ComparedMachine) -> float:
+    """Largest tilt [°] below which every ring is held: steps of 2.5°, then of 0.25° from there."""
+    reached = 0.0
+    for step, count in ((2.5, _RING), (0.25, 3 * _RING)):
+        tilts = np.arange(reached, 90.0 + step, step)
+        free = (t for t in tilts if not all(holds(machine, d) for d in ring(t * DEGREE, count)))
+        reached = max(0.0, float(next(free, 90.0 + step)) - step)
+    return reached
+
+
+def by_turn(machine: ComparedMachine, step_deg: float = 2.5) -> FloatArray:
+    """Tilt held from the vertical on [°], one for each turn of a ring, shape (24,)."""
+    tilts = np.arange(0.0, 90.0, step_deg)
+    rings = [ring(np.deg2rad(max(tilt, 1e-9)), _RING) for tilt in tilts]
+    return np.array(
+        [
+            next(
+                (
+                    tilt
+                    for tilt, poses in zip(tilts, rings, strict=True)
+                    if not holds(machine, poses[k])
+                ),
+                90.0,
+            )
+            - step_deg
+            for k in range(_RING)
+        ]
+    )
+
+
+def arm_stands(away: tuple[float, ...] = STANDS) -> Sheet:
+    """Return what the arm holds by how far its base stands from the remote centre."""
+    rows: list[tuple[Cell, ...]] = []
+    scenes = ArmInTrocar.standing(L_OUT, DEPTH).away
+    for distance in sorted((scenes, *away)):
+        held = ArmInTrocar.standing(L_OUT, DEPTH, distance)
+        least_margin, least_dexterity, reached = np.inf, np.inf, []
+        for d in np.concatenate([ring(np.deg2rad(tilt)) for tilt in TILTS_DEG]):
+            try:
+                posture = held.posture(d)
+            except MechanismError:
+                reached.append(False)
+                continue
+            reached.append(True)
+            least_margin = min(least_margin, posture.margin)
+            dexterity = arm_singularity(held.pivot.arm, posture.q).dexterity
+            least_dexterity = min(least_dexterity, dexterity)
+        some = any(reached)
+        rows.append(
+            (
+                f"{distance:.2f}" + (", the scene's" if distance == scenes else ""),
+                100.0 * float(np.mean(reached)),
+                float(np.rad2deg(least_margin)) if some else "-",
+                float(least_dexterity) if some else "-",
+            )
+        )
+    return Sheet(
+        "stands",
+        f"The arm by how far its base stands from the remote centre; tilts to {TILTS_DEG[-1]:g}°",
+        ("distance on the floor [m]", "directions held [%]", "least margin [°]", "dexterity"),
+        tuple(rows),
+    )
+
+
+def arm_by_tilt() -> Sheet:
+    """Return what is asked of the arm alone: what it repeats, forces by its torque limits."""
+    held = ArmInTrocar.standing(L_OUT, DEPTH)
+    rows: list[tuple[Cell, ...]] = []
+    for tilt_deg in TILTS_DEG:
+        found = []
+        for d in ring(np.deg2rad(tilt_deg)):
+            q = held.posture(d).q
+            hub, joint = held.sideways(q, held.hub_jacobian(q), across(d))
+            tip, _ = held.sideways(q, held.pivot.tip_jacobian(q), across(d))
+            weight = float((np.abs(held.weight(q)) / held.pivot.arm.torque).max())
+            found.append((held.repeated(q), hub, tip, weight, joint))
+        worst = min(found, key=lambda row: row[1])
+        rows.append(
+            (
+                tilt_deg,
+                max(row[0] for row in found) / MILLIMETRE,
+                worst[1],
+                worst[4] + 1,
+                min(row[2] for row in found),
+                100.0 * max(row[3] for row in found),
+            )
+        )
+    return Sheet(
+        "arm",
+        "The arm through a trocar: repeatability as published, forces by published torques",
+        (
+            "tilt [°]",
+            "repeatability at the tip [mm]",
+            "force at the gripped point [N]",
+            "ended by joint",
+            "force at the tip [N]",
+            "torque for its own weight [%]",
+        ),
+        tuple(rows),
+    )
 
 
 def draw(figure: Any) -> None:
-    """Every quantity by tilt, one line a machine."""
-    tilts = np.arange(0.0, 50.5, 2.5)
+    """Every quantity by tilt, one line a machine; the tilt that is reached, by turn."""
+    tilts = np.arange(0.0, 60.5, 2.5)
     panels = (
         ("reached", 100.0, "directions reached [%]"),
         ("condition", 1.0, "condition of dd/dq"),
         ("resolution", 1.0 / MILLIMETRE, "resolution at the tip [mm]"),
         ("stiffness", 1e-3, "stiffness at the hub [N/mm]"),
-        ("force", 1.0, "largest force at the hand [N]"),
+        ("force", 1.0, "largest force at the hub [N]"),
         ("effort", 1.0, "largest effort for 1 N [N·m or N]"),
     )
     found = [[at_tilt(machine, np.deg2rad(tilt)) for tilt in tilts] for machine in machines()]
-    for number, (name, scale, words) in enumerate(panels):
-        axes = figure.add_subplot(2, 3, number + 1)
-        for machine, rows, colour in zip(machines(), found, _COLOURS, strict=False):
+    for (name, scale, words), place in zip(panels, (1, 2, 3, 5, 6, 7), strict=True):
+        axes = figure.add_subplot(2, 4, place)
+        for machine, rows, colour, dash in zip(machines(), found, _COLOURS, _DASHES, strict=False):
             values = scale * np.array([row[name] for row in rows])
-            axes.plot(tilts, values, "o-", color=colour, markersize=3, label=machine.name)
-        if name in ("condition", "resolution", "stiffness", "effort"):
+            axes.plot(tilts, values, dash, color=colour, markersize=3, label=machine.name)
+        if name != "reached":
             axes.set_yscale("log")
         axes.set(xlabel="tilt [°]")
         axes.set_title(words, fontsize=9)
         axes.grid(True, color="#DDDDDD", linewidth=0.5)
-    figure.axes[0].legend(fontsize=8, loc="lower left")
+    polar = figure.add_subplot(2, 4, 4, projection="polar")
+    turns = np.linspace(0.0, 2.0 * np.pi, _RING + 1)
+    for machine, colour, dash in zip(machines(), _COLOURS, _DASHES, strict=False):
+        reached = by_turn(machine)
+        polar.plot(turns, [*reached, reached[0]], dash, color=colour, markersize=3)
+    polar.set_ylim(0.0, 90.0)
+    polar.set_yticks([30.0, 60.0, 90.0])
+    polar.set_title("tilt reached [°], by turn", fontsize=9)
+    handles, names = figure.axes[0].get_legend_handles_labels()
+    figure.legend(handles, names, fontsize=9, loc="center", bbox_to_anchor=(0.87, 0.27))
     figure.suptitle("Worst direction of each ring, hub 110 mm above, tip 90 mm below", fontsize=10)
     figure.tight_layout()
 
@@ -382,6 +567,9 @@ def _measure(progress: Progress | None) -> Findings:
     if progress is not None:
         progress.report(0.3, "by tilt")
     tilts = by_tilt()
+    if progress is not None:
+        progress.report(0.6, "the arm")
+    stands, arm = arm_stands(), arm_by_tilt()
     lines = [
         f"{row[0]}: {row[1]:.1f}° all round, a tick's kinematics {row[3]:.0f} ns."
         for row in overview.rows
@@ -393,7 +581,12 @@ def _measure(progress: Progress | None) -> Findings:
             f"{float(upright[5]):.0f} N/m at the hub by {machine.stiff_by}; "
             f"{float(upright[6]):.1f} N at most, 1 N needs {float(upright[7]):.3g} {machine.unit}."
         )
-    return Findings((overview, tilts), (Figure("tilts", draw, (13.0, 7.0)),), tuple(lines))
+    lines.append(
+        f"The arm, upright: its tip repeats to {float(arm.rows[0][1]):.2f} mm by the data sheet's"
+        f" repeatability; {float(arm.rows[0][4]):.0f} N sideways at the tip, its own weight borne."
+    )
+    sheets = (overview, tilts, arm, stands)
+    return Findings(sheets, (Figure("tilts", draw, (16.0, 7.0)),), tuple(lines))
 
 
 STUDY: Final = Survey(

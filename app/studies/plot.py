@@ -4,6 +4,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, Final
 
+from app.core.extras import not_installed
 from app.studies.errors import StudyError
 from app.studies.findings import Figure
 from app.studies.study import Point, Result
@@ -68,10 +69,8 @@ def _matplotlib() -> tuple[Any, Any]:
     try:
         return import_module("matplotlib.figure"), import_module("matplotlib")
     except ImportError as error:
-        raise StudyError(
-            "pictures of studies need matplotlib, which is not installed; "
-            "install the extra `plots`: pip install 'acus[plots]'"
-        ) from error
+        what = "matplotlib, which draws the pictures of studies,"
+        raise not_installed(StudyError, what, "plots") from error
 
 
 def _families(result: Result) -> list[str]:

@@ -131,10 +131,14 @@ def region(profile: PantographProfile, rate_hz: float, delay: int) -> StableRegi
     )
 
 
-def regions(profile: PantographProfile, progress: Progress | None) -> tuple[StableRegion, ...]:
-    """Sweep all rates and delays."""
+def regions(
+    profile: PantographProfile,
+    progress: Progress | None,
+    cases: tuple[tuple[float, int], ...] = (),
+) -> tuple[StableRegion, ...]:
+    """Sweep all rates and delays, or only some pairs of them."""
     found = []
-    cases = [(rate, delay) for rate in RATES for delay in DELAYS]
+    cases = cases or tuple((rate, delay) for rate in RATES for delay in DELAYS)
     for number, (rate, delay) in enumerate(cases):
         if progress is not None:
             progress.report(number / len(cases), f"{rate:g} Hz, {delay} ticks")
@@ -233,7 +237,8 @@ def protected_sheet(profile: PantographProfile) -> Sheet:
 def maps(figure: Any, found: tuple[StableRegion, ...]) -> None:
     """Draw the stable region of every rate (rows) and delay (columns) with the bounds."""
     shown = np.maximum(DAMPING, 0.05)  # B = 0 has no logarithm; it is drawn at the left edge
-    for number, part in enumerate(found):
+    for part in found:
+        number = RATES.index(part.rate_hz) * len(DELAYS) + DELAYS.index(part.delay)
         axes = figure.add_subplot(len(RATES), len(DELAYS), number + 1)
         axes.set(xscale="log", yscale="log")
         b, k = np.meshgrid(shown, STIFFNESS)
@@ -264,9 +269,13 @@ _DEVICE: Final = "icube"
 _EXAMPLES: Final = ((300.0, 1.0), (3000.0, 1.0))  # K, B: on both sides of the limit
 
 
-def _measure(progress: Progress | None) -> Findings:
+def _quick(progress: Progress | None) -> Findings:
+    return _measure(progress, ((RATES[0], DELAYS[0]), LOOP))
+
+
+def _measure(progress: Progress | None, cases: tuple[tuple[float, int], ...] = ()) -> Findings:
     profile = load_pantograph(_DEVICE)
-    found = regions(profile, progress)
+    found = regions(profile, progress, cases)
     tracks = {pair: Device(profile, *LOOP).release(*pair) for pair in _EXAMPLES}
     slowest, usual = found[0], next(r for r in found if (r.rate_hz, r.delay) == LOOP)
     return Findings(
@@ -321,4 +330,5 @@ def _draw_examples(figure: Any, tracks: dict[tuple[float, float], FloatArray]) -
 
 STUDY: Final = Survey(
     measure=_measure,
+    quick=_quick,
 )

@@ -599,3 +599,22 @@ def test_a_press_that_has_not_settled_says_so():
         found.settled(2.0)
     with pytest.raises(GraspError, match="give 1 to 1e6"):
         press(law, SoftContact(1e3), 0.0)
+
+
+def test_the_designed_gain_gives_the_sampled_loop_one_double_pole():
+    law = FirmGrasp(4.0, LEVER, SoftContact(2e3), **DRIVE)
+    period, lag = law.period, law.lag
+    a = np.exp(-period / lag)
+
+    def poles(gain):
+        # a motor whose speed lags its command, which is held for a period, on a spring
+        kappa = gain * law.contact.stiffness * max(law.lever.free, law.lever.alone)
+        step = [
+            [1.0 - kappa * (period - lag * (1.0 - a)), lag * (1.0 - a)],
+            [-kappa * (1.0 - a), a],
+        ]
+        return np.linalg.eigvals(np.array(step))
+
+    assert np.ptp(poles(law.designed_gain).real) < 1e-6
+    assert np.abs(poles(0.999 * law.designed_gain).imag).max() == 0.0
+    assert np.abs(poles(1.001 * law.designed_gain).imag).max() > 0.0

@@ -176,3 +176,12 @@ def test_a_needle_holder_of_impossible_bars_is_refused_with_the_reason():
     with pytest.raises(ConfigurationError, match=r"needles longer than 0\.26"):
         load_profile("tensegrity").with_needle(0.2)
     assert load_profile("tensegrity").with_needle(0.3).needle_length == 0.3
+
+
+def test_a_joint_that_there_is_not_is_said_in_our_own_words_alone(document, tmp_path):
+    document["workspace"]["joint"] = "leg"
+    with pytest.raises(ConfigurationError) as refused:
+        load_profile(written(tmp_path, document))
+    said = str(refused.value)
+    assert "workspace: joint 'leg' is not one of new, old (line" in said
+    assert "Value error" not in said

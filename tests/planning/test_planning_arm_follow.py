@@ -155,3 +155,17 @@ def test_the_orientation_goes_the_shortest_way():
     half = rotation_log(line.start.rotation.T @ line.at(0.5).rotation)
     assert abs(np.linalg.norm(half) - 0.5 * whole) < 1e-15
     assert angle_between(line.at(1.0).rotation[:, 0], line.end.rotation[:, 0]) < 1e-7 * DEGREE
+
+
+@pytest.mark.parametrize("name", MOTIONS)
+def test_what_a_motion_bends_is_its_second_derivative_by_differences(name):
+    motion, h = MOTIONS[name], 1e-4
+    bend, turn_bend = 0.0, 0.0
+    for s in np.linspace(0.05, 0.95, 19):
+        before, here, after = (motion.at(float(s + k * h)) for k in (-1, 0, 1))
+        second = (before.translation - 2.0 * here.translation + after.translation) / h**2
+        bend = max(bend, float(np.linalg.norm(second)))
+        fixed = (before.rotation - 2.0 * here.rotation + after.rotation) / h**2
+        turn_bend = max(turn_bend, float(np.linalg.svd(fixed, compute_uv=False)[0]))
+    assert motion.bend == pytest.approx(bend, abs=1e-6)
+    assert motion.turn_bend == pytest.approx(turn_bend, abs=1e-6)

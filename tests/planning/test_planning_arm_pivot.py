@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from app.core.rotation import rotation_log
-from app.mechanisms.arm import forward, load_arm, solve
+from app.mechanisms.arm import forward, link_frames, load_arm, solve
 from app.mechanisms.errors import NoGripError, SingularError
-from app.planning.arm.path import Bends, JointPath, wrists
+from app.planning.arm.path import Bends, JointPath, axis_points, wrists
 from app.planning.arm.pivot import LEAST_DEPTH, HeldTool, Pivot
 from app.planning.errors import FulcrumError, MotionError
 
@@ -134,3 +134,10 @@ def test_wrists_are_those_of_one_posture_at_a_time():
         there = forward(ARM, q[k])
         assert (rotation[k] == there.rotation).all()
         assert (position[k] == there.translation).all()
+
+
+def test_the_points_on_the_joints_axes_are_on_the_axes_of_the_papers_frames():
+    for q in np.random.default_rng(4).uniform(ARM.lower, ARM.upper, (20, 7)):
+        (points,) = axis_points(ARM, q[None], forward(ARM, q).translation[None])
+        for point, frame in zip(points, link_frames(ARM, q), strict=True):
+            assert np.linalg.norm(np.cross(frame[:3, 2], point - frame[:3, 3])) < 1e-14

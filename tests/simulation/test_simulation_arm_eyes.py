@@ -3,22 +3,34 @@
 import json
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from app.compose.arm import NOISE, cameras, demonstrate, look, pictures, tool_body
+from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
 from app.simulation.arm import ArmScene, CarryError, CarryFailure, RunningScene
 from app.simulation.errors import SimulationError
-from app.tracking.simulated.tool import ToolProfile, eyes
+from app.tracking.simulated.tool import ToolProfile, ToolRenderer, ToolScene, TrocarPlace, eyes
 from app.tracking.tool.eyes import ToolEyes
 
 ROOT = Path(__file__).resolve().parents[2]
 PROFILE = ToolProfile()
 MODELS = cameras()
 WATCHING = ToolEyes(models=MODELS, outline=PROFILE.outline, noise_grey=NOISE)
+SCENE = ArmScene.seeded(1, tool_body(PROFILE))
+AWAY = RigidTransform.from_translation([0.0, 0.0, -9.0])
+BESIDE = RigidTransform.from_translation([0.0, 0.09, 0.0]) @ SCENE.T_world_tool
+MIDDLE = RigidTransform.from_translation(SCENE.T_world_tool @ [0.0, 0.0, SCENE.tool.grip])
+ACROSS = (
+    MIDDLE
+    @ RigidTransform.from_rotation(rotation_exp([0.0, 0.0, 1.2]))
+    @ MIDDLE.inverse()
+    @ SCENE.T_world_tool
+)
 
 
 def acus(*words, code=""):
@@ -61,6 +73,34 @@ def test_a_tool_in_line_with_both_cameras_is_not_reached_for():
     watching = ToolEyes(models=beside, outline=PROFILE.outline, noise_grey=NOISE)
     with pytest.raises(CarryError, match="move a camera out of its line") as caught:
         look(scene, scene.T_world_tool, pair, watching)
+    assert caught.value.failure is CarryFailure.NOT_SEEN
+
+
+def drawn(*tools):
+    """Pictures of both cameras with the tools of some poses on the table."""
+    seen = [
+        ToolScene(place @ [0.0, 0.0, SCENE.tool.length], place.rotate([0.0, 0.0, 1.0]))
+        for place in tools
+    ]
+    ring = SCENE.trocar
+    trocar = TrocarPlace(ring.p_world, ring.normal_world, ring.inner, ring.outer)
+    shown = replace(seen[0], others=tuple(seen[1:]))
+    first, second = (ToolRenderer(model, PROFILE, trocar).render(shown) for model in MODELS)
+    return first, second
+
+
+@pytest.mark.parametrize(
+    ("tools", "words"),
+    [
+        ([AWAY], "no tool: nothing in the tool's colour"),
+        ([SCENE.T_world_tool, BESIDE], "no tool: two tools: take one away"),
+        ([SCENE.T_world_tool, ACROSS], "no tool: not one straight thing: two tools that cross"),
+    ],
+    ids=["none", "two apart", "two that cross"],
+)
+def test_no_tool_and_two_are_named_and_nothing_is_reached_for(tools, words):
+    with pytest.raises(CarryError, match=words) as caught:
+        look(SCENE, SCENE.T_world_tool, drawn(*tools), WATCHING)
     assert caught.value.failure is CarryFailure.NOT_SEEN
 
 
@@ -116,19 +156,3 @@ def test_what_the_arm_cannot_show_is_refused():
     found = acus("demo", "--device", "arm", "--pen")
     assert found.returncode == 2
     assert "leave out --ct, --pen and --cameras" in found.stderr
-
-
-def test_an_exercise_without_the_arm_imports_no_package_of_it():
-    code = (
-        "import sys\n"
-        "from app.compose.trial import attempt, trial_plan\n"
-        "from app.exercises.library import load_exercise\n"
-        "from app.exercises.scene import device_of, placed_plan_of\n"
-        "import app.simulation.arm, app.compose.arm\n"
-        "one = load_exercise('first-insertion')\n"
-        "found = attempt(one, placed_plan_of(one, device_of(one), trial_plan(one)), 'expert', 1)\n"
-        "heavy = ('mujoco', 'ompl', 'ruckig', 'pinocchio', 'coal', 'eaik')\n"
-        "print(found.score.total > 0, [name for name in heavy if name in sys.modules])"
-    )
-    found = acus(code=code)
-    assert found.stdout.strip() == "True []", found.stderr

@@ -33,6 +33,17 @@ STUDY = Study(
 )
 '''
 BROKEN = GOOD.format(second="_prepare").replace("lambda setting: Case", "lambda setting: Cose")
+SURVEY = '''
+"""A survey."""
+from app.studies.findings import Findings, Survey
+
+DECLARATION = {"title": "T", "question": "Q", "reference": "R"}
+
+STUDY = Survey(
+    measure=lambda progress: Findings((), lines=("all of it",)),
+    quick=lambda progress: Findings((), lines=("less",)),
+)
+'''
 NAMES = ("batch_a", "batch_broken", "batch_b")
 
 
@@ -106,3 +117,23 @@ def test_the_command_runs_all_goes_on_and_ends_with_1_where_one_is_broken(folder
     assert "batch_a: kept" in done.stderr
     monkeypatch.setattr(runner, "study_names", lambda: ("batch_a",))
     assert CliRunner().invoke(build(), command).exit_code == 0
+
+
+def test_a_quick_run_asks_surveys_for_less_and_a_full_one_does_not_take_that_for_all(
+    folder, monkeypatch
+):
+    (folder.parent / "own" / "batch_survey.py").write_text(SURVEY, encoding="utf-8")
+
+    def lines(quick):
+        (done,) = run_all(("batch_survey",), folder, quick=quick)
+        return done.outcome, done.result and done.result.findings.lines
+
+    assert lines(quick=True) == (StudyOutcome.MEASURED, ("less",))
+    assert lines(quick=True) == (StudyOutcome.KEPT, None)
+    assert lines(quick=False) == (StudyOutcome.MEASURED, ("all of it",))
+    assert lines(quick=True) == (StudyOutcome.KEPT, None)
+    monkeypatch.setattr(runner, "study_names", lambda: ("batch_survey",))
+    command = ["study", "all", "--quick", "--fresh", "--out", str(folder)]
+    assert CliRunner().invoke(build(), command).exit_code == 0
+    kept = json.loads((folder / "batch_survey.json").read_text())
+    assert kept["measured"]["quick"] is True

@@ -227,6 +227,8 @@ def test_what_is_timed_and_what_is_surveyed_are_told_apart() -> None:
         examine(small())  # type: ignore[arg-type]
     with pytest.raises(StudyError, match="2 headings"):
         Sheet("bad", "Bad", ("a", "b"), ((1.0,),))
+    with pytest.raises(StudyError, match="two of its headings are alike"):
+        Sheet("bad", "Bad", ("a", "95 %", "95 %"), ((1.0, 2.0, 3.0),))
 
 
 def test_a_study_may_bring_tables_of_its_own() -> None:

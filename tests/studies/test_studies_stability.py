@@ -122,3 +122,14 @@ def test_the_study_says_when_something_oscillates(monkeypatch):
     findings = STUDY.measure(None)
     assert findings.lines[0].startswith("Oscillates: let go 0.25 mm")
     assert len(findings.sheets[1].rows) == 4
+
+
+def test_a_quick_look_sweeps_two_of_nine_pairs_and_draws_them_in_their_places(monkeypatch):
+    monkeypatch.setattr("app.studies.stability.STIFFNESS", np.array([100.0, 5000.0]))
+    monkeypatch.setattr("app.studies.stability.DAMPING", np.array([0.0, 0.1, 0.3, 1.0]))
+    findings = STUDY.quick(None)
+    assert {row[:2] for row in findings.sheets[1].rows} == {(500.0, 0), (1000.0, 1)}
+    canvas = pytest.importorskip("matplotlib.figure").Figure(figsize=(11.0, 9.0))
+    findings.figures[0].draw(canvas)
+    places = [axes.get_subplotspec().num1 for axes in canvas.axes]
+    assert places == [0, 4]

@@ -1,12 +1,8 @@
 """The needle holder's study finds what the errata say; the machines are compared by one table."""
 
-from dataclasses import replace
-
-import numpy as np
 import pytest
 
-from app.mechanisms.errors import UnreachableError
-from app.studies import machines, tensegrity
+from app.studies import tensegrity
 
 figure = pytest.importorskip("matplotlib.figure")
 
@@ -74,48 +70,3 @@ def test_its_pictures_can_be_drawn():
         canvas = figure.Figure(figsize=(6.0, 3.0))
         draw(canvas)
         assert canvas.axes
-
-
-def test_both_machines_are_asked_the_same():
-    found = {m.name: machines.at_tilt(m, np.deg2rad(20.0)) for m in machines.machines()}
-    assert list(found) == ["pantograph (icube)", "tensegrity (paper)"]
-    for values in found.values():
-        assert values["reached"] == 1.0
-        assert all(np.isfinite(value) and value > 0.0 for value in values.values())
-    first, second = found.values()
-    assert first["resolution"] < second["resolution"]
-    assert first["stiffness"] < second["stiffness"]
-
-
-def test_the_force_that_a_machine_is_said_to_give_needs_its_largest_effort():
-    limits = {"pantograph (icube)": 0.6, "tensegrity (paper)": 60.0}
-    for machine in machines.machines():
-        d = machines.ring(np.deg2rad(39.0))[3]
-        most = machine.force(d)
-        efforts = [np.abs(machine.efforts(d, most * way)).max() for way in machines.across(d)]
-        assert max(efforts) <= limits[machine.name] * (1.0 + 1e-9)
-
-
-def test_beyond_its_reach_a_machine_has_no_numbers():
-    pantograph = machines.machines()[0]
-    found = machines.at_tilt(pantograph, np.deg2rad(45.0))
-    assert found["reached"] == 0.0
-    assert np.isnan(found["force"])
-
-
-def test_a_third_machine_is_one_more_entry(monkeypatch):
-    def half_reach(d):
-        if d[0] > 0.0:
-            raise UnreachableError("unreachable: only the left half")
-        return machines.machines()[0].turning(d)
-
-    def third():
-        return replace(machines.MACHINES[0](), name="third", turning=half_reach)
-
-    monkeypatch.setattr(machines, "MACHINES", (*machines.MACHINES, third))
-    machines.machines.cache_clear()
-    try:
-        names = {row[0] for row in machines.by_tilt().rows}
-    finally:
-        machines.machines.cache_clear()
-    assert names == {"pantograph (icube)", "tensegrity (paper)", "third"}

@@ -130,3 +130,13 @@ def test_a_rod_seen_end_on_is_round_and_has_no_axis():
     assert found.moments.angle is None
     assert found.moments.axis is None
     assert TOOL.outline.length == pytest.approx(0.24)
+
+
+@pytest.mark.parametrize("ratio", [1.0, 2.5, 8.0])
+def test_the_elongation_is_length_over_width(ratio):
+    rng = np.random.default_rng(2)
+    turn = np.array([[0.8, -0.6], [0.6, 0.8]])
+    points = rng.uniform(-1.0, 1.0, (20_000, 2)) * [ratio, 1.0] @ turn.T
+    count = len(points)
+    found = moments(points, np.ones(count), np.ones(count), np.ones(count, np.bool_), 0.1)
+    assert found.elongation == pytest.approx(ratio, rel=0.02)

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from app.core.errors import ConfigurationError
+from app.core.extras import not_installed
 from app.core.progress import Cancelled, Progress
 from app.imaging.pacs.errors import PacsError, PacsRefusedError, PacsUnreachableError
 from app.imaging.pacs.incoming import COMPRESSED, PLAIN, STORAGE_CLASSES, Incoming, handler
@@ -168,7 +169,8 @@ def network() -> Any:
     try:
         import pynetdicom
     except ImportError as error:
-        raise ConfigurationError("a PACS needs pynetdicom: pip install 'acus[pacs]'") from error
+        what = "pynetdicom, which talks to a PACS,"
+        raise not_installed(ConfigurationError, what, "pacs") from error
     from pynetdicom import _config
 
     _config.LOG_HANDLER_LEVEL = "none"

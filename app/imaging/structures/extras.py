@@ -3,6 +3,7 @@
 from importlib import import_module
 from typing import Any
 
+from app.core.extras import not_installed
 from app.imaging.structures.errors import ExtraMissingError
 
 _EXTRAS = {"highdicom": "structures", "nrrd": "structures", "nibabel": "nifti"}
@@ -21,7 +22,5 @@ def extra(module: str, what: str) -> Any:
     try:
         return import_module(module)
     except ImportError as error:
-        name = _EXTRAS[module]
-        raise ExtraMissingError(
-            f"{what} need the extra {name}: pip install 'acus[{name}]'"
-        ) from error
+        needed = f"{module}, which {what} need,"
+        raise not_installed(ExtraMissingError, needed, _EXTRAS[module]) from error

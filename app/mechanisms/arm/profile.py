@@ -46,7 +46,9 @@ class ArmProfile:
         speed: largest joint speeds [rad/s], shape (7,).
         acceleration: largest joint accelerations [rad/s²], shape (7,).
         jerk: largest joint jerks [rad/s³], shape (7,).
+        torque: largest joint torques [N·m], shape (7,).
         resolution: standard deviation of a joint angle as its encoder says it [rad].
+        repeatability: of the flange's place, as the data sheet says it (ISO 9283) [m].
         T_world_base: where the arm stands, the paper's ᵁT₀.
         T_flange_tool: what it holds.
         base_covariance, tool_covariance: of these two placements, of a small motion of the placed
@@ -67,7 +69,9 @@ class ArmProfile:
     speed: FloatArray
     acceleration: FloatArray
     jerk: FloatArray
+    torque: FloatArray
     resolution: float
+    repeatability: float
     T_world_base: RigidTransform
     T_flange_tool: RigidTransform
     base_covariance: FloatArray
@@ -80,7 +84,7 @@ class ArmProfile:
                     f"arm {self.name}: {name} is {getattr(self, name)} m; a positive length is"
                     " needed"
                 )
-        for name in ("lower", "upper", "speed", "acceleration", "jerk"):
+        for name in ("lower", "upper", "speed", "acceleration", "jerk", "torque"):
             object.__setattr__(self, name, frozen(getattr(self, name), (JOINTS,), name))
         for name in ("base_covariance", "tool_covariance"):
             object.__setattr__(self, name, frozen(getattr(self, name), (6, 6), name))
@@ -145,7 +149,9 @@ class _JointSection(Section):
     speed_deg: _Seven
     acceleration_deg: _SevenRates
     jerk_deg: _SevenRates
+    torque: _SevenRates
     resolution_deg: _Spread
+    repeatability: _Spread
 
 
 class _PlacementSection(Section):
@@ -200,7 +206,9 @@ def load_arm(name_or_path: str | Path = "iiwa14") -> ArmProfile:
         speed=np.radians(file.joints.speed_deg),
         acceleration=np.radians(file.joints.acceleration_deg),
         jerk=np.radians(file.joints.jerk_deg),
+        torque=np.array(file.joints.torque),
         resolution=float(np.radians(file.joints.resolution_deg)),
+        repeatability=file.joints.repeatability,
         T_world_base=file.base.transform,
         T_flange_tool=file.tool.transform,
         base_covariance=file.base.covariance,

@@ -7,12 +7,14 @@ with the profile's table: what other programs are built from, to check Acus' kin
 from typing import Annotated
 
 import numpy as np
+from numpy.typing import ArrayLike
 from pydantic import Field
 
 from app.core import paths
-from app.core.arrays import FloatArray
+from app.core.arrays import FloatArray, cross, frozen
 from app.core.configuration import Strict, load
 from app.core.errors import ConfigurationError
+from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
 
 _Number = Annotated[float, Field(ge=-200.0, le=200.0)]
@@ -59,6 +61,40 @@ class PublishedArm(Strict):
     joints: tuple[PublishedJoint, ...]
     flange: PublishedPlace
     base: PublishedLink
+
+    def weight_torques(
+        self,
+        q: ArrayLike,
+        g_base: ArrayLike,
+        carried: float = 0.0,
+        carried_at: ArrayLike = (0.0, 0.0, 0.0),
+    ) -> FloatArray:
+        """Torques by which the joints hold up the links and what the flange carries [N·m], (7,).
+
+        Args:
+            q: joint angles [rad], shape (7,).
+            g_base: acceleration of gravity in the base's frame [m/s²], shape (3,).
+            carried: mass on the flange [kg].
+            carried_at: its centre in the flange's frame [m], shape (3,).
+        """
+        angles = frozen(q, (len(self.joints),), "q")
+        gravity = frozen(g_base, (3,), "g_base")
+        here = RigidTransform.identity()
+        axes, origins, weights = [], [], []
+        for joint, angle in zip(self.joints, angles, strict=True):
+            turned = RigidTransform.from_rotation(rotation_exp([0.0, 0.0, angle]))
+            here = here @ joint.transform @ turned
+            axes.append(here.rotation[:, 2])
+            origins.append(here.translation)
+            weights.append((joint.mass, here @ np.array(joint.centre)))
+        at = here @ self.flange.transform @ frozen(carried_at, (3,), "carried_at")
+        beyond = [*weights, (carried, at)]
+        return np.array(
+            [
+                -sum(mass * axis @ cross(p - origin, gravity) for mass, p in beyond[k:])
+                for k, (axis, origin) in enumerate(zip(axes, origins, strict=True))
+            ]
+        )
 
 
 def published_arm(name: str = "iiwa14") -> PublishedArm:

@@ -20,12 +20,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, angle_between, cross, frozen, unit
-from app.core.rotation import rotation_log
+from app.core.rotation import rotation_exp, rotation_log
 from app.core.transform import RigidTransform, rotation_between
 from app.core.units import DEGREE, MILLIMETRE
-from app.mechanisms.arm import ArmProfile, arm_singularity, forward, jacobian
+from app.mechanisms.arm import (
+    ArmProfile,
+    ArmSolution,
+    arm_singularity,
+    forward,
+    jacobian,
+    solve,
+)
 from app.mechanisms.arm.kinematics import seven
-from app.mechanisms.errors import NoGripError, SingularError
+from app.mechanisms.errors import MechanismError, NoGripError, SingularError
 from app.planning.arm.path import Bends, JointPath
 from app.planning.errors import FulcrumError
 
@@ -37,6 +44,9 @@ LEAST_DEPTH: Final = 1.0 * MILLIMETRE
 
 LEAST_DEXTERITY: Final = 1e-3
 """Of a posture from which rates of the joints are given (see `SingularDistance`)."""
+
+ROLLS: Final = 12
+"""Rolls of the tool that are tried where it may have any."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -211,6 +221,58 @@ class Pivot:
     def wrist_pose(self, T_world_needle: RigidTransform) -> RigidTransform:
         """Return ⁰T₇ for a pose of the tip's frame."""
         return self.tool.wrist_pose(self.arm, T_world_needle)
+
+    def held(self, axis_world: ArrayLike, depth: float) -> ArmSolution:
+        """Posture that holds the shaft in a direction, whatever the tool's roll.
+
+        The one furthest from its joints' limits, of `ROLLS` rolls and all arm angles, whose
+        dexterity is not below `LEAST_DEXTERITY`.
+
+        Args:
+            axis_world: direction from handle to tip, shape (3,).
+            depth: of the tip [m].
+
+        Raises:
+            FulcrumError, NoGripError: as `aim`.
+            MechanismError: if no roll can be held: what the last one met.
+        """
+        before = self.arm.T_world_base.inverse() @ self.pose(axis_world, depth)
+        after = (self.arm.T_wrist_tool @ self.tool.T_tool_needle).inverse()
+        best: ArmSolution | None = None
+        troubles: list[MechanismError] = []
+        for roll in np.linspace(0.0, 2.0 * np.pi, ROLLS, endpoint=False):
+            turn = RigidTransform.from_rotation(rotation_exp([0.0, 0.0, roll]))
+            try:
+                found = solve(self.arm, before @ turn @ after)
+            except MechanismError as error:
+                troubles.append(error)
+                continue
+            if best is not None and found.margin <= best.margin:
+                continue
+            dexterity = arm_singularity(self.arm, found.q).dexterity
+            if dexterity >= LEAST_DEXTERITY:
+                best = found
+            else:
+                troubles.append(
+                    SingularError(
+                        f"the arm's dexterity is {dexterity:.2g} with the tool rolled by"
+                        f" {roll / DEGREE:.0f}°; holding needs {LEAST_DEXTERITY:g}"
+                    )
+                )
+        if best is None:
+            raise troubles[-1]
+        return best
+
+    def tip_jacobian(self, q: ArrayLike) -> FloatArray:
+        """Velocity of the tip in the world per rate of each joint [m/rad], shape (3, 7).
+
+        Of the arm alone: nothing holds the shaft in the fulcrum.
+
+        Raises:
+            MechanismError: as `forward`.
+        """
+        at = (self.arm.T_wrist_tool @ self.tool.T_tool_needle).translation
+        return np.asarray(self.arm.T_world_base.rotation @ jacobian(self.arm, q, at)[:3])
 
     def state(self, q: ArrayLike) -> PivotState:
         """Where the tool stands at joint angles q [rad], shape (7,): the inverse of `pose`."""

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
+from app.core.extras import not_installed
 from app.imaging import stack
 from app.imaging.header import SliceHeader
 from app.imaging.reading import read_pixels, read_series
@@ -72,7 +73,7 @@ class Peer:
             )
         if error := answer.get("error"):
             if "No module named 'SimpleITK'" in error:
-                raise StudyError("this study needs SimpleITK: pip install 'acus[bench]'")
+                raise not_installed(StudyError, "SimpleITK, which this study needs,", "bench")
             return " ".join(str(error).split())
         values = np.load(out, allow_pickle=False)
         out.unlink()

@@ -11,16 +11,20 @@ from app.core.transform import RigidTransform
 from app.mechanisms.arm import (
     ARM_BRANCHES,
     ArmProfile,
+    ArmSingularity,
     JointLimitError,
     arm_angle,
+    arm_singularity,
     decoupled,
     forward,
     inverse,
+    jacobian,
     link_frames,
     load_arm,
     nearest_pose,
     solve,
 )
+from app.mechanisms.arm.least_squares import TURN_LENGTH
 from app.mechanisms.errors import NotFiniteError, UnreachableError
 from app.studies.hard_cases.case import (
     Defect,
@@ -87,6 +91,65 @@ def _beside_the_first_axis() -> HardCase:
         bound=3e-15,
         beyond=answers("on the axis: θ1 is kept, the pose reached to 1e-15", kept),
         defect=Defect("lean of the wrist centre by acos, which loses 1e-9", lean_by_acos),
+    )
+
+
+def _on_the_first_axis() -> HardCase:
+    turn = forward(ARM, (0.3, 0.2, 0.1, 0.9, 0.4, 0.6, 0.2)).rotation
+    there = RigidTransform(turn, SHOULDER + np.array([0.0, 0.0, 0.54]))
+
+    def by_arctangent(arm: ArmProfile, pose: RigidTransform, keep: Any) -> Any:
+        return decoupled(arm, pose, (0.0, keep[1]))
+
+    def every() -> bool:
+        found = [decoupled(ARM, there, (keep, 0.0)) for keep in np.linspace(-3.0, 3.0, 7)]
+        return all(np.abs(_off(one.q, there)).max() < 1e-15 for eight in found for one in eight)
+
+    return HardCase(
+        subsystem="kinematics",
+        case="arm: first joint and pose with the wrist centre on the first axis",
+        given="wrist centre 0.54 m above the shoulder, θ1 = 0.7 rad to be kept",
+        way=decoupled,
+        found=lambda way: [
+            (q := way(ARM, there, (0.7, 0.0))[0].q)[0],
+            *_off(q, there),
+        ],
+        reference=analytic("θ1 is kept, and the pose is met", [0.7, *np.zeros(12)]),
+        unit="rad, m, 1",
+        bound=1e-15,
+        beyond=answers("whatever is kept, all eight meet the pose", every),
+        defect=Defect("θ1 = atan2(p_y, p_x), of zeros", by_arctangent),
+    )
+
+
+def _wrist_aligned() -> HardCase:
+    q = np.array([0.3, 0.7, 0.0, 0.9, 0.3, 0.0, 0.4])
+    there = forward(ARM, q)
+
+    def apart(arm: ArmProfile, pose: RigidTransform, keep: Any) -> Any:
+        first = decoupled(arm, pose, keep)[0]
+        m = forward(arm, [*first.q[:4], 0.0, 0.0, 0.0]).rotation.T @ pose.rotation
+        angles = atan2(m[1, 2], m[0, 2]), first.q[5], atan2(m[2, 1], -m[2, 0])
+        return (replace(first, q=np.array([*first.q[:4], *angles])),)
+
+    def named_wrist() -> bool:
+        return ArmSingularity.WRIST in decoupled(ARM, there, (0.0, -0.5))[0].singular
+
+    return HardCase(
+        subsystem="kinematics",
+        case="arm: fifth and seventh joint and pose with the wrist aligned",
+        given="the pose of θ = (0.3, 0.7, 0, 0.9, 0.3, 0, 0.4), θ5 = -0.5 rad to be kept",
+        way=decoupled,
+        found=lambda way: [
+            (found := way(ARM, there, (0.0, -0.5))[0].q)[4],
+            found[4] + found[6],
+            *_off(found, there),
+        ],
+        reference=analytic("θ5 is kept, θ5 + θ7 = 0.7, the pose is met", [-0.5, 0.7, *[0.0] * 12]),
+        unit="rad, m, 1",
+        bound=1e-15,
+        beyond=answers("named: the wrist", named_wrist),
+        defect=Defect("θ5 and θ7 each by the arc tangent of zeros", apart),
     )
 
 
@@ -166,6 +229,37 @@ def _almost_stretched(short: str) -> HardCase:
         bound=1e-15 / float(reference.value[1]),  # no formula is better than ε / θ4
         beyond=named(UnreachableError, lambda: solve(ARM, _at(REACH * (1.0 + 1e-9)))),
         defect=Defect("signs of θ2 and θ4 not tied, as printed", untied),
+    )
+
+
+def _stretched() -> HardCase:
+    q = np.array([0.3, 0.7, 0.5, 0.0, 0.4, 0.6, 0.2])
+    there = forward(ARM, q)
+
+    def by_squares(arm: ArmProfile, angles: FloatArray) -> Any:
+        weighed = jacobian(arm, angles)
+        weighed[3:] *= TURN_LENGTH
+        values = np.linalg.eigvalsh(weighed @ weighed.T)
+        return replace(
+            arm_singularity(arm, angles), dexterity=float(np.sqrt(abs(values[0]) / values[-1]))
+        )
+
+    def met() -> bool:
+        found = solve(ARM, there)
+        kinds = arm_singularity(ARM, q).kinds
+        return bool(np.abs(_off(found.q, there)).max() < 1e-15 and ArmSingularity.ELBOW in kinds)
+
+    return HardCase(
+        subsystem="kinematics",
+        case="arm: dexterity with the elbow stretched, where outwards is lost",
+        given="θ = (0.3, 0.7, 0.5, 0, 0.4, 0.6, 0.2)",
+        way=arm_singularity,
+        found=lambda way: [way(ARM, q).dexterity, way(ARM, q).elbow],
+        reference=analytic("0: no joint moves the wrist centre outwards", (0.0, 0.0)),
+        unit="1",
+        bound=1e-15,
+        beyond=answers("the pose is met all the same, and the elbow is named", met),
+        defect=Defect("roots of the eigenvalues of J Jᵀ, which square the smallest", by_squares),
     )
 
 
@@ -295,9 +389,12 @@ def _only_branch() -> HardCase:
 
 
 CASES: Final = (
+    _on_the_first_axis(),
     _beside_the_first_axis(),
+    _wrist_aligned(),
     _wrist_almost_aligned(),
     _wrist_closes(),
+    _stretched(),
     _almost_stretched("1e-06"),
     _almost_stretched("1e-12"),
     _arm_angle_stretched(),

@@ -75,7 +75,32 @@ def _fingers() -> tuple[HardCase, ...]:
         found = inverse(HAND, (0.0, 0.0, height), HandFinger.TWO, phi1_now=0.3)
         return found.any_spread and found.joints[0] == 0.3
 
+    on_axis = np.array([0.0, 0.0, height])
+
+    def spread_of_zeros(geometry: HandGeometry, p: Any, finger: HandFinger, _: float) -> FingerPose:
+        return inverse(geometry, p, finger, phi1_now=atan2(p[1], p[0]))
+
+    def nothing_moves() -> bool:
+        found = inverse(HAND, on_axis, HandFinger.TWO, phi1_now=0.3)
+        moved = jacobian(HAND, found.joints)
+        return bool(found.any_spread and np.abs(moved[:, 0]).max() < 1e-16)
+
     return (
+        HardCase(
+            subsystem="kinematics",
+            case="joints of a finger whose point is on its spread axis",
+            given="p = (0, 0, 85) mm in the finger's frame, spread by 0.3 rad before",
+            way=inverse,
+            found=lambda way: [
+                (q := way(HAND, on_axis, HandFinger.TWO, 0.3).joints)[0],
+                *(forward(HAND, q) - on_axis),
+            ],
+            reference=analytic("the spread is kept, the point is met", (0.3, 0.0, 0.0, 0.0)),
+            unit="rad, m",
+            bound=1e-16,
+            beyond=answers("said to be free, and the spread moves nothing there", nothing_moves),
+            defect=Defect("spread by the arc tangent of zeros", spread_of_zeros),
+        ),
         HardCase(
             subsystem="kinematics",
             case="joints of a finger whose point is 1 nm beside its spread axis",

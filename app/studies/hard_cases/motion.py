@@ -52,6 +52,33 @@ def _tip_at_the_fulcrum() -> HardCase:
     )
 
 
+def _slid_through_the_fulcrum() -> HardCase:
+    trocar = Pivot(ARM, TOOL, np.array([0.5, 0.0, 0.4]), np.array([0.0, 0.0, -1.0]))
+    axis, roll = np.array([0.0, -0.28, -0.96]), 2.0
+
+    def slid(pivot: Pivot, direction: FloatArray, depth: float) -> list[float]:
+        q = solve(ARM, pivot.wrist_pose(pivot.pose(direction, depth, roll))).q
+        there = pivot.state(q)
+        return [*there.axis_world, there.depth, there.roll, there.off]
+
+    def aimed(pivot: Pivot, direction: FloatArray, depth: float) -> list[float]:
+        toward, found = pivot.aim(pivot.p_world + depth * direction)
+        return slid(pivot, toward, found)
+
+    return HardCase(
+        subsystem="planning",
+        case="arm: the tip at the fulcrum, where it aims nowhere, slid along a given direction",
+        given="depth 0, direction (0, -0.28, -0.96), roll 2 rad, through the joint angles",
+        way=slid,
+        found=lambda way: way(trocar, axis, 0.0),
+        reference=analytic("what the pose was made of, and 0", [*axis, 0.0, roll, 0.0]),
+        unit="1, m, rad",
+        bound=1e-14,
+        beyond=named(FulcrumError, lambda: trocar.aim(trocar.p_world)),
+        defect=Defect("direction from the fulcrum to the tip", aimed),
+    )
+
+
 def _grazing() -> HardCase:
     axis = np.array([sin(GRAZING), 0.0, -cos(GRAZING)])
     tip = 0.1 * axis
@@ -117,5 +144,10 @@ def _roll_of_a_flat_shaft() -> HardCase:
     )
 
 
-CASES: Final = (_tip_at_the_fulcrum(), _grazing(), _roll_of_a_flat_shaft())
+CASES: Final = (
+    _tip_at_the_fulcrum(),
+    _slid_through_the_fulcrum(),
+    _grazing(),
+    _roll_of_a_flat_shaft(),
+)
 """All of them."""

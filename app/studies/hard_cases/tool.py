@@ -71,6 +71,33 @@ def _far_away() -> HardCase:
     )
 
 
+def _round() -> HardCase:
+    y, x = np.mgrid[-60:61, -60:61].astype(np.float64)
+    inside = np.hypot(x - 0.3, y - 0.2) <= 40.0
+    disc = np.column_stack([x[inside], y[inside]])
+
+    def always(points: FloatArray, edge_px: float) -> Any:
+        found = whole(points, edge_px)
+        c = found.covariance
+        return replace(found, angle=0.5 * float(np.arctan2(2.0 * c[0, 1], c[0, 0] - c[1, 1])))
+
+    return HardCase(
+        subsystem="tool and trocar",
+        case="a round blob has no principal axis",
+        given="whole pixels within 40 px of (0.3, 0.2) px, outline known to 0.1 px",
+        way=whole,
+        found=lambda way: float(way(disc, 0.1).angle is None),
+        reference=analytic("1: none", 1.0),
+        unit="1",
+        bound=0.0,
+        beyond=answers(
+            "one that is longer by a twentieth has one",
+            lambda: whole(ellipse(1.05, 70.0 * DEGREE), 0.1).angle is not None,
+        ),
+        defect=Defect("arc tangent of what rounding to pixels leaves", always),
+    )
+
+
 def _steep() -> HardCase:
     def by_quotient(points: FloatArray) -> Any:
         found = whole(points)
@@ -149,6 +176,35 @@ def _bleached() -> HardCase:
     )
 
 
+def _two_tools() -> HardCase:
+    other = ToolScene(np.array([0.1, -0.12, 0.009]), np.array([0.9, 0.3, 0.0]))
+    across = ToolScene(np.array([0.06, -0.03, 0.009]), np.array([0.3, -0.9, 0.0]))
+    wrong = ToolMissReason.TWO_TOOLS, ToolMissReason.NOT_STRAIGHT
+
+    def named_so(way: _Way) -> list[float]:
+        found = [way(renderer().render(replace(LYING, others=(one,)))) for one in (other, across)]
+        return [
+            float(isinstance(seen, ToolMiss) and seen.reason is reason)
+            for seen, reason in zip(found, wrong, strict=True)
+        ]
+
+    return HardCase(
+        subsystem="tool and trocar",
+        case="two tools in the picture, apart and crossing, are never taken for one",
+        given="the second 150 mm beside the first; the second across it",
+        way=find_tool,
+        found=named_so,
+        reference=analytic("1: two tools; 1: not one straight thing", (1.0, 1.0)),
+        unit="1",
+        bound=0.0,
+        beyond=answers(
+            "with one taken away the other is found",
+            lambda: isinstance(find_tool(renderer().render(other)), ToolBlob),
+        ),
+        defect=Defect("the first of them", lambda _: find_tool(renderer().render(LYING))),
+    )
+
+
 def _cut() -> HardCase:
     scene = ToolScene(np.array([-0.03, 0.33, 0.2]), np.array([0.25, -1.0, -0.1]))
 
@@ -209,6 +265,38 @@ def _all_but_parallel() -> HardCase:
         bound=1e-10,  # ε / 1e-5, several times
         beyond=answers("named DEGENERATE for parallel lines", parallel),
         defect=Defect("normal equations, which square the angle", normal_equations),
+    )
+
+
+def _parallel() -> HardCase:
+    rows = [(0.01 * k, 0.02 * k * k, 0.3, 0.1, 0.2, -1.0) for k in range(5)]
+    lines = exact_lines([value for row in rows for value in row])
+
+    def least_norm(lines: list[ShaftLine]) -> Any:
+        across = [np.eye(3) - np.outer(line.axis_world, line.axis_world) for line in lines]
+        right = sum(a @ line.p_world for a, line in zip(across, lines, strict=True))
+        solved = np.linalg.pinv(sum(across)) @ right
+        return replace(meet_lines(lines), p_world=solved, status=FulcrumStatus.FOUND)
+
+    def turned() -> bool:
+        lean = [(*row[:3], 0.1 + 1e-3 * k, *row[4:]) for k, row in enumerate(rows)]
+        found = meet_lines(exact_lines([value for row in lean for value in row]))
+        return found.status is not FulcrumStatus.DEGENERATE
+
+    return HardCase(
+        subsystem="tool and trocar",
+        case="lines that are all parallel have no fulcrum",
+        given="five lines apart, all along (0.1, 0.2, -1)",
+        way=meet_lines,
+        found=lambda way: [
+            float((met := way(lines)).status is FulcrumStatus.DEGENERATE),
+            *met.p_world,
+        ],
+        reference=analytic("1: degenerate, and no place is given", (1.0, 0.0, 0.0, 0.0)),
+        unit="1, m",
+        bound=0.0,
+        beyond=answers("judged by their distances once they turn by 1 mrad", turned),
+        defect=Defect("the point of least norm", least_norm),
     )
 
 
@@ -292,10 +380,13 @@ def _edge_on() -> HardCase:
 
 CASES: Final = (
     _far_away(),
+    _round(),
     _steep(),
     _bleached(),
+    _two_tools(),
     _cut(),
     _all_but_parallel(),
+    _parallel(),
     _along_the_skin(),
     _edge_on(),
 )

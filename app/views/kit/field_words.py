@@ -81,7 +81,7 @@ def problem_words(problem: FieldProblem) -> str:
     """Say what is wrong with a field and what would be valid, without naming the field."""
     if problem.missing:
         return tr("is missing: fill it in")
-    text = problem.text.removeprefix("Value error, ")
+    text = problem.text
     got = _GOT.search(text)
     value = got.group(1) if got is not None else ""
     for beginning, words in _rules():

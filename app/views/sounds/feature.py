@@ -27,6 +27,7 @@ from PySide6.QtWidgets import QMenu
 
 from app.core.arrays import FloatArray
 from app.core.events import Event
+from app.core.extras import not_installed
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.core.units import MILLIMETRE
@@ -233,9 +234,7 @@ class MixerSpeaker:
         try:
             self._mixer: Any = importlib.import_module("pygame").mixer
         except ImportError as error:
-            raise OSError(
-                "sounds need the package pygame-ce: pip install 'acus[gamepad]'"
-            ) from error
+            raise not_installed(OSError, "pygame-ce, which plays sounds,", "gamepad") from error
         try:
             self._mixer.init(RATE, -16, 1, 512)
         except Exception as error:  # pygame.error: no card, or a busy one

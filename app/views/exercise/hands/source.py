@@ -25,6 +25,7 @@ from PySide6.QtGui import QInputDevice, QTabletEvent
 from PySide6.QtWidgets import QApplication
 
 from app.core.errors import AcusError
+from app.core.extras import not_installed
 from app.session.pad.hand import PadHand
 from app.views.exercise.pad_canvas import PadCanvas
 from app.views.kit.text import tr
@@ -230,9 +231,11 @@ class PygamePads:
             import pygame
             from pygame._sdl2 import controller
         except ImportError as error:
-            raise GamepadError(
-                "a gamepad needs the package pygame-ce, which is not installed here;"
-                " run `pip install 'acus[gamepad]'`, or choose mouse or tablet"
+            raise not_installed(
+                GamepadError,
+                "pygame-ce, which reads gamepads,",
+                "gamepad",
+                "choose mouse or tablet",
             ) from error
         try:
             pygame.display.init()
