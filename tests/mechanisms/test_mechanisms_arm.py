@@ -253,6 +253,11 @@ def test_out_of_reach_is_refused_with_the_distance():
         decoupled(ARM, pose(SHOULDER + [0.01, 0.0, 0.0]))
 
 
+def test_out_of_reach_the_nearest_place_is_offered_in_the_message_itself():
+    with pytest.raises(UnreachableError, match=r"nearest that they reach is \(0\.8200, 0\.0000, "):
+        solve(ARM, pose(SHOULDER + [0.9, 0.0, 0.0]))
+
+
 def test_on_the_first_axis_and_with_an_aligned_wrist_angles_are_kept():
     there = pose(SHOULDER + [0.0, 0.0, 0.6], (0.3, 0.4, 0.5))
     for one in decoupled(ARM, there, keep=(0.7, 0.0)):

@@ -250,11 +250,21 @@ def solution(arm: ArmProfile, q: FloatArray, angle: float, bits: int) -> ArmSolu
 
 
 def in_words(arm: ArmProfile, pose: RigidTransform) -> str:
-    """Where the wrist centre of a pose is, and how far the links reach, for messages."""
-    x, y, z = pose.translation
-    reach = float(np.linalg.norm([x, y, z - arm.pedestal]))
+    """Where the wrist centre of a pose is, and how far the links reach, for messages.
+
+    Beyond them the nearest place that they reach is offered.
+    """
+    shoulder = np.array([0.0, 0.0, arm.pedestal])
+    away = pose.translation - shoulder
+    reach = float(np.linalg.norm(away))
     least, most = abs(arm.upper_arm - arm.forearm), arm.upper_arm + arm.forearm
-    return (
+    x, y, z = pose.translation
+    words = (
         f"wrist centre ({x:.6g}, {y:.6g}, {z:.6g}) m is {reach:.6g} m from the shoulder; the links"
-        f" span {least:.4g} to {most:.4g} m; nearest_pose offers the nearest that is reached"
+        f" span {least:.4g} to {most:.4g} m"
     )
+    within = min(max(reach, least), most)
+    if within == reach or not 0.0 < reach < float("inf"):
+        return f"{words}; nearest_pose gives the nearest that is within the joint limits"
+    x, y, z = shoulder + within / reach * away
+    return f"{words}; the nearest that they reach is ({x:.4f}, {y:.4f}, {z:.4f}) m (nearest_pose)"
