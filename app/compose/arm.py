@@ -17,9 +17,12 @@ import numpy as np
 
 from app.core.arrays import FloatArray, angle_between
 from app.core.files import write_atomically
+from app.core.progress import Progress
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
+from app.planning.placement import PlacedPlan
 from app.simulation.arm import (
+    ArmPerformance,
     ArmScene,
     CarryError,
     CarryFailure,
@@ -263,6 +266,30 @@ def demonstrate(
         write_pictures(folder, shown)
         write_atomically(folder / "report.json", found.as_json().encode())
     return found
+
+
+def carry_out(
+    placed: PlacedPlan,
+    seed: int,
+    stands_deg: float = 0.0,
+    progress: Progress | None = None,
+    depth: float | None = None,
+) -> ArmPerformance:
+    """Let the arm fetch the tool and insert it along a plan, by pictures alone.
+
+    Args:
+        placed: the plan on the bench; its entry becomes the trocar's centre in the scene.
+        seed: of where the tool lies and of the pictures' noise.
+        stands_deg: turn of the arm's place about the vertical through the entry [°].
+        progress: told how far it is, in words; may cancel.
+        depth: of the tip at the end [m]; None: as far as the target.
+
+    Raises:
+        CarryError: if the plan cannot be carried out; says why, and where the arm could stand.
+        SimulationError, PlannerMissingError: if a package is missing; names the extra.
+        Cancelled: when the progress says so.
+    """
+    raise SimulationError("the arm cannot carry out a plan yet")
 
 
 def _draws(running: RunningScene, tell: Callable[[str], None]) -> bool:

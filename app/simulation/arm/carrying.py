@@ -51,11 +51,20 @@ class CarryFailure(StrEnum):
 
 
 class CarryError(SimulationError):
-    """The tool was not brought; `failure` names the cause, the message says the rest."""
+    """The tool was not brought; the message says why and what to do.
 
-    def __init__(self, failure: CarryFailure, message: str) -> None:
+    Attributes:
+        failure: the cause.
+        could_stand_deg: turn of the arm's place about the vertical through the entry from which it
+            could be [°]; None if none is known.
+    """
+
+    def __init__(
+        self, failure: CarryFailure, message: str, could_stand_deg: float | None = None
+    ) -> None:
         super().__init__(message)
         self.failure = failure
+        self.could_stand_deg = could_stand_deg
 
 
 @dataclass(frozen=True, slots=True, eq=False)
