@@ -8,9 +8,11 @@ from app.simulation.arm.carrying import (
     CarryError,
     CarryFailure,
     CarryPhase,
+    Insertion,
     SeenTool,
     carry,
-    true_tool,
+    could_carry,
+    plan,
 )
 from app.simulation.arm.performance import ArmMoment, ArmPerformance, ArmTimeline
 from app.simulation.arm.running import ArmSceneState, RunningScene, SceneClearance
@@ -30,6 +32,7 @@ __all__ = [
     "CarryError",
     "CarryFailure",
     "CarryPhase",
+    "Insertion",
     "RunningScene",
     "SceneBox",
     "SceneClearance",
@@ -37,5 +40,6 @@ __all__ = [
     "ToolBody",
     "TrocarRing",
     "carry",
-    "true_tool",
+    "could_carry",
+    "plan",
 ]

@@ -23,7 +23,7 @@ from app.core.extras import not_installed
 from app.core.transform import RigidTransform
 from app.mechanisms.arm import PublishedArm
 from app.mechanisms.hand import HandFinger, HandGeometry
-from app.simulation.arm.scene import ArmScene, SceneBox, ToolBody, TrocarRing
+from app.simulation.arm.scene import RING_HALF, ArmScene, SceneBox, ToolBody, TrocarRing
 from app.simulation.errors import SimulationError
 
 RING: Final = 24
@@ -34,7 +34,10 @@ _WORLD: Final = {"contype": "1", "conaffinity": "0"}
 _ARM: Final = {"contype": "2", "conaffinity": "3"}
 _TOOL: Final = {"contype": "4", "conaffinity": "3"}
 
-_WIDE, _SLIM = 0.062, 0.048  # radius of the arm's links, and beyond the wrist [m]
+ARM_RADIUS: Final = 0.062
+"""Of the arm's links [m]."""
+
+_SLIM: Final = 0.048  # beyond the wrist [m]
 _FINGER_MASS: Final = 0.04  # of each of a finger's two links, an estimate [kg]
 _ROTOR: Final = 1.6e-3  # of a finger's motor, as its joint feels it [kg·m²], an estimate
 
@@ -194,7 +197,7 @@ def _ring(world: ET.Element, trocar: TrocarRing) -> None:
         angle = 2.0 * pi * k / RING
         out = cos(angle) * first + sin(angle) * second
         along = cos(angle) * second - sin(angle) * first
-        # 1 mm below and above the plane of the centre; the sides inscribe the hole's circle
+        # below and above the plane of the centre; the sides inscribe the hole's circle
         ET.SubElement(
             world,
             "geom",
@@ -203,7 +206,7 @@ def _ring(world: ET.Element, trocar: TrocarRing) -> None:
             type="box",
             pos=text(*(trocar.p_world + (trocar.inner + radial) * out)),
             xyaxes=text(*out, *along),
-            size=text(radial, trocar.outer * np.tan(pi / RING), 0.001),
+            size=text(radial, trocar.outer * np.tan(pi / RING), RING_HALF),
             rgba=text(30.0 / 255.0, 95.0 / 255.0, 205.0 / 255.0, 1.0),
         )
 
@@ -256,7 +259,7 @@ def _arm(world: ET.Element, scene: ArmScene) -> ET.Element:
         limit = joint.limit_deg * pi / 180.0
         ET.SubElement(body, "joint", name=joint.name, axis="0 0 1", range=text(-limit, limit))
         _inertial(body, joint.mass, joint.centre, joint.inertia)
-        radius = _WIDE if k < 5 else _SLIM
+        radius = ARM_RADIUS if k < 5 else _SLIM
         stop = np.array(end)
         if k == 6:  # its round end stays behind the flange's plate
             stop = stop - [0.0, 0.0, radius]

@@ -13,7 +13,7 @@ from typing import Final
 
 import numpy as np
 
-from app.core.arrays import FloatArray, frozen, unit
+from app.core.arrays import FloatArray, angle_between, cross, frozen, read_only, unit
 from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE
@@ -22,6 +22,18 @@ from app.mechanisms.hand import HandProfile, load_hand
 from app.simulation.errors import SimulationError
 
 Corner = tuple[float, float, float]
+
+LEAN: Final = 15.0 * DEGREE
+"""How far a shaft may lean in its trocar before the ring is laid aslant for it [rad]."""
+
+RING_HALF: Final = 0.001
+"""Half the ring's height [m]."""
+
+FLATTEST: Final = 60.0 * DEGREE
+"""Largest angle of a path from straight down [rad]: a flatter one grazes the skin."""
+
+_UP: Final = read_only(np.array([0.0, 0.0, 1.0]))
+_AROUND: Final = 0.004  # least gap between a shaft and the hole it goes through in a box [m]
 
 _TABLE: Final = -0.02  # height of the table's surface
 _TRAY: Final = -0.012
@@ -75,6 +87,12 @@ SURROUNDINGS: Final = (
 """Table, the arm's stand, tray with two rails, and a skin over a hollow body."""
 
 
+CLEAR_OF_SKIN: Final = 0.070
+"""From the trocar to where the hand has the tool, at the least [m]."""
+
+_HALF_A_HAND: Final = 0.050
+
+
 @dataclass(frozen=True, slots=True)
 class ToolBody:
     """The tool: a handle, a shaft that tapers to the tip; its axis z from the handle's end to it.
@@ -95,8 +113,22 @@ class ToolBody:
 
     @property
     def grip(self) -> float:
-        """Where it is taken, from the handle's end [m]: its middle, on the shaft."""
-        return 0.5 * self.length
+        """Where it is taken, from the handle's end [m]: on the shaft, a hand's half from it."""
+        return self.handle_length + _HALF_A_HAND
+
+    def reaching(self, depth: float) -> ToolBody:
+        """Return it with a shaft long enough that the hand stays clear of the skin.
+
+        Args:
+            depth: of the tip in the body [m]; up to 50 mm it is long enough as it is.
+        """
+        length = max(self.length, self.grip + depth + CLEAR_OF_SKIN)
+        return replace(self, length=length, mass=self.mass * self._volume(length) / self._volume())
+
+    def _volume(self, length: float | None = None) -> float:
+        """Of handle and shaft, over π / 4 [m³]."""
+        shaft = (length or self.length) - self.point_length - self.handle_length
+        return self.handle_diameter**2 * self.handle_length + self.shaft_diameter**2 * shaft
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -117,6 +149,37 @@ class TrocarRing:
     def __post_init__(self) -> None:
         object.__setattr__(self, "p_world", frozen(self.p_world, (3,), "trocar"))
         object.__setattr__(self, "normal_world", frozen(unit(self.normal_world), (3,), "normal"))
+
+    @classmethod
+    def guiding(cls, p_world: FloatArray, axis_world: FloatArray) -> TrocarRing:
+        """Return a ring for a path: flat, or leaning by what the path leans beyond `LEAN`.
+
+        Args:
+            p_world: centre [m], shape (3,).
+            axis_world: direction of the path into the body, shape (3,).
+        """
+        out = -unit(axis_world)
+        angle = angle_between(out, _UP)
+        about = cross(_UP, out)
+        if angle <= LEAN or not about.any():
+            return cls(p_world, _UP)
+        return cls(p_world, rotation_exp((angle - LEAN) * unit(about)) @ _UP)
+
+    def room(self, axis_world: FloatArray, diameter: float) -> float:
+        """Gap all round between the hole and a shaft through its centre [m]; negative for none.
+
+        Aslant by t the shaft is an ellipse in the ring's plane, r / cos t long, which at either
+        face of the ring is h tan t further.
+
+        Args:
+            axis_world: direction of the shaft, shape (3,).
+            diameter: of the shaft [m].
+        """
+        cosine = abs(float(unit(axis_world) @ self.normal_world))
+        if cosine < 1e-9:
+            return -float("inf")
+        tangent = float(np.sqrt(max(1.0 - cosine**2, 0.0))) / cosine
+        return self.inner - 0.5 * diameter / cosine - RING_HALF * tangent
 
 
 def _standing() -> ArmProfile:
@@ -196,11 +259,19 @@ class ArmScene:
             )
 
     @classmethod
-    def seeded(cls, seed: int, tool: ToolBody | None = None) -> ArmScene:
+    def seeded(
+        cls, seed: int, tool: ToolBody | None = None, axis_world: FloatArray | None = None
+    ) -> ArmScene:
         """Return a scene with tool and trocar somewhere: the same for a seed everywhere.
 
         The tool lies across both rails, up to 15° askew, its tip to either side; the trocar is
         within 30 mm of the skin's middle.
+
+        Args:
+            seed: of where they are.
+            tool: what is to be inserted; None for the default.
+            axis_world: direction in which it will be, shape (3,), for which the ring is laid and
+                the holes below it are wide enough; None: straight down.
         """
         rng = np.random.default_rng(seed)
         body = tool or ToolBody()
@@ -217,8 +288,28 @@ class ArmScene:
         rotation = np.column_stack([across, np.cross(direction, across), direction])
         trocar = np.array([0.16, 0.0, 0.002])
         trocar[:2] += rng.uniform(-0.03, 0.03, 2)
+        path = -_UP if axis_world is None else unit(axis_world)
         return cls(
             tool=body,
-            trocar=TrocarRing(trocar, np.array([0.0, 0.0, 1.0])),
+            trocar=TrocarRing.guiding(trocar, path),
             T_world_tool=RigidTransform(rotation, centre - body.grip * direction),
+            boxes=tuple(_open_for(box, trocar, path, thin) for box in SURROUNDINGS),
         )
+
+
+def _open_for(box: SceneBox, p_world: FloatArray, axis: FloatArray, radius: float) -> SceneBox:
+    """Return a box whose hole, if it has one, lets a shaft through along an axis.
+
+    Raises:
+        SimulationError: if the path does not go down.
+    """
+    if not box.hole:
+        return box
+    down = -float(axis[2])
+    if down < np.cos(FLATTEST):
+        raise SimulationError(
+            f"the path leans {np.degrees(np.arccos(np.clip(down, -1.0, 1.0))):.0f}° from straight"
+            f" down; up to {FLATTEST / DEGREE:.0f}° can be shown in the scene of the arm"
+        )
+    aside = (float(p_world[2]) - box.low[2]) * float(np.hypot(axis[0], axis[1])) / down
+    return replace(box, hole=max(box.hole, aside + radius / down + _AROUND))
