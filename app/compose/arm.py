@@ -317,11 +317,11 @@ class Take:
                 shown(running, "look")
                 report(0.1, "the arm's way is planned")
                 wanted = Insertion(sight.tool, sight.fulcrum, sight.normal, self.axis, self.depth)
-                begin = time.process_time()
+                begin = time.thread_time()
                 try:
                     planned = plan(self.scene, wanted, check=check)
                 finally:
-                    self.planning = time.process_time() - begin
+                    self.planning = time.thread_time() - begin
                 self._lasts = planned.duration + len(PHASES)
                 for phase in carry(running, wanted, planned):
                     self.phases.append(phase)

@@ -52,7 +52,7 @@ ROOM: Final = 0.8 * MILLIMETRE
 
 _UP: Final = read_only(np.array([0.0, 0.0, 1.0]))
 _MARGIN: Final = 0.002  # distance kept from everything [m]
-_CAREFUL: Final = 0.15  # share of the joints' speeds with a tool in the hand
+_CAREFUL: Final = 0.2  # share of the joints' speeds with a tool in the hand
 _TESTS: Final = 3000  # of a search
 _REST: Final = 0.3  # after each phase [s]
 

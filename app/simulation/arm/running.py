@@ -138,6 +138,9 @@ class RunningScene:
             for joint in (2, 3):
                 self._finger_of[model.geom(finger_joint(finger, joint)).id] = k
         self._tool_geoms = model.geom_bodyid == model.body("tool").id
+        tool = model.joint("tool")
+        self._tool_place = slice(int(tool.qposadr[0]), int(tool.qposadr[0]) + 3)
+        self._tool_dofs = slice(int(tool.dofadr[0]), int(tool.dofadr[0]) + 3)
         self._ring_geoms = np.array([_named(model, k) == "trocar" for k in range(model.ngeom)])
         self._motors = {finger: _Motor() for finger in HandFinger}
         self._law, self._holding = None, False
@@ -169,7 +172,7 @@ class RunningScene:
 
     @property
     def busy(self) -> float:
-        """Time that its steps took to compute so far [s]."""
+        """Processor's time that its steps took so far [s]."""
         return self._busy
 
     @property
@@ -382,7 +385,7 @@ class RunningScene:
 
     def _step(self, q: FloatArray, speed: FloatArray, turn: FloatArray) -> None:
         """One step towards a posture, its speed and its acceleration."""
-        begin = time.perf_counter()
+        begin = time.thread_time()
         mujoco, model, data = self._mujoco, self._model, self._data
         mujoco.mj_step1(model, data)
         dofs = self._arm_dofs
@@ -395,13 +398,20 @@ class RunningScene:
             torque += self._weight()[dofs]
         data.qfrc_applied[dofs] = torque
         self._drive()
+        before = data.qvel[self._tool_dofs].copy()
         mujoco.mj_step2(model, data)
+        if self._holding:
+            # Contacts hold the tool to the hand as both stood when the step began; the hand goes on
+            # round its joints, the tool straight ahead: out of each curve by a dt²/2 a step.
+            data.qpos[self._tool_place] += (
+                0.5 * self.scene.step * (data.qvel[self._tool_dofs] - before)
+            )
         if self._law is not None:
             self._forces = self._contacts()[0]  # of this step: the next one makes contacts anew
         if self._holding:
             self._pressed = max(self._pressed, self._ring_force())
         self._told = q
-        self._busy += time.perf_counter() - begin
+        self._busy += time.thread_time() - begin
         if self._watch is not None and data.time >= self._due - 0.5 * self.scene.step:
             self._due += self._every
             self._watch(self.state)
