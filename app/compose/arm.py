@@ -22,6 +22,7 @@ from app.core.progress import Progress
 from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
+from app.mechanisms.laparoscopy import FLATTEST
 from app.planning.arm.pick_place import PhaseName
 from app.planning.placement import PlacedPlan
 from app.simulation.arm import (
@@ -40,14 +41,13 @@ from app.simulation.arm import (
     could_carry,
     plan,
 )
-from app.simulation.arm.scene import FLATTEST
 from app.simulation.errors import SimulationError
 from app.tracking.cameras.camera import Image
 from app.tracking.cameras.survey import write_pictures
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.simulated.background import HousingBox
 from app.tracking.simulated.picture_effects import NoiseTile, noise
-from app.tracking.simulated.tool import ToolProfile, ToolRenderer, ToolScene, TrocarPlace, eyes
+from app.tracking.simulated.tool import ToolRenderer, ToolScene, eyes, tool_outline
 from app.tracking.tool.blob import ToolMiss
 from app.tracking.tool.eyes import Pair, ToolEyes
 from app.tracking.tool.pose import ToolStatus
@@ -67,7 +67,7 @@ _STANDS: Final = ((-0.62, -0.55, 0.56), (0.25, -0.15, 0.95))
 
 
 DEEPEST: Final = 0.120
-"""Depth to which the tool of the scene can reach [m]: a longer one is not whole in both pictures."""
+"""Depth to which the tool of the scene reaches [m]: a longer one is not whole in both pictures."""
 
 PHASES: Final = tuple(name.value for name in PhaseName)
 
@@ -168,42 +168,27 @@ class ArmTrial:
         )
 
 
-def tool_profile(body: ToolBody) -> ToolProfile:
-    """Return the tool of the scene as the pictures have it."""
-    return ToolProfile(
-        length_mm=body.length / MILLIMETRE,
-        shaft_diameter_mm=body.shaft_diameter / MILLIMETRE,
-        point_length_mm=body.point_length / MILLIMETRE,
-        handle_length_mm=body.handle_length / MILLIMETRE,
-        handle_diameter_mm=body.handle_diameter / MILLIMETRE,
-    )
-
-
 def pictures(
     scene: ArmScene,
     T_world_tool: RigidTransform,
     models: tuple[CameraModel, CameraModel],
-    profile: ToolProfile,
     seed: int,
 ) -> Pair:
     """Return what both cameras see of the table, with noise.
 
     Args:
-        scene: table, trocar.
+        scene: table, trocar, measures of the tool.
         T_world_tool: where the tool is.
         models: the cameras.
-        profile: measures and colour of the tool.
         seed: of the noise.
     """
-    ring = scene.trocar
-    trocar = TrocarPlace(ring.p_world, ring.normal_world, ring.inner, ring.outer)
     table = tuple(HousingBox(box.low, box.high, box.colour) for box in scene.boxes)
     tip = T_world_tool @ [0.0, 0.0, scene.tool.length]
     seen = ToolScene(tip, T_world_tool.rotate([0.0, 0.0, 1.0]))
     rng = np.random.default_rng(seed)
     first, second = (
         noise(
-            ToolRenderer(model, profile, trocar, table=table).render(seen),
+            ToolRenderer(model, scene.tool, scene.trocar, table=table).render(seen),
             NoiseTile.make(model.image_size, NOISE, 2 * seed + k),
             rng,
         )
@@ -363,9 +348,10 @@ class Take:
         )
 
     def _look(self, lies: RigidTransform) -> ArmSight:
-        profile, models = tool_profile(self.scene.tool), cameras()
-        watching = ToolEyes(models=models, outline=profile.outline, noise_grey=NOISE)
-        self.pair = pictures(self.scene, lies, models, profile, self.seed)
+        models = cameras()
+        outline = tool_outline(self.scene.tool)
+        watching = ToolEyes(models=models, outline=outline, noise_grey=NOISE)
+        self.pair = pictures(self.scene, lies, models, self.seed)
         sight = look(self.scene, lies, self.pair, watching)
         self.looked = sight.errors
         return sight
@@ -503,8 +489,6 @@ def carry_out(
                 raise CarryError(error.failure, str(error), could) from error
         raise
     return take.performance(T_scene_world)
-
-
 
 
 def _draws(running: RunningScene, tell: Callable[[str], None]) -> bool:

@@ -39,7 +39,7 @@ ROLLS: Final = 12
 """Turns of the hand about the shaft that are tried at the trocar."""
 
 SLOW: Final = 0.25
-"""Share of the joints' speeds for phases in which something is near: grasp, align, pivot, insert."""
+"""Share of the joints' speeds where something is near: in grasp, align, pivot and insert."""
 
 _STRAIGHT: Final = 1e-6  # angle below which there is nothing to pivot [rad]
 _WAYS: Final = 4  # grips for which a way is searched: the others keep less margin still

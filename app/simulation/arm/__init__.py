@@ -4,6 +4,7 @@ Simulation only: it never drives a real arm. MuJoCo (the extra `arm`) is importe
 opened.
 """
 
+from app.mechanisms.laparoscopy import SceneBox, ToolBody, TrocarRing
 from app.simulation.arm.carrying import (
     CarryError,
     CarryFailure,
@@ -16,12 +17,7 @@ from app.simulation.arm.carrying import (
 )
 from app.simulation.arm.performance import ArmMoment, ArmPerformance, ArmTimeline
 from app.simulation.arm.running import ArmSceneState, RunningScene, SceneClearance
-from app.simulation.arm.scene import (
-    ArmScene,
-    SceneBox,
-    ToolBody,
-    TrocarRing,
-)
+from app.simulation.arm.scene import ArmScene
 
 __all__ = [
     "ArmMoment",

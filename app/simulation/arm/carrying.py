@@ -20,6 +20,7 @@ from app.core.units import MILLIMETRE
 from app.mechanisms.arm import ArmProfile, forward
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.hand import HandFinger, ToolShaft, approach, close_hand
+from app.mechanisms.laparoscopy import TrocarRing
 from app.planning.arm.pick_place import (
     ArmPhase,
     Errand,
@@ -35,7 +36,7 @@ from app.planning.arm.search import Budget, Collisions
 from app.planning.errors import FulcrumError
 from app.simulation.arm.mjcf import ARM_RADIUS
 from app.simulation.arm.running import RunningScene, SceneClearance
-from app.simulation.arm.scene import ArmScene, TrocarRing
+from app.simulation.arm.scene import ArmScene
 from app.simulation.errors import SimulationError
 
 SLIP: Final = 1.0 * MILLIMETRE
@@ -313,7 +314,7 @@ def _beyond(scene: ArmScene, arm: ArmProfile) -> float:
 
 def _closed_on(scene: ArmScene, shaft: ToolShaft) -> FloatArray:
     """φ2, φ3 of the fingers one, two, three where they touch a shaft in the hand, shape (6,)."""
-    joints: dict[HandFinger, tuple[float, ...]] = {}
+    joints: dict[HandFinger, FloatArray] = {}
     for touch in close_hand(scene.hand.hand, shaft).touches:
         joints.setdefault(touch.finger, touch.joints[1:])
     return np.array([joints[finger] for finger in HandFinger]).ravel()

@@ -23,7 +23,15 @@ from app.core.extras import not_installed
 from app.core.transform import RigidTransform
 from app.mechanisms.arm import PublishedArm
 from app.mechanisms.hand import HandFinger, HandGeometry
-from app.simulation.arm.scene import RING_HALF, ArmScene, SceneBox, ToolBody, TrocarRing
+from app.mechanisms.laparoscopy import (
+    RING_HALF,
+    TOOL_GREEN,
+    TROCAR_BLUE,
+    SceneBox,
+    ToolBody,
+    TrocarRing,
+)
+from app.simulation.arm.scene import ArmScene
 from app.simulation.errors import SimulationError
 
 RING: Final = 24
@@ -207,7 +215,7 @@ def _ring(world: ET.Element, trocar: TrocarRing) -> None:
             pos=text(*(trocar.p_world + (trocar.inner + radial) * out)),
             xyaxes=text(*out, *along),
             size=text(radial, trocar.outer * np.tan(pi / RING), RING_HALF),
-            rgba=text(30.0 / 255.0, 95.0 / 255.0, 205.0 / 255.0, 1.0),
+            rgba=_coloured(TROCAR_BLUE),
         )
 
 
@@ -217,7 +225,7 @@ def _tool(world: ET.Element, tool: ToolBody, place: RigidTransform) -> None:
     shaft, thick = 0.5 * tool.shaft_diameter, 0.5 * tool.handle_diameter
     neck = tool.length - tool.point_length
     volumes = np.array([thick**2 * tool.handle_length, shaft**2 * (neck - tool.handle_length)])
-    common = {"rgba": _coloured((70.0, 190.0, 60.0)), "condim": "6", **_TOOL}
+    common = {"rgba": _coloured(TOOL_GREEN), "condim": "6", **_TOOL}
     for name, start, end, radius, mass in (
         ("handle", 0.0, tool.handle_length, thick, volumes[0]),
         ("shaft", tool.handle_length, neck, shaft, volumes[1]),
