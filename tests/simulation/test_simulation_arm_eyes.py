@@ -211,14 +211,24 @@ def test_the_same_plan_and_seed_are_carried_out_the_same():
 
 
 @needs_the_extra
-def test_where_it_cannot_stand_it_says_where_it_could_and_there_it_does():
-    plan = placed(45.0, 180.0, 0.08)
+@pytest.mark.parametrize(
+    ("tilt", "azimuth", "depth", "failures"),
+    [
+        (45.0, 180.0, 0.08, {CarryFailure.NOT_SEEN}),  # the ring is seen edge on
+        (58.0, 0.0, 0.118, {CarryFailure.UNREACHABLE, CarryFailure.COLLIDES}),
+    ],
+)
+def test_where_it_cannot_stand_it_says_where_it_could_and_there_it_does(
+    tilt, azimuth, depth, failures
+):
+    plan = placed(tilt, azimuth, depth)
     with pytest.raises(CarryError, match="stand elsewhere") as caught:
         carry_out(plan, 1)
+    assert caught.value.failure in failures
     could = caught.value.could_stand_deg
     assert could is not None
     assert could % 45.0 == 0.0
-    inserted_as_planned(carry_out(plan, 1, could), plan, 0.08)
+    inserted_as_planned(carry_out(plan, 1, could), plan, depth)
 
 
 def test_paths_too_deep_or_too_flat_are_refused_at_once():
