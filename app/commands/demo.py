@@ -75,9 +75,9 @@ def demo(
     Without a display it runs as with --headless.
 
     With --device arm a simulated arm finds a tool and a trocar by the pictures of two cameras,
-    grasps the tool and brings it over the trocar: always into memory, with pictures and a report.
-    It is a simulation only and never drives a real arm. Ends with code 3 if the tool is not
-    brought; says why.
+    grasps the tool and inserts it through the trocar: always into memory, with pictures and a
+    report. It is a simulation only and never drives a real arm. Ends with code 3 if the tool is
+    not inserted; says why.
     """
     if device is DemoDevice.ARM:
         if ct is not None or pen or cameras != "simulated":
@@ -102,7 +102,7 @@ def _show_arm(seed: int, folder: Path) -> None:
     shown = demonstrate(seed, folder, typer.echo)
     typer.echo(f"pictures and report are in {folder}")
     if shown.failure is not None:
-        typer.echo(f"the tool was not brought ({shown.failure}): {shown.message}")
+        typer.echo(f"the tool was not inserted ({shown.failure}): {shown.message}")
         raise typer.Exit(Exit.NO)
 
 

@@ -16,9 +16,10 @@ from app.core.transform import RigidTransform
 from app.mechanisms.arm import ArmSolution, jacobian
 from app.mechanisms.errors import UnreachableError
 from app.mechanisms.hand import ToolShaft, approach
+from app.mechanisms.laparoscopy import TrocarRing
 from app.planning.arm.pivot import HeldTool, Pivot
 from app.planning.errors import FulcrumError
-from app.simulation.arm.scene import ArmScene, TrocarRing
+from app.simulation.arm.scene import ArmScene
 
 _GRAVITY: Final = (0.0, 0.0, -9.80665)
 

@@ -104,7 +104,7 @@ def _done(
                 name, StudyOutcome.LEFT_OUT, f"it needs {study.inputs}: acus study {name} DIR"
             )
         result: Result | SurveyResult = (
-            examine(study, progress, quick=quick)
+            examine(study, progress, quick=quick, lend=lend)
             if isinstance(study, Survey)
             else run(study, repeats, progress, lend=lend)
         )
