@@ -11,8 +11,15 @@ from app.compose.declared_views import declared_views
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
 from app.exercises.parts import LayersFrom, OwnPlan
-from app.exercises.scene import compile_exercise, device_of, law_requests, plan_of
+from app.exercises.scene import (
+    compile_exercise,
+    device_of,
+    law_requests,
+    placed_plan_of,
+    plan_of,
+)
 from app.exercises.schema import Exercise
+from app.exercises.touching import check_touch
 from app.mechanisms.profile import DeviceProfile
 from app.simulation.plan import SimulationPlan
 
@@ -74,6 +81,11 @@ def quick_explanation(exercise: Exercise) -> tuple[dict[str, str], tuple[tuple[s
         _check_laws(exercise, profile)
     except AcusError as error:
         wrong.append(("laws", str(error)))
+    if exercise.touch is not None:
+        try:
+            check_touch(exercise, placed_plan_of(exercise, profile), profile)
+        except AcusError as error:
+            wrong.append(("touch", str(error)))
     missing = [part.file for part in exercise.structures if not part.file.is_file()]
     wrong += [("structures", f"there is no file {path}") for path in missing]
     if exercise.ct.folder is not None and not exercise.ct.folder.exists():

@@ -16,6 +16,7 @@ from app.planning.placement import PlacedPlan
 from app.scoring.errors import MetricUnavailableError, TrajectoryError
 from app.scoring.risks import RiskMark
 from app.scoring.scans import ScanMark
+from app.scoring.touches import Touches
 
 LAST_SEEN = 1.0
 """The tip counts as known at the end if the cameras saw it within this time before [s]."""
@@ -67,6 +68,7 @@ class Trajectory:
         agreement: within this screen and needle agreed at the target with 95 % [m]; 0 where nobody
             had to check.
         clamped: whether the force was at the robot's limit, shape (n,); None if not known.
+        touches: targets that were to be touched; None where there were none.
 
     Raises:
         TrajectoryError: naming the array and the first bad sample.
@@ -90,6 +92,7 @@ class Trajectory:
     spread: FloatArray | None = None
     agreement: float = 0.0
     clamped: NDArray[np.bool_] | None = None
+    touches: Touches | None = None
 
     def __post_init__(self) -> None:
         time = _samples(self.time, "time", None, ())

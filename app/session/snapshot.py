@@ -19,6 +19,7 @@ from app.planning.placement import PlacedPlan
 from app.session.machine import FINAL, State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.recorder import RecordingStatus
+from app.session.touching import TouchState
 
 if TYPE_CHECKING:
     from app.device.control.timing import Timing
@@ -73,6 +74,7 @@ class Snapshot:
         breath: how the breath-hold stands; None where the patient is not told.
         roll: of a bevelled needle [rad], clockwise seen from the hub; None where none is bevelled.
         measured_pose: the pose as measured, behind by its age; None in snapshots made by hand.
+        touch: how the attempt stands with its targets; None where there is nothing to touch.
     """
 
     time: float
@@ -99,6 +101,15 @@ class Snapshot:
     may_confirm: bool = False
     breath: BreathHold | None = None
     roll: float | None = None
+    touch: TouchState | None = None
+
+    def at_rest(self, placed: PlacedPlan) -> PlacedPlan:
+        """Return the plan whose target is the present one where it rests.
+
+        Args:
+            placed: of the run.
+        """
+        return placed if self.touch is None else self.touch.aim
 
 
 _FIX_TEXT = {
