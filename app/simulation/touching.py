@@ -32,8 +32,17 @@ from app.simulation.trainee import (
 INSIDE: Final = 0.5
 """Of the radius: a trainee whose tip is so near to the target waits for the touch."""
 
-LEFT: Final = 0.35
+LEFT: Final = 0.5
 """Share of an error that a correction leaves."""
+
+WRONG: Final = 2.5
+"""A movement that begins the wrong way goes so by this many angles that the skill leaves."""
+
+BESIDE: Final = 2.0
+"""It arrives beside the target by this many angles that the skill has after aiming."""
+
+QUIET: Final = 0.02
+"""Movements that turn by less than this have no wrong way [rad]."""
 
 MOST_CORRECTIONS: Final = 5
 CORRECTING: Final = 0.9
@@ -98,16 +107,18 @@ def _touch(
 ) -> Sequence[Move]:
     """Go to a target (e1, e2 [rad], depth [m]) from where the last move ended, and wait on it."""
     depth = float(place[2])
-    off = np.array(polar(random.uniform(*skill.aim_error), random.uniform(0.0, 2.0 * np.pi)))
+    off = BESIDE * np.array(
+        polar(random.uniform(*skill.aim_error), random.uniform(0.0, 2.0 * np.pi))
+    )
     deep = random.choice([-1.0, 1.0]) * random.uniform(*skill.overshoot)
     moves = []
     here = np.array([*last.error, last.depth])
     towards = place[:2] - here[:2]
     turn = float(np.hypot(*towards))
-    wrong = random.uniform(*skill.final_error)
-    if turn > wrong and last.depth > 0.0:
+    wrong = WRONG * random.uniform(*skill.final_error)
+    if turn > QUIET and last.depth > 0.0:
         back = here[:2] - wrong * towards / turn
-        moves.append(Move(ScriptPhase.REDIRECT, 0.4 + skill.hover / 4.0, _pair(back), last.depth))
+        moves.append(Move(ScriptPhase.REDIRECT, 0.3 + skill.hover / 3.0, _pair(back), last.depth))
     way = float(np.hypot(turn * depth, depth - last.depth))
     duration = max(QUICKEST, way / skill.speed)
     moves.append(Move(ScriptPhase.INSERT, duration, _pair(place[:2] + off), depth + deep))
@@ -118,7 +129,7 @@ def _touch(
         moves.append(
             Move(ScriptPhase.CORRECT, CORRECTING, _pair(place[:2] + off), float(depth + deep))
         )
-    waits = dwell + SEEN + skill.hover / 4.0
+    waits = dwell + SEEN + skill.hover / 3.0
     return [*moves, Move(ScriptPhase.HOLD, waits, moves[-1].error, moves[-1].depth)]
 
 
