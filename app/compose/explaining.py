@@ -83,7 +83,7 @@ def quick_explanation(exercise: Exercise) -> tuple[dict[str, str], tuple[tuple[s
         wrong.append(("laws", str(error)))
     if exercise.touch is not None:
         try:
-            check_touch(exercise, placed_plan_of(exercise, profile), profile)
+            check_touch(exercise.touch_task(placed_plan_of(exercise, profile)), profile)
         except AcusError as error:
             wrong.append(("touch", str(error)))
     missing = [part.file for part in exercise.structures if not part.file.is_file()]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from app.core.parameters import Stage
 from app.exercises.schema import Exercise
-from app.exercises.touching import touch_task
 from app.planning.placement import PlacedPlan
 from app.simulation.touching import write_touch_script
 from app.simulation.trainee import script_stage, trainee_stage
@@ -22,7 +21,7 @@ def trainee_of(exercise: Exercise, placed: PlacedPlan, skill: str, seed: int) ->
     Raises:
         AcusError: for an unknown skill, or targets that no tip can touch.
     """
-    task = touch_task(exercise, placed)
+    task = exercise.touch_task(placed)
     if task is None:
         return trainee_stage(placed.axis, placed.length, skill, seed, holds=exercise.holds_breath)
     ways = task.p_targets - placed.p_entry

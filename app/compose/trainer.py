@@ -283,7 +283,7 @@ class Rig:
             AcusError: if an attempt is running, or the trainee cannot follow the plan.
         """
         setup = replace(self.setup, placed=placed)
-        check_touch(setup.exercise, placed, self.profile)
+        check_touch(setup.exercise.touch_task(placed), self.profile)
         table = (
             loop_table(setup, self.profile, self.robot is None, self.robot)
             if self.pen is None
@@ -312,7 +312,7 @@ def build_rig(setup: TrainerSetup, robot: Robot | None = None) -> Rig:
         AcusError: if a profile, an effect or the path cannot be used, or the robot does not answer.
     """
     profile = device_of(setup.exercise)
-    check_touch(setup.exercise, setup.placed, profile)
+    check_touch(setup.exercise.touch_task(setup.placed), profile)
     if setup.pen is not None:
         return _build_pen_rig(setup, Pen.of(setup.pen, profile))
     real = None

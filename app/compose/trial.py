@@ -42,7 +42,6 @@ from app.device.control import Loop, Table
 from app.exercises.parts import LayersFrom, OwnPlan
 from app.exercises.scene import device_of, placed_plan_of, plan_of
 from app.exercises.tissue import with_tissue
-from app.exercises.touching import touch_task
 from app.planning.plan import Plan
 from app.scoring.touches import Touches
 from app.session import machine
@@ -273,7 +272,7 @@ class Trials:
         self._exercise, self._placed, self._risks = exercise, placed, risks
         self._profile = device_of(exercise)
         self._scorer = scorer(exercise)
-        self._task = touch_task(exercise, placed)
+        self._task = exercise.touch_task(placed)
         # What pulls towards the target follows the touches, which the loop alone does not know.
         self._pulled = self._task is not None and bool(exercise.laws) and exercise.assistance != 0.0
         setup = TrainerSetup(exercise, placed, clock=VirtualClock(BEGIN))
@@ -397,7 +396,8 @@ class Trials:
             rig, self._fulcrum, lambda _: scenes[0], lambda _: axis, spoiled=self._spoiled
         )
         low, high = self._profile.depth_range
-        deepest = max([placed.length, *(plan.length for plan in self._task.plans)] if self._task else [placed.length])
+        aims = (placed,) if self._task is None else self._task.plans
+        deepest = max(plan.length for plan in aims)
         last = min(high, deepest + BEYOND)
         depths = np.arange(min(low, START_DEPTH), last + STEP, STEP)
         tips = self._fulcrum + depths[:, None] * axis
@@ -441,7 +441,8 @@ class _Course:
     @classmethod
     def of(cls, samples: Samples, begin: float, touching: Touching | None = None) -> _Course:
         """Judge samples that are all taken for `aligning`, of an attempt from `begin` [s] on."""
-        attempt, memory = machine.advance(machine.Attempt(), AttemptEvent.BEGIN, begin), Classifier()
+        attempt = machine.advance(machine.Attempt(), AttemptEvent.BEGIN, begin)
+        memory = Classifier()
         seen = (samples.depth_source == DepthSource.TRACKED.value) & samples.valid
         shift = samples.target - samples.target[0] if touching else None
         target, depths, states = samples.target.copy(), samples.depth.tolist(), []

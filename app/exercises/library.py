@@ -164,7 +164,7 @@ def _check_touch(path: Path, text: str, exercise: Exercise) -> None:
         exercise = exercise.model_copy(update={"device": device})
     profile = device_of(exercise)
     try:
-        check_touch(exercise, placed_plan_of(exercise, profile), profile, quick=True)
+        check_touch(exercise.touch_task(placed_plan_of(exercise, profile)), profile, quick=True)
     except AcusError as error:
         line = line_of(text, ("touch",))
         raise ExerciseError(f"{path}: {error}" + (f" (line {line})" if line else "")) from error

@@ -33,8 +33,8 @@ from app.exercises.parts import (
     ViewName,
 )
 from app.exercises.reading import ReadingPart
-from app.exercises.touching import TouchPart
-from app.planning.placement import Placement
+from app.exercises.touching import TouchPart, TouchTask, touch_task
+from app.planning.placement import PlacedPlan, Placement
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import ScoringError
 from app.scoring.rows import ScoreRules
@@ -204,6 +204,14 @@ class Exercise(Strict):
         if self.guidance_mode is not GuidanceMode.LIVE:
             raise ValueError("touch: the targets are touched by sight: use guidance.mode: live")
         return self
+
+    def touch_task(self, placed: PlacedPlan) -> TouchTask | None:
+        """Return what is to be touched on a placed plan; None where nothing is.
+
+        Raises:
+            AcusError: if targets find no room, or lie on the entry.
+        """
+        return touch_task(self.touch, placed, self.seed)
 
     @property
     def guidance_mode(self) -> GuidanceMode:

@@ -24,7 +24,6 @@ from app.planning.plan import Plan
 from app.planning.reach import reach_within
 
 if TYPE_CHECKING:
-    from app.exercises.schema import Exercise
     from app.mechanisms.profile import DeviceProfile
 
 MOST_TARGETS: Final = 12
@@ -34,6 +33,9 @@ LEAST_DEPTH: Final = 10.0
 _APART: Final = 3.0
 """Drawn targets that follow each other are so many radii apart at least."""
 _TRIES: Final = 2000
+
+
+Given = Annotated[tuple[Triple, ...], Field(min_length=1, max_length=MOST_TARGETS)]
 
 
 class TouchPattern(Strict):
@@ -67,9 +69,7 @@ class TouchPart(Strict):
         dwell_s: for so long, without a break.
     """
 
-    targets_mm: Annotated[tuple[Triple, ...], Field(min_length=1, max_length=MOST_TARGETS)] | None = (
-        None
-    )
+    targets_mm: Given | None = None
     pattern: TouchPattern | None = None
     radius_mm: Annotated[float, Field(ge=1.0, le=20.0)] = 4.0
     dwell_s: Annotated[float, Field(ge=0.1, le=5.0)] = 0.5
@@ -104,24 +104,26 @@ class TouchTask:
         """All targets in the world [m], shape (n, 3)."""
         return read_only(np.array([plan.p_target for plan in self.plans]))
 
+    @property
+    def points_mm(self) -> FloatArray:
+        """All targets in the patient, DICOM LPS [mm], shape (n, 3)."""
+        return read_only(np.array([plan.plan.target_mm for plan in self.plans]))
 
-def targets_mm(exercise: Exercise, plan: Plan) -> FloatArray:
-    """Targets of an exercise, DICOM LPS [mm], shape (n, 3); none where it has none.
+
+def targets_mm(part: TouchPart, plan: Plan, seed: int) -> FloatArray:
+    """Targets, DICOM LPS [mm], shape (n, 3).
 
     Args:
-        exercise: whose.
+        part: how an exercise gives them.
         plan: the path that they are drawn about.
+        seed: of the exercise.
 
     Raises:
         ExerciseError: if so many do not find room.
     """
-    part = exercise.touch
-    if part is None:
-        return np.zeros((0, 3))
-    if part.targets_mm is not None:
-        return np.array(part.targets_mm, dtype=np.float64)
-    assert part.pattern is not None
-    return _drawn(part.pattern, part.radius_mm, plan, exercise.seed)
+    if part.pattern is not None:
+        return _drawn(part.pattern, part.radius_mm, plan, seed)
+    return np.array(part.targets_mm, dtype=np.float64)
 
 
 def _drawn(pattern: TouchPattern, radius_mm: float, plan: Plan, seed: int) -> FloatArray:
@@ -149,39 +151,39 @@ def _drawn(pattern: TouchPattern, radius_mm: float, plan: Plan, seed: int) -> Fl
     )
 
 
-def touch_task(exercise: Exercise, placed: PlacedPlan) -> TouchTask | None:
-    """Return what an exercise has touched on a placed plan; None where it has nothing.
+def touch_task(part: TouchPart | None, placed: PlacedPlan, seed: int) -> TouchTask | None:
+    """Return what is to be touched on a placed plan; None where nothing is.
+
+    Args:
+        part: of the exercise; None where it has none.
+        placed: its plan.
+        seed: of the exercise.
 
     Raises:
         AcusError: if targets find no room, or lie on the entry.
     """
-    part = exercise.touch
     if part is None:
         return None
     plans = [
         PlacedPlan.of(
             Plan(placed.plan.entry_mm, at, f"target {number}"), placed.placement, placed.p_entry
         )
-        for number, at in enumerate(targets_mm(exercise, placed.plan), 1)
+        for number, at in enumerate(targets_mm(part, placed.plan, seed), 1)
     ]
     return TouchTask(tuple(plans), part.radius_mm * MILLIMETRE, part.dwell_s)
 
 
-def check_touch(
-    exercise: Exercise, placed: PlacedPlan, profile: DeviceProfile, quick: bool = False
-) -> None:
+def check_touch(task: TouchTask | None, profile: DeviceProfile, quick: bool = False) -> None:
     """Refuse targets that the machine cannot bring the tip to.
 
     Args:
-        exercise: whose targets.
-        placed: its plan.
+        task: what is to be touched; None where nothing is.
         profile: the machine.
         quick: look at lean and depth alone; the workspace needs compiled code.
 
     Raises:
         ExerciseError: naming the target, its value and what would be reachable.
     """
-    task = touch_task(exercise, placed)
     if task is None:
         return
     limits = ReachLimits.of(profile)

@@ -4,15 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import isfinite
-from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
-from app.scoring.errors import MetricNotAskedError, MetricUnavailableError, TrajectoryError
-
-if TYPE_CHECKING:
-    from app.scoring.trajectory import Trajectory
+from app.scoring.errors import TrajectoryError
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,28 +33,3 @@ class Touches:
             )
         if not all(isfinite(time) for time in self.times):
             raise TrajectoryError(f"a touch at {self.times} s: times must be finite")
-
-
-def touches_of(trajectory: Trajectory) -> Touches:
-    """Return what was touched.
-
-    Raises:
-        MetricNotAskedError: if nothing was to be touched.
-    """
-    if trajectory.touches is None:
-        raise MetricNotAskedError("nothing was to be touched")
-    return trajectory.touches
-
-
-def touching(trajectory: Trajectory) -> NDArray[np.intp]:
-    """Find the samples from the first entry into the body to the last touch, shape (n,).
-
-    Raises:
-        MetricNotAskedError: if nothing was to be touched.
-        MetricUnavailableError: if nothing was touched.
-    """
-    times = touches_of(trajectory).times
-    if not times:
-        raise MetricUnavailableError("no target was touched")
-    first = trajectory.insertions()[0].start
-    return np.arange(first, trajectory.at(times[-1]) + 1)

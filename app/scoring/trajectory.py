@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from app.core.arrays import FloatArray, read_only
 from app.planning.off_path import Offset, offset
 from app.planning.placement import PlacedPlan
-from app.scoring.errors import MetricUnavailableError, TrajectoryError
+from app.scoring.errors import MetricNotAskedError, MetricUnavailableError, TrajectoryError
 from app.scoring.risks import RiskMark
 from app.scoring.scans import ScanMark
 from app.scoring.touches import Touches
@@ -178,6 +178,28 @@ class Trajectory:
         if not found:
             raise MetricUnavailableError("the depth of the tip was not measured in the body")
         return found
+
+    def to_touch(self) -> Touches:
+        """Return the targets that were to be touched.
+
+        Raises:
+            MetricNotAskedError: if there were none.
+        """
+        if self.touches is None:
+            raise MetricNotAskedError("nothing was to be touched")
+        return self.touches
+
+    def touching(self) -> NDArray[np.intp]:
+        """Find the samples from the first entry into the body to the last touch, shape (n,).
+
+        Raises:
+            MetricNotAskedError: if nothing was to be touched.
+            MetricUnavailableError: if nothing was touched.
+        """
+        times = self.to_touch().times
+        if not times:
+            raise MetricUnavailableError("no target was touched")
+        return np.arange(self.insertions()[0].start, self.at(times[-1]) + 1)
 
     def final(self) -> int:
         """Index of the sample that the result is read from: the last one with a measured depth.

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from math import isfinite
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -26,8 +25,11 @@ from app.session.needle import NeedlePose
 if TYPE_CHECKING:
     from app.exercises.touching import TouchTask
 
+TASK: Final = "touch_task"
+"""Kind of the event that says what is to be touched, as an attempt begins."""
+
 KIND: Final = "touch"
-"""Kind of the events: one as the attempt begins, then one for each touch."""
+"""Kind of the events of touches, one each."""
 
 FRESH: Final = 1e-6
 """Measurements whose times differ by less are one [s]."""
@@ -61,6 +63,37 @@ class TouchState:
     def aim(self) -> PlacedPlan:
         """The path to the current target."""
         return self.task.plans[self.number - 1]
+
+    @property
+    def marks(self) -> TargetMarks:
+        """All targets, as they are drawn."""
+        return TargetMarks(self.task.points_mm, self.touched)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TargetMarks:
+    """Targets as views draw them.
+
+    Attributes:
+        points_mm: where they lie, DICOM LPS [mm], shape (n, 3).
+        touched: how many were touched, in their order.
+    """
+
+    points_mm: FloatArray
+    touched: int
+
+    def same(self, other: TargetMarks | None) -> bool:
+        """Whether another one is drawn alike."""
+        return (
+            other is not None
+            and self.touched == other.touched
+            and np.array_equal(self.points_mm, other.points_mm)
+        )
+
+    @property
+    def present(self) -> int:
+        """Number of the target to be touched next, from 1; of the last one once all were."""
+        return min(self.touched + 1, len(self.points_mm))
 
 
 class Touching:
@@ -125,7 +158,6 @@ def begin_words(state: TouchState) -> tuple[str, dict[str, object]]:
     targets = [plan.plan.target_mm.tolist() for plan in task.plans]
     words = f"touch {len(task)} targets in their order" if len(task) > 1 else "touch the target"
     return words, {
-        "touched": 0,
         "of": len(task),
         "targets_lps_mm": targets,
         "radius_mm": task.radius / MILLIMETRE,
@@ -154,12 +186,9 @@ def touches_of(events: Iterable[Event]) -> Touches | None:
     """
     of, times = 0, list[float]()
     for event in events:
-        if event.kind != KIND:
-            continue
-        touched, count = _number(event.data, "touched"), _number(event.data, "of")
-        if touched == 0 and count is not None:
-            of, times = count, []
-        elif touched == len(times) + 1 and isfinite(event.time):
+        if event.kind == TASK:
+            of, times = _number(event.data, "of"), []
+        elif event.kind == KIND and _number(event.data, "touched") == len(times) + 1:
             times.append(event.time)
     try:
         return Touches(of, tuple(times)) if of > 0 else None
@@ -167,6 +196,35 @@ def touches_of(events: Iterable[Event]) -> Touches | None:
         return Touches(of, ())
 
 
-def _number(data: Any, name: str) -> int | None:
+def marks_at(events: Iterable[Event], time: float) -> TargetMarks | None:
+    """Return the targets as they stood at a moment of an attempt [s]; None where there were none.
+
+    Nor where a damaged record does not say where they lie.
+    """
+    points, touched = np.zeros((0, 3)), 0
+    for event in events:
+        if event.kind == TASK:
+            try:
+                points = np.array(event.data["targets_lps_mm"], dtype=np.float64).reshape(-1, 3)
+            except (LookupError, TypeError, ValueError):
+                return None
+        elif event.kind == KIND and event.time <= time:
+            touched += 1
+    if not len(points) or not np.isfinite(points).all():
+        return None
+    return TargetMarks(points, min(touched, len(points)))
+
+
+def radius_of(events: Iterable[Event]) -> float:
+    """Radius within which targets were touched [m], by the events; 0 where there were none."""
+    for event in events:
+        radius = event.data.get("radius_mm")
+        if event.kind == TASK and isinstance(radius, int | float) and 0.0 < radius < 1e3:
+            return float(radius) * MILLIMETRE
+    return 0.0
+
+
+def _number(data: Any, name: str) -> int:
+    """Return a whole number of an event's data; 0 where there is none."""
     value = data.get(name)
-    return value if isinstance(value, int) and not isinstance(value, bool) else None
+    return value if isinstance(value, int) and not isinstance(value, bool) else 0

@@ -11,7 +11,6 @@ from app.core.errors import AcusError
 from app.core.events import EventQueue
 from app.core.latest import Latest
 from app.exercises.locks import Lock
-from app.exercises.touching import touch_task
 from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
 from app.session.attempt_log import AttemptLog
@@ -29,7 +28,7 @@ from app.session.scored import scorer
 from app.session.snapshot import Snapshot, advice
 from app.session.ticker import Standstill, Ticker, standstill_words
 from app.session.touching import KIND as TOUCH
-from app.session.touching import Touching, begin_words, measured_at, touch_words
+from app.session.touching import TASK, Touching, begin_words, measured_at, touch_words
 from app.session.withdrawal import KIND as WITHDRAWAL
 from app.session.withdrawal import Start, Withdrawal
 from app.tracking.fix import NeedleFix
@@ -192,7 +191,7 @@ class Trainer:
             self._running.begin(log, now, failure, out)
             if self._touching is not None:
                 words, data = begin_words(self._touching.state)
-                self._running.say(TOUCH, words, now, data)
+                self._running.say(TASK, words, now, data)
             self.heartbeat()
             if out is None:
                 self._running.say(WITHDRAWAL, self._withdrawal.words, now)
@@ -351,7 +350,7 @@ class Trainer:
 
     # --- targets to be touched ------------------------------------------------------------------
     def _to_touch(self, placed: PlacedPlan) -> Touching | None:
-        task = touch_task(self._exercise, placed)
+        task = self._exercise.touch_task(placed)
         return None if task is None else Touching(task)
 
     @property

@@ -173,7 +173,10 @@ def drift(rows: FloatArray, skill: Skill, random: np.random.Generator) -> FloatA
 
 
 def tremor(skill: Skill, random: np.random.Generator) -> FloatArray:
-    """Tile of the tremor, shape (TREMOR_ROWS, 3): a band of 8-12 Hz with whole periods in the tile, unit variance before scaling."""
+    """Tile of the tremor, shape (TREMOR_ROWS, 3).
+
+    A band of 8-12 Hz with whole periods in the tile, unit variance before scaling.
+    """
     period = TREMOR_ROWS * TREMOR_STEP
     cycles = np.arange(int(8.0 * period), int(12.0 * period) + 1)
     time = np.arange(TREMOR_ROWS) / TREMOR_ROWS

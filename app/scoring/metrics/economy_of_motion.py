@@ -13,7 +13,6 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.paths import length_slopes, smooth_length, smooth_slopes
-from app.scoring.touches import touches_of, touching
 from app.scoring.trajectory import Trajectory
 from app.scoring.uncertainty import path_sd
 
@@ -45,12 +44,12 @@ def deviation(trajectory: Trajectory) -> float:
 
 
 def _rows(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
-    """Samples of the path with a measured depth, and which of them are its corners."""
-    rows = touching(trajectory)
+    """Find the samples of the path with a measured depth, and which of them are its corners."""
+    rows = trajectory.touching()
     rows = rows[trajectory.depth_valid[rows]]
     if not len(rows):
         raise MetricUnavailableError("the depth of the tip was not measured in the body")
-    times = touches_of(trajectory).times
+    times = trajectory.to_touch().times
     touched = np.searchsorted(trajectory.time[rows], times)
     corners = np.unique(np.concatenate([[0], np.minimum(touched, len(rows) - 1)]))
     if len(corners) < 2:

@@ -2,7 +2,6 @@
 
 from typing import Any, Final
 
-from app.scoring.touches import touches_of
 from app.scoring.trajectory import Trajectory
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -15,7 +14,7 @@ DECLARATION: Final[dict[str, Any]] = {
 
 def compute(trajectory: Trajectory) -> float:
     """Return the share [%]."""
-    touches = touches_of(trajectory)
+    touches = trajectory.to_touch()
     return 100.0 * len(touches.times) / touches.of
 
 

@@ -9,7 +9,6 @@ from typing import Any, Final
 
 import numpy as np
 
-from app.scoring.touches import touches_of, touching
 from app.scoring.trajectory import Trajectory
 from app.scoring.uncertainty import time_sd
 
@@ -23,15 +22,15 @@ DECLARATION: Final[dict[str, Any]] = {
 
 def compute(trajectory: Trajectory) -> float:
     """Return the time [s]."""
-    rows = touching(trajectory)
+    rows = trajectory.touching()
     counts = np.zeros(len(trajectory), dtype=bool)
     counts[rows[:-1]] = True
-    return trajectory.duration(counts & trajectory.running) / len(touches_of(trajectory).times)
+    return trajectory.duration(counts & trajectory.running) / len(trajectory.to_touch().times)
 
 
 def deviation(trajectory: Trajectory) -> float:
     """Return the standard deviation [s] that the time between samples leaves."""
-    rows = touching(trajectory)
+    rows = trajectory.touching()
     counts = np.zeros(len(trajectory), dtype=bool)
     counts[rows[:-1]] = True
-    return time_sd(trajectory, counts) / len(touches_of(trajectory).times)
+    return time_sd(trajectory, counts) / len(trajectory.to_touch().times)

@@ -36,6 +36,7 @@ from app.planning.error_overlay import Enlargement
 from app.planning.needle_overlay import NeedleOverlay
 from app.planning.patient import Patient
 from app.planning.placement import Placement
+from app.session.touching import TargetMarks
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.text import tr
@@ -43,7 +44,7 @@ from app.views.scene.display import ORGAN_COLOURS, Display, Section, organ_title
 from app.views.scene.orbit import Orbit
 from app.views.scene.renderer import SceneFeed, SceneRenderer
 from app.views.scene.robot import RobotShape
-from app.views.scene.words import Entry, draw_compass, draw_words
+from app.views.scene.words import Entry, draw_compass, draw_targets, draw_words
 
 if TYPE_CHECKING:
     from app.imaging.structures.structure import Colour
@@ -121,6 +122,7 @@ class SceneView(QWidget):
         self.display, self._before = Display(), list[Orbit]()
         self._needle: NeedleOverlay | None = None
         self._draft, self._cut = DraftPlan(), False
+        self._targets: TargetMarks | None = None
         self._R_world_patient = Placement().rotation
         self.commands = self._commands()
         self._button = QToolButton(self)
@@ -248,6 +250,12 @@ class SceneView(QWidget):
         self._draft = draft
         self._feed.change("plan", lambda stage: stage.set_plan(draft))
 
+    def set_targets(self, targets: TargetMarks | None) -> None:
+        """Show the numbers of targets that are touched one after the other; None shows none."""
+        if targets is not self._targets:
+            self._targets = targets
+            self.update()
+
     def set_off(self, words: str) -> None:
         """Show nothing but these words, because the exercise does not show this view; empty ends
         that.
@@ -356,6 +364,9 @@ class SceneView(QWidget):
         if not self._feed.image.isNull():
             painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
             painter.drawImage(self.rect(), self._feed.image)
+        if self._targets is not None:
+            places = self.orbit.pixels(self._targets.points_mm, self._size())
+            draw_targets(painter, places, self._targets, display)
         draw_compass(painter, self.orbit, QPointF(50.0, self.height() - 50.0), display)
         error = self._feed.error and tr("3D view off: {why}", why=self._feed.error)
         scale, note = self._enlargement.scale, error or self.note
