@@ -259,10 +259,8 @@ class TouchNote(QLabel):
 
 def hand_words(scale: float) -> str:
     """Say how far the tip of a tool goes for a way of the hand at its handle."""
-    if abs(scale) < 0.05:
-        return tr("the tip is at the trocar: the hand only turns it")
     if scale > 0.0:
-        return tr("1 mm of hand moves the tip {mm:.1f} mm, the same way", mm=scale)
+        return tr("the tip is not through the trocar yet: push")
     return tr("1 mm of hand moves the tip {mm:.1f} mm, the other way", mm=-scale)
 
 

@@ -36,6 +36,7 @@ def draw_targets(
         targets: how they stand.
         display: on which background.
     """
+    painter.save()
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     order = sorted(range(1, len(places) + 1), key=lambda number: number == targets.present)
     for number in order:  # the present one lies over the others
@@ -56,6 +57,7 @@ def draw_targets(
         painter.setPen(ground if present else colour)
         box = QRectF(at.x() - 2 * radius, at.y() - radius, 4 * radius, 2 * radius)
         painter.drawText(box, Qt.AlignmentFlag.AlignCenter, "✔" if was else str(number))
+    painter.restore()
 
 
 def draw_words(

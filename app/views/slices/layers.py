@@ -305,7 +305,8 @@ def _words(name: str, distance: float, near: bool, plane: SlicePlane) -> str:
     if near:
         return name
     side = plane.towards(distance)
-    return f"{name} {tr('{distance:.0f} mm {side}', distance=abs(distance), side=side)}".strip()
+    away = tr("{distance:.0f} mm {side}", distance=abs(distance), side=side)
+    return f"{name}{': ' if name[-1:].isdigit() else ' '}{away}".strip()
 
 
 class Due(IntEnum):

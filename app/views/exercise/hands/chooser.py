@@ -232,7 +232,7 @@ class HandChooser(QWidget):
         usable = self._interactive and not self._depth_only and not self._why
         self.gain.setEnabled(usable)
         self.sense.setEnabled(self._interactive and not self._depth_only and not self._turn_why)
-        self.sense.setToolTip(self._turn_why or sense_help())
+        self.sense.setVisible(not self._turn_why)  # the help says it: the others have its room
         self.box.setEnabled(usable and not self._busy)
         self.gain.setToolTip(self._why or gain_help())
         self.box.setToolTip(self._why or self._words())
