@@ -364,6 +364,7 @@ class Trainer:
 
     def _take_aim(self) -> None:
         self._inputs.path(self._aim.axis, self._aim.p_target)
+        self._sources.aim(self._aim)
 
     def _touch(self, seen: Observation) -> None:
         """Judge whether the tip has touched the present target; the next one is aimed at then."""

@@ -62,7 +62,7 @@ DECLARATION: Final[dict[str, Any]] = {
 HOME_TURN_PX = (-50.0, 30.0)
 """From the front one first looks a little from the left and from above, for depth."""
 
-BESIDE_TURN_PX, TARGETS_MARGIN = (60.0, 30.0), 1.5
+BESIDE_TURN_PX, TARGETS_MARGIN = (60.0, 30.0), 2.5
 """Targets to be touched are looked at from the patient's right, turned so far, with such room."""
 
 ZOOM_PER_PX, ZOOM_PER_NOTCH, NOTCH = 1.01, 1.15, 120
@@ -263,11 +263,9 @@ class SceneView(QWidget):
 
     def _look_at_targets(self, targets: TargetMarks) -> None:
         """Look at the targets from beside the way in, so that their depths are told apart."""
-        points = targets.points_mm
-        if self._draft.entry_mm is not None:
-            points = np.vstack([points, self._draft.entry_mm])
-        beside = Orbit.from_side("R", points.mean(axis=0), 1.0).turned(*BESIDE_TURN_PX)
-        self.view_from(beside.fitted(points, TARGETS_MARGIN))
+        middle = targets.points_mm.mean(axis=0)
+        beside = Orbit.from_side("R", middle, 1.0).turned(*BESIDE_TURN_PX)
+        self.view_from(beside.fitted(targets.points_mm, TARGETS_MARGIN))
 
     def set_off(self, words: str) -> None:
         """Show nothing but these words, because the exercise does not show this view; empty ends
