@@ -52,9 +52,11 @@ class TargetMotion:
 
     def _mark(self, marks: TargetMarks | None) -> None:
         if marks is not self._marks:
-            self._marks = marks
+            before, self._marks = self._marks, marks
             self._workspace.viewing.set_targets(marks)
             self._workspace.scene.set_targets(marks)
+            if before is None:
+                self._workspace.scene.look_at_targets()
 
     def _place(self, target_mm: FloatArray | None) -> None:
         viewing, before = self._workspace.viewing, self._drawn

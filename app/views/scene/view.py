@@ -256,13 +256,14 @@ class SceneView(QWidget):
     def set_targets(self, targets: TargetMarks | None) -> None:
         """Show the numbers of targets that are touched one after the other; None shows none."""
         if targets is not self._targets:
-            before, self._targets = self._targets, targets
-            if before is None and targets is not None:
-                self._look_at_targets(targets)
+            self._targets = targets
             self.update()
 
-    def _look_at_targets(self, targets: TargetMarks) -> None:
+    def look_at_targets(self) -> None:
         """Look at the targets from beside the way in, so that their depths are told apart."""
+        targets = self._targets
+        if targets is None:
+            return
         middle = targets.points_mm.mean(axis=0)
         beside = Orbit.from_side("R", middle, 1.0).turned(*BESIDE_TURN_PX)
         self.view_from(beside.fitted(targets.points_mm, TARGETS_MARGIN))
