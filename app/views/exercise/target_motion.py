@@ -60,6 +60,8 @@ class TargetMotion:
 
     def _place(self, target_mm: FloatArray | None) -> None:
         viewing, before = self._workspace.viewing, self._drawn
+        if viewing.target_now_mm is None and target_mm is not None:
+            before = None  # the plan was shown anew meanwhile, with its own target
         viewing.set_target_now(target_mm)
         if target_mm is None:
             again = before is not None
