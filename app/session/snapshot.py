@@ -289,7 +289,7 @@ class NextSteps:
         if touch.done:
             return NextStep(StepKind.FINISH, touch=touch)
         if not pose.measured:
-            return NextStep(StepKind.FEEL)
+            return NextStep(StepKind.SEE if pose.depth > 0.0 else StepKind.FEEL)
         way = touch.aim.p_target - pose.p_tip
         along = float(way @ pose.axis)
         across = way - along * pose.axis

@@ -200,7 +200,8 @@ def test_a_tool_is_led_to_its_target_by_where_the_tip_goes_and_how_deep():
     assert found.distance == pytest.approx(0.02)
     assert found.across == pytest.approx(0.012 * np.linalg.norm(aside), rel=1e-6)
     assert step(second + 0.003 * aside, touched=1).kind is StepKind.STAY
-    assert step(second, touched=1, measured=False).kind is StepKind.FEEL
+    assert step(second, touched=1, measured=False).kind is StepKind.SEE
+    assert step(second, touched=0, measured=False, depth=-0.01).kind is StepKind.FEEL
     assert step(second, touched=0).kind is StepKind.TOUCH  # the wrong one
     assert step(placed.p_entry, depth=-0.01).kind is StepKind.INSERT
     assert step(second, touched=len(task)).kind is StepKind.FINISH

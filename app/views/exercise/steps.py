@@ -181,6 +181,8 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False) -> str:
         StepKind.DEEPER: tr("Push {mm} mm deeper{how}").format(mm=_amount(mm), how=inwards),
         StepKind.BACK: tr("Pull back {mm} mm{how}").format(mm=_amount(mm), how=outwards),
         StepKind.HOLD: tr("Hold still"),
+        StepKind.TOUCH: tr("Bring the tip to the target"),
+        StepKind.STAY: tr("Stay on the target"),
         StepKind.FINISH: tr("Press Enter: the tip is at the target"),
     }[step.kind]
 

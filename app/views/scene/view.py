@@ -65,6 +65,9 @@ HOME_TURN_PX = (-50.0, 30.0)
 BESIDE_TURN_PX, TARGETS_MARGIN = (60.0, 30.0), 2.5
 """Targets to be touched are looked at from the patient's right, turned so far, with such room."""
 
+BESIDE_LEGEND = 0.12
+"""Share of the width by which they stand right of the middle: the legend is at the left."""
+
 ZOOM_PER_PX, ZOOM_PER_NOTCH, NOTCH = 1.01, 1.15, 120
 
 NEEDLE_HALF_MM = 75.0
@@ -266,7 +269,8 @@ class SceneView(QWidget):
             return
         middle = targets.points_mm.mean(axis=0)
         beside = Orbit.from_side("R", middle, 1.0).turned(*BESIDE_TURN_PX)
-        self.view_from(beside.fitted(targets.points_mm, TARGETS_MARGIN))
+        fitted = beside.fitted(targets.points_mm, TARGETS_MARGIN)
+        self.view_from(fitted.panned(BESIDE_LEGEND * self.width(), 0.0, self._size()))
 
     def set_off(self, words: str) -> None:
         """Show nothing but these words, because the exercise does not show this view; empty ends
