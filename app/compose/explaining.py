@@ -10,6 +10,7 @@ import numpy as np
 from app.compose.declared_views import declared_views
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
+from app.core.units import MILLIMETRE
 from app.exercises.parts import LayersFrom, OwnPlan
 from app.exercises.scene import (
     compile_exercise,
@@ -21,6 +22,7 @@ from app.exercises.scene import (
 from app.exercises.schema import Exercise
 from app.exercises.touching import check_touch
 from app.mechanisms.profile import DeviceProfile
+from app.session.pad.hand import Handle
 from app.simulation.plan import SimulationPlan
 
 _PICTURES: Final = 15  # that the time of an effect on them is the median of
@@ -40,7 +42,24 @@ def explanation(exercise: Exercise, simulated: bool = True) -> dict[str, Any]:
     document = _document(exercise, simulated, plan)
     document["assistance"] = exercise.assistance
     document["laws"] = _laws(law_requests(exercise), profile)
+    document["touch"] = _touch(exercise, profile)
     return document
+
+
+def _touch(exercise: Exercise, profile: DeviceProfile) -> dict[str, Any] | None:
+    """Targets that are to be touched, each with what a way of the hand moves the tip there."""
+    if exercise.touch is None:
+        return None
+    task = exercise.touch_task(placed_plan_of(exercise, profile))
+    check_touch(task, profile)
+    handle = Handle(profile.needle_length)
+    return {
+        "targets_lps_mm": [] if task is None else task.points_mm.tolist(),
+        "depths_mm": [] if task is None else [plan.length / MILLIMETRE for plan in task.plans],
+        "scales": [] if task is None else [handle.scale(plan.length) for plan in task.plans],
+        "radius_mm": exercise.touch.radius_mm,
+        "dwell_s": exercise.touch.dwell_s,
+    }
 
 
 def _with_tissue(exercise: Exercise) -> Exercise:
