@@ -21,6 +21,7 @@ from app.core import paths
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.exercises.library import load_exercise
+from app.exercises.parts import LawPart
 from app.exercises.scene import device_of, placed_plan_of
 from app.imaging.phantom.series import phantom_series
 from app.imaging.reading import load_ct
@@ -178,6 +179,34 @@ def test_a_trial_scores_what_a_running_trainer_scores(first, trials, results, sk
             continue
         noise = 4.0 * np.hypot(row.sd or 0.0, other.sd or 0.0) + 0.02 * abs(other.value) + 1e-3
         assert row.value == pytest.approx(other.value, abs=noise), row.name
+
+
+@pytest.mark.parametrize("skill", ["novice", "expert"])
+def test_a_trial_of_touches_scores_what_a_running_trainer_scores(skill):
+    exercise = load_exercise("laparoscopic-tool")
+    placed = placed_of(exercise)
+    ours, whole = Trials(exercise, placed).score(skill, 1), attempt(exercise, placed, skill, 1)
+    assert ours.duration == pytest.approx(whole.duration, abs=0.041)
+    assert ours.score.total == pytest.approx(whole.score.total, abs=1.0)
+    for name, near in (
+        ("targets_touched", 0.0), ("time_per_target", 0.1), ("economy_of_motion", 1.5),
+    ):  # fmt: skip
+        value = whole.score.row(name).value
+        assert ours.score.row(name).value == pytest.approx(value, abs=near), name
+
+
+def test_a_guided_attempt_at_targets_is_done_by_a_trainer_that_aims_at_each(monkeypatch):
+    exercise = load_exercise("laparoscopic-tool")
+    guided = exercise.model_copy(update={"laws": {"fixture": LawPart()}, "assistance": 0.5})
+    asked = []
+    monkeypatch.setattr(trial, "attempt", lambda *rest: asked.append(rest) or results_of(rest))
+
+    def results_of(rest):
+        return attempt(*rest)
+
+    found = Trials(guided, placed_of(guided)).score("expert", 1)
+    assert len(asked) == 1
+    assert found.score.row("targets_touched").value == 100.0
 
 
 def test_an_attempt_that_a_trainer_would_have_to_judge_is_done_by_one(first, monkeypatch):

@@ -16,7 +16,7 @@ from app.planning.plan import Plan
 from app.session.errors import ControlLockedError
 from app.session.machine import State
 from app.session.pad.geometry import PadScale, downward, path_frame
-from app.session.pad.hand import HandLimits, HandPose, PadHand
+from app.session.pad.hand import Handle, HandLimits, HandPose, PadHand
 from app.session.trainer import Trainer
 from app.session.withdrawal import Start
 from app.tracking.fix import FixStatus, NeedleFix
@@ -49,7 +49,7 @@ class Student:
     ) -> None:
         chosen = load_exercise(exercise)
         profile = device_of(chosen)
-        placed = placed_plan_of(chosen, profile, PLAN)
+        placed = placed_plan_of(chosen, profile, PLAN if chosen.touch is None else None)
         self.clock = VirtualClock(10.0)
         setup = TrainerSetup(chosen, placed, skill=skill, sessions=folder, clock=self.clock)
         with patch("app.compose.trainer.simulated_on", _never_opened):
@@ -66,7 +66,8 @@ class Student:
         frame = path_frame(placed.axis, placed.T_world_patient.rotation)
         limits = HandLimits(profile.tilt_limit, *profile.depth_range)
         start = HandPose(np.array([0.0, 0.0, -1.0]), -0.015, True)
-        self.hand = PadHand(frame, scale, limits, start)
+        handle = None if chosen.touch is None else Handle(profile.needle_length)
+        self.hand = PadHand(frame, scale, limits, start, handle)
         self.rig.loop.open()
         self.trainer.step()
 

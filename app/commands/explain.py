@@ -76,6 +76,19 @@ def _lines(document: dict[str, Any]) -> list[str]:
     lines += [f"\n  {dropped['effect']}\n    {dropped['why']}" for dropped in document["dropped"]]
     if not document["simulated"] and not document["dropped"]:
         lines.append("  no effects")
+    if (touch := document["touch"]) is not None:
+        lines.append(
+            f"\n  touches {len(touch['depths_mm'])} targets, each for {touch['dwell_s']:g} s within"
+            f" {touch['radius_mm']:g} mm; the hand moves the tool's handle"
+        )
+        for number, (at, depth, scale) in enumerate(
+            zip(touch["targets_lps_mm"], touch["depths_mm"], touch["scales"], strict=True), 1
+        ):
+            place = ", ".join(f"{value:.1f}" for value in at)
+            lines.append(
+                f"    {number}  at ({place}) mm LPS, {depth:.0f} mm deep:"
+                f" 1 mm of hand moves the tip {-scale:.2f} mm the other way"
+            )
     for file in document["refused"]:
         lines.append(f"\n  refused {file['kind']}: {file['reason']}")
     return lines

@@ -285,8 +285,8 @@ class DesktopRun:
     def run(self) -> ExerciseRun:
         """What its views need, as the robot's board says it now: it may have come back anew."""
         from app.session.pad.view import (  # Qt only for who has a window
-            depth_tolerance,
-            rings,
+            depth_tolerance_of,
+            rings_of,
         )
         from app.session.shown_views import Shown
         from app.views.exercise.run import ExerciseRun
@@ -297,8 +297,9 @@ class DesktopRun:
             setup.placed,
             self._rig.profile,
             interactive=setup.skill is None and (setup.pen is None or setup.pen.simulated),
-            rings=rings(setup.exercise.tolerances),
-            depth_tolerance=depth_tolerance(setup.exercise.tolerances),
+            rings=rings_of(setup.exercise),
+            depth_tolerance=depth_tolerance_of(setup.exercise),
+            touches=setup.exercise.touch is not None,
             inspect=_inspector(self._rig.tracker),
             touched=_touched(self._rig.tracker),
             learn_colour=_learner(self._rig.tracker, setup.cameras),

@@ -10,10 +10,19 @@ import numpy as np
 from app.compose.declared_views import declared_views
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
+from app.core.units import MILLIMETRE
 from app.exercises.parts import LayersFrom, OwnPlan
-from app.exercises.scene import compile_exercise, device_of, law_requests, plan_of
+from app.exercises.scene import (
+    compile_exercise,
+    device_of,
+    law_requests,
+    placed_plan_of,
+    plan_of,
+)
 from app.exercises.schema import Exercise
+from app.exercises.touching import check_touch
 from app.mechanisms.profile import DeviceProfile
+from app.session.pad.hand import Handle
 from app.simulation.plan import SimulationPlan
 
 _PICTURES: Final = 15  # that the time of an effect on them is the median of
@@ -33,7 +42,24 @@ def explanation(exercise: Exercise, simulated: bool = True) -> dict[str, Any]:
     document = _document(exercise, simulated, plan)
     document["assistance"] = exercise.assistance
     document["laws"] = _laws(law_requests(exercise), profile)
+    document["touch"] = _touch(exercise, profile)
     return document
+
+
+def _touch(exercise: Exercise, profile: DeviceProfile) -> dict[str, Any] | None:
+    """Targets that are to be touched, each with what a way of the hand moves the tip there."""
+    if exercise.touch is None:
+        return None
+    task = exercise.touch_task(placed_plan_of(exercise, profile))
+    check_touch(task, profile)
+    handle = Handle(profile.needle_length)
+    return {
+        "targets_lps_mm": [] if task is None else task.points_mm.tolist(),
+        "depths_mm": [] if task is None else [plan.length / MILLIMETRE for plan in task.plans],
+        "scales": [] if task is None else [handle.scale(plan.length) for plan in task.plans],
+        "radius_mm": exercise.touch.radius_mm,
+        "dwell_s": exercise.touch.dwell_s,
+    }
 
 
 def _with_tissue(exercise: Exercise) -> Exercise:
@@ -74,6 +100,11 @@ def quick_explanation(exercise: Exercise) -> tuple[dict[str, str], tuple[tuple[s
         _check_laws(exercise, profile)
     except AcusError as error:
         wrong.append(("laws", str(error)))
+    if exercise.touch is not None:
+        try:
+            check_touch(exercise.touch_task(placed_plan_of(exercise, profile)), profile)
+        except AcusError as error:
+            wrong.append(("touch", str(error)))
     missing = [part.file for part in exercise.structures if not part.file.is_file()]
     wrong += [("structures", f"there is no file {path}") for path in missing]
     if exercise.ct.folder is not None and not exercise.ct.folder.exists():

@@ -16,6 +16,7 @@ from typing import Final
 from app.compose.declared_views import declared_views
 from app.compose.live_pen import attached_camera, simulated_lens, simulated_webcam
 from app.compose.needle import UPRIGHT, row_at
+from app.compose.trainee import trainee_of
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
@@ -32,7 +33,6 @@ from app.mechanisms.profile import DeviceProfile, load_profile
 from app.planning.placement import PlacedPlan
 from app.session.conditions import TRAINEE
 from app.simulation.plant import initial_plant, plant_stage
-from app.simulation.trainee import trainee_stage
 from app.tracking.calibration.pictures import list_pictures
 from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.cameras.files import read_picture
@@ -184,8 +184,7 @@ def pen_table(
     plant = [plant_stage(profile, UPRIGHT, START_DEPTH)] if simulated else []
     trainee = []
     if simulated and skill:
-        holds = exercise.holds_breath
-        trainee = [trainee_stage(placed.axis, placed.length, skill, seed, holds=holds)]
+        trainee = [trainee_of(exercise, placed, skill, seed)]
     pose = profile.machine.stages().pose
     place = [DepthInterval.of(profile).stage(), pose, Kinematics.of(profile).stage()]
     stages = [*trainee, *read, velocity_stage(profile), *place]

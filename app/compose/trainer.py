@@ -19,6 +19,7 @@ from app.compose.declared_views import declared_views
 from app.compose.needle import UPRIGHT, felt_force, measured_axis, needle_scene
 from app.compose.pen import Pen, pen_table
 from app.compose.robot import Robot, connect
+from app.compose.trainee import trainee_of
 from app.core import paths
 from app.core.arrays import FloatArray
 from app.core.build import BUILD, build
@@ -33,6 +34,7 @@ from app.exercises.errors import ExerciseError
 from app.exercises.parts import LayersFrom
 from app.exercises.scene import compile_exercise, device_of, law_requests
 from app.exercises.schema import Exercise
+from app.exercises.touching import check_touch
 from app.mechanisms.hand_motion import hand_stage
 from app.mechanisms.profile import DeviceProfile, parse_profile
 from app.planning.placement import PlacedPlan
@@ -50,7 +52,7 @@ from app.session.risks import Risk
 from app.session.trainer import Trainer
 from app.session.withdrawal import Start
 from app.simulation.plant import initial_plant, plant_stage
-from app.simulation.trainee import TraineeScript, script_stage, trainee_stage
+from app.simulation.trainee import TraineeScript, script_stage
 from app.tracking.cameras.settings import CameraSettings
 from app.tracking.errors import TrackingError
 from app.tracking.motion.depth_filter import FASTEST
@@ -281,6 +283,7 @@ class Rig:
             AcusError: if an attempt is running, or the trainee cannot follow the plan.
         """
         setup = replace(self.setup, placed=placed)
+        check_touch(setup.exercise.touch_task(placed), self.profile)
         table = (
             loop_table(setup, self.profile, self.robot is None, self.robot)
             if self.pen is None
@@ -309,6 +312,7 @@ def build_rig(setup: TrainerSetup, robot: Robot | None = None) -> Rig:
         AcusError: if a profile, an effect or the path cannot be used, or the robot does not answer.
     """
     profile = device_of(setup.exercise)
+    check_touch(setup.exercise.touch_task(setup.placed), profile)
     if setup.pen is not None:
         return _build_pen_rig(setup, Pen.of(setup.pen, profile))
     real = None
@@ -431,9 +435,7 @@ def loop_table(
     if (simulated or robot is not None) and setup.skill is not None:
         placed = setup.placed
         trainee = (
-            trainee_stage(
-                placed.axis, placed.length, setup.skill, setup.seed, holds=exercise.holds_breath
-            )
+            trainee_of(exercise, placed, setup.skill, setup.seed)
             if setup.script is None
             else script_stage(setup.script, placed.axis)
         )

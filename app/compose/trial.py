@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 
 from app.compose.exercise_ct import load_risks, read_ct
 from app.compose.needle import UPRIGHT, measured_axis, needle_scene
+from app.compose.trainee import trainee_of
 from app.compose.trainer import START_DEPTH, TrainerSetup, build_loop, loop_table, pictures_of
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
@@ -42,6 +43,7 @@ from app.exercises.parts import LayersFrom, OwnPlan
 from app.exercises.scene import device_of, placed_plan_of, plan_of
 from app.exercises.tissue import with_tissue
 from app.planning.plan import Plan
+from app.scoring.touches import Touches
 from app.session import machine
 from app.session.context import RunContext
 from app.session.fixes import AGREEING, FORGOTTEN, DepthTrust
@@ -54,12 +56,13 @@ from app.session.recorder import Recorder
 from app.session.risks import risk_marks_of
 from app.session.samples import Samples
 from app.session.scored import scorer, trajectory
+from app.session.touching import Touching
 from app.session.trainer import Trainer
 from app.session.transitions import LOST, Classifier, classify
 from app.session.withdrawal import Start
 from app.simulation.plant import initial_plant
 from app.simulation.skills import SKILLS
-from app.simulation.trainee import ScriptPhase, trainee_stage
+from app.simulation.trainee import ScriptPhase
 from app.tracking.optics.rig import RigProfile, load_rig
 from app.tracking.simulated.cameras import simulated_cameras
 from app.tracking.simulated.picture_effects import picture_effects
@@ -269,6 +272,9 @@ class Trials:
         self._exercise, self._placed, self._risks = exercise, placed, risks
         self._profile = device_of(exercise)
         self._scorer = scorer(exercise)
+        self._task = exercise.touch_task(placed)
+        # What pulls towards the target follows the touches, which the loop alone does not know.
+        self._pulled = self._task is not None and bool(exercise.laws) and exercise.assistance != 0.0
         setup = TrainerSetup(exercise, placed, clock=VirtualClock(BEGIN))
         table = loop_table(setup, self._profile)
         # What stages remember is in their arrays: each attempt takes copies, shared ones once.
@@ -287,13 +293,14 @@ class Trials:
         rows, begin = self._rows(skill, seed)
         samples = self._samples(rows)
         faults = rows[rows[:, sv.TIME] > begin + GRACE, sv.FAULT]
-        states, unseen = _phases(samples, begin)
-        if faults.any() or unseen >= LOST:
+        touching = None if self._task is None else Touching(self._task)
+        went = _Course.of(samples, begin, touching)
+        if faults.any() or went.unseen >= LOST or self._pulled:
             result = attempt(self._exercise, self._placed, skill, seed, self._risks)
             return Trial(result.score, result.duration)
-        samples = replace(samples, state=states)
+        samples = replace(samples, state=went.states, target=went.target)
         near = risk_marks_of(samples, self._placed, self._risks)
-        path = trajectory(samples, self._placed, risks=near)
+        path = trajectory(samples, self._placed, risks=near, touches=went.touches)
         return Trial(self._scorer(path), float(samples.time[-1]) - begin)
 
     def _rows(self, skill: str, seed: int) -> tuple[FloatArray, float]:
@@ -305,8 +312,7 @@ class Trials:
             values = own.setdefault(id(stage.parameters), stage.parameters.copy())
             return stage._replace(parameters=values)
 
-        holds = self._exercise.holds_breath
-        trainee = trainee_stage(placed.axis, placed.length, skill, seed, holds=holds)
+        trainee = trainee_of(self._exercise, placed, skill, seed)
         before = trainee, self._cameras.stage(seed, self._spoiled)
         table = Table.of([*before, *map(fresh, self._stages)], map(fresh, self._write))
         initial = initial_plant(profile, UPRIGHT, START_DEPTH)
@@ -390,7 +396,9 @@ class Trials:
             rig, self._fulcrum, lambda _: scenes[0], lambda _: axis, spoiled=self._spoiled
         )
         low, high = self._profile.depth_range
-        last = min(high, placed.length + BEYOND)
+        aims = (placed,) if self._task is None else self._task.plans
+        deepest = max(plan.length for plan in aims)
+        last = min(high, deepest + BEYOND)
         depths = np.arange(min(low, START_DEPTH), last + STEP, STEP)
         tips = self._fulcrum + depths[:, None] * axis
         scenes = [MarkerScene.from_tip(tip, axis, offset) for tip in tips]
@@ -414,22 +422,50 @@ class Trials:
         return cameras, (depths, across)
 
 
-def _phases(samples: Samples, begin: float) -> tuple[NDArray[np.str_], float]:
-    """Return the state at each sample, and the longest time in the body without a depth [s]."""
-    attempt, memory = machine.advance(machine.Attempt(), AttemptEvent.BEGIN, begin), Classifier()
-    seen, away = samples.depth_source == DepthSource.TRACKED.value, samples.tip - samples.target
-    depths, distances = samples.depth.tolist(), np.linalg.norm(away, axis=1).tolist()
-    states, since, unseen = [], begin, 0.0
-    for k, time in enumerate(samples.time.tolist()):
-        depth = depths[k] if seen[k] and samples.valid[k] else None
-        memory, event = classify(memory, attempt.state, time, depth, distances[k])
-        if event is not None:
-            attempt = machine.advance(attempt, event, time)
-        if depth is not None or attempt.state is State.ALIGNING:
-            since = time
-        unseen = max(unseen, time - since)
-        states.append(attempt.state.value)
-    return np.array(states), unseen
+@dataclass(frozen=True, slots=True, eq=False)
+class _Course:
+    """What a trainer would have made of the samples of an attempt, one after the other.
+
+    Attributes:
+        states: at each sample, shape (n,).
+        unseen: longest time in the body without a depth [s].
+        target: at each sample [m], shape (n, 3).
+        touches: targets that were to be touched; None where there were none.
+    """
+
+    states: NDArray[np.str_]
+    unseen: float
+    target: FloatArray
+    touches: Touches | None = None
+
+    @classmethod
+    def of(cls, samples: Samples, begin: float, touching: Touching | None = None) -> _Course:
+        """Judge samples that are all taken for `aligning`, of an attempt from `begin` [s] on."""
+        attempt = machine.advance(machine.Attempt(), AttemptEvent.BEGIN, begin)
+        memory = Classifier()
+        seen = (samples.depth_source == DepthSource.TRACKED.value) & samples.valid
+        shift = samples.target - samples.target[0] if touching else None
+        target, depths, states = samples.target.copy(), samples.depth.tolist(), []
+        since, unseen, times = begin, 0.0, []
+        for k, time in enumerate(samples.time.tolist()):
+            if touching is not None and shift is not None:
+                target[k] = touching.state.aim.p_target + shift[k]
+            depth = depths[k] if seen[k] else None
+            away = float(np.linalg.norm(samples.tip[k] - target[k]))
+            memory, event = classify(memory, attempt.state, time, depth, away)
+            if event is not None:
+                attempt = machine.advance(attempt, event, time)
+            if depth is not None or attempt.state is State.ALIGNING:
+                since = time
+            unseen = max(unseen, time - since)
+            states.append(attempt.state.value)
+            if touching is not None and samples.spread is not None:
+                inside = depth is not None and attempt.state in (State.INSERTING, State.HOLDING)
+                at = time - float(samples.spread[k, 2]) if inside else None
+                if touching.take(samples.tip[k], at):
+                    times.append(time)
+        of = 0 if touching is None else len(touching.state.task)
+        return cls(np.array(states), unseen, target, Touches(of, tuple(times)) if of else None)
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from typing import Final
 
 from app.core import paths
 from app.core.configuration import line_of, parse_text, read_text
-from app.core.errors import ConfigurationError
+from app.core.errors import AcusError, ConfigurationError
 from app.exercises.errors import ExerciseError, UnknownExerciseError
 from app.exercises.schema import Exercise
 
@@ -137,6 +137,8 @@ def read_exercise(path: Path) -> Exercise:
         if why := unknown_profile(name, getattr(exercise, name)):
             line = line_of(text, (name,))
             raise ExerciseError(f"{path}: {name}: {why}" + (f" (line {line})" if line else ""))
+    if exercise.touch is not None:
+        _check_touch(path, text, exercise)
     found = {
         field: str(path.parent.resolve() / name)
         for field, name in (("device", exercise.device), ("rig", exercise.rig))
@@ -150,6 +152,22 @@ def read_exercise(path: Path) -> Exercise:
         for part in exercise.structures
     )
     return exercise.model_copy(update={**found, "ct": ct, "structures": structures})
+
+
+def _check_touch(path: Path, text: str, exercise: Exercise) -> None:
+    """Refuse targets that the exercise's machine cannot bring the tip to."""
+    from app.exercises.scene import device_of, placed_plan_of
+    from app.exercises.touching import check_touch
+
+    if _is_path(exercise.device):
+        device = str(path.parent.resolve() / exercise.device)
+        exercise = exercise.model_copy(update={"device": device})
+    profile = device_of(exercise)
+    try:
+        check_touch(exercise.touch_task(placed_plan_of(exercise, profile)), profile, quick=True)
+    except AcusError as error:
+        line = line_of(text, ("touch",))
+        raise ExerciseError(f"{path}: {error}" + (f" (line {line})" if line else "")) from error
 
 
 def _structure_file(path: Path, name: Path) -> Path:

@@ -33,7 +33,8 @@ from app.exercises.parts import (
     ViewName,
 )
 from app.exercises.reading import ReadingPart
-from app.planning.placement import Placement
+from app.exercises.touching import TouchPart, TouchTask, touch_task
+from app.planning.placement import PlacedPlan, Placement
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import ScoringError
 from app.scoring.rows import ScoreRules
@@ -80,6 +81,8 @@ class Exercise(Strict):
         locks: controls that stay as the exercise has them; an assessment locks all.
         hand: what moves the simulated hand; None leaves it to the student, or is the mouse where
             it is locked.
+        touch: targets that the tip of a long tool has to touch one after the other; the hand then
+            moves the tool's handle. None for a needle that goes to the plan's target.
         seed: of everything random in the attempt.
     """
 
@@ -111,6 +114,7 @@ class Exercise(Strict):
     views: tuple[ViewName, ...] = (ViewName.LIVE_OVERLAY, ViewName.BULLSEYE, ViewName.THREE_D)
     locks: tuple[Lock, ...] | None = None
     hand: HandName | None = None
+    touch: TouchPart | None = None
     seed: Annotated[int, Field(ge=0)] = 1
 
     @field_validator("effects", "laws", mode="before")
@@ -187,6 +191,27 @@ class Exercise(Strict):
                 "plan phantom_default needs ct: {phantom: ...}; give entry_mm and target_mm"
             )
         return self
+
+    @model_validator(mode="after")
+    def _touching_can_be_followed(self) -> Exercise:
+        if self.touch is None:
+            return self
+        if not isinstance(self.plan, PlanPoints):
+            raise ValueError(
+                "touch: the targets lie about a path that the file names: give plan entry_mm and "
+                "target_mm"
+            )
+        if self.guidance_mode is not GuidanceMode.LIVE:
+            raise ValueError("touch: the targets are touched by sight: use guidance.mode: live")
+        return self
+
+    def touch_task(self, placed: PlacedPlan) -> TouchTask | None:
+        """Return what is to be touched on a placed plan; None where nothing is.
+
+        Raises:
+            AcusError: if targets find no room, or lie on the entry.
+        """
+        return touch_task(self.touch, placed, self.seed)
 
     @property
     def guidance_mode(self) -> GuidanceMode:

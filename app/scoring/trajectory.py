@@ -13,9 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 from app.core.arrays import FloatArray, read_only
 from app.planning.off_path import Offset, offset
 from app.planning.placement import PlacedPlan
-from app.scoring.errors import MetricUnavailableError, TrajectoryError
+from app.scoring.errors import MetricNotAskedError, MetricUnavailableError, TrajectoryError
 from app.scoring.risks import RiskMark
 from app.scoring.scans import ScanMark
+from app.scoring.touches import Touches
 
 LAST_SEEN = 1.0
 """The tip counts as known at the end if the cameras saw it within this time before [s]."""
@@ -68,6 +69,7 @@ class Trajectory:
             had to check.
         clamped: whether the force was at the robot's limit, shape (n,); None if not known.
         pauses_end_stays: whether a pause ends a stay in the body, as up to scoring version 3.
+        touches: targets that were to be touched; None where there were none.
 
     Raises:
         TrajectoryError: naming the array and the first bad sample.
@@ -92,6 +94,7 @@ class Trajectory:
     agreement: float = 0.0
     clamped: NDArray[np.bool_] | None = None
     pauses_end_stays: bool = False
+    touches: Touches | None = None
 
     def __post_init__(self) -> None:
         time = _samples(self.time, "time", None, ())
@@ -198,6 +201,28 @@ class Trajectory:
         pauses = np.cumsum(self.paused)[stay]
         parts = np.split(stay, np.flatnonzero(np.diff(pauses)) + 1)
         return max(parts, key=lambda part: float(self.time[part[-1]] - self.time[part[0]]))
+
+    def to_touch(self) -> Touches:
+        """Return the targets that were to be touched.
+
+        Raises:
+            MetricNotAskedError: if there were none.
+        """
+        if self.touches is None:
+            raise MetricNotAskedError("nothing was to be touched")
+        return self.touches
+
+    def touching(self) -> NDArray[np.intp]:
+        """Find the samples from the first entry into the body to the last touch, shape (n,).
+
+        Raises:
+            MetricNotAskedError: if nothing was to be touched.
+            MetricUnavailableError: if nothing was touched.
+        """
+        times = self.to_touch().times
+        if not times:
+            raise MetricUnavailableError("no target was touched")
+        return np.arange(self.insertions()[0].start, self.at(times[-1]) + 1)
 
     def final(self) -> int:
         """Index of the sample that the result is read from: the last one with a measured depth.

@@ -29,6 +29,7 @@ from app.session.scored import agreement_of, renders_force, score_document, traj
 from app.session.sidecar import write_summary
 from app.session.signature import SignatureError, StationKey, sign
 from app.session.summary import Summary
+from app.session.touching import touches_of
 from app.session.transitions import excused
 from app.session.verify import SCORE_FILE
 
@@ -97,6 +98,7 @@ class AttemptLog:
                 near,
                 excused(self.events),
                 agreement_of(self.recorder.header.metadata),
+                touches_of(self.events),
             )
             score = self.scorer(path)
         except AcusError as error:

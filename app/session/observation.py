@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from typing import TYPE_CHECKING, Final
 
@@ -150,20 +150,24 @@ def observe(
 
     `last` is the pose before; `missing` says why there is no `state`.
     """
-    p_target = placed.p_target
     device = state if state is not None and state.tick > 0 else None
     if device is None:
         pose = _no_device(placed, now, last, missing)
     else:
         pose = fuse(device, fixes.usable(), now, last, fixes.doubt)
-        shift = device.row[slots.TARGET_SHIFT]
-        if np.isfinite(shift).all():
-            p_target = read_only(placed.p_target + shift)
+    p_target = _target(placed, device)
     status, residual = fixes.status(now)
     away = offset(pose, p_target, placed)
     seen = predicted(pose, fixes.motion(moment(pose)))
     seen_away = away if seen is pose else offset(seen, p_target, placed)
     return Observation(now, pose, away, p_target, device, status, residual, seen, seen_away)
+
+
+def _target(placed: PlacedPlan, device: DeviceState | None) -> FloatArray:
+    """Where a plan's target is with the motion that the loop gives it [m], shape (3,)."""
+    if device is None or not np.isfinite(shift := device.row[slots.TARGET_SHIFT]).all():
+        return placed.p_target
+    return read_only(placed.p_target + shift)
 
 
 def _no_device(placed: PlacedPlan, now: float, last: NeedlePose | None, missing: str) -> NeedlePose:
@@ -254,6 +258,17 @@ class RobotAndCameras:
         last = self.seen.pose if self.seen is not None else None
         self.seen = observe(self._loop.latest(), self._fixes, placed, now, last)
         return self.seen
+
+    def aim(self, placed: PlacedPlan) -> None:
+        """See what was observed last against another target from now on."""
+        if (seen := self.seen) is not None:
+            target = _target(placed, seen.device)
+            self.seen = replace(
+                seen,
+                p_target=target,
+                offset=offset(seen.pose, target, placed),
+                shown_offset=offset(seen.shown, target, placed),
+            )
 
     def observe_nothing(self, placed: PlacedPlan, now: float, reason: str) -> None:
         """Observe that the robot says nothing, and why."""

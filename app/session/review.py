@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
+from app.core.events import Event
 from app.core.loading import ONE_AT_A_TIME
 from app.core.units import DEGREE
 from app.exercises.scene import scene_of
@@ -28,7 +29,7 @@ from app.session.errors import SessionError
 from app.session.motion import NeedleMotion, motion, needle_length
 from app.session.needle import FROM_CAMERAS
 from app.session.pad.geometry import PadScale, PathFrame, path_frame
-from app.session.pad.view import rings
+from app.session.pad.view import rings, touch_rings
 from app.session.people import NOTHING_SAID, Remarks
 from app.session.recording import Recording
 from app.session.result import AttemptResult
@@ -37,6 +38,7 @@ from app.session.samples import Samples
 from app.session.scored import renders_force
 from app.session.summary import derive
 from app.session.timeline import Span, TimeMark, marks, spans
+from app.session.touching import KIND, TASK, TargetMarks, marks_at, radius_of
 from app.session.verify import verify
 from app.simulation.scene import Binding
 
@@ -51,7 +53,7 @@ __all__ = [
     "spans",
 ]
 
-SHOWN_EVENTS: Final = ("scan", "breath", "fault", "abort")
+SHOWN_EVENTS: Final = ("scan", "touch", "breath", "fault", "abort")
 """Kinds of events that are marked on the curves."""
 
 TURN_S: Final = 2.0
@@ -179,6 +181,7 @@ class Review:
         correction: the largest turn of the needle in the tissue; None if there was none.
         motion: where the needle was in the patient; None where nothing can be replayed.
         said: what the instructor says of it; no part of the record.
+        touches: events that tell of targets to be touched; none where there were none.
     """
 
     id: str
@@ -209,10 +212,19 @@ class Review:
     correction: Correction | None = None
     motion: NeedleMotion | None = None
     said: Remarks = NOTHING_SAID
+    touches: tuple[Event, ...] = ()
+
+    def targets(self, row: int) -> TargetMarks | None:
+        """Return the targets that were to be touched as they stood at a sample; None without."""
+        if not self.touches or self.motion is None or not len(self.motion):
+            return None
+        return marks_at(self.touches, self.origin + float(self.motion.time[row]))
 
     @property
     def rings(self) -> tuple[float, float]:
         """Rings of the pad by the tolerances that the attempt was judged by [m]."""
+        if radius := radius_of(self.touches):
+            return touch_rings(radius)
         rows = self.score.rows if self.score is not None else ()
         return rings({row.name: row.tolerance for row in rows if row.tolerance is not None})
 
@@ -282,6 +294,7 @@ def review(recording: Recording) -> Review:
         ct=recording.ct,
         risks=risk_marks(recording.events),
         correction=correction(samples, measured, side_force(recording)),
+        touches=tuple(event for event in recording.events if event.kind in (TASK, KIND)),
         motion=motion(samples, placed, needle_length(recording)) if len(samples.time) else None,
     )
 

@@ -15,6 +15,7 @@ from app.scoring.result import Score
 from app.scoring.risks import RiskMark
 from app.scoring.scans import ScanMark
 from app.scoring.score import score
+from app.scoring.touches import Touches
 from app.scoring.trajectory import Trajectory
 from app.session.conditions import AGREEMENT
 from app.session.errors import SessionError
@@ -53,6 +54,7 @@ def trajectory(
     risks: tuple[RiskMark, ...] = (),
     excused: float = 0.0,
     agreement: float = 0.0,
+    touches: Touches | None = None,
 ) -> Trajectory:
     """Turn samples into what scoring wants: those without a valid pose are left out.
 
@@ -68,6 +70,7 @@ def trajectory(
         risks: structures of risk, and how near the needle came.
         excused: time of pauses that cost nothing [s], see `pauses.excused`.
         agreement: see `agreement_of` [m].
+        touches: targets that were to be touched; None where there were none.
 
     Raises:
         SessionError: if no sample has a valid pose.
@@ -95,6 +98,7 @@ def trajectory(
         excused=excused,
         spread=None if samples.spread is None else samples.spread[keep],
         agreement=agreement,
+        touches=touches,
         clamped=samples.clamped[keep] if renders and samples.clamped is not None else None,
     )
 

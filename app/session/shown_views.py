@@ -103,10 +103,11 @@ class Shown:
         """
         if not self.live:
             return without_needle(snapshot)
-        if self.shows(ViewName.TARGET_MOTION) or not (snapshot.p_target != placed.p_target).any():
+        rest = snapshot.at_rest(placed)
+        if self.shows(ViewName.TARGET_MOTION) or not (snapshot.p_target != rest.p_target).any():
             return snapshot
-        still = offset(snapshot.pose, placed.p_target, placed)
-        return replace(snapshot, p_target=placed.p_target, offset=still)
+        still = offset(snapshot.pose, rest.p_target, rest)
+        return replace(snapshot, p_target=rest.p_target, offset=still)
 
     def tells(self, kind: str, state: object) -> bool:
         """Whether an event of this kind, with this state among its data, may be listed."""

@@ -19,6 +19,7 @@ from app.planning.placement import PlacedPlan
 from app.session.machine import FINAL, State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.recorder import RecordingStatus
+from app.session.touching import TouchState
 
 if TYPE_CHECKING:
     from app.device.control.timing import Timing
@@ -73,6 +74,7 @@ class Snapshot:
         breath: how the breath-hold stands; None where the patient is not told.
         roll: of a bevelled needle [rad], clockwise seen from the hub; None where none is bevelled.
         measured_pose: the pose as measured, behind by its age; None in snapshots made by hand.
+        touch: how the attempt stands with its targets; None where there is nothing to touch.
     """
 
     time: float
@@ -99,6 +101,15 @@ class Snapshot:
     may_confirm: bool = False
     breath: BreathHold | None = None
     roll: float | None = None
+    touch: TouchState | None = None
+
+    def at_rest(self, placed: PlacedPlan) -> PlacedPlan:
+        """Return the plan whose target is the present one where it rests.
+
+        Args:
+            placed: of the run.
+        """
+        return placed if self.touch is None else self.touch.aim
 
 
 _FIX_TEXT = {
@@ -184,6 +195,8 @@ class StepKind(StrEnum):
     DEEPER = "deeper"
     BACK = "back"
     HOLD = "hold"
+    TOUCH = "touch"
+    STAY = "stay"
     FINISH = "finish"
 
 
@@ -196,12 +209,16 @@ class NextStep:
         angle: by which the needle is to be tilted [rad].
         towards: sides of the patient to which the hub goes, the larger part first, of `LRAPSI`.
         distance: along the needle that is left, or too much [m].
+        across: way of the tip to a target that is to be touched, across the tool [m].
+        touch: how the attempt stands with its targets; None where there is nothing to touch.
     """
 
     kind: StepKind
     angle: float = 0.0
     towards: str = ""
     distance: float = 0.0
+    across: float = 0.0
+    touch: TouchState | None = None
 
 
 CALM: Final = 0.6
@@ -246,6 +263,8 @@ class NextSteps:
         if snapshot.state is State.PAUSED or not snapshot.pose.valid:
             return NextStep(StepKind.SEE)
         offset, pose = snapshot.offset, snapshot.pose
+        if snapshot.touch is not None:
+            return self._to_touch(snapshot, snapshot.touch)
         if pose.measured and -offset.remaining > self._within(StepKind.BACK, self._along):
             return NextStep(StepKind.BACK, distance=-offset.remaining)
         wrong = pose.axis - offset.path  # the hub goes to the side that the tip is on
@@ -263,6 +282,25 @@ class NextSteps:
             angle = atan2(offset.lateral, hypot(pose.depth, self._along))
             return NextStep(StepKind.TILT, angle, self._sides(offset.across))
         return NextStep(StepKind.FINISH if snapshot.state is State.HOLDING else StepKind.HOLD)
+
+    def _to_touch(self, snapshot: Snapshot, touch: TouchState) -> NextStep:
+        """Lead the tip of a tool to the present target: across the tool, and along it."""
+        pose = snapshot.pose
+        if touch.done:
+            return NextStep(StepKind.FINISH, touch=touch)
+        if not pose.measured:
+            return NextStep(StepKind.SEE if pose.depth > 0.0 else StepKind.FEEL)
+        way = touch.aim.p_target - pose.p_tip
+        along = float(way @ pose.axis)
+        across = way - along * pose.axis
+        if float(np.linalg.norm(way)) <= touch.task.radius:
+            return NextStep(StepKind.STAY, touch=touch)
+        if pose.depth <= 0.0:
+            return NextStep(StepKind.INSERT, distance=along)
+        aside = float(np.linalg.norm(across))
+        return NextStep(
+            StepKind.TOUCH, towards=self._sides(across), distance=along, across=aside, touch=touch
+        )
 
     def _within(self, kind: StepKind, limit: float) -> float:
         """Limit of a quantity: a smaller one while it is being mended."""

@@ -10,6 +10,9 @@ from numpy.typing import NDArray
 from app.core.arrays import FloatArray
 from app.core.events import Event
 
+_COUNTED: Final = {"scan": "▼", "touch": "●"}
+"""Kinds of events that are numbered, and the sign that stands before their number."""
+
 LONGEST_SIGN: Final = 24
 """Characters of an event that stand on a plot."""
 
@@ -33,9 +36,9 @@ class TimeMark:
 
     @property
     def sign(self) -> str:
-        """What stands on a plot: a triangle and the number of a scan, or the words, cut short."""
-        if self.kind == "scan":
-            return f"▼ {self.label}"
+        """What stands on a plot: the number of a scan or a touch, or the words, cut short."""
+        if self.kind in _COUNTED:
+            return f"{_COUNTED[self.kind]} {self.label}"
         whole = len(self.label) <= LONGEST_SIGN
         return f"! {self.label if whole else self.label[: LONGEST_SIGN - 1].rstrip() + '…'}"
 
@@ -53,11 +56,11 @@ def spans(time: FloatArray, state: NDArray[np.str_]) -> tuple[Span, ...]:
 
 
 def marks(events: Sequence[Event], origin: float, kinds: Sequence[str]) -> tuple[TimeMark, ...]:
-    """Events of some kinds on the time axis; scans are numbered."""
+    """Events of some kinds on the time axis; scans and touches are numbered."""
     found, counts = [], dict.fromkeys(kinds, 0)
     for event in events:
         if event.kind in counts:
             counts[event.kind] += 1
-            label = str(counts[event.kind]) if event.kind == "scan" else event.message
+            label = str(counts[event.kind]) if event.kind in _COUNTED else event.message
             found.append(TimeMark(event.time - origin, event.kind, label))
     return tuple(found)

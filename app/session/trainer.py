@@ -19,7 +19,7 @@ from app.session.effect_models import KIND, ModelChoice
 from app.session.errors import ControlLockedError, SessionError
 from app.session.fixes import TRUST, DepthTrust
 from app.session.inputs import Arming, ClearanceOf, LoopInputs
-from app.session.machine import AttemptEvent
+from app.session.machine import AttemptEvent, State
 from app.session.observation import BreathWatch, Observation, RobotAndCameras
 from app.session.result import AttemptResult
 from app.session.risks import Risk
@@ -27,6 +27,8 @@ from app.session.running import RunningAttempt
 from app.session.scored import scorer
 from app.session.snapshot import Snapshot, advice
 from app.session.ticker import Standstill, Ticker, standstill_words
+from app.session.touching import KIND as TOUCH
+from app.session.touching import TASK, Touching, begin_words, measured_at, touch_words
 from app.session.withdrawal import KIND as WITHDRAWAL
 from app.session.withdrawal import Start, Withdrawal
 from app.tracking.fix import NeedleFix
@@ -52,8 +54,8 @@ class Trainer:
     thread; `end` and `abort` write files, the others only take a lock for a moment.
 
     Attributes:
-        events: for the window to drain: `state`, `abort`, `scan`, `breath`, `recorder`, and the
-            tracker's.
+        events: for the window to drain: `state`, `abort`, `scan`, `breath`, `touch`, `recorder`,
+            and the tracker's.
         result: of the attempt that finished last; None before the first.
     """
 
@@ -87,6 +89,7 @@ class Trainer:
         self._loop = loop
         self._placed = placed
         self._exercise = exercise
+        self._touching = self._to_touch(placed)
         self._dial = exercise.assistance if dial is None else dial
         self._scorer = scorer(exercise)
         self._context = context or RunContext()
@@ -116,7 +119,7 @@ class Trainer:
         if self._ticker is not None:
             return
         try:
-            self._inputs.prepare(self._placed, self._dial)
+            self._inputs.prepare(self._aim, self._dial)
             self._sources.open()
         except BaseException:
             self._sources.close()
@@ -135,7 +138,7 @@ class Trainer:
 
     def step(self, ticks: int = 20) -> Snapshot:
         """Let virtual time pass: `ticks` of the loop, the simulated cameras, then one tick."""
-        self._inputs.prepare(self._placed, self._dial)
+        self._inputs.prepare(self._aim, self._dial)
         self.heartbeat()
         self._loop.step(ticks)
         now = self._clock.now()
@@ -169,7 +172,7 @@ class Trainer:
             if self._ticker is not None:
                 self._sources.require_ticks(self._ticker.failed)
             self._arming.require()
-            self._inputs.prepare(self._placed, self._dial)
+            self._inputs.prepare(self._aim, self._dial)
             self._inputs.hold_breath(False)
             self._inputs.roll(0.0)
             self._inputs.assist(self._dial)  # whatever the dial was turned to before
@@ -180,9 +183,15 @@ class Trainer:
             # Head and checkpoint are on the disk before the attempt's clock starts.
             failure = log.open(threaded=self._ticker is not None)
             now = self._clock.now()
-            seen = self._sources.newest(self._placed, now)
+            if self._touching is not None:
+                self._touching.begin()
+                self._take_aim()
+            seen = self._sources.newest(self._aim, now)
             out = self._withdrawal.begin(seen.device, seen.pose, now)
             self._running.begin(log, now, failure, out)
+            if self._touching is not None:
+                words, data = begin_words(self._touching.state)
+                self._running.say(TASK, words, now, data)
             self.heartbeat()
             if out is None:
                 self._running.say(WITHDRAWAL, self._withdrawal.words, now)
@@ -326,8 +335,9 @@ class Trainer:
         """
         with self._lock:
             self._running.require_idle("the plan cannot change")
+            self._touching = self._to_touch(placed)
             self._placed = placed
-            self._inputs.path(placed.axis, placed.p_target)
+            self._take_aim()
 
     def on_fix(self, fix: NeedleFix) -> None:
         """Take a fix at once, as the tracker's callback; without it the ticker takes it."""
@@ -337,6 +347,35 @@ class Trainer:
         """Return everything as of the last tick; never waits for a running one."""
         stamped = self._latest.read()
         return stamped.value if stamped is not None else self.tick(self._clock.now())
+
+    # --- targets to be touched ------------------------------------------------------------------
+    def _to_touch(self, placed: PlacedPlan) -> Touching | None:
+        task = self._exercise.touch_task(placed)
+        return None if task is None else Touching(task)
+
+    @property
+    def _aim(self) -> PlacedPlan:
+        """The plan whose target is the present one: of the target to be touched, if there is one.
+
+        Everybody who asks how far the needle is off the path or from the target, the loop's force
+        laws among them, asks about this one.
+        """
+        return self._placed if self._touching is None else self._touching.state.aim
+
+    def _take_aim(self) -> None:
+        self._inputs.path(self._aim.axis, self._aim.p_target)
+        self._sources.aim(self._aim)
+
+    def _touch(self, seen: Observation) -> None:
+        """Judge whether the tip has touched the present target; the next one is aimed at then."""
+        if self._touching is None:
+            return
+        inside = self._running.attempt.state in (State.INSERTING, State.HOLDING)
+        measured = measured_at(seen.pose) if inside else None
+        if self._touching.take(seen.pose.p_tip, measured):
+            words, data = touch_words(self._touching.state, seen.pose)
+            self._running.say(TOUCH, words, seen.time, data)
+            self._take_aim()
 
     # --- one tick ---------------------------------------------------------------------------------
     def tick(self, now: float) -> Snapshot:
@@ -356,12 +395,13 @@ class Trainer:
         """
         try:
             self._arming.ask()
-            seen = self._sources.observe(self._placed, now)
+            seen = self._sources.observe(self._aim, now)
             was_paused = self._running.paused
             reason = self._running.take(
                 seen, self._inputs, self._arming.held, self._withdrawal.simulated
             )
             self._arming.pause(was_paused, self._running.paused)
+            self._touch(seen)
             if self._breath is not None and (words := self._breath.observe(seen.device, now)):
                 self._running.say("breath", words, now, {"held": self._breath.now.held})
             reason = reason or self._bring_out(seen)
@@ -372,7 +412,7 @@ class Trainer:
                 reason = reason or (event.message if event.kind == "fault" else "")
             return reason
         except AcusError as error:
-            self._sources.observe_nothing(self._placed, now, str(error))
+            self._sources.observe_nothing(self._aim, now, str(error))
             return str(error)
 
     def _bring_out(self, seen: Observation) -> str:
@@ -389,7 +429,7 @@ class Trainer:
 
     def _publish(self, now: float) -> Snapshot:
         """Publish what was observed last, with the attempt as it is now."""
-        seen = self._sources.newest(self._placed, now)
+        seen = self._sources.newest(self._aim, now)
         attempt, log, withdrawal = self._running.attempt, self._running.log, self._withdrawal
         recording = log.recorder.status() if log is not None else None
         clearance = self._arming.clearance
@@ -426,6 +466,7 @@ class Trainer:
             may_confirm=withdrawal.asks,
             breath=None if self._breath is None else self._breath.now,
             roll=self._inputs.rolled if "bevel" in self._exercise.effects else None,
+            touch=None if self._touching is None else self._touching.state,
         )
         self._latest.publish(snapshot, now)
         return snapshot

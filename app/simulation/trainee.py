@@ -10,6 +10,7 @@ tells the patient to hold the breath before it inserts, waits until the target r
 target rests then, and lets breathe while it draws back.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
 from typing import Final, NamedTuple
@@ -74,8 +75,8 @@ class TraineeScript:
 
 
 @dataclass(frozen=True, slots=True)
-class _Move:
-    """Minimum-jerk movement to an error and depth within `duration`."""
+class Move:
+    """Minimum-jerk movement to an error (e1, e2) [rad] and depth [m] within `duration` [s]."""
 
     phase: ScriptPhase
     duration: float
@@ -94,9 +95,9 @@ def write_script(axis: FloatArray, depth: float, skill: Skill, seed: int) -> Tra
     random = np.random.default_rng([seed, 1])
     basis = tangent_basis(unit(axis, "axis"))
     moves = _moves(unit(axis, "axis"), basis, depth, skill, random)
-    rows = _rows(moves)
-    rows[:, :2] += _drift(rows, skill, random)
-    return TraineeScript(read_only(rows), read_only(_tremor(skill, random)), read_only(basis))
+    rows = rows_of(moves)
+    rows[:, :2] += drift(rows, skill, random)
+    return TraineeScript(read_only(rows), read_only(tremor(skill, random)), read_only(basis))
 
 
 def tangent_basis(axis: FloatArray) -> FloatArray:
@@ -107,47 +108,48 @@ def tangent_basis(axis: FloatArray) -> FloatArray:
 
 def _moves(
     axis: FloatArray, basis: FloatArray, depth: float, skill: Skill, random: np.random.Generator
-) -> list[_Move]:
-    start = _polar(random.uniform(*skill.start_error), _towards_vertical(axis, basis, random))
+) -> list[Move]:
+    start = polar(random.uniform(*skill.start_error), _towards_vertical(axis, basis, random))
     around = float(random.uniform(0.0, 2.0 * np.pi))
-    aim = _polar(random.uniform(*skill.aim_error), around)
+    aim = polar(random.uniform(*skill.aim_error), around)
     moves = [
-        _Move(ScriptPhase.HOVER, skill.hover, start, ABOVE_SKIN),
-        _Move(ScriptPhase.ALIGN, skill.align, aim, ABOVE_SKIN),
+        Move(ScriptPhase.HOVER, skill.hover, start, ABOVE_SKIN),
+        Move(ScriptPhase.ALIGN, skill.align, aim, ABOVE_SKIN),
     ]
     for _ in range(skill.redirects):
-        aim = _polar(random.uniform(*skill.final_error), around + random.normal(0.0, 0.5))
+        aim = polar(random.uniform(*skill.final_error), around + random.normal(0.0, 0.5))
         moves += _redirect(moves[-1], aim, depth, skill, random)
-    final = _polar(random.uniform(*skill.final_error), around)
+    final = polar(random.uniform(*skill.final_error), around)
     past = depth + float(random.uniform(*skill.overshoot))
     left = depth + float(random.choice([-1.0, 1.0]) * random.uniform(*skill.depth_error))
     moves.append(_insert(moves[-1], final, past, skill))
     moves.append(replace(moves[-1], phase=ScriptPhase.CORRECT, duration=0.6))
-    moves.append(_Move(ScriptPhase.CORRECT, 1.0, final, left))
-    moves.append(_Move(ScriptPhase.HOLD, skill.hold - WAITING, final, left))
-    moves.append(_Move(ScriptPhase.WAIT, WAITING, final, left))
+    moves.append(Move(ScriptPhase.CORRECT, 1.0, final, left))
+    moves.append(Move(ScriptPhase.HOLD, skill.hold - WAITING, final, left))
+    moves.append(Move(ScriptPhase.WAIT, WAITING, final, left))
     return moves
 
 
 def _redirect(
-    last: _Move, aim: tuple[float, float], depth: float, skill: Skill, random: np.random.Generator
-) -> list[_Move]:
+    last: Move, aim: tuple[float, float], depth: float, skill: Skill, random: np.random.Generator
+) -> list[Move]:
     """Insert part of the way, see the error, withdraw most of it, turn."""
     partway = float(random.uniform(0.40, 0.55)) * depth
     back = 0.3 * partway
     return [
         _insert(last, last.error, partway, skill),
-        _Move(ScriptPhase.INSERT, 0.8, last.error, partway),
-        _Move(ScriptPhase.WITHDRAW, (partway - back) / skill.speed, last.error, back),
-        _Move(ScriptPhase.REDIRECT, 2.0, aim, back),
+        Move(ScriptPhase.INSERT, 0.8, last.error, partway),
+        Move(ScriptPhase.WITHDRAW, (partway - back) / skill.speed, last.error, back),
+        Move(ScriptPhase.REDIRECT, 2.0, aim, back),
     ]
 
 
-def _insert(last: _Move, error: tuple[float, float], depth: float, skill: Skill) -> _Move:
-    return _Move(ScriptPhase.INSERT, max(0.2, (depth - last.depth) / skill.speed), error, depth)
+def _insert(last: Move, error: tuple[float, float], depth: float, skill: Skill) -> Move:
+    return Move(ScriptPhase.INSERT, max(0.2, (depth - last.depth) / skill.speed), error, depth)
 
 
-def _rows(moves: list[_Move]) -> FloatArray:
+def rows_of(moves: Sequence[Move]) -> FloatArray:
+    """Rows of a script for its moves, from where the first one begins, shape (n, 4)."""
     here = np.array([*moves[0].error, moves[0].depth])
     parts = []
     for move in moves:
@@ -160,7 +162,7 @@ def _rows(moves: list[_Move]) -> FloatArray:
     return np.vstack([*parts, [*here, float(ScriptPhase.DONE)]])
 
 
-def _drift(rows: FloatArray, skill: Skill, random: np.random.Generator) -> FloatArray:
+def drift(rows: FloatArray, skill: Skill, random: np.random.Generator) -> FloatArray:
     """Slow wander of the direction that grows in as the needle enters, shape (n, 2)."""
     time = np.arange(len(rows)) * STEP
     frequencies = random.uniform(0.05, 0.3, (3, 2))
@@ -170,8 +172,11 @@ def _drift(rows: FloatArray, skill: Skill, random: np.random.Generator) -> Float
     return skill.drift * (inside**2 * (3.0 - 2.0 * inside))[:, None] * waves
 
 
-def _tremor(skill: Skill, random: np.random.Generator) -> FloatArray:
-    """Band of 8-12 Hz with whole periods in the tile, unit variance before scaling."""
+def tremor(skill: Skill, random: np.random.Generator) -> FloatArray:
+    """Tile of the tremor, shape (TREMOR_ROWS, 3).
+
+    A band of 8-12 Hz with whole periods in the tile, unit variance before scaling.
+    """
     period = TREMOR_ROWS * TREMOR_STEP
     cycles = np.arange(int(8.0 * period), int(12.0 * period) + 1)
     time = np.arange(TREMOR_ROWS) / TREMOR_ROWS
@@ -192,7 +197,8 @@ def _towards_vertical(axis: FloatArray, basis: FloatArray, random: np.random.Gen
     return float(np.arctan2(down[1], down[0]) + random.uniform(-1.0, 1.0))
 
 
-def _polar(radius: float, angle: float) -> tuple[float, float]:
+def polar(radius: float, angle: float) -> tuple[float, float]:
+    """Return an error (e1, e2) [rad] of a size, in a direction of the tangent plane [rad]."""
     return float(radius * np.cos(angle)), float(radius * np.sin(angle))
 
 

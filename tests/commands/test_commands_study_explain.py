@@ -76,3 +76,18 @@ def test_no_figure_of_a_table_is_cut_where_no_terminal_limits_it() -> None:
     assert done.exit_code == 0
     assert max(map(len, done.stdout.splitlines())) > 80
     assert "…" not in done.stdout
+
+
+def test_explain_says_what_is_touched_and_how_the_hand_moves_the_tip():
+    from app.commands.explain import _lines
+    from app.compose.explaining import explanation
+    from app.exercises.library import load_exercise
+
+    found = explanation(load_exercise("laparoscopic-tool")) | {"refused": []}
+    assert len(found["touch"]["targets_lps_mm"]) == 6
+    for depth, scale in zip(found["touch"]["depths_mm"], found["touch"]["scales"], strict=True):
+        assert scale == pytest.approx(-depth / (300.0 - depth))
+    said = "\n".join(_lines(found))
+    assert "touches 6 targets" in said
+    assert "the other way" in said
+    assert explanation(load_exercise("first-insertion"))["touch"] is None

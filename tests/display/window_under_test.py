@@ -81,6 +81,9 @@ def state_of(window: MainWindow) -> dict[str, Any]:
         "plan": plan(window),
         "marks": marks(window),
         "pad": pad(window),
+        "touch": touch(window),
+        "step": workspace.next_step.text(),
+        "touch_note": panel.touch.text() if panel.touch.isVisible() else "",
         "needle_shown": workspace.viewing.needle is not None,
         "scan": scan(window),
         "scan_panel": scan_panel(window),
@@ -225,6 +228,29 @@ def exercises(window: MainWindow) -> dict[str, list[int]]:
             at = rows.viewport().mapToGlobal(box.center())
             places[item.data(Qt.ItemDataRole.UserRole)] = [at.x(), at.y()]
     return places
+
+
+def touch(window: MainWindow) -> dict[str, float] | None:
+    """How far the tip is from the target to be touched, as pad and depth bar show it."""
+    run = window.conductor.controller.run
+    snapshot = None if run is None else run.trainer.snapshot()
+    if run is None or snapshot is None or snapshot.touch is None:
+        return None
+    stands, pose = snapshot.touch, snapshot.pose
+    scene = run.scene(stands.aim)
+    handle, way = scene.handle, 1e3 * (stands.aim.p_target - pose.p_tip)
+    assert handle is not None
+    return {
+        "touched": stands.touched,
+        "of": len(stands.task),
+        "right_mm": float(way @ scene.frame.right),
+        "up_mm": float(way @ scene.frame.up),
+        "along_mm": float(way @ pose.axis),
+        "depth_mm": 1e3 * pose.depth,
+        "outside_mm": 1e3 * handle.outside(pose.depth),
+        "radius_px": window.workspace.bullseye.pad.area.radius,
+        "reach_mm": 1e3 * handle.reach,
+    }
 
 
 def scan_panel(window: MainWindow) -> dict[str, Any] | None:

@@ -11,6 +11,7 @@ from app.scoring import metrics
 from app.scoring.errors import MetricError, MetricUnavailableError, UnknownMetricError
 from app.scoring.paths import raw_length, smooth_length
 from app.scoring.risks import RiskMark
+from app.scoring.touches import Touches
 from app.scoring.trajectory import Phase, Trajectory
 
 DEGREE = np.pi / 180.0
@@ -54,6 +55,7 @@ def test_every_metric_is_finite_on_a_plain_attempt(name: str) -> None:
         "guide": base.felt,
         "risks": (RiskMark("vessel", 3.0, 2.0, inside_s=0.0),),
         "clamped": np.zeros(len(base), dtype=bool),
+        "touches": Touches(2, (float(base.time[-1]),)),
     }
     trajectory = Attempt(noise=1e-4, force=1.0).trajectory(**facts)
     assert np.isfinite(value(name, trajectory))

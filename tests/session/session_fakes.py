@@ -37,6 +37,7 @@ EXERCISE = SimpleNamespace(
     rules=ScoreRules(),
     guidance=GuidancePart(),
     longest_hold=None,
+    touch_task=lambda placed: None,
 )
 
 

@@ -7,11 +7,14 @@ import numpy as np
 import pytest
 
 from app.core.rotation import rotation_exp
+from app.exercises.library import load_exercise
+from app.exercises.scene import device_of, placed_plan_of
 from app.planning.off_path import offset
 from app.planning.placement import PatientOrientation, PlacedPlan, Placement
 from app.planning.plan import Plan
 from app.session.machine import State
 from app.session.snapshot import NextSteps, StepKind
+from app.session.touching import TouchState
 
 FULCRUM = (0.0, 0.16056, 0.090)
 PLAN = Plan(np.array([-40.0, -120.0, 60.0]), np.array([-40.0, -40.0, 60.0]), "straight down")
@@ -28,6 +31,7 @@ class Moment:
     state: State
     pose: SimpleNamespace
     offset: object
+    touch: object = None
 
 
 def moment(plan, depth, turn=None, state=State.INSERTING, measured=True, valid=True, p_target=None):
@@ -172,3 +176,32 @@ def test_a_whole_insertion_by_the_orders_alone_ends_at_the_target():
     order = list(dict.fromkeys(kinds))
     assert order[0] is StepKind.TILT
     assert order[-2:] == [StepKind.HOLD, StepKind.FINISH]
+
+
+def test_a_tool_is_led_to_its_target_by_where_the_tip_goes_and_how_deep():
+    exercise = load_exercise("laparoscopic-tool")
+    placed = placed_plan_of(exercise, device_of(exercise))
+    task = exercise.touch_task(placed)
+    steps = NextSteps(placed, task.radius, task.radius)
+
+    def step(p_tip, touched=0, measured=True, depth=0.05):
+        pose = SimpleNamespace(
+            valid=True, measured=measured, p_tip=np.asarray(p_tip), axis=placed.axis, depth=depth
+        )
+        touch = TouchState(task, touched)
+        return steps.of(Moment(State.INSERTING, pose, None, touch))
+
+    second = task.p_targets[1]
+    towards_left = placed.T_world_patient.rotation @ np.array([-1.0, 0.0, 0.0])
+    aside = towards_left - (towards_left @ placed.axis) * placed.axis
+    found = step(second + 0.012 * aside - 0.02 * placed.axis, touched=1)
+    assert found.kind is StepKind.TOUCH
+    assert found.towards == "L"  # the tip lies to the right of it
+    assert found.distance == pytest.approx(0.02)
+    assert found.across == pytest.approx(0.012 * np.linalg.norm(aside), rel=1e-6)
+    assert step(second + 0.003 * aside, touched=1).kind is StepKind.STAY
+    assert step(second, touched=1, measured=False).kind is StepKind.SEE
+    assert step(second, touched=0, measured=False, depth=-0.01).kind is StepKind.FEEL
+    assert step(second, touched=0).kind is StepKind.TOUCH  # the wrong one
+    assert step(placed.p_entry, depth=-0.01).kind is StepKind.INSERT
+    assert step(second, touched=len(task)).kind is StepKind.FINISH

@@ -24,6 +24,7 @@ class Moment:
     state: State = State.INSERTING
     measured: bool = True
     p_target: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    touch: object = None
 
     @property
     def pose(self):

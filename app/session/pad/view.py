@@ -8,11 +8,12 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
+from app.exercises.schema import Exercise
 from app.planning.off_path import Offset
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.tolerance import Bands
 from app.session.pad.geometry import PadScale, PathFrame, path_frame
-from app.session.pad.hand import HandLimits
+from app.session.pad.hand import Handle, HandLimits, HandPose, PadHand
 
 SAME_PATH: Final = 1e-12
 """Paths whose directions differ by less are one: the target is at rest."""
@@ -32,6 +33,7 @@ class PadScene:
         depth_tolerance: how far from it along the path is still at the target [m]; across the path
             it is the innermost ring.
         stop_depth: depth that must not be passed [m].
+        handle: of the long tool that the hand holds; None for a needle.
     """
 
     frame: PathFrame
@@ -42,6 +44,11 @@ class PadScene:
     target_depth: float
     depth_tolerance: float
     stop_depth: float
+    handle: Handle | None = None
+
+    def hand(self, pose: HandPose) -> PadHand:
+        """Return the hand that moves what the exercise has it hold, from where it is now."""
+        return PadHand(self.frame, self.scale, self.limits, pose, self.handle)
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,3 +106,22 @@ def rings(tolerances: Mapping[str, Bands] = DEFAULT_TOLERANCES) -> tuple[float, 
     """
     bands = tolerances.get("lateral_error", DEFAULT_TOLERANCES["lateral_error"])
     return MILLIMETRE * bands.expert, MILLIMETRE * bands.pass_
+
+
+def rings_of(exercise: Exercise) -> tuple[float, float]:
+    """Radii of an exercise's rings [m]: of a target to be touched, else by its tolerances."""
+    if exercise.touch is not None:
+        return touch_rings(exercise.touch.radius_mm * MILLIMETRE)
+    return rings(exercise.tolerances)
+
+
+def touch_rings(radius: float) -> tuple[float, float]:
+    """Rings round a target to be touched [m]: within the inner one it is, the outer one is near."""
+    return radius, 3.0 * radius
+
+
+def depth_tolerance_of(exercise: Exercise) -> float:
+    """How far from an exercise's target along the path still counts as at it [m]."""
+    if exercise.touch is not None:
+        return exercise.touch.radius_mm * MILLIMETRE
+    return depth_tolerance(exercise.tolerances)

@@ -52,7 +52,7 @@ from app.exercises.scene import plan_of
 from app.exercises.schema import Exercise
 from app.exercises.writing import exercise_document, exercise_text, free_id, taken_ids
 from app.imaging.errors import ImagingError
-from app.session.pad.view import rings
+from app.session.pad.view import rings_of
 from app.views.author.editing import (
     ExerciseEditor,
     Where,
@@ -792,7 +792,7 @@ class AuthorFeature(Feature):
 
     def _draw(self, exercise: Exercise | None) -> None:
         if exercise is not None:
-            radii = tuple(radius / MILLIMETRE for radius in rings(exercise.tolerances))
+            radii = tuple(radius / MILLIMETRE for radius in rings_of(exercise))
             viewing = self.context.views.viewing
             if viewing.tolerances_mm != radii:  # every pane is drawn anew
                 viewing.set_tolerances(radii)

@@ -580,7 +580,7 @@ class SightPage(Form):
     reading_wanted = Signal()
 
     def __init__(self, editor: ExerciseEditor) -> None:
-        covers = ("views", "locks", "hand", "reading", "guidance")
+        covers = ("views", "locks", "hand", "reading", "guidance", "touch")
         super().__init__(editor, tr("What is seen"), covers)
         self.views = self.flags(
             "views", name=tr("Views"), among=[(one.value, view_title(one)) for one in ViewName]
@@ -641,6 +641,7 @@ class SightPage(Form):
         self.rows.addWidget(self.take)
         self.check("reading", "locked", name=tr("Window, slab and layout stay as given here"))
         self.note(("reading",))
+        self.note(("touch",))
         self.count(
             "guidance", "slices", name=tr("Slices of a control scan"), low=3, high=5, default=3
         )

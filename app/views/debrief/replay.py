@@ -599,6 +599,10 @@ class ReplayViews(QWidget):
         scene.set_orbit(facing.turned(20.0, 12.0))
 
     def _show_target(self, motion: NeedleMotion, row: int) -> None:
+        marks = None if self._review is None else self._review.targets(row)
+        self.viewing.set_targets(marks)
+        if self.scene is not None:
+            self.scene.set_targets(marks)
         now = motion.target_mm(row)
         before = self.viewing.target_now_mm
         self.viewing.set_target_now(now)

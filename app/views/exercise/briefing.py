@@ -122,6 +122,8 @@ def aid_words(exercise: Exercise) -> list[str]:
     else:
         robot = tr("The robot does not help.")
     said = [robot]
+    if exercise.touch is not None:
+        said.append(tr("The hand moves the tool's handle: the tip goes the other way."))
     if exercise.guidance_mode is GuidanceMode.CONTROL_CT:
         said.append(
             tr("The needle is seen on control scans alone (S): {n} slices of {mm:g} mm.").format(

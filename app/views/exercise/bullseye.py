@@ -65,6 +65,11 @@ class DepthBar(QWidget):
         self._scene, self._depth, self._hand = scene, None, None
         self.update()
 
+    def retarget(self, scene: PadScene) -> None:
+        """Take the path to another target; the needle stays where it is."""
+        self._scene = scene
+        self.update()
+
     def show_depth(self, depth: float, measured: bool, hand: float | None) -> None:
         """Draw a depth [m], whether it is a fresh measurement, and the depth the hand wants."""
         self._depth, self._measured, self._hand = depth, measured, hand
@@ -495,6 +500,14 @@ class Bullseye(QWidget):
             label.clear()
         self._fit_words()
 
+    def retarget(self, scene: PadScene) -> None:
+        """Take the path to another target in the middle of an attempt: the hand goes on."""
+        self._scene = scene
+        self.pad.retarget(scene)
+        self.depth_bar.retarget(scene)
+        if self._hand is not None:
+            self._hand = scene.hand(self._hand.pose)
+
     def hide_needle(self, hidden: bool, beside_scan: bool = True) -> None:
         """Show nothing of needle, hand and path from the next scene on; the hand still moves.
 
@@ -522,7 +535,7 @@ class Bullseye(QWidget):
     def take_hand(self, pose: HandPose) -> None:
         """Go on from where the simulated hand is, without a jump."""
         if self._scene is not None and self._interactive:
-            self._hand = PadHand(self._scene.frame, self._scene.scale, self._scene.limits, pose)
+            self._hand = self._scene.hand(pose)
             self._intent.start()
 
     def let_go(self) -> None:

@@ -25,7 +25,7 @@ from app.planning.patient import Patient
 from app.planning.placement import Placement
 from app.session.ct_facts import CtFacts
 from app.session.machine import RUNNING
-from app.session.pad.view import rings
+from app.session.pad.view import rings_of
 from app.session.shown_views import Shown
 from app.session.snapshot import Snapshot
 from app.tracking.cameras.settings import CameraSettings
@@ -264,7 +264,7 @@ class Conductor(QObject):
         self._profile = device_of(exercise)
         self.exercise = exercise
         self._editor.set_profile(self._profile)
-        radii = rings(exercise.tolerances)
+        radii = rings_of(exercise)
         self._workspace.viewing.set_tolerances(tuple(radius / MILLIMETRE for radius in radii))
         self._as_the_exercise_says(reading=False)
         self._show_views()
@@ -294,6 +294,12 @@ class Conductor(QObject):
             source.release()
             if hand is not None:
                 source.set_source(hand)
+        if exercise.touch is not None:
+            source.fix_sense(
+                True, tr("The hand holds the tool's handle: the tip goes the other way.")
+            )
+        else:
+            source.release_sense()
         if reading:
             apply_reading(workspace, exercise)
 

@@ -14,6 +14,7 @@ from app.core.errors import AcusError
 from app.core.events import Event
 from app.core.rate_meter import RateMeter
 from app.exercises.parts import ViewName
+from app.planning.placement import PlacedPlan
 from app.session.machine import RUNNING, State
 from app.session.pad.hand import HandPose
 from app.session.result import AttemptResult
@@ -71,6 +72,7 @@ class ExerciseDisplay:
         self._status_time = self._figures_time = -1.0
         self._figured: tuple[object, ...] = ()
         self._going: State | None = None
+        self._aimed: PlacedPlan | None = None
         self.rates = (0.0, 0.0)
         self.extra_items: list[Callable[[Snapshot], tuple[StatusItem, ...]]] = []
         self._rates = LoopRates()
@@ -82,6 +84,7 @@ class ExerciseDisplay:
     def show_run(self, run: ExerciseRun) -> None:
         """Draw what stays the same during an attempt; nothing of the needle where scans guide."""
         live, shows = run.shown.live, run.shown.shows
+        self._aimed = None
         self._views.bullseye.hide_needle(not shows(ViewName.BULLSEYE), beside_scan=not live)
         self._views.bullseye.set_scene(run.scene(), run.interactive, run.is_real, run.held_at_hub)
         self._views.panel.set_forceful(run.forceful)
@@ -110,7 +113,7 @@ class ExerciseDisplay:
         """
         self._follow(snapshot.state)
         limit = force_limit(snapshot, run.profile.limits.hand_force)
-        self._show_panel(snapshot, limit, not run.shown.live, not run.demonstrates, now)
+        self._show_panel(run, snapshot, limit, now)
         self._show_pad(run, snapshot, limit)
         rate, missing = self.rates = self._rates.read(snapshot, now)
         self._show_tracker(run, snapshot, now)
@@ -130,15 +133,14 @@ class ExerciseDisplay:
             self._going = going
             self._views.bullseye.let_go()
 
-    def _show_panel(
-        self, snapshot: Snapshot, limit: float, hidden: bool, interactive: bool, now: float
-    ) -> None:
-        views = self._views
+    def _show_panel(self, run: ExerciseRun, snapshot: Snapshot, limit: float, now: float) -> None:
+        views, hidden, interactive = self._views, not run.shown.live, not run.demonstrates
         views.bullseye.source.set_locked(snapshot.state in RUNNING)
         views.panel.withdrawal.show_snapshot(snapshot)
         commands = interactive and snapshot.state in RUNNING
         views.panel.breath.show_breath(snapshot.breath, commands)
         views.panel.bevel.show_roll(snapshot.roll, commands)
+        views.panel.touch.show_touch(snapshot, run.profile.needle_length)
         views.bullseye.pad.rolls = commands and snapshot.roll is not None
         views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))
         figured = snapshot.state, hidden
@@ -150,6 +152,9 @@ class ExerciseDisplay:
 
     def _show_pad(self, run: ExerciseRun, snapshot: Snapshot, limit: float) -> None:
         bullseye = self._views.bullseye
+        if snapshot.touch is not None and snapshot.touch.aim is not self._aimed:
+            self._aimed = snapshot.touch.aim
+            bullseye.retarget(run.scene(self._aimed))
         view = pad_view(snapshot, run.profile.needle_length, limit)
         if view is not None:
             bullseye.show_view(view)

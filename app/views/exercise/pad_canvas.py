@@ -386,6 +386,11 @@ class PadCanvas(QWidget):
         self._scene, self._view, self._hand = scene, None, None
         self.update()
 
+    def retarget(self, scene: PadScene) -> None:
+        """Take the path to another target; a drag and what is held go on."""
+        self._scene, self._view = scene, None
+        self.update()
+
     def hide_needle(self, hidden: bool) -> None:
         """Draw neither path nor needle; mouse and keys work as ever."""
         self._hides_needle = hidden

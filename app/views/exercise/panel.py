@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from math import degrees, remainder, tau
 from typing import Final
 
+import numpy as np
 from PySide6.QtCore import QEvent, QObject, QRegularExpression, QSignalBlocker, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent, QKeySequence, QRegularExpressionValidator, QShortcut
 from PySide6.QtWidgets import (
@@ -22,9 +23,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.core.units import MILLIMETRE
 from app.exercises.guidance import GuidancePart
 from app.planning.plan import Plan
 from app.session.machine import RUNNING, State
+from app.session.pad.hand import Handle
 from app.session.snapshot import BreathHold, Snapshot
 from app.views.exercise.assistance_dial import AssistanceDial
 from app.views.exercise.enable_switch import EnableSwitch
@@ -225,6 +228,42 @@ class BevelNote(QLabel):
         self.setText(f"{words}  ·  {tr('Q, E in the pad turn it')}" if commands else words)
 
 
+class TouchNote(QLabel):
+    """Says how many targets are touched, how far the next one is, and how the hand moves the tip.
+
+    Nothing where there is nothing to touch.
+    """
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWordWrap(True)
+        self.hide()
+
+    def show_touch(self, snapshot: Snapshot, length: float) -> None:
+        """Show how a snapshot stands; `length` is that of the tool [m]."""
+        touch = snapshot.touch
+        self.setVisible(touch is not None)
+        if touch is None:
+            return
+        of = len(touch.task)
+        said = [tr("{n} of {of} touched", n=touch.touched, of=of)]
+        if snapshot.pose.measured:
+            away = float(np.linalg.norm(touch.aim.p_target - snapshot.pose.p_tip)) / MILLIMETRE
+            if not touch.done:
+                said.append(tr("{mm:.0f} mm to target {n}", mm=away, n=touch.number))
+            said.append(hand_words(Handle(length).scale(snapshot.pose.depth)))
+        words = "  ·  ".join(said)
+        if words != self.text():
+            self.setText(words)
+
+
+def hand_words(scale: float) -> str:
+    """Say how far the tip of a tool goes for a way of the hand at its handle."""
+    if scale > 0.0:
+        return tr("the tip is not through the trocar yet: push")
+    return tr("1 mm of hand moves the tip {mm:.1f} mm, the other way", mm=-scale)
+
+
 class BreathCommand(QWidget):
     """Tells a patient who holds the breath on command to hold it, or to breathe; says how he is.
 
@@ -317,6 +356,7 @@ class ExercisePanel(QWidget):
         self.breath = BreathCommand(self)
         self.bevel = BevelNote(self)
         self.bevel.hide()
+        self.touch = TouchNote(self)
         self.scan = ScanPanel(self)
         self.readouts = AttemptReadouts(self)
         self.energy = EnergyGauge(self)
@@ -397,6 +437,7 @@ class ExercisePanel(QWidget):
         self.set_offsets(True)
         self.scan.forget()
         self.breath.show_breath(None, False)
+        self.touch.hide()
         self.energy.show_energy(None)
 
     def set_waiting(self, why: str) -> None:
@@ -461,6 +502,7 @@ class ExercisePanel(QWidget):
             self.enable,
             self.breath,
             self.bevel,
+            self.touch,
             self.scan,
             _line(),
             self.readouts,

@@ -11,7 +11,7 @@ from app.exercises.guidance import GuidancePart
 from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
 from app.session.pad.geometry import PadScale, path_frame
-from app.session.pad.hand import HandLimits
+from app.session.pad.hand import Handle, HandLimits
 from app.session.pad.view import PadScene, depth_tolerance, rings
 from app.session.shown_views import Shown
 
@@ -51,6 +51,7 @@ class ExerciseRun:
         guidance: control scans as the exercise has them.
         shown: what may be told of the needle.
         demonstrates: whether a scripted expert shows the exercise: it is nobody's attempt.
+        touches: whether targets are to be touched with a tool whose handle the hand moves.
     """
 
     trainer: Trainer
@@ -72,6 +73,7 @@ class ExerciseRun:
     guidance: GuidancePart = field(default_factory=GuidancePart)
     shown: Shown = field(default_factory=Shown)
     demonstrates: bool = False
+    touches: bool = False
 
     @property
     def is_real(self) -> bool:
@@ -85,9 +87,9 @@ class ExerciseRun:
         """
         return self.is_real or not (self.interactive or self.demonstrates)
 
-    def scene(self) -> PadScene:
-        """Return the pad of this run."""
-        placed = self.placed
+    def scene(self, aim: PlacedPlan | None = None) -> PadScene:
+        """Return the pad of this run; `aim` is the path to the present one of several targets."""
+        placed = aim or self.placed
         shallowest, deepest = self.profile.depth_range
         return PadScene(
             frame=path_frame(placed.axis, placed.T_world_patient.rotation),
@@ -97,5 +99,6 @@ class ExerciseRun:
             p_entry=placed.p_entry,
             target_depth=placed.length,
             depth_tolerance=self.depth_tolerance,
-            stop_depth=min(placed.length + self.rings[-1], deepest),
+            stop_depth=min(placed.length + self.rings[-1], deepest) if aim is None else deepest,
+            handle=Handle(self.profile.needle_length) if self.touches else None,
         )

@@ -3,13 +3,14 @@
 from math import degrees
 from typing import Final
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer
 from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
 from app.core.units import MILLIMETRE
 from app.session.machine import State
 from app.session.snapshot import BreathHold, NextStep, NextSteps, Snapshot, StepKind
+from app.session.touching import TouchState
 from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
 from app.views.kit.text import tr
@@ -157,6 +158,8 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False) -> str:
         by_mouse: whether mouse or keys move the needle.
         tip: whether it is said where the tip goes, as the hand of mouse or keys does, not the hub.
     """
+    if step.touch is not None:
+        return touch_words(step, step.touch)
     mm = step.distance / MILLIMETRE
     inwards = tr(" (wheel away from you)") if by_mouse else ""
     outwards = tr(" (wheel towards you)") if by_mouse else ""
@@ -178,8 +181,38 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False) -> str:
         StepKind.DEEPER: tr("Push {mm} mm deeper{how}").format(mm=_amount(mm), how=inwards),
         StepKind.BACK: tr("Pull back {mm} mm{how}").format(mm=_amount(mm), how=outwards),
         StepKind.HOLD: tr("Hold still"),
+        StepKind.TOUCH: tr("Bring the tip to the target"),
+        StepKind.STAY: tr("Stay on the target"),
         StepKind.FINISH: tr("Press Enter: the tip is at the target"),
     }[step.kind]
+
+
+NEAR: Final = 1.5 * MILLIMETRE
+"""A way of the tip below this is not asked for on the way to a target [m]."""
+
+
+def touch_words(step: NextStep, touch: TouchState) -> str:
+    """Say how the tip comes to the target that is to be touched next: where it is to go, and the
+    hand the other way.
+    """
+    number, of = touch.number, len(touch.task)
+    if step.kind is StepKind.FINISH:
+        return tr("✔ All {n} targets are touched: press Enter", n=of)
+    if step.kind is StepKind.STAY:
+        return tr("Stay on target {n} of {of}", n=number, of=of)
+    said = []
+    if step.across >= NEAR:
+        sides = tr(" and ").join(side_word(letter) for letter in step.towards)
+        said.append(
+            tr("tip {mm} mm towards {sides} (hand the other way)").format(
+                mm=_amount(step.across / MILLIMETRE), sides=sides
+            )
+        )
+    if abs(step.distance) >= NEAR:
+        mm = _amount(abs(step.distance) / MILLIMETRE)
+        said.append(tr("push {mm} mm", mm=mm) if step.distance > 0.0 else tr("pull {mm} mm", mm=mm))
+    way = ", ".join(said) or tr("a little nearer")
+    return tr("Target {n} of {of}: {way}", n=number, of=of, way=way)
 
 
 def breath_words(breath: BreathHold, words: str, commands: bool) -> str:
@@ -203,6 +236,10 @@ def breath_words(breath: BreathHold, words: str, commands: bool) -> str:
     return tr("Have the breath held (A): {step}", step=words) if commands else words
 
 
+TOLD_MS: Final = 900
+"""So long the line says that a target was touched, in another colour, before it goes on [ms]."""
+
+
 class NextStepLine(QLabel):
     """The one line that always says the next step, over the views, to be read at arm's length."""
 
@@ -212,6 +249,9 @@ class NextStepLine(QLabel):
         self._run: ExerciseRun | None = None
         self._snapshot: Snapshot | None = None
         self._moves_hub = False
+        self._touched, self._told = 0, ""
+        self._tell = QTimer(self, interval=TOLD_MS, singleShot=True)
+        self._tell.timeout.connect(self._stop_telling)
         self._written = Unhurried(self._write, self)
         self.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.setTextFormat(Qt.TextFormat.PlainText)
@@ -223,7 +263,8 @@ class NextStepLine(QLabel):
     def begin(self, run: ExerciseRun | None) -> None:
         """Serve another run; None hides the line."""
         self._run, self._snapshot = run, None
-        self._steps = None
+        self._steps, self._touched = None, 0
+        self._stop_telling()
         if run is not None:
             self._steps = NextSteps(run.placed, run.rings[0], run.depth_tolerance)
         self.setVisible(run is not None)
@@ -232,6 +273,18 @@ class NextStepLine(QLabel):
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Say what comes after this moment."""
         self._snapshot = snapshot
+        touched = 0 if snapshot.touch is None else snapshot.touch.touched
+        if touched > self._touched and snapshot.touch is not None:
+            self._told = tr("✔ Target {n} of {of} touched", n=touched, of=len(snapshot.touch.task))
+            self._tell.start()
+            self.suit_room()
+        self._touched = touched
+        self._written.ask()
+
+    def _stop_telling(self) -> None:
+        self._told = ""
+        self._tell.stop()
+        self.suit_room()
         self._written.ask()
 
     def set_moves_hub(self, hub: bool) -> None:
@@ -241,7 +294,8 @@ class NextStepLine(QLabel):
 
     def suit_room(self) -> None:
         """Take another size of text or other colours."""
-        ground, ink = theme.now(theme.ACCENT), theme.now(theme.BACKGROUND)
+        ground = theme.now(theme.GOOD if self._told else theme.ACCENT)
+        ink = theme.now(theme.BACKGROUND)
         self.setStyleSheet(
             f"background: {ground}; color: {ink}; font-size: {theme.TITLE_PX}px; font-weight: 600;"
             f" padding: {theme.SPACING // 2}px;"
@@ -258,6 +312,7 @@ class NextStepLine(QLabel):
             words = tr("The demonstration begins")
         elif self._snapshot.breath is not None and step.kind is not StepKind.START:
             words = breath_words(self._snapshot.breath, words, not shows)
+        words = self._told or words
         if words != self.text():
             self.setText(words)
             self.setToolTip(words)

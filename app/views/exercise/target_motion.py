@@ -13,6 +13,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
 from app.session.snapshot import Snapshot
+from app.session.touching import TargetMarks
 from app.views.exercise.run import ExerciseRun
 from app.views.reading.workspace import WorkspacePage
 
@@ -32,20 +33,35 @@ class TargetMotion:
     def __init__(self, workspace: WorkspacePage) -> None:
         self._workspace = workspace
         self._drawn: FloatArray | None = None
+        self._marks: TargetMarks | None = None
 
     def show(self, run: ExerciseRun, snapshot: Snapshot) -> None:
-        """Draw the target of a moment."""
+        """Draw the target of a moment, and all of them where several are to be touched."""
+        marks = None if snapshot.touch is None or not run.shown.live else snapshot.touch.marks
+        if marks is None or not marks.same(self._marks):
+            self._mark(marks)
         if not run.shown.live or not (snapshot.p_target != run.placed.p_target).any():
-            self.hide()
+            self._place(None)
             return
         self._place(run.placed.T_world_patient.inverse() @ snapshot.p_target / MILLIMETRE)
 
     def hide(self) -> None:
         """Let the target stand where the plan has it."""
+        self._mark(None)
         self._place(None)
+
+    def _mark(self, marks: TargetMarks | None) -> None:
+        if marks is not self._marks:
+            before, self._marks = self._marks, marks
+            self._workspace.viewing.set_targets(marks)
+            self._workspace.scene.set_targets(marks)
+            if before is None:
+                self._workspace.scene.look_at_targets()
 
     def _place(self, target_mm: FloatArray | None) -> None:
         viewing, before = self._workspace.viewing, self._drawn
+        if viewing.target_now_mm is None and target_mm is not None:
+            before = None  # the plan was shown anew meanwhile, with its own target
         viewing.set_target_now(target_mm)
         if target_mm is None:
             again = before is not None

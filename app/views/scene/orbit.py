@@ -128,6 +128,14 @@ class Orbit:
         half = min(max(self.half_mm / factor, SMALLEST_MM), LARGEST_MM)
         return replace(self, half_mm=half)
 
+    def pixels(self, points_mm: ArrayLike, size_px: tuple[int, int]) -> FloatArray:
+        """Where points are seen, (n, 3) -> (n, 2) [px], right and down from the upper left."""
+        away = np.asarray(points_mm, dtype=np.float64) - self.focus_mm
+        mm, (width, height) = self.mm_per_px(size_px), size_px
+        return np.column_stack(
+            [width / 2 + away @ self.right / mm, height / 2 - away @ np.asarray(self.up) / mm]
+        )
+
     def ray(
         self, x_px: float, y_px: float, size_px: tuple[int, int]
     ) -> tuple[FloatArray, FloatArray]:

@@ -36,6 +36,7 @@ from app.planning.error_overlay import Enlargement
 from app.planning.needle_overlay import NeedleOverlay
 from app.planning.patient import Patient
 from app.planning.placement import Placement
+from app.session.touching import TargetMarks
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.text import tr
@@ -43,7 +44,7 @@ from app.views.scene.display import ORGAN_COLOURS, Display, Section, organ_title
 from app.views.scene.orbit import Orbit
 from app.views.scene.renderer import SceneFeed, SceneRenderer
 from app.views.scene.robot import RobotShape
-from app.views.scene.words import Entry, draw_compass, draw_words
+from app.views.scene.words import Entry, draw_compass, draw_targets, draw_words
 
 if TYPE_CHECKING:
     from app.imaging.structures.structure import Colour
@@ -60,6 +61,12 @@ DECLARATION: Final[dict[str, Any]] = {
 
 HOME_TURN_PX = (-50.0, 30.0)
 """From the front one first looks a little from the left and from above, for depth."""
+
+BESIDE_TURN_PX, TARGETS_MARGIN = (60.0, 30.0), 2.5
+"""Targets to be touched are looked at from the patient's right, turned so far, with such room."""
+
+BESIDE_LEGEND = 0.12
+"""Share of the width by which they stand right of the middle: the legend is at the left."""
 
 ZOOM_PER_PX, ZOOM_PER_NOTCH, NOTCH = 1.01, 1.15, 120
 
@@ -121,6 +128,7 @@ class SceneView(QWidget):
         self.display, self._before = Display(), list[Orbit]()
         self._needle: NeedleOverlay | None = None
         self._draft, self._cut = DraftPlan(), False
+        self._targets: TargetMarks | None = None
         self._R_world_patient = Placement().rotation
         self.commands = self._commands()
         self._button = QToolButton(self)
@@ -248,6 +256,22 @@ class SceneView(QWidget):
         self._draft = draft
         self._feed.change("plan", lambda stage: stage.set_plan(draft))
 
+    def set_targets(self, targets: TargetMarks | None) -> None:
+        """Show the numbers of targets that are touched one after the other; None shows none."""
+        if targets is not self._targets:
+            self._targets = targets
+            self.update()
+
+    def look_at_targets(self) -> None:
+        """Look at the targets from beside the way in, so that their depths are told apart."""
+        targets = self._targets
+        if targets is None:
+            return
+        middle = targets.points_mm.mean(axis=0)
+        beside = Orbit.from_side("R", middle, 1.0).turned(*BESIDE_TURN_PX)
+        fitted = beside.fitted(targets.points_mm, TARGETS_MARGIN)
+        self.view_from(fitted.panned(BESIDE_LEGEND * self.width(), 0.0, self._size()))
+
     def set_off(self, words: str) -> None:
         """Show nothing but these words, because the exercise does not show this view; empty ends
         that.
@@ -356,6 +380,9 @@ class SceneView(QWidget):
         if not self._feed.image.isNull():
             painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
             painter.drawImage(self.rect(), self._feed.image)
+        if self._targets is not None:
+            places = self.orbit.pixels(self._targets.points_mm, self._size())
+            draw_targets(painter, places, self._targets, display)
         draw_compass(painter, self.orbit, QPointF(50.0, self.height() - 50.0), display)
         error = self._feed.error and tr("3D view off: {why}", why=self._feed.error)
         scale, note = self._enlargement.scale, error or self.note

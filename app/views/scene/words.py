@@ -7,6 +7,7 @@ from PySide6.QtCore import QPointF, QRect, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPen
 
 from app.core.arrays import FloatArray
+from app.session.touching import TargetMarks
 from app.views.kit import theme
 from app.views.kit.text import tr
 from app.views.kit.themes import LIGHT
@@ -16,9 +17,47 @@ from app.views.scene.orbit import Orbit
 Entry = tuple[tuple[int, int, int], str]
 """Colour, and what has it."""
 
+PRESENT_PX, NUMBER_PX = 12.0, 9.0
+"""Radii of the number of the present target, and of another one."""
+
 LEFT, TOP, GAP = 8, 4, 2
 COMPASS_PX = 100
 """Height of the compass at the bottom left, which nothing is written over."""
+
+
+def draw_targets(
+    painter: QPainter, places: FloatArray, targets: TargetMarks, display: Display
+) -> None:
+    """Draw the targets' numbers: on a disc the present one, in rings those ahead, else a tick.
+
+    Args:
+        painter: of the pane.
+        places: of the targets in it [px], shape (n, 2).
+        targets: how they stand.
+        display: on which background.
+    """
+    painter.save()
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    order = sorted(range(1, len(places) + 1), key=lambda number: number == targets.present)
+    for number in order:  # the present one lies over the others
+        at = QPointF(*places[number - 1].tolist())
+        was = number <= targets.touched
+        present = number == targets.present and not was
+        radius = PRESENT_PX if present else NUMBER_PX
+        mark = theme.TARGET_TOUCHED if was else theme.TARGET if present else theme.TARGET_AHEAD
+        colour = QColor(display.colour(mark.colour))
+        ground = QColor(display.background)
+        painter.setPen(QPen(colour, 2.5 if present else 1.6))
+        painter.setBrush(colour if present else ground)
+        painter.drawEllipse(at, radius, radius)
+        font = QFont(painter.font())
+        font.setPixelSize(round(1.3 * radius))
+        font.setBold(True)
+        painter.setFont(font)
+        painter.setPen(ground if present else colour)
+        box = QRectF(at.x() - 2 * radius, at.y() - radius, 4 * radius, 2 * radius)
+        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, "✔" if was else str(number))
+    painter.restore()
 
 
 def draw_words(

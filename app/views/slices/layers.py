@@ -12,6 +12,7 @@ from typing import Protocol
 import numpy as np
 from PySide6.QtCore import QPointF, QRect, QRectF
 
+from app.exercises.touching import MOST_TARGETS
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
 from app.views.kit import theme
@@ -99,12 +100,23 @@ class PlanLayer:
         plane: SlicePlane,
         index: float,
         with_error: bool = False,
+        number: int = 0,
     ) -> None:
-        """Show what the draft has; `with_error` says what the ellipse round the target is."""
+        """Show what the draft has.
+
+        Args:
+            draft: entry and target.
+            plane: of the pane.
+            index: of the slice.
+            with_error: say what the ellipse round the target is.
+            number: of the target, among several; 0 where there is one only.
+        """
         entry = None if draft.entry_mm is None else plane.point(draft.entry_mm, index)
         target = None if draft.target_mm is None else plane.point(draft.target_mm, index)
         place_mark(self.entry, entry, tr("Entry"), plane)
         name = tr("Target, TRE 95 %") if with_error else tr("Target")
+        if number:
+            name = tr("Target {n}", n=number)
         place_mark(self.target, target, name, plane)
         if entry is None or target is None:
             self._path.hide()
@@ -116,6 +128,49 @@ class PlanLayer:
         self._path.hide()
         self.entry.setVisible(False)
         self.target.setVisible(False)
+
+
+class TargetsLayer:
+    """Targets that are touched one after the other, where they lie in the slice.
+
+    The present one is the plan's target, which `PlanLayer` draws; touched ones are ticked.
+
+    Attributes:
+        marks: of those ahead, then of those that were touched, one each for each target.
+    """
+
+    def __init__(self, drawing: Drawing, viewing: Viewing) -> None:
+        self._viewing = viewing
+        self._ahead = [MarkItem(theme.TARGET_AHEAD, 4, optional=True) for _ in range(MOST_TARGETS)]
+        self._touched = [
+            MarkItem(theme.TARGET_TOUCHED, 4, optional=True) for _ in range(MOST_TARGETS)
+        ]
+        self.marks = (*self._ahead, *self._touched)
+        for item in self.marks:
+            item.setVisible(False)
+            drawing.add(item)
+
+    def place(self, plane: SlicePlane, index: float) -> None:
+        """Show those within their own radius of the slice."""
+        self.hide()
+        targets = self._viewing.targets
+        if targets is None:
+            return
+        radius = max(self._viewing.tolerances_mm, default=0.0)
+        for number, point in enumerate(targets.points_mm[:MOST_TARGETS], start=1):
+            was = number <= targets.touched
+            at = plane.point(point, index)
+            ahead = not was and number != targets.present
+            if (was or ahead) and abs(at.distance) <= plane.half_slab_mm + radius:
+                item = (self._touched if was else self._ahead)[number - 1]
+                name = f"✔ {number}" if was else str(number)
+                item.place(at.x, at.y, partial(str, name), True)
+                item.setVisible(True)
+
+    def hide(self) -> None:
+        """Show nothing."""
+        for item in self.marks:
+            item.setVisible(False)
 
 
 class NeedleLayer:
@@ -250,7 +305,8 @@ def _words(name: str, distance: float, near: bool, plane: SlicePlane) -> str:
     if near:
         return name
     side = plane.towards(distance)
-    return f"{name} {tr('{distance:.0f} mm {side}', distance=abs(distance), side=side)}".strip()
+    away = tr("{distance:.0f} mm {side}", distance=abs(distance), side=side)
+    return f"{name}{': ' if name[-1:].isdigit() else ' '}{away}".strip()
 
 
 class Due(IntEnum):
@@ -303,7 +359,7 @@ class LayerStack:
     """Owns the layers of one canvas, and what others add.
 
     Attributes:
-        crosshair, plan, needle, errors, disc: its own layers.
+        crosshair, plan, targets, needle, errors, disc: its own layers.
         ticks: the line ahead of the tip; None in panes that are not the needle's.
         traces: the needle's planes; None in the needle's own panes.
         traced: panes whose traces are shown.
@@ -313,11 +369,13 @@ class LayerStack:
         self._viewing, self._pane = viewing, pane
         self.crosshair = CrosshairLayer(drawing, viewing, pane)
         self.plan, self.needle = PlanLayer(drawing), NeedleLayer(drawing)
+        self.targets = TargetsLayer(drawing, viewing)
         self.errors = ErrorLayer(drawing)
         self.disc = TargetDisc(drawing, viewing)
         self.ticks = TickLayer(drawing, viewing) if pane.is_needle else None
         self.traces = None if pane.is_needle else NeedleTraces(drawing, viewing)
-        self._labels = Labels((self.plan.target, self.plan.entry, self.needle.tip))
+        named = (self.plan.target, self.plan.entry, self.needle.tip, *self.targets.marks)
+        self._labels = Labels(named)
         self._added: list[Layer] = []
         self._names: list[Names] = []
         own = self.crosshair.traced
@@ -340,6 +398,7 @@ class LayerStack:
         """Show nothing."""
         self.crosshair.hide()
         self.plan.hide()
+        self.targets.hide()
         self.needle.hide()
         self.errors.hide()
         self.disc.hide()
@@ -377,7 +436,9 @@ class LayerStack:
     def _place_plan(self, plane: SlicePlane, index: float, scale: float) -> None:
         viewing = self._viewing
         error = viewing.target_error if viewing.shows_errors else None
-        self.plan.place(viewing.shown_draft, plane, index, error is not None)
+        number = 0 if viewing.targets is None else viewing.targets.present
+        self.plan.place(viewing.shown_draft, plane, index, error is not None, number)
+        self.targets.place(plane, index)
         self.errors.place_target(error, plane, index)
         self.disc.place(plane, index, scale)
 

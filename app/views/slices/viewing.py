@@ -21,6 +21,7 @@ from app.imaging.window import PRESETS, WindowLevel, presets
 from app.planning.draft import DraftPlan
 from app.planning.error_overlay import ErrorOverlay
 from app.planning.needle_overlay import NeedleOverlay
+from app.session.touching import TargetMarks
 from app.views.slices.bindings import OHIF, Scheme
 from app.views.slices.panes import MPR_PANES, PaneId
 from app.views.slices.pictures import PictureMaker
@@ -193,6 +194,7 @@ class Viewing(QObject):
         self.tool = Tool.NAVIGATE
         self.draft = DraftPlan()
         self.target_now_mm: FloatArray | None = None
+        self.targets: TargetMarks | None = None
         self.tolerances_mm: tuple[float, ...] = ()
         self.needle: NeedleOverlay | None = None
         self.target_error: ErrorOverlay | None = None
@@ -227,6 +229,7 @@ class Viewing(QObject):
         """Show nothing: its patient leaves."""
         self.volume = self.slicer = self.needle = self._next_needle = None
         self._planes, self.draft, self.target_now_mm = Planes(), DraftPlan(), None
+        self.targets = None
         self.volume_changed.emit()
 
     def set_cursor(self, lps_mm: ArrayLike) -> None:
@@ -335,6 +338,12 @@ class Viewing(QObject):
             changed = bool(np.abs(target_mm - before).max() > TARGET_DEAD_BAND_MM)
             self.target_now_mm = target_mm if changed else before
         if changed:
+            self.plan_changed.emit()
+
+    def set_targets(self, targets: TargetMarks | None) -> None:
+        """Show targets that are touched one after the other, and how many were; None shows none."""
+        before, self.targets = self.targets, targets
+        if before is not targets and not (before is not None and before.same(targets)):
             self.plan_changed.emit()
 
     @property

@@ -68,6 +68,7 @@ class CueKind(StrEnum):
     SCAN = "scan"
     BREACH = "breach"
     BREATH_RESTS = "breath_rests"
+    TOUCHED = "touched"
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,6 +124,8 @@ class Cues:
         return (*self._needle(snapshot), *breath)
 
     def _needle(self, snapshot: Snapshot) -> tuple[Cue, ...]:
+        if snapshot.touch is not None:  # no path is to be kept to, and a touch is an event
+            return ()
         offset, depth = snapshot.offset, snapshot.pose.depth
         share = min(max(1.0 - offset.remaining / self._length, 0.0), 1.0)
         kinds = []
@@ -176,7 +179,11 @@ VOLUMES: Final = {"quiet": 0.15, "medium": 0.4, "loud": 1.0}
 KEY_ON, KEY_VOLUME = "sounds/on", "sounds/volume"
 
 _WARNS: Final = frozenset({CueKind.OFF_PATH, CueKind.TOO_DEEP, CueKind.BREACH})
-_OF_EVENTS: Final = {"scan": CueKind.SCAN, "breach": CueKind.BREACH}
+_OF_EVENTS: Final = {
+    "scan": CueKind.SCAN,
+    "breach": CueKind.BREACH,
+    "touch": CueKind.TOUCHED,
+}
 
 
 def samples(cue: Cue) -> NDArray[np.int16]:
@@ -194,6 +201,7 @@ def _samples(kind: CueKind, step: int) -> NDArray[np.int16]:
         CueKind.ON_PATH: ((523.0, 0.09),),
         CueKind.SCAN: ((1760.0, 0.03), (0.0, 0.05), (1760.0, 0.03)),
         CueKind.BREACH: ((165.0, 0.13), (0.0, 0.05), (165.0, 0.13), (0.0, 0.05), (165.0, 0.2)),
+        CueKind.TOUCHED: ((784.0, 0.08), (1175.0, 0.18)),
         CueKind.BREATH_RESTS: ((349.0, 0.18), (294.0, 0.3)),
     }[kind]
     whole = np.concatenate([_tone(pitch, seconds) for pitch, seconds in parts])
@@ -264,6 +272,7 @@ def words(cue: Cue) -> str:
         CueKind.SCAN: tr("control scan"),
         CueKind.BREACH: tr("near a structure"),
         CueKind.BREATH_RESTS: tr("the breath rests"),
+        CueKind.TOUCHED: tr("target touched"),
     }[cue.kind]
 
 

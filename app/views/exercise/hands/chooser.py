@@ -32,8 +32,13 @@ def source_title(name: str) -> str:
     }.get(name, name)
 
 
-def source_help(name: str) -> str:
-    """Say in one line how a source moves the hand."""
+def source_help(name: str, handle: bool = False) -> str:
+    """Say in one line how a source moves the hand; `handle`: of a long tool, held by its handle."""
+    if handle and name == "mouse":
+        return tr(
+            "Drag or arrows: move the handle, and the tip goes the other way  ·  wheel away from "
+            "you, Page Down, right button: push; hold: go on  ·  Shift: finer"
+        )
     return {
         "mouse": tr(
             "Drag or arrows: tilt  ·  wheel away from you, Page Down, right button: push; "
@@ -82,6 +87,7 @@ class HandChooser(QWidget):
         self._source: HandSource | None = None
         self._interactive = self._depth_only = self._busy = self._compact = False
         self._why, self._own = "", ("mouse", "normal")
+        self._turn_why, self._own_turn = "", False
         self._note = ""
         self.box, self.gain, self._help = _source_box(), _gain_box(), QLabel(self)
         self.sense = _sense_box()
@@ -159,6 +165,26 @@ class HandChooser(QWidget):
             self._take(name)
             self._enable()
 
+    def fix_sense(self, hub: bool, why: str) -> None:
+        """Let the hub go where the hand goes, or the tip, because of `why`, until it is released.
+
+        The hub is then the handle of a long tool, and the help says so.
+        """
+        if not self._turn_why:
+            self._own_turn = self.moves_hub
+        self._turn_why = why
+        self.set_moves_hub(hub)
+        self._enable()
+        self._show_note(self._note)
+
+    def release_sense(self) -> None:
+        """Leave it to the user again, as it was; idempotent."""
+        if self._turn_why:
+            self._turn_why = ""
+            self.set_moves_hub(self._own_turn)
+            self._enable()
+            self._show_note(self._note)
+
     def _take(self, name: str) -> None:
         with QSignalBlocker(self.box):
             self.box.setCurrentIndex(max(0, self.box.findData(name)))
@@ -205,7 +231,8 @@ class HandChooser(QWidget):
     def _enable(self) -> None:
         usable = self._interactive and not self._depth_only and not self._why
         self.gain.setEnabled(usable)
-        self.sense.setEnabled(self._interactive and not self._depth_only)
+        self.sense.setEnabled(self._interactive and not self._depth_only and not self._turn_why)
+        self.sense.setVisible(not self._turn_why)  # the help says it: the others have its room
         self.box.setEnabled(usable and not self._busy)
         self.gain.setToolTip(self._why or gain_help())
         self.box.setToolTip(self._why or self._words())
@@ -265,7 +292,9 @@ class HandChooser(QWidget):
         self.box.setToolTip(self._why or self._words())
 
     def _words(self) -> str:
-        return depth_help() if self._depth_only else source_help(self.name)
+        if self._depth_only:
+            return depth_help()
+        return source_help(self.name, bool(self._turn_why))
 
 
 def _source_box() -> QComboBox:
@@ -277,17 +306,20 @@ def _source_box() -> QComboBox:
     return box
 
 
+def sense_help() -> str:
+    """Say what the choice of the end that is moved means."""
+    return tr(
+        "Which end goes where mouse, keys or stick go, as the bull's-eye shows it. The tip: to "
+        "the right is to the right. The hub: as the real needle turns about the skin, hub to "
+        "the right brings the tip to the left."
+    )
+
+
 def _sense_box() -> QComboBox:
     box = QComboBox()
     box.addItem(tr("moves the tip"), False)
     box.addItem(tr("moves the hub"), True)
-    box.setToolTip(
-        tr(
-            "Which end goes where mouse, keys or stick go, as the bull's-eye shows it. The tip: to "
-            "the right is to the right. The hub: as the real needle turns about the skin, hub to "
-            "the right brings the tip to the left."
-        )
-    )
+    box.setToolTip(sense_help())
     box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
     box.setAccessibleName(tr("The hand moves"))
     return box
