@@ -226,6 +226,10 @@ class SceneFeed(QObject):
         self.orbit, self._turned_at = orbit, monotonic()
         self._pending = True
 
+    def stir(self) -> None:
+        """Draw coarsely for a while: something moves that is to be seen moving."""
+        self._turned_at = monotonic()
+
     def refresh(self) -> None:
         """Ask for another picture, as after a change of the size."""
         self._pending = True

@@ -39,6 +39,7 @@ from app.planning.placement import Placement
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.text import tr
+from app.views.scene.arm import ArmShape
 from app.views.scene.display import ORGAN_COLOURS, Display, Section, organ_title
 from app.views.scene.orbit import Orbit
 from app.views.scene.renderer import SceneFeed, SceneRenderer
@@ -281,6 +282,17 @@ class SceneView(QWidget):
         if self._robot is None or np.abs(points[:2] - self._robot[:2]).max() > STANDS_MM:
             self._robot = points
             self._fit_home()
+
+    def set_arm(self, arm: ArmShape | None) -> None:
+        """Show the simulated arm at a moment, drawn coarsely while it moves; None shows none."""
+        self._feed.change("arm", lambda stage: stage.set_arm(arm))
+        if arm is not None:
+            self._feed.stir()
+
+    def look_at(self, points_mm: FloatArray) -> None:
+        """Look as the operator does at points (n, 3), and know the way back."""
+        eye = Orbit.from_operator(self._R_world_patient, points_mm.mean(axis=0), 1.0)
+        self.view_from(eye.fitted(points_mm))
 
     def _fit_home(self) -> None:
         """Let the home view show patient and robot whole; go there, unless one looks elsewhere."""
