@@ -46,6 +46,9 @@ STILL_S: Final = 2.5
 PATIENCE_S: Final = 8.0
 """An attempt that does not come to be held still ends after this long at the target [s]."""
 
+AFTER_S: Final = 2.0
+"""So long the word is waited for that an attempt is over which has stopped running [s]."""
+
 SCANS_AT: Final = (0.45, 1.0)
 """Where control scans guide, one is taken at these shares of the way in."""
 
@@ -123,6 +126,7 @@ class ArmPlay(QObject):
         self._scans = 0
         self._shape: ArmShape | None = None
         self._before: Orbit | None = None
+        self._why, self._looks = "", False
         self._timer = QTimer(self, interval=PERIOD_MS)
         self._timer.timeout.connect(self.tick)
         self._links = [
@@ -197,9 +201,7 @@ class ArmPlay(QObject):
         if self.act in (Act.OVER, Act.STOPPING, Act.TAKEN):
             return
         if self._runs():
-            self.act = Act.STOPPING
-            self._timer.stop()
-            self._why = why
+            self.act, self._why, self._waited = Act.STOPPING, why, 0.0
             self._controller.abort(quietly=True)  # `demonstrated` follows
             self.changed.emit()
         else:
@@ -219,6 +221,11 @@ class ArmPlay(QObject):
             if run is not None and run.interactive and not (run.is_real or run.demonstrates):
                 self._fetch(run)
             self.changed.emit()
+            return
+        if self.act is Act.STOPPING:
+            self._waited += 0.0 if self._controller.is_running else passed
+            if self._waited >= AFTER_S:  # nobody has told of its end
+                self._end(self._why)
             return
         why = self._why_gone(run)
         if run is None or why:
@@ -245,9 +252,11 @@ class ArmPlay(QObject):
         self.act, self._trainer = Act.FETCHING, run.trainer
         self._controller.lead("arm", is_absent=True)
         self._conductor.show_scene_alone(True)
-        self._before = self._scene.orbit
+        self._before = None if self._scene.is_home else self._scene.orbit
+        self._looks = True
         shapes = [self._shape_at(t) for t in np.linspace(0.0, self._begins, 5)]
-        self._scene.look_at(np.vstack([shape.points_mm for shape in shapes]))
+        points = np.vstack([shape.points_mm for shape in shapes])
+        self._scene.look_at(np.vstack([points, self._scene.body_mm]))
         self._draw(self._clock())
 
     def _bring(self, run: ExerciseRun, snapshot: Snapshot, passed: float) -> None:
@@ -332,14 +341,15 @@ class ArmPlay(QObject):
     def _show_nothing(self) -> None:
         """Take the arm out of the picture, and look from where one looked before."""
         self._scene.set_arm(None)
-        if self._before is not None:
-            self._scene.set_orbit(self._before)
-            self._before = None
+        if self._looks:
+            self._looks = False
+            if self._before is None:
+                self._scene.view_home()
+            else:
+                self._scene.set_orbit(self._before)
         self._conductor.show_arm(None)
 
     # --- the end ------------------------------------------------------------------------------
-    _why = ""
-
     def _runs(self) -> bool:
         began = self.act in (Act.INSERTING, Act.HOLDING)
         return began and self._controller.is_running

@@ -289,6 +289,11 @@ class SceneView(QWidget):
         if arm is not None:
             self._feed.stir()
 
+    @property
+    def body_mm(self) -> FloatArray:
+        """Corners of the patient's box, shape (8, 3)."""
+        return self._body
+
     def look_at(self, points_mm: FloatArray) -> None:
         """Look as the operator does at points (n, 3), and know the way back."""
         eye = Orbit.from_operator(self._R_world_patient, points_mm.mean(axis=0), 1.0)
@@ -309,6 +314,15 @@ class SceneView(QWidget):
     def set_orbit(self, orbit: Orbit) -> None:
         """Look from somewhere else."""
         self._feed.turn(orbit)
+
+    @property
+    def is_home(self) -> bool:
+        """Whether one sees the whole patient as at first; that view goes with what there is."""
+        return self.orbit is self._home
+
+    def view_home(self) -> None:
+        """Look at the whole patient as at first."""
+        self.set_orbit(self._home)
 
     def view_from(self, orbit: Orbit) -> None:
         """Look from somewhere else, and know the way back."""
