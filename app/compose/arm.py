@@ -1,4 +1,4 @@
-"""The arm's scene and the eyes joined: a tool found by pictures alone, fetched and brought.
+"""The arm's scene and the eyes joined: a tool found by pictures alone, fetched and inserted.
 
 `simulation.arm` says where things are and moves them, `tracking.tool` looks; neither knows the
 other. What the pictures show is drawn by `tracking.simulated.tool` from the scene's poses, before
@@ -8,6 +8,7 @@ the arm has come near: the arm itself is not in them. Simulation only: nothing d
 from __future__ import annotations
 
 import json
+import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,22 +16,30 @@ from typing import Final
 
 import numpy as np
 
-from app.core.arrays import FloatArray, angle_between
+from app.core.arrays import FloatArray, angle_between, frozen
 from app.core.files import write_atomically
 from app.core.progress import Progress
+from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
-from app.core.units import MILLIMETRE
+from app.core.units import DEGREE, MILLIMETRE
+from app.mechanisms.laparoscopy import FLATTEST
+from app.planning.arm.pick_place import PhaseName
 from app.planning.placement import PlacedPlan
 from app.simulation.arm import (
     ArmPerformance,
     ArmScene,
+    ArmSceneState,
+    ArmTimeline,
     CarryError,
     CarryFailure,
     CarryPhase,
+    Insertion,
     RunningScene,
     SeenTool,
     ToolBody,
     carry,
+    could_carry,
+    plan,
 )
 from app.simulation.errors import SimulationError
 from app.tracking.cameras.camera import Image
@@ -38,7 +47,7 @@ from app.tracking.cameras.survey import write_pictures
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.simulated.background import HousingBox
 from app.tracking.simulated.picture_effects import NoiseTile, noise
-from app.tracking.simulated.tool import ToolProfile, ToolRenderer, ToolScene, TrocarPlace, eyes
+from app.tracking.simulated.tool import ToolRenderer, ToolScene, eyes, tool_outline
 from app.tracking.tool.blob import ToolMiss
 from app.tracking.tool.eyes import Pair, ToolEyes
 from app.tracking.tool.pose import ToolStatus
@@ -55,6 +64,26 @@ SURE: Final = 2.0 * MILLIMETRE
 _DISTANCE: Final = 0.9  # of the cameras from the middle of the table [m]: the tray is in both
 _STANDS: Final = ((-0.62, -0.55, 0.56), (0.25, -0.15, 0.95))
 """One to the left, one above: two that stand in line with a tool see it in one plane."""
+
+
+DEEPEST: Final = 0.120
+"""Depth to which the tool of the scene reaches [m]: a longer one is not whole in both pictures."""
+
+PHASES: Final = tuple(name.value for name in PhaseName)
+
+_DOING: Final = {
+    PhaseName.APPROACH: "the arm comes to the tool",
+    PhaseName.GRASP: "the hand closes on the tool",
+    PhaseName.LIFT: "the arm lifts the tool",
+    PhaseName.TRANSFER: "the arm brings the tool to the entry",
+    PhaseName.ALIGN: "the tool is set upright over the entry",
+    PhaseName.PIVOT: "the tool is turned into the path's direction",
+    PhaseName.INSERT: "the tool is inserted",
+}
+_ELSEWHERE: Final = (CarryFailure.UNREACHABLE, CarryFailure.COLLIDES, CarryFailure.NO_WAY)
+_BETWEEN: Final = (0.05, 0.1, 0.15)  # what pictures for people look at [m]
+_TURNS_DEG: Final = (45.0, -45.0, 90.0, -90.0, 135.0, -135.0, 180.0)
+_REST: Final = 0.5  # after the insertion [s]
 
 
 def cameras() -> tuple[CameraModel, CameraModel]:
@@ -79,25 +108,37 @@ class ArmSight:
     errors: dict[str, float]
 
 
-@dataclass(frozen=True, slots=True)
-class ArmDemonstration:
-    """What a demonstration came to.
+@dataclass(frozen=True, slots=True, eq=False)
+class ArmTrial:
+    """What a trial came to.
 
     Attributes:
         seed: of the scene and of the pictures' noise.
+        axis: wanted direction of the shaft, handle to tip, shape (3,).
+        depth: wanted of the tip [m].
         looked: errors of what the pictures say.
         phases: those that were done.
-        failure: the cause why not all were; None if the tool is over the trocar.
+        failure: the cause why not all were; None if the tool is inserted.
         message: the same in words.
-        real_time: simulated seconds per second of computing.
+        simulated: how long it took, in the simulation [s].
+        planning, physics: processor's time of planner and simulation [s].
     """
 
     seed: int
+    axis: FloatArray
+    depth: float
     looked: Mapping[str, float]
     phases: tuple[CarryPhase, ...]
     failure: CarryFailure | None
     message: str
-    real_time: float
+    simulated: float
+    planning: float
+    physics: float
+
+    @property
+    def real_time(self) -> float:
+        """Simulated seconds per second of computing; 0 before the first step."""
+        return self.simulated / self.physics if self.physics > 0.0 else 0.0
 
     def as_json(self) -> str:
         """Return the report."""
@@ -105,6 +146,11 @@ class ArmDemonstration:
             {
                 "note": SIMULATION_ONLY,
                 "seed": self.seed,
+                "wanted": {
+                    "tilt_deg": float(np.degrees(angle_between(self.axis, [0.0, 0.0, -1.0]))),
+                    "axis": self.axis.tolist(),
+                    "depth_mm": self.depth / MILLIMETRE,
+                },
                 "phases": [
                     {"name": "look", "time_s": 0.0, "errors": dict(self.looked)},
                     *(
@@ -114,48 +160,35 @@ class ArmDemonstration:
                 ],
                 "failure": self.failure,
                 "message": self.message,
+                "simulated_s": self.simulated,
+                "planning_s": self.planning,
                 "simulated_seconds_per_second": self.real_time,
             },
             indent=2,
         )
 
 
-def tool_body(profile: ToolProfile) -> ToolBody:
-    """Return the tool of the pictures as the scene has it."""
-    return ToolBody(
-        length=profile.length_mm * MILLIMETRE,
-        shaft_diameter=profile.shaft_diameter_mm * MILLIMETRE,
-        point_length=profile.point_length_mm * MILLIMETRE,
-        handle_length=profile.handle_length_mm * MILLIMETRE,
-        handle_diameter=profile.handle_diameter_mm * MILLIMETRE,
-    )
-
-
 def pictures(
     scene: ArmScene,
     T_world_tool: RigidTransform,
     models: tuple[CameraModel, CameraModel],
-    profile: ToolProfile,
     seed: int,
 ) -> Pair:
     """Return what both cameras see of the table, with noise.
 
     Args:
-        scene: table, trocar.
+        scene: table, trocar, measures of the tool.
         T_world_tool: where the tool is.
         models: the cameras.
-        profile: measures and colour of the tool.
         seed: of the noise.
     """
-    ring = scene.trocar
-    trocar = TrocarPlace(ring.p_world, ring.normal_world, ring.inner, ring.outer)
     table = tuple(HousingBox(box.low, box.high, box.colour) for box in scene.boxes)
     tip = T_world_tool @ [0.0, 0.0, scene.tool.length]
     seen = ToolScene(tip, T_world_tool.rotate([0.0, 0.0, 1.0]))
     rng = np.random.default_rng(seed)
     first, second = (
         noise(
-            ToolRenderer(model, profile, trocar, table=table).render(seen),
+            ToolRenderer(model, scene.tool, scene.trocar, table=table).render(seen),
             NoiseTile.make(model.image_size, NOISE, 2 * seed + k),
             rng,
         )
@@ -219,50 +252,180 @@ def look(
     return ArmSight(tool, ring.p_world, ring.normal_world, errors)
 
 
-def demonstrate(
-    seed: int, folder: Path | None = None, tell: Callable[[str], None] = lambda _: None
-) -> ArmDemonstration:
-    """Find tool and trocar by pictures only, then approach, grasp, lift and bring.
+class Take:
+    """The arm inserting a tool in its scene by pictures alone: what is known and done of it so far.
 
     Args:
-        seed: of the scene and of the noise.
+        scene: what stands there.
+        axis: wanted direction of the shaft, handle to tip, shape (3,).
+        depth: wanted of the tip beyond the trocar's centre [m].
+        seed: of the pictures' noise.
+        progress: told how far it is; may cancel.
+    """
+
+    def __init__(
+        self,
+        scene: ArmScene,
+        axis: FloatArray,
+        depth: float,
+        seed: int,
+        progress: Progress | None = None,
+    ) -> None:
+        self.scene, self.axis, self.depth, self.seed = scene, axis, depth, seed
+        self.looked: Mapping[str, float] = {}
+        self.pair: Pair | None = None
+        self.phases: list[CarryPhase] = []
+        self.planning = self.physics = self.simulated = 0.0
+        self._progress = progress or Progress()
+        self._running = RunningScene(scene, self._watch)
+        self._states: list[tuple[ArmSceneState, bool, int]] = []
+        self._lasts = 1.0
+
+    def run(self, shown: Callable[[RunningScene, str], None] = lambda *_: None) -> None:
+        """Look, plan and carry out.
+
+        Args:
+            shown: called with the scene and a name once the eyes have looked (`look`) and after
+                each phase.
+
+        Raises:
+            CarryError: if it cannot be done; names the cause.
+            SimulationError, PlannerMissingError: if a package is missing; names the extra.
+            Cancelled: when the progress says so.
+        """
+        report, check = self._progress.report, self._progress.check
+        report(0.0, "the scene of the arm is made")
+        with self._running as running:
+            try:
+                report(0.05, "the eyes look for tool and entry")
+                sight = self._look(running.state.T_world_tool)
+                shown(running, "look")
+                report(0.1, "the arm's way is planned")
+                wanted = Insertion(sight.tool, sight.fulcrum, sight.normal, self.axis, self.depth)
+                begin = time.thread_time()
+                try:
+                    planned = plan(self.scene, wanted, check=check)
+                finally:
+                    self.planning = time.thread_time() - begin
+                self._lasts = planned.duration + len(PHASES)
+                for phase in carry(running, wanted, planned):
+                    self.phases.append(phase)
+                    shown(running, phase.name)
+                running.stay(_REST)
+            finally:
+                self.simulated, self.physics = running.state.time, running.busy
+
+    def trial(self, error: CarryError | None = None) -> ArmTrial:
+        """Return what it came to; `error` as `run` raised it."""
+        return ArmTrial(
+            self.seed,
+            self.axis,
+            self.depth,
+            self.looked,
+            tuple(self.phases),
+            None if error is None else error.failure,
+            "" if error is None else str(error),
+            self.simulated,
+            self.planning,
+            self.physics,
+        )
+
+    def performance(self, T_scene_world: RigidTransform) -> ArmPerformance:
+        """Return it to be looked at; `T_scene_world` is the bench's world in the scene's."""
+        states, held, phase = zip(*self._states, strict=True)
+        timeline = ArmTimeline(
+            np.array([one.time for one in states]),
+            np.array([one.q for one in states]),
+            np.array([one.fingers for one in states]),
+            np.array([one.T_world_tool.translation for one in states]),
+            np.array([one.T_world_tool.rotation for one in states]),
+            np.array(held),
+            np.array(phase),
+            PHASES,
+        )
+        return ArmPerformance(
+            self.scene, timeline, T_scene_world, self.looked, tuple(self.phases), self.seed
+        )
+
+    def _look(self, lies: RigidTransform) -> ArmSight:
+        models = cameras()
+        outline = tool_outline(self.scene.tool)
+        watching = ToolEyes(models=models, outline=outline, noise_grey=NOISE)
+        self.pair = pictures(self.scene, lies, models, self.seed)
+        sight = look(self.scene, lies, self.pair, watching)
+        self.looked = sight.errors
+        return sight
+
+    def _watch(self, state: ArmSceneState) -> None:
+        now = min(len(self.phases), len(PHASES) - 1)
+        self._states.append((state, self._running.holding, now))
+        share = 0.3 + 0.7 * min(state.time / self._lasts, 1.0) if state.time > 0.0 else 0.0
+        self._progress.report(share, _DOING[PhaseName(PHASES[now])])
+
+
+def aimed(seed: int) -> tuple[FloatArray, float]:
+    """Return a direction within 25° of straight down, shape (3,), and a depth [m], for a seed."""
+    rng = np.random.default_rng((seed, 1))
+    tilt, azimuth = rng.uniform(0.0, 25.0) * DEGREE, rng.uniform(0.0, 2.0 * np.pi)
+    across = np.sin(tilt) * np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
+    axis = across - [0.0, 0.0, np.cos(tilt)]
+    return frozen(axis), float(rng.uniform(0.040, DEEPEST))
+
+
+def trial(seed: int, progress: Progress | None = None) -> ArmTrial:
+    """Let the arm insert a tool in a scene that a seed lays, along a direction that it chooses.
+
+    Raises:
+        SimulationError, PlannerMissingError: if a package is missing; names the extra.
+        Cancelled: when the progress says so.
+    """
+    take = _take(seed, progress)
+    try:
+        take.run()
+    except CarryError as error:
+        return take.trial(error)
+    return take.trial()
+
+
+def _take(seed: int, progress: Progress | None = None) -> Take:
+    axis, depth = aimed(seed)
+    scene = ArmScene.seeded(seed, ToolBody().reaching(depth), axis)
+    return Take(scene, axis, depth, seed, progress)
+
+
+def demonstrate(
+    seed: int, folder: Path | None = None, tell: Callable[[str], None] = lambda _: None
+) -> ArmTrial:
+    """Do a trial and show it.
+
+    Args:
+        seed: of the scene, of what is wanted and of the noise.
         folder: for the pictures (both cameras', and one after each phase) and `report.json`.
         tell: is told each phase and how exact it was.
 
     Raises:
-        SimulationError: if MuJoCo is not installed; names the extra.
+        SimulationError, PlannerMissingError: if a package is missing; names the extra.
         CameraError: if a picture cannot be written.
     """
-    profile = ToolProfile()
-    models = cameras()
-    watching = ToolEyes(models=models, outline=profile.outline, noise_grey=NOISE)
-    scene = ArmScene.seeded(seed, tool_body(profile))
-    shown: dict[str, Image] = {}
-    phases: list[CarryPhase] = []
-    looked: Mapping[str, float] = {}
-    failure, message = None, ""
-    with RunningScene(scene) as running:
-        lying = running.state.T_world_tool
-        pair = pictures(scene, lying, models, profile, seed)
-        shown |= {"0-look-left": pair[0], "0-look-right": pair[1]}
-        drawn = folder is not None and _draws(running, tell)
-        try:
-            sight = look(scene, lying, pair, watching)
-            looked = sight.errors
-            tell(f"look: {_in_words(looked)}")
-            for phase in carry(running, sight.tool, sight.fulcrum, sight.normal):
-                phases.append(phase)
-                tell(f"{phase.name}: {_in_words(phase.errors)}")
-                if drawn:
-                    shown[f"{len(phases)}-{phase.name}"] = running.picture()
-        except CarryError as error:
-            failure, message = error.failure, str(error)
-            if drawn:
-                shown[f"{len(phases) + 1}-{failure}"] = running.picture()
-        speed = running.real_time
-    tell(f"the simulation ran at {speed:.1f} times real time")
-    found = ArmDemonstration(seed, looked, tuple(phases), failure, message, speed)
+    take, shown, drawn = _take(seed), dict[str, Image](), folder is not None
+    failed: CarryError | None = None
+
+    def show(running: RunningScene, name: str) -> None:
+        nonlocal drawn
+        tell(f"{name}: {_in_words(take.phases[-1].errors if take.phases else take.looked)}")
+        drawn = drawn and (name != "look" or _draws(running, tell))
+        if drawn and name != "look":
+            shown[f"{len(take.phases)}-{name}"] = running.picture(looks_at=_BETWEEN)
+
+    try:
+        take.run(show)
+    except CarryError as error:
+        failed = error
+    found = take.trial(failed)
+    tell(f"the simulation ran at {found.real_time:.1f} times real time")
     if folder is not None:
+        if take.pair is not None:
+            shown |= {"0-look-left": take.pair[0], "0-look-right": take.pair[1]}
         write_pictures(folder, shown)
         write_atomically(folder / "report.json", found.as_json().encode())
     return found
@@ -289,7 +452,43 @@ def carry_out(
         SimulationError, PlannerMissingError: if a package is missing; names the extra.
         Cancelled: when the progress says so.
     """
-    raise SimulationError("the arm cannot carry out a plan yet")
+    deep = float(np.linalg.norm(placed.p_target - placed.p_entry)) if depth is None else depth
+    if not 0.0 < deep <= DEEPEST:
+        raise CarryError(
+            CarryFailure.UNREACHABLE,
+            f"the arm would have to insert its tool by {deep / MILLIMETRE:.0f} mm; up to"
+            f" {DEEPEST / MILLIMETRE:.0f} mm it can: choose an entry nearer to the target",
+        )
+    if placed.tilt > FLATTEST:
+        raise CarryError(
+            CarryFailure.UNREACHABLE,
+            f"the path leans {placed.tilt / DEGREE:.0f}° from straight down; the arm inserts up to"
+            f" {FLATTEST / DEGREE:.0f}°: turn the patient, or choose a steeper path",
+        )
+
+    def standing(turned_deg: float) -> tuple[ArmScene, FloatArray, RigidTransform]:
+        """Scene, direction in it, and the bench's world in it, for a place of the arm."""
+        turn = rotation_exp(np.array([0.0, 0.0, -turned_deg * DEGREE]))
+        axis = turn @ placed.axis
+        scene = ArmScene.seeded(seed, ToolBody().reaching(deep), axis)
+        move = scene.trocar.p_world - turn @ placed.p_entry
+        return scene, axis, RigidTransform(turn, move)
+
+    scene, axis, T_scene_world = standing(stands_deg)
+    take = Take(scene, axis, deep, seed, progress)
+    try:
+        take.run()
+    except CarryError as error:
+        if error.failure not in _ELSEWHERE:
+            raise
+        check = (progress or Progress()).check
+        for turn in _TURNS_DEG:
+            other, towards, _ = standing(stands_deg + turn)
+            if could_carry(other, towards, deep, check):
+                could = (stands_deg + turn + 180.0) % 360.0 - 180.0
+                raise CarryError(error.failure, str(error), could) from error
+        raise
+    return take.performance(T_scene_world)
 
 
 def _draws(running: RunningScene, tell: Callable[[str], None]) -> bool:

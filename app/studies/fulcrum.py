@@ -13,13 +13,14 @@ import numpy as np
 
 from app.core.arrays import FloatArray, angle_between, unit
 from app.core.units import DEGREE, MILLIMETRE
+from app.mechanisms.laparoscopy import ToolBody, TrocarRing
 from app.studies.findings import Figure, Findings, Sheet
 from app.studies.in_use import called
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 from app.tracking.confidence import chi_square_quantile
 from app.tracking.errors import TrackingError
 from app.tracking.simulated.picture_effects import NoiseTile, noise
-from app.tracking.simulated.tool import ToolProfile, ToolRenderer, ToolScene, TrocarPlace, eyes
+from app.tracking.simulated.tool import ToolRenderer, ToolScene, eyes, tool_outline
 from app.tracking.tool.blob import ToolBlob, find_tool
 from app.tracking.tool.eyes import Pair, ToolEyes
 from app.tracking.tool.fulcrum import Fulcrum, FulcrumStatus, ShaftLine, meet_lines, meet_planes
@@ -32,7 +33,8 @@ DECLARATION: Final[dict[str, Any]] = {
     "reference": "the point through which the tool is drawn; pictures with noise",
 }
 
-TOOL: Final = ToolProfile()
+TOOL: Final = ToolBody()
+OUTLINE: Final = tool_outline(TOOL)
 _FULCRUM: Final = np.array([0.15, 0.0, 0.002])
 _NORMAL: Final = np.array([0.05, -0.1, 1.0])
 _NOISE: Final = 4.0
@@ -45,12 +47,12 @@ _GOAL_DEG: Final = 1.0
 class Stand:
     """Two cameras before a table with a trocar, and what the program finds in their pictures."""
 
-    def __init__(self, noise_grey: float = _NOISE, trocar: TrocarPlace | None = None) -> None:
-        self.trocar = trocar or TrocarPlace(_FULCRUM, _NORMAL)
+    def __init__(self, noise_grey: float = _NOISE, trocar: TrocarRing | None = None) -> None:
+        self.trocar = trocar or TrocarRing(_FULCRUM, _NORMAL)
         models = eyes()
         self.eyes = ToolEyes(
             models=models,
-            outline=TOOL.outline,
+            outline=OUTLINE,
             trocar_radius=self.trocar.outer,
             noise_grey=noise_grey,
         )
@@ -231,7 +233,7 @@ def poses(count: int, inserted: bool, seed: int = 1) -> PoseErrors:
         if not isinstance(found, ToolPose) or found.status is not ToolStatus.FOUND:
             refused.append(found.status if isinstance(found, ToolPose) else found.reason)
             continue
-        seen = TOOL.outline.length - TOOL.outline.centre(scene.hidden)
+        seen = OUTLINE.length - OUTLINE.centre(scene.hidden)
         sign = 1.0 if float(found.axis_world @ scene.axis_world) >= 0.0 else -1.0
         off = np.concatenate(
             [
@@ -256,7 +258,7 @@ def _anywhere(stand: Stand, rng: np.random.Generator, inserted: bool) -> ToolSce
     turn = rng.uniform(0.0, 2.0 * np.pi)
     axis = np.array([np.cos(turn), np.sin(turn), 0.0])
     middle = np.array([rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1), 0.009])
-    return ToolScene(middle + 0.5 * TOOL.outline.length * axis, axis)
+    return ToolScene(middle + 0.5 * OUTLINE.length * axis, axis)
 
 
 _TRIALS: Final = 120

@@ -22,11 +22,11 @@ from app.tracking.tool.fulcrum import (
 )
 from app.tracking.tool.pose import AxisSight, ToolPose, ToolStatus, solve_tool
 from app.tracking.tool.trocar import TrocarStatus, solve_trocar
-from tests.tracking.tool_rig import LYING, TOOL, TROCAR, models, pictures, renderers
+from tests.tracking.tool_rig import LYING, OUTLINE, TROCAR, models, pictures, renderers
 
 FEW = settings(derandomize=True, deadline=None, max_examples=25)
 MANY = settings(derandomize=True, deadline=None, max_examples=200)
-EYES = ToolEyes(models=models(), outline=TOOL.outline)
+EYES = ToolEyes(models=models(), outline=OUTLINE)
 TOWARDS = st.tuples(*[st.floats(-1.0, 1.0)] * 3).filter(lambda v: np.linalg.norm(v) > 0.1)
 
 
@@ -71,7 +71,7 @@ def test_wherever_the_tool_is_the_answer_is_near_it_or_has_a_name(place, towards
     said = np.sqrt(np.linalg.eigvalsh(found.covariance[3:, 3:])[-1])
     assert sine < max(np.deg2rad(1.5), 8.0 * said)
     if found.whole:
-        true = scene.p_tip - (TOOL.outline.length - TOOL.outline.centre()) * scene.axis_world
+        true = scene.p_tip - (OUTLINE.length - OUTLINE.centre()) * scene.axis_world
         sd = np.sqrt(np.linalg.eigvalsh(found.covariance[:3, :3])[-1])
         assert np.linalg.norm(found.p_world - true) < max(5e-3, 8.0 * sd)
 

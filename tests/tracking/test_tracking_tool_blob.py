@@ -9,7 +9,7 @@ from app.studies.hard_cases.tool import ellipse, whole
 from app.tracking.simulated.obstacles import ORANGE, Patch, patch
 from app.tracking.simulated.tool import TOOL_GREEN, ToolScene
 from app.tracking.tool.blob import ToolBlob, ToolMiss, ToolMissReason, find_tool, moments
-from tests.tracking.tool_rig import LYING, TOOL, models, pictures, renderers
+from tests.tracking.tool_rig import LYING, OUTLINE, models, pictures, renderers
 
 SCENE = ToolScene(*LYING)
 
@@ -129,4 +129,4 @@ def test_a_rod_seen_end_on_is_round_and_has_no_axis():
     assert isinstance(found, ToolBlob)
     assert found.moments.angle is None
     assert found.moments.axis is None
-    assert TOOL.outline.length == pytest.approx(0.24)
+    assert OUTLINE.length == pytest.approx(0.24)

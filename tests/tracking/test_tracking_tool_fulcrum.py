@@ -6,17 +6,18 @@ import numpy as np
 import pytest
 
 from app.core.arrays import unit
+from app.mechanisms.laparoscopy import TrocarRing
 from app.studies.fulcrum import spiral
-from app.tracking.simulated.tool import ToolRenderer, ToolScene, TrocarPlace
+from app.tracking.simulated.tool import ToolRenderer, ToolScene
 from app.tracking.tool.blob import ToolMiss
 from app.tracking.tool.eyes import ToolEyes
 from app.tracking.tool.fulcrum import FulcrumStatus, ShaftLine, meet_lines, meet_planes
 from app.tracking.tool.pose import AxisSight, ToolStatus
 from app.tracking.tool.trocar import TrocarStatus, _Rays, _two_across, ring_outline, solve_trocar
-from tests.tracking.tool_rig import TOOL, TROCAR, models, pictures
+from tests.tracking.tool_rig import OUTLINE, TOOL, TROCAR, models, pictures
 
 FULCRUM = TROCAR.p_world
-EYES = ToolEyes(models=models(), outline=TOOL.outline)
+EYES = ToolEyes(models=models(), outline=OUTLINE)
 
 
 def noisy_lines(rng, amplitude=0.35, count=10, sd=2e-4, turn=5e-4):
@@ -181,7 +182,7 @@ def test_the_covariance_of_the_circle_is_that_of_outlines_drawn_anew():
     ("trocar", "status"),
     [
         (None, TrocarStatus.NOTHING),
-        (TrocarPlace(FULCRUM, [0.0, 0.0, 1.0], 0.02, 0.04), TrocarStatus.NOT_A_RING),
+        (TrocarRing(FULCRUM, [0.0, 0.0, 1.0], 0.02, 0.04), TrocarStatus.NOT_A_RING),
     ],
 )
 def test_no_ring_and_one_of_another_size_are_named(trocar, status):

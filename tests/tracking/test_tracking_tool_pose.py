@@ -9,7 +9,8 @@ import pytest
 from app.core.arrays import angle_between, unit
 from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
-from app.tracking.simulated.tool import ToolProfile, ToolScene
+from app.mechanisms.laparoscopy import ToolBody
+from app.tracking.simulated.tool import ToolScene, tool_outline
 from app.tracking.tool import pose as pose_module
 from app.tracking.tool.blob import find_tool
 from app.tracking.tool.eyes import ToolEyes
@@ -21,9 +22,9 @@ from app.tracking.tool.pose import (
     axis_sight,
     solve_tool,
 )
-from tests.tracking.tool_rig import LYING, TOOL, TROCAR, models, pictures
+from tests.tracking.tool_rig import LYING, OUTLINE, TOOL, TROCAR, models, pictures
 
-ROD = ToolProfile(handle_diameter_mm=10.0)
+ROD = ToolBody(handle_diameter=0.010)
 SCENES = [
     ToolScene(*LYING),
     ToolScene([0.0, -0.1, 0.009], [-0.6, -0.8, 0.0]),
@@ -32,7 +33,7 @@ SCENES = [
 
 
 def eyes_of(tool=TOOL, outline=True):
-    return ToolEyes(models=models(), outline=tool.outline if outline else None)
+    return ToolEyes(models=models(), outline=tool_outline(tool) if outline else None)
 
 
 def sights(shift=(0.0,) * 6):
@@ -89,9 +90,7 @@ def test_the_covariance_is_that_of_sights_drawn_anew():
 def test_the_tool_is_found_to_a_millimetre_and_a_fifth_of_a_degree_with_its_tip(scene):
     found = eyes_of().tool(pictures(scene))
     assert found.status is ToolStatus.FOUND
-    true = (
-        scene.p_tip - (TOOL.outline.length - TOOL.outline.centre(scene.hidden)) * scene.axis_world
-    )
+    true = scene.p_tip - (OUTLINE.length - OUTLINE.centre(scene.hidden)) * scene.axis_world
     assert np.linalg.norm(found.p_world - true) < 1.2e-3
     assert angle_between(found.tip_axis_world, scene.axis_world) < np.deg2rad(0.2)
     off = np.concatenate([found.p_world - true, found.tip_axis_world - scene.axis_world])
@@ -136,8 +135,8 @@ def test_one_camera_sees_the_axis_by_itself():
 def test_the_calibration_adds_its_own_share():
     gain = SimpleNamespace(joint=lambda points, seen: 1e-6 * np.eye(6))
     blobs = tuple(find_tool(image) for image in pictures(SCENES[0]))
-    plain = solve_tool(models(), blobs, TOOL.outline)
-    wider = solve_tool(models(), blobs, TOOL.outline, uncertainty=gain)
+    plain = solve_tool(models(), blobs, OUTLINE)
+    wider = solve_tool(models(), blobs, OUTLINE, uncertainty=gain)
     added = wider.covariance - plain.covariance
     np.testing.assert_allclose(added[:3, :3], 0.5e-6 * np.eye(3), atol=1e-12)
     axis = plain.axis_world
@@ -172,7 +171,7 @@ def test_the_pose_turns_with_the_robots_frame():
     T = RigidTransform(rotation_exp([0.3, -0.2, 0.5]), np.array([0.4, -1.0, 0.2]))
     moved = tuple(replace(model, T_world_camera=T @ model.T_world_camera) for model in models())
     blobs = tuple(find_tool(image) for image in pictures(SCENES[0]))
-    here, there = (solve_tool(m, blobs, TOOL.outline) for m in (models(), moved))
+    here, there = (solve_tool(m, blobs, OUTLINE) for m in (models(), moved))
     np.testing.assert_allclose(there.p_world, T @ here.p_world, atol=1e-12)
     np.testing.assert_allclose(there.axis_world, T.rotate(here.axis_world), atol=1e-12)
     turn = np.kron(np.eye(2), T.rotation)

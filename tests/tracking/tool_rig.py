@@ -4,10 +4,12 @@ from functools import cache
 
 import numpy as np
 
-from app.tracking.simulated.tool import ToolProfile, ToolRenderer, TrocarPlace, eyes
+from app.mechanisms.laparoscopy import ToolBody, TrocarRing
+from app.tracking.simulated.tool import ToolRenderer, eyes, tool_outline
 
-TOOL = ToolProfile()
-TROCAR = TrocarPlace(np.array([0.15, 0.0, 0.002]), np.array([0.05, -0.1, 1.0]))
+TOOL = ToolBody()
+OUTLINE = tool_outline(TOOL)
+TROCAR = TrocarRing(np.array([0.15, 0.0, 0.002]), np.array([0.05, -0.1, 1.0]))
 LYING = ([0.1, 0.03, 0.009], [0.9, 0.3, 0.0])
 
 

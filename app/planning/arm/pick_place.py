@@ -5,7 +5,8 @@
     lift       straight up
     transfer   to before the trocar, a way searched with the tool in the hand
     align      slowly onto the trocar's axis, the tip outside
-    insert     along the axis, the shaft in the fulcrum
+    pivot      about the fulcrum, from that axis to the wanted direction, the tip outside
+    insert     along the wanted direction, the shaft in the fulcrum
 
 Pure planning: nothing is touched or weighed. How the hand lies about the shaft is free; the grips
 are tried in the order of the margin that their postures keep, until one does all phases.
@@ -14,31 +15,34 @@ are tried in the order of the margin that their postures keep, until one does al
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from app.core.arrays import FloatArray
+from app.core.arrays import FloatArray, angle_between, cross
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.mechanisms.arm import ArmProfile
 from app.mechanisms.arm.kinematics import seven
 from app.mechanisms.errors import MechanismError
-from app.planning.arm.follow import MotionRefusedError, PoseLine, follow
+from app.planning.arm.follow import MotionRefusedError, PoseArc, PoseLine, PoseMotion, follow
 from app.planning.arm.path import JointPath
 from app.planning.arm.pivot import HeldTool, Pivot
 from app.planning.arm.search import Budget, Collisions, SearchError, search
-from app.planning.arm.timing import JointMotion, timed
+from app.planning.arm.timing import JointMotion, import_ruckig, timed
 from app.planning.errors import MotionError
 
 ROLLS: Final = 12
 """Turns of the hand about the shaft that are tried at the trocar."""
 
 SLOW: Final = 0.25
-"""Share of the joints' speeds for phases in which something is near: grasp, align, insert."""
+"""Share of the joints' speeds where something is near: in grasp, align, pivot and insert."""
+
+_STRAIGHT: Final = 1e-6  # angle below which there is nothing to pivot [rad]
+_WAYS: Final = 4  # grips for which a way is searched: the others keep less margin still
 
 
 class PhaseName(StrEnum):
@@ -49,7 +53,16 @@ class PhaseName(StrEnum):
     LIFT = "lift"
     TRANSFER = "transfer"
     ALIGN = "align"
+    PIVOT = "pivot"
     INSERT = "insert"
+
+
+class Obstacle(StrEnum):
+    """Why a phase cannot be."""
+
+    REACH = "reach"  # no posture, or no going on from one to the next
+    TOUCH = "touch"  # something is in the way
+    WAY = "way"  # the search found none within its budget
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,19 +73,23 @@ class Errand:
         T_world_needle: where the tool lies: its tip's frame, z out of the tip.
         up_world: away from the tray, shape (3,); across the shaft.
         depth: of the tip at the end [m].
+        axis_world: direction of the insertion, shape (3,); None: the trocar's axis.
         lift: how high above the tray the arm comes from and lifts to [m].
         before: how far the tip stands outside the fulcrum before it goes in [m].
         aside: how far from there, outwards along the axis, `align` begins [m].
         close: how long the hand takes to close [s].
+        careful: share of the joints' speeds, accelerations and jerks with the tool in the hand.
     """
 
     T_world_needle: RigidTransform
     up_world: FloatArray
     depth: float
+    axis_world: FloatArray | None = None
     lift: float = 100.0 * MILLIMETRE
     before: float = 20.0 * MILLIMETRE
     aside: float = 40.0 * MILLIMETRE
     close: float = 1.0
+    careful: float = 1.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -106,11 +123,13 @@ class PickPlace:
     Attributes:
         phases: one after the other.
         pivot: the trocar, with the tool in the grip that was chosen.
+        errand: what was to be done.
         tried: grips that could not, and why.
     """
 
     phases: tuple[ArmPhase, ...]
     pivot: Pivot
+    errand: Errand
     tried: tuple[str, ...]
 
     @property
@@ -134,6 +153,22 @@ class PickPlace:
         return np.asarray(last.at(last.duration)[0][0])
 
 
+class NotPlacedError(MotionError):
+    """No grip brings the tool into the trocar.
+
+    Attributes:
+        phase: the latest that a grip could not do.
+        obstacle: why it could not.
+        why: the same in words.
+        tried: all grips, and why each could not.
+    """
+
+    def __init__(self, stuck: _StuckError, tried: tuple[str, ...]) -> None:
+        super().__init__("no grip brings the tool into the trocar: " + "; ".join(tried))
+        self.phase, self.obstacle, self.why = stuck.phase, stuck.obstacle, stuck.why
+        self.tried = tried
+
+
 def pick_and_place(
     pivot: Pivot,
     errand: Errand,
@@ -141,6 +176,7 @@ def pick_and_place(
     empty: Collisions,
     holding: Callable[[HeldTool], Collisions],
     budget: Budget | None = None,
+    inside: Callable[[HeldTool], Collisions] | None = None,
 ) -> PickPlace:
     """Plan the way of the tool from its tray into the trocar.
 
@@ -152,38 +188,88 @@ def pick_and_place(
         empty: what is free with an empty hand.
         holding: the same with a tool in the hand as given.
         budget: of each search; None for the default.
+        inside: the same while the shaft is in the fulcrum, from `align` on, where the trocar round
+            it is none of its business; None: as `holding`.
 
     Raises:
-        MotionError: if no grip does all phases: says for each which phase, and why.
+        NotPlacedError: if no grip does all phases: says for each which phase, and why.
         FulcrumError, NoGripError: if the tip cannot be where it shall go.
         PlannerMissingError: if OMPL or Ruckig is not installed.
     """
-    pivot.aim(pivot.p_world + errand.depth * pivot.inward_world)
+    import_ruckig()
+    found = _first(pivot, errand, start, (empty, holding, inside or holding), budget or Budget())
+    job, picked, placed, tried = found
+    return PickPlace(job.phases(picked, placed), job.pivot, errand, tried)
+
+
+def can_place(
+    pivot: Pivot,
+    errand: Errand,
+    start: ArrayLike,
+    empty: Collisions,
+    holding: Callable[[HeldTool], Collisions],
+    inside: Callable[[HeldTool], Collisions] | None = None,
+) -> bool:
+    """Whether some grip does all that `pick_and_place` does but the searched ways between.
+
+    Raises:
+        FulcrumError, NoGripError: as `pick_and_place`.
+    """
+    try:
+        _first(pivot, errand, start, (empty, holding, inside or holding), None)
+    except NotPlacedError:
+        return False
+    return True
+
+
+_Things = tuple[Collisions, Callable[[HeldTool], Collisions], Callable[[HeldTool], Collisions]]
+
+
+def _first(
+    pivot: Pivot, errand: Errand, start: ArrayLike, things: _Things, budget: Budget | None
+) -> tuple[_Errands, list[_Leg], list[_Leg], tuple[str, ...]]:
+    """Return the first grip that does all, with its legs; those before it, and why not."""
+    wanted = pivot.inward_world if errand.axis_world is None else errand.axis_world
+    pivot.aim(pivot.p_world + errand.depth * np.asarray(wanted))
     tried: list[str] = []
+    stuck: list[_StuckError] = []
+    empty, holding, inside = things
     q0 = seven(start, "start")
+
+    def failed(grip: str, error: _StuckError) -> None:
+        tried.append(f"{grip}: {error}")
+        stuck.append(error)
+
     for sign in (1.0, -1.0):
         tool = HeldTool(pivot.tool.length, pivot.tool.grip, np.array([sign, 0.0, 0.0]))
-        there = Pivot(
-            pivot.arm, tool, pivot.p_world, pivot.inward_world, pivot.tilt, pivot.clearance
-        )
-        job = _Errands(there, errand, q0, empty, holding(tool), budget or Budget())
+        there = replace(pivot, tool=tool)
+        job = _Errands(there, errand, wanted, q0, empty, holding(tool), inside(tool), budget)
         try:
             picked = job.picked()
         except _StuckError as error:
-            tried.append(f"shaft {'along' if sign > 0 else 'against'} x: {error}")
+            failed(f"shaft {'along' if sign > 0 else 'against'} x", error)
             continue
-        for roll, inserted in job.insertions(tried):
+        searched = 0
+        for roll, inserted in job.insertions(failed):
             try:
                 placed = job.placed(picked[-1].path.q[-1], roll, inserted)
             except _StuckError as error:
-                tried.append(f"roll {np.degrees(roll):.0f}°: {error}")
+                failed(f"roll {np.degrees(roll):.0f}°", error)
+                searched += error.phase is PhaseName.TRANSFER
+                if searched >= _WAYS:
+                    break
                 continue
-            return PickPlace(job.phases(picked, placed), there, tuple(tried))
-    raise MotionError("no grip brings the tool into the trocar: " + "; ".join(tried))
+            return job, picked, placed, tuple(tried)
+    order = list(PhaseName)
+    raise NotPlacedError(max(stuck, key=lambda one: order.index(one.phase)), tuple(tried))
 
 
 class _StuckError(MotionError):
     """A phase that cannot be."""
+
+    def __init__(self, phase: PhaseName, obstacle: Obstacle, why: str) -> None:
+        super().__init__(f"{phase.value}: {why}")
+        self.phase, self.obstacle, self.why = phase, obstacle, why
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -197,10 +283,12 @@ class _Leg:
 class _Errands:
     pivot: Pivot
     errand: Errand
+    wanted: FloatArray
     start: FloatArray
     empty: Collisions
     loaded: Collisions
-    budget: Budget
+    inside: Collisions
+    budget: Budget | None  # None: no way is searched
 
     @property
     def arm(self) -> ArmProfile:
@@ -219,53 +307,57 @@ class _Errands:
         )
         return hand @ self.pivot.tool.T_tool_needle
 
-    def line(self, name: PhaseName, a: RigidTransform, b: RigidTransform, **more: Any) -> JointPath:
-        """Follow a line of the tip's frame, or say in which phase it cannot be."""
+    def line(self, name: PhaseName, motion: PoseMotion, **more: Any) -> JointPath:
+        """Follow a motion of the tip's frame, or say in which phase it cannot be."""
         try:
-            made = follow(
-                self.arm, PoseLine(a, b), self.pivot.tool.T_tool_needle, suggest=False, **more
-            )
+            made = follow(self.arm, motion, self.pivot.tool.T_tool_needle, suggest=False, **more)
         except (MotionRefusedError, MechanismError) as error:
-            raise _StuckError(f"{name.value}: {error}") from error
+            raise _StuckError(name, Obstacle.REACH, str(error)) from error
         return made.path
 
     def clear(self, name: PhaseName, path: JointPath, things: Collisions) -> None:
         if (s := things.stopped(self.arm, path)) is not None:
             share = 100.0 * (s - path.s[0]) / (path.s[-1] - path.s[0])
-            raise _StuckError(f"{name.value}: the arm touches something after {share:.0f} %")
+            what = things.touched(path.at(s))
+            raise _StuckError(name, Obstacle.TOUCH, f"{what} after {share:.0f} %")
 
     def way(self, name: PhaseName, things: Collisions, a: FloatArray, b: FloatArray) -> list[_Leg]:
         """Search a way; none is needed where the arm is there already."""
-        if not np.abs(a - b).max() > 0.0:
+        if self.budget is None or not np.abs(a - b).max() > 0.0:
             return []
+        for q in (a, b):
+            if not things.free(q):
+                raise _StuckError(name, Obstacle.TOUCH, f"{things.touched(q)} at its end")
         try:
             found = search(self.arm, things, a, b, budget=self.budget)
         except SearchError as error:
-            raise _StuckError(f"{name.value}: {error}") from error
+            raise _StuckError(name, Obstacle.WAY, str(error)) from error
         return [_Leg(name, path, name is PhaseName.TRANSFER) for path in found.paths]
 
     def picked(self) -> list[_Leg]:
         """Approach, grasp and lift."""
         above, on = self.lying(self.errand.lift), self.lying(0.0)
-        down = self.line(PhaseName.GRASP, above, on)
+        down = self.line(PhaseName.GRASP, PoseLine(above, on))
         up = JointPath(down.s, down.q[::-1])
         self.clear(PhaseName.GRASP, down, self.empty)
         way = self.way(PhaseName.APPROACH, self.empty, self.start, down.q[0])
         return [*way, _Leg(PhaseName.GRASP, down, False), _Leg(PhaseName.LIFT, up, True)]
 
-    def insertions(self, tried: list[str]) -> list[tuple[float, JointPath]]:
+    def insertions(
+        self, failed: Callable[[str, _StuckError], None]
+    ) -> list[tuple[float, JointPath]]:
         """Ways in, by the turn of the hand about the shaft; the best margin first."""
-        axis, found = self.pivot.inward_world, []
+        found = []
         for roll in 2.0 * np.pi * np.arange(ROLLS) / ROLLS - np.pi:
-            outside, inside = (
-                self.pivot.pose(axis, depth, float(roll))
+            outside, within = (
+                self.pivot.pose(self.wanted, depth, float(roll))
                 for depth in (-self.errand.before, self.errand.depth)
             )
             try:
-                path = self.line(PhaseName.INSERT, outside, inside, pivot=self.pivot)
-                self.clear(PhaseName.INSERT, path, self.loaded)
+                path = self.line(PhaseName.INSERT, PoseLine(outside, within), pivot=self.pivot)
+                self.clear(PhaseName.INSERT, path, self.inside)
             except _StuckError as error:
-                tried.append(f"roll {np.degrees(roll):.0f}°: {error}")
+                failed(f"roll {np.degrees(roll):.0f}°", error)
                 continue
             q = path.q
             margin = float(np.minimum(self.arm.upper - q, q - self.arm.lower).min())
@@ -274,39 +366,49 @@ class _Errands:
         return [(roll, path) for _, roll, path in found]
 
     def placed(self, q: FloatArray, roll: float, inserted: JointPath) -> list[_Leg]:
-        """Transfer, align and insert, for one way in."""
+        """Transfer, align, pivot and insert, for one way in."""
         axis, errand = self.pivot.inward_world, self.errand
         far, near = (
             self.pivot.pose(axis, -depth, roll)
             for depth in (errand.before + errand.aside, errand.before)
         )
-        # planned backwards from where the way in begins, so that the two meet in one posture
-        back = self.line(PhaseName.ALIGN, near, far, start=inserted.q[0])
-        align = JointPath(back.s, back.q[::-1])
-        self.clear(PhaseName.ALIGN, align, self.loaded)
-        way = self.way(PhaseName.TRANSFER, self.loaded, q, align.q[0])
-        return [
-            *way,
-            _Leg(PhaseName.ALIGN, align, True),
-            _Leg(PhaseName.INSERT, inserted, True),
-        ]
+        # planned backwards from where the way in begins, so that they meet in one posture
+        legs, begin = [_Leg(PhaseName.INSERT, inserted, True)], inserted.q[0]
+        if angle_between(self.wanted, axis) > _STRAIGHT:
+            leaning = self.pivot.pose(self.wanted, -errand.before, roll)
+            about = cross(self.wanted, axis)
+            upright = PoseArc(leaning, near, self.pivot.p_world, about)
+            path = self.line(PhaseName.PIVOT, upright, start=begin, pivot=self.pivot)
+            legs, begin = [self.backwards(PhaseName.PIVOT, path), *legs], path.q[-1]
+        path = self.line(PhaseName.ALIGN, PoseLine(near, far), start=begin)
+        legs = [self.backwards(PhaseName.ALIGN, path), *legs]
+        return [*self.way(PhaseName.TRANSFER, self.loaded, q, path.q[-1]), *legs]
+
+    def backwards(self, name: PhaseName, path: JointPath) -> _Leg:
+        """Return what was planned backwards as it is gone, if nothing is in its way."""
+        there = JointPath(path.s, path.q[::-1])
+        self.clear(name, there, self.inside)
+        return _Leg(name, there, True)
 
     def phases(self, picked: list[_Leg], placed: list[_Leg]) -> tuple[ArmPhase, ...]:
         """Give all legs their times."""
-        slow = (PhaseName.GRASP, PhaseName.ALIGN, PhaseName.INSERT)
+        slow = (PhaseName.GRASP, PhaseName.ALIGN, PhaseName.PIVOT, PhaseName.INSERT)
+        care, arm = self.errand.careful, self.arm
+        gentle = replace(arm, acceleration=care * arm.acceleration, jerk=care * arm.jerk)
         done: list[ArmPhase] = []
         for name in PhaseName:
             legs = [leg for leg in (*picked, *placed) if leg.name is name]
             if not legs:
                 continue
-            scale = SLOW if name in slow else 1.0
+            held = legs[0].held
+            scale = (SLOW if name in slow else 1.0) * (care if held else 1.0)
             done.append(
                 ArmPhase(
                     name,
                     done[-1].end if done else 0.0,
-                    tuple(timed(self.arm, leg.path, scale) for leg in legs),
+                    tuple(timed(gentle if held else arm, leg.path, scale) for leg in legs),
                     self.errand.close if name is PhaseName.GRASP else 0.0,
-                    legs[0].held,
+                    held,
                 )
             )
         return tuple(done)

@@ -85,12 +85,19 @@ class Collisions:
         beyond: how far hand and what it holds reach from the flange [m], and the thickness of the
             links: what the levers of the joints, which `distance` relies on, are longer than links.
         step: largest turn of a joint between tests where there is no distance [rad].
+        names: what a posture that is not free touches, in words; None if nobody knows.
     """
 
     free: Callable[[FloatArray], bool]
     distance: Callable[[FloatArray], float] | None = None
     beyond: float = 0.4
     step: float = 0.02
+    names: Callable[[FloatArray], str | None] | None = None
+
+    def touched(self, q: FloatArray) -> str:
+        """Say what a posture touches, as the end of a sentence."""
+        what = self.names(q) if self.names is not None else None
+        return what or "the arm touches something"
 
     def stopped(self, arm: ArmProfile, path: JointPath) -> float | None:
         """Where along a path something is touched, or a joint is beyond its limit; None: nowhere.

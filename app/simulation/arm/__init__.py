@@ -4,22 +4,20 @@ Simulation only: it never drives a real arm. MuJoCo (the extra `arm`) is importe
 opened.
 """
 
+from app.mechanisms.laparoscopy import SceneBox, ToolBody, TrocarRing
 from app.simulation.arm.carrying import (
     CarryError,
     CarryFailure,
     CarryPhase,
+    Insertion,
     SeenTool,
     carry,
-    true_tool,
+    could_carry,
+    plan,
 )
 from app.simulation.arm.performance import ArmMoment, ArmPerformance, ArmTimeline
 from app.simulation.arm.running import ArmSceneState, RunningScene, SceneClearance
-from app.simulation.arm.scene import (
-    ArmScene,
-    SceneBox,
-    ToolBody,
-    TrocarRing,
-)
+from app.simulation.arm.scene import ArmScene
 
 __all__ = [
     "ArmMoment",
@@ -30,6 +28,7 @@ __all__ = [
     "CarryError",
     "CarryFailure",
     "CarryPhase",
+    "Insertion",
     "RunningScene",
     "SceneBox",
     "SceneClearance",
@@ -37,5 +36,6 @@ __all__ = [
     "ToolBody",
     "TrocarRing",
     "carry",
-    "true_tool",
+    "could_carry",
+    "plan",
 ]

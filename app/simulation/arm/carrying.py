@@ -1,14 +1,14 @@
-"""From tray to trocar: approach, grasp, lift, bring; what was thought, what became of it.
+"""From tray into trocar: what was thought, what was planned, and what became of it.
 
-What the eyes say of tool and trocar is all that this knows of them; the truth only measures. Motion
-is simple: straight lines in the joints between postures that are asked whether they are free. A
-plan's own motion comes as postures too, through `RunningScene.follow`.
+What the eyes say of tool and trocar is all that this knows of them; the truth only measures. The
+ways are those of `planning.arm.pick_place`, planned in a scene as it is thought to be, and carried
+out one posture per step.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Final
 
@@ -17,41 +17,64 @@ import numpy as np
 from app.core.arrays import FloatArray, angle_between, frozen, read_only, unit
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
-from app.mechanisms.arm import ArmProfile, solve
+from app.mechanisms.arm import ArmProfile, forward
 from app.mechanisms.errors import MechanismError
-from app.mechanisms.hand import ToolShaft, approach
+from app.mechanisms.hand import HandFinger, ToolShaft, approach, close_hand
+from app.mechanisms.laparoscopy import TrocarRing
+from app.planning.arm.pick_place import (
+    ArmPhase,
+    Errand,
+    NotPlacedError,
+    Obstacle,
+    PhaseName,
+    PickPlace,
+    can_place,
+    pick_and_place,
+)
+from app.planning.arm.pivot import HeldTool, Pivot
+from app.planning.arm.search import Budget, Collisions
+from app.planning.errors import FulcrumError
+from app.simulation.arm.mjcf import ARM_RADIUS
 from app.simulation.arm.running import RunningScene, SceneClearance
 from app.simulation.arm.scene import ArmScene
 from app.simulation.errors import SimulationError
 
 SLIP: Final = 1.0 * MILLIMETRE
-"""Distance by which the tool may move in the hand while it is lifted [m]."""
+"""Distance by which the tool may move in the hand on its way [m]."""
 
 SLIP_TURN: Final = np.radians(3.0)
 """Angle by which it may turn there [rad]."""
 
+PRESSED: Final = 2.0
+"""Force with which the shaft may press the trocar's ring [N]: less than half of what slips."""
+
+ROOM: Final = 0.8 * MILLIMETRE
+"""Least gap between shaft and ring for which an insertion is begun [m]."""
+
 _UP: Final = read_only(np.array([0.0, 0.0, 1.0]))
-_ABOVE: Final = 0.10  # height above the tool from which the hand comes straight down [m]
-_DOWN: Final = 8  # postures of a straight way of the hand
-_TURNS: Final = 36  # turns of the tool about its axis that are tried above the trocar
 _MARGIN: Final = 0.002  # distance kept from everything [m]
-_CAREFUL: Final = 0.15  # share of the largest joint speed with a tool in the hand
+_CAREFUL: Final = 0.2  # share of the joints' speeds with a tool in the hand
+_TESTS: Final = 3000  # of a search
+_REST: Final = 0.3  # after each phase [s]
 
 
 class CarryFailure(StrEnum):
-    """Why the tool was not brought."""
+    """Why the tool was not inserted."""
 
     NOT_SEEN = "not_seen"  # no tool or no trocar in the pictures, or no telling its tip
     UNREACHABLE = "unreachable"  # no posture within the limits for a pose on the way
-    COLLIDES = "collides"  # something stands in the straight way
+    COLLIDES = "collides"  # something stands where arm, hand or tool must go
+    NO_WAY = "no_way"  # the planner found none within its budget
     CANNOT_CLOSE = "cannot_close"  # the fingers do not meet on a tool there
     NOT_HELD = "not_held"  # the forces did not come
     SLIPPED = "slipped"  # it moved in the hand
     DROPPED = "dropped"  # no finger touches it any more
+    TOUCHED = "touched"  # the shaft pressed the trocar's ring
+    MISSED = "missed"  # it is not in the trocar
 
 
 class CarryError(SimulationError):
-    """The tool was not brought; the message says why and what to do.
+    """The tool was not inserted; the message says why and what to do.
 
     Attributes:
         failure: the cause.
@@ -85,12 +108,51 @@ class SeenTool:
         object.__setattr__(self, "axis_world", axis)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Insertion:
+    """All that is known and wanted of an insertion.
+
+    Attributes:
+        tool: where the tool is thought to lie.
+        fulcrum: thought centre of the trocar [m], shape (3,).
+        normal: thought direction out of the trocar, shape (3,).
+        axis: wanted direction of the shaft, handle to tip, shape (3,).
+        depth: wanted of the tip beyond the fulcrum [m].
+    """
+
+    tool: SeenTool
+    fulcrum: FloatArray
+    normal: FloatArray
+    axis: FloatArray
+    depth: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "fulcrum", frozen(self.fulcrum, (3,), "fulcrum"))
+        for name in ("normal", "axis"):
+            object.__setattr__(self, name, frozen(unit(getattr(self, name), name), (3,), name))
+        if not 0.0 < self.depth < float("inf"):
+            raise SimulationError(f"insertion: depth is {self.depth} m; give more than 0")
+
+    @classmethod
+    def known(
+        cls,
+        scene: ArmScene,
+        axis: FloatArray,
+        depth: float,
+        T_world_tool: RigidTransform | None = None,
+    ) -> Insertion:
+        """Return that of perfect eyes: the tool where it is, by default where it is laid."""
+        lies = T_world_tool or scene.T_world_tool
+        tool = SeenTool(lies @ [0.0, 0.0, scene.tool.grip], lies.rotate(_UP))
+        return cls(tool, scene.trocar.p_world, scene.trocar.normal_world, axis, depth)
+
+
 @dataclass(frozen=True, slots=True)
 class CarryPhase:
     """One phase that is done.
 
     Attributes:
-        name: `approach`, `grasp`, `lift` or `bring`.
+        name: one of `PhaseName`.
         time: of the simulation at its end [s].
         errors: name with unit -> value, measured against the truth.
     """
@@ -100,201 +162,272 @@ class CarryPhase:
     errors: dict[str, float]
 
 
-def true_tool(running: RunningScene) -> SeenTool:
-    """Return where the tool really lies: what perfect eyes would say."""
-    place = running.state.T_world_tool
-    return SeenTool(place @ [0.0, 0.0, running.scene.tool.grip], place.rotate([0.0, 0.0, 1.0]))
+def plan(
+    scene: ArmScene,
+    wanted: Insertion,
+    start: FloatArray | None = None,
+    check: Callable[[], object] = lambda: None,
+) -> PickPlace:
+    """Plan an insertion in the scene as it is thought to be.
+
+    Args:
+        scene: what stands there; tool and trocar count where `wanted` says.
+        wanted: the insertion.
+        start: joint angles at the begin [rad], shape (7,); None: home.
+        check: called with every test of a posture; what it raises ends the planning.
+
+    Raises:
+        CarryError: if the arm cannot; names the cause.
+        SimulationError, PlannerMissingError: if a package is missing; names the extra.
+    """
+    q = scene.home if start is None else start
+    pivot, errand, empty, holding, inside = _job(scene, wanted, check)
+    _has_room(scene, wanted)
+    try:
+        budget = Budget(seconds=60.0, tests=_TESTS)  # tests end it: the same on any computer
+        return pick_and_place(pivot, errand, q, empty, holding, budget, inside)
+    except NotPlacedError as error:
+        raise _in_words(error) from error
+    except FulcrumError as error:
+        raise CarryError(CarryFailure.UNREACHABLE, str(error)) from error
+
+
+def could_carry(
+    scene: ArmScene, axis: FloatArray, depth: float, check: Callable[[], object] = lambda: None
+) -> bool:
+    """Whether the arm could insert the tool, by kinematics and collisions; no way is searched.
+
+    Args:
+        scene: what would stand there.
+        axis: direction of the shaft, handle to tip, shape (3,).
+        depth: of the tip [m].
+        check: as of `plan`.
+    """
+    wanted = Insertion.known(scene, axis, depth)
+    pivot, errand, empty, holding, inside = _job(scene, wanted, check)
+    try:
+        _has_room(scene, wanted)
+        return can_place(pivot, errand, scene.home, empty, holding, inside)
+    except (FulcrumError, CarryError):
+        return False
 
 
 def carry(
     running: RunningScene,
-    tool: SeenTool,
-    fulcrum: FloatArray,
-    normal: FloatArray,
-    lift: float = 0.05,
-    above: float = 0.03,
+    wanted: Insertion,
+    planned: PickPlace,
     force: float = 5.0,
 ) -> Iterator[CarryPhase]:
-    """Fetch the tool and bring its tip over the trocar, one phase per answer.
+    """Fetch the tool and insert it, one phase per answer.
 
     Args:
-        running: an open scene.
-        tool: where it is thought to lie.
-        fulcrum: thought centre of the trocar [m], shape (3,).
-        normal: thought direction out of the body, shape (3,).
-        lift: height to lift it [m].
-        above: of the tip over the trocar at the end [m].
+        running: an open scene, the arm where the plan begins.
+        wanted: the insertion.
+        planned: its `plan`.
         force: of the grasp [N], as `RunningScene.grasp`.
 
     Raises:
         CarryError: names the cause.
     """
-    scene = running.scene
-    clearance = running.clearance(_lying(scene, tool))
-    grasped, postures = _reach_down(scene, clearance, tool, running.reference)
-    running.move(postures[0])
-    running.follow(_through(running, postures))
-    running.stay(0.2)
-    state = running.state
-    truth = true_tool(running)
-    yield CarryPhase(
-        "approach",
-        state.time,
-        {
-            "hand_mm": _millimetres(state.T_world_hand.translation - grasped.translation),
-            "tool_touched_mm": _millimetres(truth.p_grip - _on(truth, tool)),
-        },
+    held: RigidTransform | None = None
+    begin = running.state.T_world_tool
+    phases = {one.name: one for one in planned.phases}
+    for name in PhaseName:
+        if name in phases:
+            _move(running, phases[name])
+        running.stay(_REST)
+        errors: dict[str, float] = {}
+        if name is PhaseName.GRASP:
+            errors = _grasp(running, wanted, force)
+            held = running.state.T_hand_tool
+        state = running.state
+        hand = running.scene.arm.tool_pose(forward(running.scene.arm, running.reference))
+        errors["hand_mm"] = _millimetres(state.T_world_hand.translation - hand.translation)
+        if held is not None and name is not PhaseName.GRASP:
+            errors |= _slipped(running, held)
+        if name is PhaseName.LIFT:
+            grip = [0.0, 0.0, running.scene.tool.grip]
+            raised = state.T_world_tool @ grip - begin @ grip
+            errors["height_mm"] = float(raised[2]) / MILLIMETRE
+        if name in (PhaseName.ALIGN, PhaseName.PIVOT, PhaseName.INSERT):
+            errors |= _at_the_trocar(running, wanted, planned, name)
+        yield CarryPhase(name.value, state.time, errors)
+
+
+def _job(
+    scene: ArmScene, wanted: Insertion, check: Callable[[], object]
+) -> tuple[
+    Pivot, Errand, Collisions, Callable[[HeldTool], Collisions], Callable[[HeldTool], Collisions]
+]:
+    """Return what `pick_and_place` asks for: the task, and what is free as it is thought to be."""
+    body, tool, hand = scene.tool, wanted.tool, scene.hand.hand
+    lying = _lying(scene, tool)
+    ring = TrocarRing(wanted.fulcrum, wanted.normal, scene.trocar.inner, scene.trocar.outer)
+    thought = replace(scene, trocar=ring)
+    try:
+        pose = approach(hand, ToolShaft(tool.p_grip, tool.axis_world, body.shaft_diameter), -_UP)
+    except MechanismError as error:
+        raise CarryError(CarryFailure.CANNOT_CLOSE, str(error)) from error
+    height = float((pose.inverse() @ tool.p_grip)[2])
+    # what the planner moves is where the hand has the shaft
+    grip = RigidTransform.from_translation([0.0, 0.0, height])
+    arm = replace(scene.arm, T_flange_tool=scene.arm.T_flange_tool @ grip)
+    beyond = _beyond(scene, arm)
+
+    def things(clearance: SceneClearance) -> Collisions:
+        def free(q: FloatArray) -> bool:
+            check()
+            return clearance.free(q, _MARGIN)
+
+        return Collisions(
+            free,
+            lambda q: clearance.distance(q) - _MARGIN,
+            beyond,
+            names=lambda q: clearance.blocked([q], _MARGIN),
+        )
+
+    def holding(held: HeldTool, in_trocar: bool = False) -> Collisions:
+        shaft = ToolShaft(grip.translation, held.axis_tool, body.shaft_diameter)
+        try:
+            fingers = _closed_on(scene, shaft)
+        except MechanismError as error:
+            raise CarryError(CarryFailure.CANNOT_CLOSE, str(error)) from error
+        in_hand = grip @ held.T_tool_needle @ RigidTransform.from_translation([0, 0, -body.length])
+        return things(SceneClearance(thought, fingers, lying, in_hand, in_trocar))
+
+    up = unit(_UP - tool.axis_world * float(_UP @ tool.axis_world))
+    tip = RigidTransform.from_translation([0.0, 0.0, body.length])
+    errand = Errand(lying @ tip, up, wanted.depth, wanted.axis, careful=_CAREFUL)
+    held = HeldTool(body.length, body.length - body.grip, np.array([1.0, 0.0, 0.0]))
+    pivot = Pivot(arm, held, wanted.fulcrum, -wanted.normal)
+    empty = things(SceneClearance(thought, np.zeros(2 * len(HandFinger)), lying))
+    return pivot, errand, empty, holding, lambda one: holding(one, in_trocar=True)
+
+
+def _beyond(scene: ArmScene, arm: ArmProfile) -> float:
+    """How far anything beyond the flange reaches from it, and the links' thickness [m]."""
+    hand, body = scene.hand.hand, scene.tool
+    fingers = hand.half_base + hand.knuckle + hand.proximal + hand.distal
+    along = max(body.grip, body.length - body.grip, fingers)
+    return float(np.hypot(arm.T_flange_tool.translation[2], along)) + ARM_RADIUS
+
+
+def _closed_on(scene: ArmScene, shaft: ToolShaft) -> FloatArray:
+    """φ2, φ3 of the fingers one, two, three where they touch a shaft in the hand, shape (6,)."""
+    joints: dict[HandFinger, FloatArray] = {}
+    for touch in close_hand(scene.hand.hand, shaft).touches:
+        joints.setdefault(touch.finger, touch.joints[1:])
+    return np.array([joints[finger] for finger in HandFinger]).ravel()
+
+
+def _has_room(scene: ArmScene, wanted: Insertion) -> None:
+    """Raise if the shaft, as it is wanted, would hardly go through the ring."""
+    ring = TrocarRing(wanted.fulcrum, wanted.normal, scene.trocar.inner, scene.trocar.outer)
+    gap = ring.room(wanted.axis, scene.tool.shaft_diameter)
+    if gap < ROOM:
+        lean = np.degrees(angle_between(wanted.axis, -wanted.normal))
+        raise CarryError(
+            CarryFailure.TOUCHED,
+            f"the path leans {lean:.0f}° from the trocar's axis, which leaves a gap of"
+            f" {gap / MILLIMETRE:.1f} mm round the shaft; {ROOM / MILLIMETRE:g} mm are needed: lay"
+            " the trocar for this path",
+        )
+
+
+_WHY: Final = {
+    Obstacle.REACH: CarryFailure.UNREACHABLE,
+    Obstacle.TOUCH: CarryFailure.COLLIDES,
+    Obstacle.WAY: CarryFailure.NO_WAY,
+}
+_DOING: Final = {
+    PhaseName.APPROACH: "come to the tool",
+    PhaseName.GRASP: "come down on the tool",
+    PhaseName.LIFT: "lift the tool",
+    PhaseName.TRANSFER: "bring the tool to the entry",
+    PhaseName.ALIGN: "set the tool upright over the entry",
+    PhaseName.PIVOT: "turn the tool into the path's direction",
+    PhaseName.INSERT: "insert the tool along the path",
+}
+
+
+def _in_words(error: NotPlacedError) -> CarryError:
+    return CarryError(
+        _WHY[error.obstacle],
+        f"the arm cannot {_DOING[error.phase]}: {error.why}; let it stand elsewhere round the entry"
+        " or choose another path",
     )
 
+
+def _move(running: RunningScene, phase: ArmPhase) -> None:
+    """Carry out the motions of a phase, one posture per step."""
+    step = running.scene.step
+    for motion in phase.motions:
+        count = max(int(np.ceil(motion.duration / step)), 1)
+        running.follow(motion.at(np.minimum(step * np.arange(1, count + 1), motion.duration))[0])
+
+
+def _grasp(running: RunningScene, wanted: Insertion, force: float) -> dict[str, float]:
+    """Close the hand on the tool where it is thought to lie."""
+    scene, tool = running.scene, wanted.tool
+    truth = Insertion.known(scene, wanted.axis, wanted.depth, running.state.T_world_tool).tool
+    touched = _millimetres(truth.p_grip - _on(truth, tool))
+    hand = scene.arm.tool_pose(forward(scene.arm, running.reference))
     shaft = ToolShaft(tool.p_grip, tool.axis_world, scene.tool.shaft_diameter)
     try:
-        running.grasp(shaft.seen_from(grasped.inverse()), force)
+        running.grasp(shaft.seen_from(hand.inverse()), force)
     except MechanismError as error:
         raise CarryError(CarryFailure.CANNOT_CLOSE, str(error)) from error
     except SimulationError as error:
         raise CarryError(CarryFailure.NOT_HELD, str(error)) from error
     state = running.state
-    held = state.T_hand_tool
     # The fingers put it between their tips: so it is thought to lie in the hand.
-    thought = grasped.inverse() @ _lying(scene, tool)
-    yield CarryPhase(
-        "grasp",
-        state.time,
-        {
-            "force_N": float(state.forces[2]) - force,
-            **_apart(held, thought, scene.tool.grip),
-        },
-    )
-
-    begin = state.T_world_tool @ [0.0, 0.0, scene.tool.grip]
-    lifted = RigidTransform(grasped.rotation, grasped.translation + lift * _UP)
-    running.follow(_through(running, _straight(scene.arm, grasped, lifted, running.reference)))
-    running.stay(0.3)
-    state = running.state
-    raised = state.T_world_tool @ [0.0, 0.0, scene.tool.grip] - begin
-    slip = _slipped(running, held)
-    yield CarryPhase("lift", state.time, {"height_mm": 1e3 * (float(raised[2]) - lift), **slip})
-
-    tip = fulcrum + above * unit(normal)
-    carried = running.clearance(T_hand_tool=thought)
-    goal = _over(running, carried, thought, tip, -unit(normal))
-    running.move(goal, _CAREFUL)
-    state = running.state
-    slip = _slipped(running, held)
-    axis = state.T_world_tool.rotate([0.0, 0.0, 1.0])
-    off = state.T_world_tool @ [0.0, 0.0, scene.tool.length] - scene.trocar.p_world
-    aside = off - axis * (off @ axis)
-    yield CarryPhase(
-        "bring",
-        state.time,
-        {
-            "axis_from_fulcrum_mm": _millimetres(aside),
-            "tip_mm": _millimetres(off - above * scene.trocar.normal_world),
-            "axis_deg": float(np.degrees(angle_between(axis, -scene.trocar.normal_world))),
-            **slip,
-        },
-    )
+    thought = hand.inverse() @ _lying(scene, tool)
+    return {
+        "tool_touched_mm": touched,
+        "force_N": float(state.forces[2]) - force,
+        **_apart(state.T_hand_tool, thought, scene.tool.grip),
+    }
 
 
-def _reach_down(
-    scene: ArmScene, clearance: SceneClearance, tool: SeenTool, near: FloatArray
-) -> tuple[RigidTransform, FloatArray]:
-    """Pose of the hand at the tool, and postures from above it down to there."""
-    failures: list[CarryError] = []
-    for sign in (1.0, -1.0):  # the hand may come with either side first
-        shaft = ToolShaft(tool.p_grip, sign * tool.axis_world, scene.tool.shaft_diameter)
-        try:
-            grasped = approach(scene.hand.hand, shaft, (0.0, 0.0, -1.0))
-        except MechanismError as error:
-            raise CarryError(CarryFailure.CANNOT_CLOSE, str(error)) from error
-        high = RigidTransform(grasped.rotation, grasped.translation + _ABOVE * _UP)
-        try:
-            postures = _straight(scene.arm, high, grasped, near)
-            _free(clearance, np.vstack([_between(near, postures[0]), postures]))
-        except CarryError as error:
-            failures.append(error)
-            continue
-        return grasped, postures
-    raise failures[0]
+def _at_the_trocar(
+    running: RunningScene, wanted: Insertion, planned: PickPlace, name: PhaseName
+) -> dict[str, float]:
+    """Measure the tool against the true trocar and what was wanted.
 
-
-def _over(
-    running: RunningScene,
-    clearance: SceneClearance,
-    T_hand_tool: RigidTransform,
-    tip: FloatArray,
-    axis: FloatArray,
-) -> FloatArray:
-    """Posture that holds the tool's tip there: of all turns about its axis the nearest free one."""
-    scene, near = running.scene, running.reference
-    across = unit(np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))]))
-    found: list[tuple[float, FloatArray]] = []
-    for angle in 2.0 * np.pi * np.arange(_TURNS) / _TURNS:
-        x = np.cos(angle) * across + np.sin(angle) * np.cross(axis, across)
-        rotation = np.column_stack([x, np.cross(axis, x), axis])
-        T_world_tool = RigidTransform(rotation, tip - scene.tool.length * axis)
-        hand = T_world_tool @ T_hand_tool.inverse()
-        try:
-            q = solve(scene.arm, scene.arm.wrist_pose(hand), near).q
-        except MechanismError:
-            continue
-        found.append((float(np.abs(q - near).max()), q))
-    if not found:
-        x, y, z = (1e3 * tip).round(1).tolist()
+    Raises:
+        CarryError: if the shaft pressed the ring, or is not in it where it should be.
+    """
+    scene, place = running.scene, running.state.T_world_tool
+    ring, axis = scene.trocar, place.rotate(_UP)
+    away = place @ [0.0, 0.0, scene.tool.length] - ring.p_world
+    depth = float(away @ axis)
+    aside = float(np.linalg.norm(away - depth * axis))
+    upright = name is PhaseName.ALIGN
+    direction = planned.pivot.inward_world if upright else wanted.axis
+    deep = wanted.depth if name is PhaseName.INSERT else -planned.errand.before
+    errors = {
+        "axis_from_fulcrum_mm": aside / MILLIMETRE,
+        "tip_mm": _millimetres(away - deep * direction),
+        "depth_mm": (depth - deep) / MILLIMETRE,
+        "axis_deg": float(np.degrees(angle_between(axis, direction))),
+    }
+    pressed = running.pressed()
+    if name is PhaseName.INSERT:
+        errors["ring_N"] = pressed
+        if aside > ring.inner or depth < 0.5 * wanted.depth:
+            raise CarryError(
+                CarryFailure.MISSED,
+                f"the tool is not in the trocar: its axis passes {aside / MILLIMETRE:.1f} mm from"
+                f" the ring's centre, its tip is {depth / MILLIMETRE:.0f} mm beyond it; look"
+                " again, and grasp the tool anew",
+            )
+    if pressed > PRESSED:
         raise CarryError(
-            CarryFailure.UNREACHABLE,
-            f"no posture holds the tool's tip at ({x}, {y}, {z}) mm above the trocar; place the"
-            " trocar nearer to the arm, or further from it",
+            CarryFailure.TOUCHED,
+            f"the shaft pressed the trocar's ring with {pressed:.1f} N; up to {PRESSED:g} N are"
+            " allowed: look again, or lay the trocar for this path",
         )
-    blocked = ""
-    for _, q in sorted(found, key=lambda one: one[0]):
-        what = clearance.blocked(_between(near, q), _MARGIN)
-        if what is None:
-            return q
-        blocked = blocked or what
-    raise CarryError(
-        CarryFailure.COLLIDES,
-        f"no straight way to the trocar is free: {blocked}; a planner may find another",
-    )
-
-
-def _straight(
-    arm: ArmProfile, start: RigidTransform, end: RigidTransform, near: FloatArray
-) -> FloatArray:
-    """Postures of the hand's straight way between two poses of one orientation, both included."""
-    postures = []
-    for share in np.linspace(0.0, 1.0, _DOWN + 1):
-        between = start.translation + share * (end.translation - start.translation)
-        hand = RigidTransform(end.rotation, between)
-        try:
-            near = solve(arm, arm.wrist_pose(hand), near).q
-        except MechanismError as error:
-            raise CarryError(CarryFailure.UNREACHABLE, str(error)) from error
-        postures.append(near)
-    return np.array(postures)
-
-
-def _through(running: RunningScene, postures: FloatArray) -> FloatArray:
-    """One posture per step through some, from rest to rest along all of them."""
-    count = len(running.line(postures[0], postures[-1], 0.15))
-    s = np.arange(1, count + 1) / count
-    s = s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
-    at = np.linspace(0.0, 1.0, len(postures))
-    return np.column_stack([np.interp(s, at, column) for column in postures.T])
-
-
-def _between(start: FloatArray, goal: FloatArray) -> FloatArray:
-    """Postures of a straight line, at most 1.5° apart."""
-    count = max(int(np.ceil(float(np.abs(goal - start).max()) / np.radians(1.5))), 1)
-    return np.asarray(start + np.linspace(0.0, 1.0, count + 1)[:, None] * (goal - start))
-
-
-def _free(clearance: SceneClearance, postures: FloatArray) -> None:
-    what = clearance.blocked(postures, _MARGIN)
-    if what is not None:
-        raise CarryError(
-            CarryFailure.COLLIDES, f"the way to the tool is not free: {what}; place it elsewhere"
-        )
+    return errors
 
 
 def _lying(scene: ArmScene, tool: SeenTool) -> RigidTransform:

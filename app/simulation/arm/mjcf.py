@@ -23,7 +23,15 @@ from app.core.extras import not_installed
 from app.core.transform import RigidTransform
 from app.mechanisms.arm import PublishedArm
 from app.mechanisms.hand import HandFinger, HandGeometry
-from app.simulation.arm.scene import ArmScene, SceneBox, ToolBody, TrocarRing
+from app.mechanisms.laparoscopy import (
+    RING_HALF,
+    TOOL_GREEN,
+    TROCAR_BLUE,
+    SceneBox,
+    ToolBody,
+    TrocarRing,
+)
+from app.simulation.arm.scene import ArmScene
 from app.simulation.errors import SimulationError
 
 RING: Final = 24
@@ -34,7 +42,10 @@ _WORLD: Final = {"contype": "1", "conaffinity": "0"}
 _ARM: Final = {"contype": "2", "conaffinity": "3"}
 _TOOL: Final = {"contype": "4", "conaffinity": "3"}
 
-_WIDE, _SLIM = 0.062, 0.048  # radius of the arm's links, and beyond the wrist [m]
+ARM_RADIUS: Final = 0.062
+"""Of the arm's links [m]."""
+
+_SLIM: Final = 0.048  # beyond the wrist [m]
 _FINGER_MASS: Final = 0.04  # of each of a finger's two links, an estimate [kg]
 _ROTOR: Final = 1.6e-3  # of a finger's motor, as its joint feels it [kg·m²], an estimate
 
@@ -194,7 +205,7 @@ def _ring(world: ET.Element, trocar: TrocarRing) -> None:
         angle = 2.0 * pi * k / RING
         out = cos(angle) * first + sin(angle) * second
         along = cos(angle) * second - sin(angle) * first
-        # 1 mm below and above the plane of the centre; the sides inscribe the hole's circle
+        # below and above the plane of the centre; the sides inscribe the hole's circle
         ET.SubElement(
             world,
             "geom",
@@ -203,8 +214,8 @@ def _ring(world: ET.Element, trocar: TrocarRing) -> None:
             type="box",
             pos=text(*(trocar.p_world + (trocar.inner + radial) * out)),
             xyaxes=text(*out, *along),
-            size=text(radial, trocar.outer * np.tan(pi / RING), 0.001),
-            rgba=text(30.0 / 255.0, 95.0 / 255.0, 205.0 / 255.0, 1.0),
+            size=text(radial, trocar.outer * np.tan(pi / RING), RING_HALF),
+            rgba=_coloured(TROCAR_BLUE),
         )
 
 
@@ -214,7 +225,7 @@ def _tool(world: ET.Element, tool: ToolBody, place: RigidTransform) -> None:
     shaft, thick = 0.5 * tool.shaft_diameter, 0.5 * tool.handle_diameter
     neck = tool.length - tool.point_length
     volumes = np.array([thick**2 * tool.handle_length, shaft**2 * (neck - tool.handle_length)])
-    common = {"rgba": _coloured((70.0, 190.0, 60.0)), "condim": "6", **_TOOL}
+    common = {"rgba": _coloured(TOOL_GREEN), "condim": "6", **_TOOL}
     for name, start, end, radius, mass in (
         ("handle", 0.0, tool.handle_length, thick, volumes[0]),
         ("shaft", tool.handle_length, neck, shaft, volumes[1]),
@@ -256,7 +267,7 @@ def _arm(world: ET.Element, scene: ArmScene) -> ET.Element:
         limit = joint.limit_deg * pi / 180.0
         ET.SubElement(body, "joint", name=joint.name, axis="0 0 1", range=text(-limit, limit))
         _inertial(body, joint.mass, joint.centre, joint.inertia)
-        radius = _WIDE if k < 5 else _SLIM
+        radius = ARM_RADIUS if k < 5 else _SLIM
         stop = np.array(end)
         if k == 6:  # its round end stays behind the flange's plate
             stop = stop - [0.0, 0.0, radius]
@@ -333,7 +344,7 @@ def _finger_link(
         condim="4",
         friction=text(scene.friction, 0.005, 0.0005),
         priority="1",
-        solref="0.003 1",
+        solref=text(2.0 * scene.step, 1.0),  # the shortest that MuJoCo takes: least drift
     )
 
 

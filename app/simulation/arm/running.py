@@ -11,7 +11,7 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Final
@@ -95,10 +95,20 @@ class RunningScene:
 
     Args:
         scene: what stands there.
+        watch: called with the state at the begin and each `every` while it runs; what it raises
+            ends the run.
+        every: of the simulation [s].
     """
 
-    def __init__(self, scene: ArmScene) -> None:
+    def __init__(
+        self,
+        scene: ArmScene,
+        watch: Callable[[ArmSceneState], object] | None = None,
+        every: float = 0.02,
+    ) -> None:
         self.scene = scene
+        self._watch, self._every, self._due = watch, every, np.inf
+        self._pressed = 0.0
         self._mujoco: Any = None
         self._model: Any = None
         self._data: Any = None
@@ -128,12 +138,19 @@ class RunningScene:
             for joint in (2, 3):
                 self._finger_of[model.geom(finger_joint(finger, joint)).id] = k
         self._tool_geoms = model.geom_bodyid == model.body("tool").id
+        tool = model.joint("tool")
+        self._tool_place = slice(int(tool.qposadr[0]), int(tool.qposadr[0]) + 3)
+        self._tool_dofs = slice(int(tool.dofadr[0]), int(tool.dofadr[0]) + 3)
+        self._ring_geoms = np.array([_named(model, k) == "trocar" for k in range(model.ngeom)])
         self._motors = {finger: _Motor() for finger in HandFinger}
         self._law, self._holding = None, False
         self._data.qpos[self._arm] = self.scene.home
-        self._busy = 0.0
+        self._busy, self._pressed, self._due = 0.0, 0.0, np.inf
         self.stay(_SETTLE)
         self._data.time, self._busy = 0.0, 0.0
+        if self._watch is not None:
+            self._watch(self.state)
+            self._due = self._every
 
     def close(self) -> None:
         """Let go of the model and of the renderer."""
@@ -154,9 +171,9 @@ class RunningScene:
         self.close()
 
     @property
-    def real_time(self) -> float:
-        """Simulated seconds per second of computing so far; 0 before the first step."""
-        return float(self._data.time) / self._busy if self._busy > 0.0 else 0.0
+    def busy(self) -> float:
+        """Processor's time that its steps took so far [s]."""
+        return self._busy
 
     @property
     def state(self) -> ArmSceneState:
@@ -288,6 +305,16 @@ class RunningScene:
         while any(motor.angle > 0.5 for motor in self._motors.values()):
             self.stay(0.02)
 
+    @property
+    def holding(self) -> bool:
+        """Whether the hand has closed on the tool and was not opened since."""
+        return self._holding
+
+    def pressed(self) -> float:
+        """Largest force of the trocar's ring on the held tool since this was last asked [N]."""
+        most, self._pressed = self._pressed, 0.0
+        return most
+
     def clearance(
         self,
         T_world_tool: RigidTransform | None = None,
@@ -358,7 +385,7 @@ class RunningScene:
 
     def _step(self, q: FloatArray, speed: FloatArray, turn: FloatArray) -> None:
         """One step towards a posture, its speed and its acceleration."""
-        begin = time.perf_counter()
+        begin = time.thread_time()
         mujoco, model, data = self._mujoco, self._model, self._data
         mujoco.mj_step1(model, data)
         dofs = self._arm_dofs
@@ -371,11 +398,35 @@ class RunningScene:
             torque += self._weight()[dofs]
         data.qfrc_applied[dofs] = torque
         self._drive()
+        before = data.qvel[self._tool_dofs].copy()
         mujoco.mj_step2(model, data)
+        if self._holding:
+            # Contacts hold the tool to the hand as both stood when the step began; the hand goes on
+            # round its joints, the tool straight ahead: out of each curve by a dt²/2 a step.
+            data.qpos[self._tool_place] += (
+                0.5 * self.scene.step * (data.qvel[self._tool_dofs] - before)
+            )
         if self._law is not None:
             self._forces = self._contacts()[0]  # of this step: the next one makes contacts anew
+        if self._holding:
+            self._pressed = max(self._pressed, self._ring_force())
         self._told = q
-        self._busy += time.perf_counter() - begin
+        self._busy += time.thread_time() - begin
+        if self._watch is not None and data.time >= self._due - 0.5 * self.scene.step:
+            self._due += self._every
+            self._watch(self.state)
+
+    def _ring_force(self) -> float:
+        """Sum of the normal forces of the trocar's ring on the tool [N]."""
+        data = self._data
+        geoms = data.contact.geom[: data.ncon]
+        if not len(geoms) or not (rings := self._ring_geoms[geoms].any(axis=1)).any():
+            return 0.0
+        wrench, total = np.zeros(6), 0.0
+        for k in np.flatnonzero(rings & self._tool_geoms[geoms].any(axis=1)).tolist():
+            self._mujoco.mj_contactForce(self._model, data, k, wrench)
+            total += float(wrench[0])
+        return total
 
     def _weight(self) -> FloatArray:
         """Joint torques that carry the held tool, shape (nv,)."""
@@ -436,6 +487,8 @@ class SceneClearance:
         fingers: φ2, φ3 of the fingers one, two, three [rad], shape (6,).
         T_world_tool: where the tool lies.
         T_hand_tool: where the hand holds it, which then moves with it; None if it does not.
+        in_trocar: whether the held tool is on its way through the trocar, so that its distance
+            from ring and skin does not count (`TrocarRing.room` is what it has there).
     """
 
     def __init__(
@@ -444,8 +497,10 @@ class SceneClearance:
         fingers: FloatArray,
         T_world_tool: RigidTransform,
         T_hand_tool: RigidTransform | None = None,
+        in_trocar: bool = False,
     ) -> None:
         self.scene = scene
+        self._in_trocar = in_trocar
         self._mujoco, self._model, self._data = _opened(scene)
         model = self._model
         self._arm = _addresses(model, [f"joint_{k + 1}" for k in range(JOINTS)])
@@ -522,6 +577,9 @@ class SceneClearance:
                         continue  # it lies where it lies
                     if self._held is not None and other >= hand:
                         continue  # the hand holds it
+                    thing = _named(model, i if int(body[i]) == other else j)
+                    if self._in_trocar and thing in ("trocar", "skin"):
+                        continue
                 yield i, j
 
     def _lay(self, T_world_tool: RigidTransform) -> None:

@@ -19,104 +19,15 @@ from app.core.transform import RigidTransform
 from app.core.units import DEGREE
 from app.mechanisms.arm import ArmProfile, PublishedArm, load_arm, published_arm
 from app.mechanisms.hand import HandProfile, load_hand
-from app.simulation.errors import SimulationError
-
-Corner = tuple[float, float, float]
-
-_TABLE: Final = -0.02  # height of the table's surface
-_TRAY: Final = -0.012
-_RAIL: Final = 0.018  # height of the tray's rails; below them the fingers close
-_RAILS: Final = (-0.27, -0.13)
-"""Where the rails cross x; between them the hand takes the tool."""
-
-
-@dataclass(frozen=True, slots=True)
-class SceneBox:
-    """An axis-aligned box of the world that nothing moves.
-
-    Attributes:
-        name: in messages.
-        low, high: corners [m].
-        colour: blue, green, red, 0 to 255.
-        hole: half the width of a square hole through it, below the trocar [m]; 0 for none.
-    """
-
-    name: str
-    low: Corner
-    high: Corner
-    colour: tuple[float, float, float]
-    hole: float = 0.0
-
-
-SURROUNDINGS: Final = (
-    SceneBox("table", (-0.6, -0.5, -0.04), (0.6, 0.5, _TABLE), (150.0, 152.0, 156.0), hole=0.06),
-    SceneBox("stand", (-0.12, 0.56, -0.60), (0.12, 0.80, 0.0), (120.0, 122.0, 126.0)),
-    SceneBox("tray", (-0.34, -0.22, _TABLE), (-0.06, 0.22, _TRAY), (176.0, 178.0, 182.0)),
-    *(
-        SceneBox(
-            f"{side} rail",
-            (x - 0.005, -0.11, _TRAY),
-            (x + 0.005, 0.11, _RAIL),
-            (120.0, 122.0, 126.0),
-        )
-        for side, x in zip(("left", "right"), _RAILS, strict=True)
-    ),
-    SceneBox("skin", (0.02, -0.16, -0.004), (0.30, 0.16, 0.0), (168.0, 186.0, 214.0), hole=0.012),
-    *(
-        SceneBox("skin's frame", low, high, (168.0, 186.0, 214.0))
-        for low, high in (
-            ((0.02, -0.16, _TABLE), (0.03, 0.16, -0.004)),
-            ((0.29, -0.16, _TABLE), (0.30, 0.16, -0.004)),
-            ((0.03, -0.16, _TABLE), (0.29, -0.15, -0.004)),
-            ((0.03, 0.15, _TABLE), (0.29, 0.16, -0.004)),
-        )
-    ),
+from app.mechanisms.laparoscopy import (
+    RAIL_TOP,
+    RAILS,
+    SURROUNDINGS,
+    SceneBox,
+    ToolBody,
+    TrocarRing,
 )
-"""Table, the arm's stand, tray with two rails, and a skin over a hollow body."""
-
-
-@dataclass(frozen=True, slots=True)
-class ToolBody:
-    """The tool: a handle, a shaft that tapers to the tip; its axis z from the handle's end to it.
-
-    Attributes:
-        length: from the handle's end to the tip [m].
-        shaft_diameter, point_length: of the shaft, and over which it tapers [m].
-        handle_length, handle_diameter: of the handle [m].
-        mass: [kg], spread over its volume.
-    """
-
-    length: float = 0.240
-    shaft_diameter: float = 0.010
-    point_length: float = 0.010
-    handle_length: float = 0.070
-    handle_diameter: float = 0.018
-    mass: float = 0.12
-
-    @property
-    def grip(self) -> float:
-        """Where it is taken, from the handle's end [m]: its middle, on the shaft."""
-        return 0.5 * self.length
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class TrocarRing:
-    """A ring on the skin round the hole that the tool goes through.
-
-    Attributes:
-        p_world: centre, the fulcrum [m], shape (3,).
-        normal_world: unit vector out of the body, shape (3,).
-        inner, outer: radii of the hole and of the ring [m].
-    """
-
-    p_world: FloatArray
-    normal_world: FloatArray
-    inner: float = 0.007
-    outer: float = 0.016
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "p_world", frozen(self.p_world, (3,), "trocar"))
-        object.__setattr__(self, "normal_world", frozen(unit(self.normal_world), (3,), "normal"))
+from app.simulation.errors import SimulationError
 
 
 def _standing() -> ArmProfile:
@@ -196,29 +107,39 @@ class ArmScene:
             )
 
     @classmethod
-    def seeded(cls, seed: int, tool: ToolBody | None = None) -> ArmScene:
+    def seeded(
+        cls, seed: int, tool: ToolBody | None = None, axis_world: FloatArray | None = None
+    ) -> ArmScene:
         """Return a scene with tool and trocar somewhere: the same for a seed everywhere.
 
         The tool lies across both rails, up to 15° askew, its tip to either side; the trocar is
         within 30 mm of the skin's middle.
+
+        Args:
+            seed: of where they are.
+            tool: what is to be inserted; None for the default.
+            axis_world: direction in which it will be, shape (3,), for which the ring is laid and
+                the holes below it are wide enough; None: straight down.
         """
         rng = np.random.default_rng(seed)
         body = tool or ToolBody()
-        middle = np.array([np.mean(_RAILS) + rng.uniform(-0.01, 0.01), rng.uniform(-0.06, 0.06)])
+        middle = np.array([np.mean(RAILS) + rng.uniform(-0.01, 0.01), rng.uniform(-0.06, 0.06)])
         heading = rng.uniform(-15.0, 15.0) * DEGREE + np.pi * float(rng.integers(2))
         axis = np.array([np.cos(heading), np.sin(heading)])
         # Handle and shaft are not as thick: it lies aslant, touching both rails.
         thick, thin = 0.5 * body.handle_diameter, 0.5 * body.shaft_diameter
-        slope = (thick - thin) / (_RAILS[1] - _RAILS[0])
+        slope = (thick - thin) / (RAILS[1] - RAILS[0])
         direction = unit([*axis, -slope])
         clear = 0.001
-        centre = np.array([*middle, _RAIL + 0.5 * (thick + thin) + clear])
+        centre = np.array([*middle, RAIL_TOP + 0.5 * (thick + thin) + clear])
         across = unit(np.cross(direction, [0.0, 0.0, 1.0]))
         rotation = np.column_stack([across, np.cross(direction, across), direction])
         trocar = np.array([0.16, 0.0, 0.002])
         trocar[:2] += rng.uniform(-0.03, 0.03, 2)
+        path = np.array([0.0, 0.0, -1.0]) if axis_world is None else unit(axis_world)
         return cls(
             tool=body,
-            trocar=TrocarRing(trocar, np.array([0.0, 0.0, 1.0])),
+            trocar=TrocarRing.guiding(trocar, path),
             T_world_tool=RigidTransform(rotation, centre - body.grip * direction),
+            boxes=tuple(box.open_for(trocar, path, thin) for box in SURROUNDINGS),
         )

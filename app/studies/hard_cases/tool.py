@@ -9,11 +9,12 @@ import numpy as np
 
 from app.core.arrays import FloatArray, unit
 from app.core.units import DEGREE
+from app.mechanisms.laparoscopy import ToolBody
 from app.studies.hard_cases.case import Defect, HardCase, analytic, answers, digits
 from app.tracking.cameras.camera import Image
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.simulated.obstacles import Highlight, highlight
-from app.tracking.simulated.tool import ToolProfile, ToolRenderer, ToolScene, eyes
+from app.tracking.simulated.tool import ToolRenderer, ToolScene, eyes
 from app.tracking.stereo.triangulation import triangulate
 from app.tracking.tool.blob import (
     AreaMoments,
@@ -29,7 +30,7 @@ from app.tracking.tool.trocar import TrocarStatus, solve_trocar
 _Way = Callable[..., Any]
 
 LYING: Final = ToolScene(np.array([0.1, 0.03, 0.009]), np.array([0.9, 0.3, 0.0]))
-TOOL: Final = ToolProfile()
+TOOL: Final = ToolBody()
 
 
 # --- pixels ---------------------------------------------------------------------------------------

@@ -17,6 +17,14 @@ from numpy.typing import ArrayLike
 from app.core.arrays import FloatArray, frozen, read_only, unit
 from app.core.compiled import njit
 from app.core.units import MILLIMETRE
+from app.mechanisms.laparoscopy import (
+    SURROUNDINGS,
+    TABLE_TOP,
+    TOOL_GREEN,
+    TROCAR_BLUE,
+    ToolBody,
+    TrocarRing,
+)
 from app.tracking.cameras.camera import Image
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import CameraProfile, NeedleProfile, NeedleShape
@@ -25,82 +33,42 @@ from app.tracking.simulated.cameras import NeedleRenderer, pixel_rays
 from app.tracking.simulated.scene import MarkerScene
 from app.tracking.tool.pose import ToolOutline
 
-TABLE: Final = (
-    HousingBox((-0.6, -0.5, -0.04), (0.6, 0.5, -0.02), (150.0, 152.0, 156.0)),  # table
-    HousingBox((-0.34, -0.22, -0.02), (-0.06, 0.22, -0.012), (176.0, 178.0, 182.0)),  # tray
-    HousingBox((0.02, -0.16, -0.02), (0.30, 0.16, 0.0), (168.0, 186.0, 214.0)),  # skin
+_BY_NAME: Final = {box.name: box for box in SURROUNDINGS}
+TABLE: Final = tuple(
+    HousingBox((box.low[0], box.low[1], min(box.low[2], lowest)), box.high, box.colour)
+    for box, lowest in (
+        (_BY_NAME["table"], np.inf),
+        (_BY_NAME["tray"], np.inf),
+        (_BY_NAME["skin"], TABLE_TOP),  # with its frame
+    )
 )
 """What tool and trocar lie on."""
 
-TOOL_GREEN: Final = (70.0, 190.0, 60.0)
-TROCAR_BLUE: Final = (205.0, 95.0, 30.0)
 _HOLE: Final = (24.0, 22.0, 22.0)
 
 _BLUR_PX: Final = 0.7
 
 
-@dataclass(frozen=True, slots=True)
-class ToolProfile:
-    """Measures of a tool: a handle, and a shaft that tapers to the tip.
-
-    Attributes:
-        length_mm: from the handle's end to the tip.
-        shaft_diameter_mm: of the shaft.
-        point_length_mm: over which it tapers.
-        handle_length_mm: of the handle.
-        handle_diameter_mm: of the handle; that of the shaft for a plain rod.
-        colour: blue, green, red.
-    """
-
-    length_mm: float = 240.0
-    shaft_diameter_mm: float = 10.0
-    point_length_mm: float = 10.0
-    handle_length_mm: float = 70.0
-    handle_diameter_mm: float = 18.0
-    colour: tuple[float, float, float] = TOOL_GREEN
-
-    @property
-    def needle(self) -> NeedleProfile:
-        """The same as a needle whose band is the handle."""
-        return NeedleProfile(
-            length_mm=self.length_mm,
-            shaft_diameter_mm=self.shaft_diameter_mm,
-            point_length_mm=self.point_length_mm,
-            marker_offset_mm=self.length_mm - 0.5 * self.handle_length_mm,
-            marker_length_mm=self.handle_length_mm,
-            marker_diameter_mm=self.handle_diameter_mm,
-        )
-
-    @property
-    def outline(self) -> ToolOutline:
-        """Radius along it."""
-        shape = self.needle.shape
-        handle, point = 2.0 * shape.half, shape.tip + shape.half - shape.point
-        end = shape.tip + shape.half
-        at = np.array([0.0, handle, handle, point, end])
-        radius = np.array([shape.radius, shape.radius, shape.shaft, shape.shaft, 0.0])
-        return ToolOutline(read_only(at), read_only(radius))
+def needle_profile(tool: ToolBody) -> NeedleProfile:
+    """Return a tool as a needle whose band is the handle."""
+    return NeedleProfile(
+        length_mm=tool.length / MILLIMETRE,
+        shaft_diameter_mm=tool.shaft_diameter / MILLIMETRE,
+        point_length_mm=tool.point_length / MILLIMETRE,
+        marker_offset_mm=(tool.length - 0.5 * tool.handle_length) / MILLIMETRE,
+        marker_length_mm=tool.handle_length / MILLIMETRE,
+        marker_diameter_mm=tool.handle_diameter / MILLIMETRE,
+    )
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class TrocarPlace:
-    """A ring round the hole that the tool goes through.
-
-    Attributes:
-        p_world: centre, the fulcrum [m], shape (3,).
-        normal_world: unit vector out of the body, shape (3,).
-        inner: radius of the hole [m].
-        outer: of the ring [m].
-    """
-
-    p_world: FloatArray
-    normal_world: FloatArray
-    inner: float = 7.0 * MILLIMETRE
-    outer: float = 16.0 * MILLIMETRE
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "p_world", frozen(self.p_world, (3,), "trocar"))
-        object.__setattr__(self, "normal_world", frozen(unit(self.normal_world), (3,), "normal"))
+def tool_outline(tool: ToolBody) -> ToolOutline:
+    """Radius along a tool, as it is drawn."""
+    shape = needle_profile(tool).shape
+    handle, point = 2.0 * shape.half, shape.tip + shape.half - shape.point
+    end = shape.tip + shape.half
+    at = np.array([0.0, handle, handle, point, end])
+    radius = np.array([shape.radius, shape.radius, shape.shaft, shape.shaft, 0.0])
+    return ToolOutline(read_only(at), read_only(radius))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -147,16 +115,16 @@ class ToolRenderer:
     def __init__(
         self,
         model: CameraModel,
-        tool: ToolProfile,
-        trocar: TrocarPlace | None = None,
+        tool: ToolBody,
+        trocar: TrocarRing | None = None,
         blur_px: float = _BLUR_PX,
         seed: int = 0,
         table: tuple[HousingBox, ...] = TABLE,
     ) -> None:
         self.model = model
-        self._needle = NeedleRenderer(model, tool.needle, blur_px, seed, table)
-        self._shape = tool.needle.shape
-        self._colours = np.array([tool.colour, tool.colour])
+        self._needle = NeedleRenderer(model, needle_profile(tool), blur_px, seed, table)
+        self._shape = needle_profile(tool).shape
+        self._colours = np.array([TOOL_GREEN, TOOL_GREEN])
         self._behind = self._needle.background
         if trocar is not None:
             self._draw_trocar(trocar, blur_px)
@@ -178,7 +146,7 @@ class ToolRenderer:
             return self._shape
         return self._shape._replace(tip=self._shape.tip - scene.hidden, point=1e-5)
 
-    def _draw_trocar(self, trocar: TrocarPlace, blur_px: float) -> None:
+    def _draw_trocar(self, trocar: TrocarRing, blur_px: float) -> None:
         normal = self.model.T_camera_world.rotate(trocar.normal_world)
         if float((self.model.centre - trocar.p_world) @ trocar.normal_world) <= 0.0:
             return  # the body hides it
