@@ -12,7 +12,6 @@ from app.core.progress import Progress
 from app.exercises.guidance import Purpose
 from app.planning.placement import PlacedPlan
 from app.views.arm.play import Act, ArmPlay
-from app.views.exercise.readouts import clock_text
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
@@ -69,7 +68,7 @@ class ArmBar(QFrame):
 
     def suit_room(self) -> None:
         """Take another size of text or other colours."""
-        self.words.setStyleSheet(f"font-size: {theme.FONT_PX + 1}px; font-weight: 600;")
+        self.words.setStyleSheet(f"font-size: {theme.FONT_PX}px; font-weight: 600;")
 
     def tell(self, words: str, *shown: QPushButton) -> None:
         """Say this, and offer these buttons."""
@@ -90,14 +89,11 @@ class ArmBar(QFrame):
             return
         holds = play.act is Act.HOLDING
         what = tr("holds the needle still at your target") if holds else phase_words(play.phase)
-        stands = "" if play.playing else tr("  ‖  paused")
-        words = tr(
-            "Simulated arm: {what}  ·  {now} of {all}{stands}",
-            what=what,
-            now=clock_text(play.t),
-            all=clock_text(play.duration),
-            stands=stands,
-        )
+        words = (
+            tr("Simulated arm: {what}  ·  {now:.0f}/{all:.0f} s")
+            if play.playing
+            else tr("Simulated arm, paused: {what}  ·  {now:.0f}/{all:.0f} s")
+        ).format(what=what, now=play.t, all=play.duration)
         fetching = play.act is Act.FETCHING
         self.tell(words, self.pause, self.step, self.skip if fetching else self.take, self.stop)
         self.take.setEnabled(play.may_take_over)
@@ -114,7 +110,7 @@ def phase_words(name: str) -> str:
         "approach": tr("reaches for the needle guide"),
         "grasp": tr("closes its hand"),
         "lift": tr("lifts the guide off the tray"),
-        "transfer": tr("brings the guide to the entry"),
+        "transfer": tr("brings it to the entry"),
         "align": tr("stands it over the entry"),
         "pivot": tr("turns the needle to your path"),
         "insert": tr("inserts along your path"),
@@ -217,7 +213,9 @@ class ArmFeature(Feature):
         self._shell.show_workspace()
         self._shell.messages.forget(self.topic)
         self._conductor.show_arm(self.bar)
-        self.bar.tell(tr("Simulated arm: works out its way …"), self.bar.stop)
+        self.bar.tell(
+            tr("Simulated arm: works out its way …  {only}", only=only_simulated()), self.bar.stop
+        )
         self._listen(True)
 
         def operation(progress: Progress) -> object:
@@ -263,6 +261,7 @@ class ArmFeature(Feature):
         play.changed.connect(self._show_play)
         play.taken.connect(self._taken)
         play.over.connect(self._over)
+        self.noted.emit(only_simulated())
         play.start()
 
     def _refused(self, error: Exception) -> None:

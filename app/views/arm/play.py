@@ -61,6 +61,9 @@ LEAST_MM: Final = 0.3
 NEAR_MM: Final = 240.0
 """What is no farther from the entry is looked at while the needle is inserted."""
 
+FASTEST: Final = 0.02
+"""The needle goes along its path no faster than in an ordinary insertion [m/s]; the arm could."""
+
 PIVOT: Final = "pivot"
 """Phase from which on the shaft stands over the entry."""
 
@@ -75,6 +78,17 @@ class Act(Enum):
     TAKEN = auto()  # the student has the needle
     STOPPING = auto()
     OVER = auto()
+
+
+def pace_of(performance: ArmPerformance) -> float:
+    """Seconds of a performance per second, at most 1, at which its tip is no faster than FASTEST
+    from the moment on at which the shaft stands over the entry.
+    """
+    line = performance.timeline
+    times = np.arange(line.begin(PIVOT), line.duration, 1e-3 * PERIOD_MS)
+    depths = np.array([performance.needle(float(t))[1] for t in times])
+    fastest = float(np.abs(np.diff(depths)).max(initial=0.0)) / (1e-3 * PERIOD_MS)
+    return min(1.0, FASTEST / max(fastest, 1e-9))
 
 
 class ArmPlay(QObject):
@@ -120,6 +134,7 @@ class ArmPlay(QObject):
         self.act, self.t, self.playing = Act.WAITING, 0.0, True
         self._until = np.inf
         self._begins = performance.timeline.begin(PIVOT)
+        self._pace = pace_of(performance)
         self._trainer: object = None
         self._pose: HandPose | None = None
         self._held = self._waited = 0.0
@@ -283,7 +298,7 @@ class ArmPlay(QObject):
         if snapshot.state not in RUNNING:
             return  # it has ended; `finished` follows
         if snapshot.state not in (State.WITHDRAWING, State.PAUSED):
-            self._go_on(passed, self.duration)
+            self._go_on(self._pace * passed, self.duration)
         self._feed(run, *self.performance.needle(self.t))
         if not run.shown.live:
             self._take_scans(run, snapshot)

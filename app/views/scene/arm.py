@@ -67,7 +67,7 @@ class ArmShape:
         scene = performance.scene
         T = T_patient_world @ performance.T_scene_world.inverse()
         moment = performance.timeline.at(t)
-        found = (*_arm(scene, moment), *_tool(scene, moment), *_rails(scene))
+        found = (*_arm(scene, moment), *_tool(scene, moment), *_surroundings(scene))
         pieces = tuple(
             ArmPiece((T @ np.asarray(ends)) / MILLIMETRE, radius / MILLIMETRE, part, rounded)
             for ends, radius, part, rounded in found
@@ -100,6 +100,8 @@ class ArmShape:
 _Found = tuple[tuple[FloatArray, FloatArray], float, ArmPart, bool]
 
 _WIDE, _SLIM = 0.058, 0.046  # radii of upper arm and forearm, and beyond the wrist [m]
+_STAND: Final = 0.30  # height of what it stands on, as far as it is drawn [m]
+_RIM: Final = 0.004  # radius of the tray's rim [m]
 _BAND: Final = 0.012  # half the height of a joint's band [m]
 
 
@@ -167,17 +169,25 @@ def _tool(scene: ArmScene, moment: ArmMoment) -> list[_Found]:
     ]
 
 
-def _rails(scene: ArmScene) -> list[_Found]:
-    """Return the tray's rails, each along its longest side."""
-    found: list[_Found] = []
+def _surroundings(scene: ArmScene) -> list[_Found]:
+    """Return what the arm stands on, the tray's rim, and its rails, each along its longest side."""
+    foot = scene.arm.T_world_base.translation
+    below = foot - [0.0, 0.0, _STAND]
+    found: list[_Found] = [((below, foot), 1.3 * _WIDE, ArmPart.RAIL, False)]
     for box in scene.boxes:
-        if not box.name.endswith("rail"):
-            continue
         low, high = np.array(box.low), np.array(box.high)
-        side = high - low
-        longest = int(np.argmax(side))
-        middle, half = 0.5 * (low + high), np.zeros(3)
-        half[longest] = 0.5 * side[longest]
-        thick = 0.5 * float(np.delete(side, longest).min())
-        found.append(((middle - half, middle + half), thick, ArmPart.RAIL, False))
+        if box.name == "tray":
+            corners = [
+                np.array([x, y, high[2]])
+                for x, y in ((low[0], low[1]), (high[0], low[1]), (high[0], high[1]))
+            ]
+            corners.append(np.array([low[0], high[1], high[2]]))
+            found += [((corners[k - 1], corners[k]), _RIM, ArmPart.RAIL, True) for k in range(4)]
+        elif box.name.endswith("rail"):
+            side = high - low
+            longest = int(np.argmax(side))
+            middle, half = 0.5 * (low + high), np.zeros(3)
+            half[longest] = 0.5 * side[longest]
+            thick = 0.5 * float(np.delete(side, longest).min())
+            found.append(((middle - half, middle + half), thick, ArmPart.RAIL, False))
     return found
