@@ -62,6 +62,7 @@ def groups(scheme: Scheme) -> list[Group]:
             [
                 ("F5", tr("start the attempt; what is new is briefed first")),
                 ("Shift+F5, Ctrl+F5", tr("briefing of the exercise; a scripted expert shows it")),
+                ("Ctrl+Shift+F5", tr("watch the simulated arm do the plan")),
                 ("S", tr("control scan")),
                 (tr("Enter"), tr("end the attempt")),
                 (tr("Hold Esc"), tr("abort: force to zero at once")),
