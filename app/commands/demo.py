@@ -77,8 +77,8 @@ def demo(
     With --device arm a simulated arm carries out the exercise's plan: it finds its tool by the
     pictures of two cameras, grasps it, brings it to the entry and inserts it. Without a display its
     own scene is shown first: pictures of what it sees and does there, with a report. It is a
-    simulation only and never drives a real arm. Ends with code 3 if the tool is not brought; says
-    why.
+    simulation only and never drives a real arm. Ends with code 3 if the tool is not
+    inserted; says why.
     """
     if device is DemoDevice.ARM:
         if pen or cameras != "simulated":
@@ -116,7 +116,7 @@ def _show_arm(seed: int, folder: Path) -> None:
     shown = demonstrate(seed, folder, typer.echo)
     typer.echo(f"pictures and report are in {folder}")
     if shown.failure is not None:
-        typer.echo(f"the tool was not brought ({shown.failure}): {shown.message}")
+        typer.echo(f"the tool was not inserted ({shown.failure}): {shown.message}")
         raise typer.Exit(Exit.NO)
 
 

@@ -67,7 +67,7 @@ def study(
     given = tuple(inputs or ())
     result: Result | SurveyResult
     if isinstance(chosen, Survey):
-        result = examine(chosen, inputs=given, quick=quick)
+        result = examine(chosen, inputs=given, quick=quick, lend=lent)
     elif given:
         raise StudyError(f"study {name} takes no folders; leave {given[0]} out")
     else:

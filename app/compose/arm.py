@@ -30,6 +30,7 @@ from app.simulation.arm import (
     ArmScene,
     ArmSceneState,
     ArmTimeline,
+    ArmTrial,
     CarryError,
     CarryFailure,
     CarryPhase,
@@ -106,66 +107,6 @@ class ArmSight:
     fulcrum: FloatArray
     normal: FloatArray
     errors: dict[str, float]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class ArmTrial:
-    """What a trial came to.
-
-    Attributes:
-        seed: of the scene and of the pictures' noise.
-        axis: wanted direction of the shaft, handle to tip, shape (3,).
-        depth: wanted of the tip [m].
-        looked: errors of what the pictures say.
-        phases: those that were done.
-        failure: the cause why not all were; None if the tool is inserted.
-        message: the same in words.
-        simulated: how long it took, in the simulation [s].
-        planning, physics: processor's time of planner and simulation [s].
-    """
-
-    seed: int
-    axis: FloatArray
-    depth: float
-    looked: Mapping[str, float]
-    phases: tuple[CarryPhase, ...]
-    failure: CarryFailure | None
-    message: str
-    simulated: float
-    planning: float
-    physics: float
-
-    @property
-    def real_time(self) -> float:
-        """Simulated seconds per second of computing; 0 before the first step."""
-        return self.simulated / self.physics if self.physics > 0.0 else 0.0
-
-    def as_json(self) -> str:
-        """Return the report."""
-        return json.dumps(
-            {
-                "note": SIMULATION_ONLY,
-                "seed": self.seed,
-                "wanted": {
-                    "tilt_deg": float(np.degrees(angle_between(self.axis, [0.0, 0.0, -1.0]))),
-                    "axis": self.axis.tolist(),
-                    "depth_mm": self.depth / MILLIMETRE,
-                },
-                "phases": [
-                    {"name": "look", "time_s": 0.0, "errors": dict(self.looked)},
-                    *(
-                        {"name": phase.name, "time_s": phase.time, "errors": phase.errors}
-                        for phase in self.phases
-                    ),
-                ],
-                "failure": self.failure,
-                "message": self.message,
-                "simulated_s": self.simulated,
-                "planning_s": self.planning,
-                "simulated_seconds_per_second": self.real_time,
-            },
-            indent=2,
-        )
 
 
 def pictures(
@@ -427,7 +368,7 @@ def demonstrate(
         if take.pair is not None:
             shown |= {"0-look-left": take.pair[0], "0-look-right": take.pair[1]}
         write_pictures(folder, shown)
-        write_atomically(folder / "report.json", found.as_json().encode())
+        write_atomically(folder / "report.json", _report(found).encode())
     return found
 
 
@@ -489,6 +430,34 @@ def carry_out(
                 raise CarryError(error.failure, str(error), could) from error
         raise
     return take.performance(T_scene_world)
+
+
+def _report(found: ArmTrial) -> str:
+    """Return the report."""
+    return json.dumps(
+        {
+            "note": SIMULATION_ONLY,
+            "seed": found.seed,
+            "wanted": {
+                "tilt_deg": float(np.degrees(found.tilt)),
+                "axis": found.axis.tolist(),
+                "depth_mm": found.depth / MILLIMETRE,
+            },
+            "phases": [
+                {"name": "look", "time_s": 0.0, "errors": dict(found.looked)},
+                *(
+                    {"name": phase.name, "time_s": phase.time, "errors": phase.errors}
+                    for phase in found.phases
+                ),
+            ],
+            "failure": found.failure,
+            "message": found.message,
+            "simulated_s": found.simulated,
+            "planning_s": found.planning,
+            "simulated_seconds_per_second": found.real_time,
+        },
+        indent=2,
+    )
 
 
 def _draws(running: RunningScene, tell: Callable[[str], None]) -> bool:

@@ -100,7 +100,7 @@ def _done(
                 name, StudyOutcome.LEFT_OUT, f"it needs {study.inputs}: acus study {name} DIR"
             )
         result: Result | SurveyResult = (
-            examine(study, progress)
+            examine(study, progress, lend=lend)
             if isinstance(study, Survey)
             else run(study, repeats, progress, lend=lend)
         )

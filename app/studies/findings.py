@@ -77,6 +77,7 @@ class Survey:
             `inputs` it is called with them as well.
         quick: the same on less, for a first look (`--quick`); None if there is nothing less.
         inputs: what the paths are that may be given to it; empty if it takes none.
+        borrows: what it needs from rooms above, as a `Study` does: the last arguments of `measure`.
     """
 
     name: str = ""
@@ -86,6 +87,7 @@ class Survey:
     measure: Callable[..., Findings] = _nothing
     quick: Callable[..., Findings] | None = None
     inputs: str = ""
+    borrows: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

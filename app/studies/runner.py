@@ -126,12 +126,7 @@ def run(
     chosen = find_study(study) if isinstance(study, str) else study
     if not isinstance(chosen, Study):
         raise StudyError(f"study {chosen.name} has no ways to time; examine() runs a survey")
-    if chosen.borrows and lend is None:
-        raise StudyError(
-            f"study {chosen.name} needs {', '.join(chosen.borrows)} from a room above; "
-            f"run it by: acus study {chosen.name}"
-        )
-    lent = tuple(lend(name) for name in chosen.borrows) if lend is not None else ()
+    lent = _lent(chosen, lend)
     points: list[Point] = []
     failures: list[Failure] = []
     for number, setting in enumerate(chosen.settings):
@@ -152,6 +147,7 @@ def examine(
     progress: Progress | None = None,
     inputs: tuple[Path, ...] = (),
     quick: bool = False,
+    lend: Callable[[str], Any] | None = None,
 ) -> SurveyResult:
     """Run a survey.
 
@@ -160,9 +156,11 @@ def examine(
         progress: told how far it is; may cancel.
         inputs: paths that it works on, for one that takes some.
         quick: on less, where it knows how.
+        lend: gives what it borrows, by `module:name`.
 
     Raises:
-        StudyError: for an unknown study, one that is timed (see `run`), or one that takes no paths.
+        StudyError: for an unknown study, one that is timed (see `run`), one that takes no paths,
+            or one that borrows what nobody lends.
         Cancelled: when the progress says so.
     """
     chosen = find_study(survey) if isinstance(survey, str) else survey
@@ -171,8 +169,18 @@ def examine(
     if inputs and not chosen.inputs:
         raise StudyError(f"study {chosen.name} takes no folders; leave {inputs[0]} out")
     measure = (chosen.quick if quick else None) or chosen.measure
-    found = measure(progress, inputs) if inputs else measure(progress)
-    return SurveyResult(chosen, found)
+    given = (inputs,) if inputs else ()
+    return SurveyResult(chosen, measure(progress, *given, *_lent(chosen, lend)))
+
+
+def _lent(chosen: Study | Survey, lend: Callable[[str], Any] | None) -> tuple[Any, ...]:
+    """Return what a study borrows; refuse one that does where nobody lends."""
+    if chosen.borrows and lend is None:
+        raise StudyError(
+            f"study {chosen.name} needs {', '.join(chosen.borrows)} from a room above; "
+            f"run it by: acus study {chosen.name}"
+        )
+    return tuple(lend(name) for name in chosen.borrows) if lend is not None else ()
 
 
 def _point(

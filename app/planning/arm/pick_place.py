@@ -14,7 +14,7 @@ are tried in the order of the margin that their postures keep, until one does al
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Any, Final
@@ -345,25 +345,29 @@ class _Errands:
 
     def insertions(
         self, failed: Callable[[str, _StuckError], None]
-    ) -> list[tuple[float, JointPath]]:
-        """Ways in, by the turn of the hand about the shaft; the best margin first."""
-        found = []
-        for roll in 2.0 * np.pi * np.arange(ROLLS) / ROLLS - np.pi:
-            outside, within = (
-                self.pivot.pose(self.wanted, depth, float(roll))
-                for depth in (-self.errand.before, self.errand.depth)
-            )
-            try:
-                path = self.line(PhaseName.INSERT, PoseLine(outside, within), pivot=self.pivot)
-                self.clear(PhaseName.INSERT, path, self.inside)
-            except _StuckError as error:
-                failed(f"roll {np.degrees(roll):.0f}°", error)
-                continue
-            q = path.q
-            margin = float(np.minimum(self.arm.upper - q, q - self.arm.lower).min())
-            found.append((margin, float(roll), path))
-        found.sort(key=lambda one: -one[0])
-        return [(roll, path) for _, roll, path in found]
+    ) -> Iterator[tuple[float, JointPath]]:
+        """Ways in, by the turn of the hand about the shaft; the best margin first.
+
+        Where none of these does, those between.
+        """
+        for between in (0.0, 0.5):
+            found = []
+            for roll in 2.0 * np.pi * (np.arange(ROLLS) + between) / ROLLS - np.pi:
+                outside, within = (
+                    self.pivot.pose(self.wanted, depth, float(roll))
+                    for depth in (-self.errand.before, self.errand.depth)
+                )
+                try:
+                    path = self.line(PhaseName.INSERT, PoseLine(outside, within), pivot=self.pivot)
+                    self.clear(PhaseName.INSERT, path, self.inside)
+                except _StuckError as error:
+                    failed(f"roll {np.degrees(roll):.0f}°", error)
+                    continue
+                q = path.q
+                margin = float(np.minimum(self.arm.upper - q, q - self.arm.lower).min())
+                found.append((margin, float(roll), path))
+            found.sort(key=lambda one: -one[0])
+            yield from ((roll, path) for _, roll, path in found)
 
     def placed(self, q: FloatArray, roll: float, inserted: JointPath) -> list[_Leg]:
         """Transfer, align, pivot and insert, for one way in."""

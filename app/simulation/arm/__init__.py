@@ -15,7 +15,7 @@ from app.simulation.arm.carrying import (
     could_carry,
     plan,
 )
-from app.simulation.arm.performance import ArmMoment, ArmPerformance, ArmTimeline
+from app.simulation.arm.performance import ArmMoment, ArmPerformance, ArmTimeline, ArmTrial
 from app.simulation.arm.running import ArmSceneState, RunningScene, SceneClearance
 from app.simulation.arm.scene import ArmScene
 
@@ -25,6 +25,7 @@ __all__ = [
     "ArmScene",
     "ArmSceneState",
     "ArmTimeline",
+    "ArmTrial",
     "CarryError",
     "CarryFailure",
     "CarryPhase",

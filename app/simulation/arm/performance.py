@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.core.arrays import FloatArray, frozen, unit
+from app.core.arrays import FloatArray, angle_between, frozen, unit
 from app.core.rotation import rotation_exp, rotation_log
 from app.core.transform import RigidTransform
-from app.simulation.arm.carrying import CarryPhase
+from app.simulation.arm.carrying import CarryFailure, CarryPhase
 from app.simulation.arm.scene import ArmScene
 from app.simulation.errors import SimulationError
 
@@ -161,3 +161,41 @@ class ArmPerformance:
         tip = place @ [0.0, 0.0, self.scene.tool.length]
         depth = float((tip - self.scene.trocar.p_world) @ axis)
         return frozen(unit(self.T_scene_world.inverse().rotate(axis))), depth
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ArmTrial:
+    """What a trial came to.
+
+    Attributes:
+        seed: of the scene and of the pictures' noise.
+        axis: wanted direction of the shaft, handle to tip, shape (3,).
+        depth: wanted of the tip [m].
+        looked: errors of what the pictures say.
+        phases: those that were done.
+        failure: the cause why not all were; None if the tool is inserted.
+        message: the same in words.
+        simulated: how long it took, in the simulation [s].
+        planning, physics: processor's time of planner and simulation [s].
+    """
+
+    seed: int
+    axis: FloatArray
+    depth: float
+    looked: Mapping[str, float]
+    phases: tuple[CarryPhase, ...]
+    failure: CarryFailure | None
+    message: str
+    simulated: float
+    planning: float
+    physics: float
+
+    @property
+    def real_time(self) -> float:
+        """Simulated seconds per second of computing; 0 before the first step."""
+        return self.simulated / self.physics if self.physics > 0.0 else 0.0
+
+    @property
+    def tilt(self) -> float:
+        """Angle between what is wanted and straight down [rad]."""
+        return angle_between(self.axis, [0.0, 0.0, -1.0])
