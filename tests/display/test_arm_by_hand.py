@@ -90,10 +90,10 @@ def watch(user: User, picture: str, until: str) -> None:
 
     def looked(seen: dict[str, str]) -> bool:
         for word, phase in PHASES.items():
-            if word in seen["arm"] and phase not in kept:
+            if word in seen["arm"] and "%" not in seen["arm"] and phase not in kept:
                 kept.add(phase)
                 time.sleep(0.8)
                 user.keep_picture(f"{picture}-{phase}")
-        return until in seen["arm"]
+        return until in seen["arm"] and "%" not in seen["arm"]
 
     user.wait(looked, f"it {until}", 240)

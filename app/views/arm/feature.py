@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Final
+from typing import TYPE_CHECKING, ClassVar, Final
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWidget
 
-from app.core.progress import Progress
 from app.exercises.guidance import Purpose
 from app.planning.placement import PlacedPlan
 from app.views.arm.play import Act, ArmPlay
@@ -19,6 +18,9 @@ from app.views.kit.menu_entries import add_entries
 from app.views.kit.parts import button
 from app.views.kit.text import tr
 from app.views.shell.feature import Context, Feature
+
+if TYPE_CHECKING:
+    from app.simulation.arm.performance import ArmPerformance
 
 KEYS: Final = {"pause": "Space", "step": "F10", "skip": "F3", "take": "F12", "stop": "Esc"}
 """Button of the bar -> its key, while the bar is there."""
@@ -69,6 +71,7 @@ class ArmBar(QFrame):
     def suit_room(self) -> None:
         """Take another size of text or other colours."""
         self.words.setStyleSheet(f"font-size: {theme.FONT_PX}px; font-weight: 600;")
+        self.setMinimumHeight(self.stop.sizeHint().height() + 6)  # with and without buttons
 
     def tell(self, words: str, *shown: QPushButton) -> None:
         """Say this, and offer these buttons."""
@@ -92,7 +95,7 @@ class ArmBar(QFrame):
         words = (
             tr("Simulated arm: {what}  ·  {now:.0f}/{all:.0f} s")
             if play.playing
-            else tr("Simulated arm, paused: {what}  ·  {now:.0f}/{all:.0f} s")
+            else tr("Simulated arm  ‖  {what}  ·  {now:.0f}/{all:.0f} s")
         ).format(what=what, now=play.t, all=play.duration)
         fetching = play.act is Act.FETCHING
         self.tell(words, self.pause, self.step, self.skip if fetching else self.take, self.stop)
@@ -137,8 +140,11 @@ class ArmFeature(Feature):
         self._stands_deg, self._could_deg = 0.0, 0.0
         self._exercise = ""
         self._keys: list[QShortcut] = []
+        self._kept: tuple[object, ArmPerformance] | None = None
+        menu = self._shell.menu(tr("&Sessions"))
+        menu.setToolTipsVisible(True)
         (entry,) = add_entries(
-            self._shell.menu(tr("&Sessions")),
+            menu,
             [(tr("Watch the arm do my plan"), "Ctrl+Shift+F5", self.watch)],
         )
         entry.setToolTip(
@@ -165,6 +171,7 @@ class ArmFeature(Feature):
         self._conductor.arm_wanted.connect(self.watch)
         self._conductor.exercise_taken.connect(self._another_exercise)
         self._conductor.runs.failed.connect(lambda _: self.stop())
+        self._conductor.controller.beginning.connect(self._give_way)
         self._shell.page_changed.connect(lambda _: self._look_away())
 
     @property
@@ -210,21 +217,26 @@ class ArmFeature(Feature):
             return
         services, stands = self.context.services, self._stands_deg
         seed, self._exercise = exercise.seed, exercise.id
+        key = placed.plan, placed.placement, placed.p_entry.tolist(), seed, stands
         self._shell.show_workspace()
         self._shell.messages.forget(self.topic)
         self._conductor.show_arm(self.bar)
+        self._listen(True)
+        if self._kept is not None and self._kept[0] == key:
+            self._play(self._kept[1], placed)  # the same as the last time
+            return
         self.bar.tell(
             tr("Simulated arm: works out its way …  {only}", only=only_simulated()), self.bar.stop
         )
-        self._listen(True)
 
-        def operation(progress: Progress) -> object:
-            return services.carry_out(placed, seed, stands, progress)
+        def take(found: ArmPerformance) -> None:
+            self._kept = key, found
+            self._take(found, placed)
 
         self._task = run_in_background(
             self,
-            operation,
-            lambda found: self._take(found, placed),
+            lambda progress: services.carry_out(placed, seed, stands, progress),
+            take,
             self._refused,
             self._put_away,
         )
@@ -232,28 +244,23 @@ class ArmFeature(Feature):
 
     def _show_progress(self, share: float, words: str) -> None:
         if self._task is not None:
-            self.bar.tell(
-                tr(
-                    "Simulated arm: works out its way, {percent:.0f} %  ·  {words}",
-                    percent=100.0 * share,
-                    words=words,
-                ),
-                self.bar.stop,
-            )
+            said = tr("Simulated arm: works out its way, {n:.0f} %", n=100.0 * share)
+            self.bar.tell("  ·  ".join(filter(None, (said, words))), self.bar.stop)
 
-    def _take(self, performance: object, placed: PlacedPlan) -> None:
-        from app.simulation.arm.performance import ArmPerformance  # kernels: loaded by now
-
+    def _take(self, performance: ArmPerformance, placed: PlacedPlan) -> None:
         self._task = None
         now = self._editor.verdict.placed
         changed = now is None or (now.plan, now.placement) != (placed.plan, placed.placement)
         why = self._why_not() or (
             tr("The plan was changed meanwhile: ask again for the new one.") if changed else ""
         )
-        if why or not isinstance(performance, ArmPerformance):
+        if why:
             self._put_away()
             self.failed.emit(why)
             return
+        self._play(performance, placed)
+
+    def _play(self, performance: ArmPerformance, placed: PlacedPlan) -> None:
         student = ACCESS.recorded_as(self._conductor.views.panel.student.text().strip())
         self.play = play = ArmPlay(
             self._conductor, self.context.views.scene, performance, placed, student, self
@@ -275,7 +282,7 @@ class ArmFeature(Feature):
         self._could_deg = float(could)
         turn = (self._could_deg - self._stands_deg + 180.0) % 360.0 - 180.0
         self.bar.offer.setText(
-            tr("Let it stand {angle:.0f}° further round, and try again", angle=turn)
+            tr("Let it stand {angle:.0f}° further round, and try again", angle=abs(turn))
         )
         self.bar.tell(str(error), self.bar.offer, self.bar.stop)
 
@@ -328,6 +335,11 @@ class ArmFeature(Feature):
         elif self.play is None:
             self.stop()
 
+    def _give_way(self) -> None:
+        """Stop working out a way: the student begins by himself."""
+        if self.play is None:
+            self.stop()
+
     def _another_exercise(self, identifier: str) -> None:
         if identifier != self._exercise and self.play is None:
             self.stop()
@@ -363,6 +375,7 @@ class ArmFeature(Feature):
     def forget(self) -> None:
         """Stop: another patient is coming."""
         self.close()
+        self._kept = None
 
     def suit_room(self) -> None:
         """Take another size of text or other colours."""

@@ -52,8 +52,9 @@ AFTER_S: Final = 2.0
 SCANS_AT: Final = (0.45, 1.0)
 """Where control scans guide, one is taken at these shares of the way in."""
 
-PICTURE_S: Final = 0.08
-"""The arm is drawn anew at most this often [s]: slices and loop must not wait for it."""
+PICTURE_S, ATTEMPT_PICTURE_S = 0.08, 0.2
+"""The arm is drawn anew at most this often while it fetches, and in an attempt [s]: slices, loop
+and cameras must not wait for it."""
 
 LEAST_MM: Final = 0.3
 """It is drawn anew where a point of it has moved by more than this."""
@@ -141,7 +142,7 @@ class ArmPlay(QObject):
         self._scans = 0
         self._shape: ArmShape | None = None
         self._before: Orbit | None = None
-        self._why, self._looks = "", False
+        self._why, self._looks, self._waits = "", False, False
         self._timer = QTimer(self, interval=PERIOD_MS)
         self._timer.timeout.connect(self.tick)
         self._links = [
@@ -170,6 +171,7 @@ class ArmPlay(QObject):
     def start(self) -> None:
         """Begin, as soon as there is a simulated robot."""
         self._conductor.lend(True)
+        self._waits = True
         self._controller.set_waiting(tr("Start waits: the arm has the needle. Esc stops it."))
         self._last = self._clock()
         self._timer.start()
@@ -284,7 +286,7 @@ class ArmPlay(QObject):
         out = snapshot.device is not None and snapshot.state not in RUNNING
         if not out or not snapshot.pose.valid:
             return
-        self._controller.set_waiting("")
+        self._let_start()
         self._controller.lead("arm")
         self._controller.begin(self._student)
         if not self._controller.is_running:
@@ -340,7 +342,8 @@ class ArmPlay(QObject):
         return ArmShape.of(self.performance, t, self._placed.T_world_patient.inverse())
 
     def _draw(self, now: float) -> None:
-        if now - self._drawn < PICTURE_S or self.act in (Act.WAITING, Act.OVER):
+        pause = PICTURE_S if self.act is Act.FETCHING else ATTEMPT_PICTURE_S
+        if now - self._drawn < pause or self.act in (Act.WAITING, Act.OVER):
             return
         shape = self._shape_at(self.t)
         if shape.moved_mm(self._shape) > LEAST_MM:
@@ -369,6 +372,11 @@ class ArmPlay(QObject):
         began = self.act in (Act.INSERTING, Act.HOLDING)
         return began and self._controller.is_running
 
+    def _let_start(self) -> None:
+        if self._waits:
+            self._waits = False
+            self._controller.set_waiting("")
+
     def _finished(self, _: object) -> None:
         """Give everything back: the attempt is over, whoever ended it."""
         if self.act is not Act.WAITING:
@@ -385,8 +393,8 @@ class ArmPlay(QObject):
         self._timer.stop()
         for signal, slot in self._links:
             signal.disconnect(slot)
+        self._let_start()
         if not taken:
-            self._controller.set_waiting("")
             self._controller.lead("")
             self._conductor.show_scene_alone(False)
             self._show_nothing()

@@ -38,6 +38,7 @@ from app.views.exercise.status import MessageList, StatusStrip
 from app.views.exercise.status_items import MISSED_WINDOW
 from app.views.exercise.tracker_panel import TrackerPanel
 from app.views.kit.background import run_in_background
+from app.views.kit.text import tr
 from app.views.kit.verdict import StatusItem
 
 STATUS_PERIOD: Final = 0.25
@@ -373,7 +374,8 @@ class ExerciseController(QObject):
         run = self._run
         if run is None:
             return
-        refused = self._waiting or ("" if run.demonstrates else self.refusal())
+        absent = tr("The needle is not there yet.") if self.is_absent else ""
+        refused = absent or self._waiting or ("" if run.demonstrates else self.refusal())
         if refused:
             self._fail(refused)
             return
