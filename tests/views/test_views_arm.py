@@ -121,7 +121,7 @@ def test_an_offer_may_be_left(planned, services, settle) -> None:
 def test_while_it_fetches_no_needle_is_shown_but_in_3d(planned, settle) -> None:
     window, arm = planned
     shapes = []
-    window.workspace.scene.set_arm = shapes.append
+    window.workspace.scene.set_arm = lambda shape, often=False: shapes.append(shape)
     arm.watch()
     assert settle(lambda: arm.play is not None and arm.play.act is Act.FETCHING)
     assert settle(lambda: shapes)
@@ -455,7 +455,7 @@ def test_stopped_in_the_body_the_attempt_is_kept_as_broken_off_and_no_debrief_op
     real, settle
 ) -> None:
     results = played(real, settle)
-    arm, controller = real.feature(ArmFeature), real.conductor.controller
+    arm = real.feature(ArmFeature)
     assert settle(lambda: arm.play.t > arm.play.duration - 1.0)
     arm.bar.stop.click()
     assert settle(lambda: not arm.is_busy)

@@ -163,6 +163,13 @@ class ArmPlay(QObject):
         return self.performance.timeline.at(self.t).phase
 
     @property
+    def share(self) -> float:
+        """How far the phase is, 0 to 1."""
+        line = self.performance.timeline
+        times = line.time[line.phase == line.names.index(self.phase)]
+        return float((self.t - times[0]) / max(times[-1] - times[0], 1e-9))
+
+    @property
     def may_take_over(self) -> bool:
         """Whether there is a needle that the student can go on with."""
         return self.act in (Act.INSERTING, Act.HOLDING) and self._controller.is_running
@@ -348,7 +355,7 @@ class ArmPlay(QObject):
         shape = self._shape_at(self.t)
         if shape.moved_mm(self._shape) > LEAST_MM:
             self._shape, self._drawn = shape, now
-            self._scene.set_arm(shape)
+            self._scene.set_arm(shape, often=self.act is Act.FETCHING)
 
     def _look_near(self) -> None:
         """Look at hand, entry and target."""

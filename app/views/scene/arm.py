@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 class ArmPart(Enum):
     """What a piece is; its colour: neighbours differ in lightness, so that everybody tells them."""
 
-    LINK = Mark("#ccd4dc")
-    JOINT = Mark("#5c6a78")
+    LINK = Mark("#b3bfca")
+    JOINT = Mark("#4a5663")
     FINGER = Mark("#94a3b2")
     TOOL = Mark("#f7f3e4")
     RAIL = Mark("#7d8791")

@@ -283,10 +283,10 @@ class SceneView(QWidget):
             self._robot = points
             self._fit_home()
 
-    def set_arm(self, arm: ArmShape | None) -> None:
-        """Show the simulated arm at a moment, drawn coarsely while it moves; None shows none."""
+    def set_arm(self, arm: ArmShape | None, often: bool = False) -> None:
+        """Show the simulated arm at a moment, or none; `often` at the cost of fineness."""
         self._feed.change("arm", lambda stage: stage.set_arm(arm))
-        if arm is not None:
+        if often:
             self._feed.stir()
 
     @property

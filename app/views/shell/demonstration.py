@@ -97,8 +97,8 @@ PATIENCE_S: Final = 300.0
 SETTLE_S: Final = 1.5
 """Time for the first picture in 3D after everything stands [s]."""
 
-PHASE_PICTURE_S, HOLD_PICTURE_S = 0.5, 1.0
-"""So long after a phase of the arm began it is pictured [s]."""
+MIDDLE, HOLD_PICTURE_S = 0.5, 1.0
+"""Share of a phase of the arm at which it is pictured, and after so long when it holds still [s]."""
 
 FRESH_S: Final = 0.1
 """Pictures on the way wait until the cameras' last fix is no older [s]: drawing disturbs them."""
@@ -160,7 +160,7 @@ class Demonstration(QObject):
         self._debrief = window.feature(DebriefFeature)
         self._drawn = False
         self._arm = window.feature(ArmFeature)
-        self._phase, self._phase_at = "", 0.0
+        self._phase = ""
         self._debrief.page.curves.drawn.connect(self._note_drawn)
         window.conductor.controller.finished.connect(self._take_result)
         for failure in (
@@ -232,7 +232,7 @@ class Demonstration(QObject):
         return self._then("attempt", self._needle_is_in)
 
     def _arm_is_done(self) -> bool:
-        """Take a picture of each phase, half a second into it; the arm ends its attempt itself."""
+        """Take a picture in the middle of each phase; the arm ends its attempt itself."""
         bar, play = self._arm.bar, self._arm.play
         if bar.offer.isVisible():
             self.told.emit(bar.words.text())
@@ -242,10 +242,10 @@ class Demonstration(QObject):
         if play is not None and play.act in (Act.FETCHING, Act.INSERTING, Act.HOLDING):
             phase = "hold" if play.act is Act.HOLDING else play.phase
             if phase != self._phase:
-                self._phase, self._phase_at = phase, play.t
+                self._phase = phase
                 self.told.emit(bar.words.text())
             held = play.act is Act.HOLDING and self._waited >= HOLD_PICTURE_S
-            if held or (phase != "hold" and play.t >= self._phase_at + PHASE_PICTURE_S):
+            if held or (phase != "hold" and play.share >= MIDDLE):
                 self._pictures.take(f"arm-{phase}")
         if play is not None and play.act is not Act.HOLDING:
             self._waited = 0.0
