@@ -62,7 +62,8 @@ NOISE: Final = 4.0
 SURE: Final = 2.0 * MILLIMETRE
 """Largest standard deviation of the tool's place in any direction [m], to reach for it."""
 
-_DISTANCE: Final = 0.9  # of the cameras from the middle of the table [m]: the tray is in both
+_LOOKS_AT: Final = (-0.030, 0.0, 0.030)  # of the cameras [m]: a long tool is whole in both
+_DISTANCE: Final = 0.9  # from there [m]
 _STANDS: Final = ((-0.62, -0.55, 0.56), (0.25, -0.15, 0.95))
 """One to the left, one above: two that stand in line with a tool see it in one plane."""
 
@@ -81,7 +82,12 @@ _DOING: Final = {
     PhaseName.PIVOT: "the tool is turned into the path's direction",
     PhaseName.INSERT: "the tool is inserted",
 }
-_ELSEWHERE: Final = (CarryFailure.UNREACHABLE, CarryFailure.COLLIDES, CarryFailure.NO_WAY)
+_ELSEWHERE: Final = (
+    CarryFailure.NOT_SEEN,
+    CarryFailure.UNREACHABLE,
+    CarryFailure.COLLIDES,
+    CarryFailure.NO_WAY,
+)
 _BETWEEN: Final = (0.05, 0.1, 0.15)  # what pictures for people look at [m]
 _TURNS_DEG: Final = (45.0, -45.0, 90.0, -90.0, 135.0, -135.0, 180.0)
 _REST: Final = 0.5  # after the insertion [s]
@@ -89,7 +95,7 @@ _REST: Final = 0.5  # after the insertion [s]
 
 def cameras() -> tuple[CameraModel, CameraModel]:
     """Return the two cameras of the scene."""
-    return eyes(distance=_DISTANCE, stands=_STANDS)
+    return eyes(distance=_DISTANCE, stands=_STANDS, looks_at=_LOOKS_AT)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -142,7 +148,7 @@ def look(
     scene: ArmScene,
     T_world_tool: RigidTransform,
     pair: Pair,
-    watching: ToolEyes,
+    models: tuple[CameraModel, CameraModel] | None = None,
 ) -> ArmSight:
     """Find tool and trocar in two pictures; the truth only measures.
 
@@ -150,11 +156,13 @@ def look(
         scene: what stands there.
         T_world_tool: where the tool really is.
         pair: the pictures.
-        watching: the eyes, which know the tool's outline.
+        models: the cameras; None: those of the scene.
 
     Raises:
         CarryError: if there is no tool, no trocar, or no telling the tip; says why.
     """
+    outline = tool_outline(scene.tool)
+    watching = ToolEyes(models=models or cameras(), outline=outline, noise_grey=NOISE)
     found, ring = watching.tool(pair), watching.trocar(pair)
     if isinstance(found, ToolMiss):
         raise CarryError(CarryFailure.NOT_SEEN, f"the eyes find no tool: {found.reason}")
@@ -175,9 +183,11 @@ def look(
             " line",
         )
     if ring.status is not TrocarStatus.FOUND:
-        raise CarryError(CarryFailure.NOT_SEEN, f"the eyes find no trocar: {ring.status}")
-    middle = watching.outline.centre() if watching.outline is not None else scene.tool.grip
-    tool = SeenTool(found.p_world + (scene.tool.grip - middle) * axis, axis)
+        raise CarryError(
+            CarryFailure.NOT_SEEN,
+            f"the eyes find no trocar: {ring.status}; let arm and cameras stand elsewhere round it",
+        )
+    tool = SeenTool(found.p_world + (scene.tool.grip - outline.centre()) * axis, axis)
     true_axis = T_world_tool.rotate([0.0, 0.0, 1.0])
     off = tool.p_grip - T_world_tool @ [0.0, 0.0, scene.tool.grip]
     along = float(off @ true_axis)
@@ -239,7 +249,10 @@ class Take:
         with self._running as running:
             try:
                 report(0.05, "the eyes look for tool and entry")
-                sight = self._look(running.state.T_world_tool)
+                lies = running.state.T_world_tool
+                self.pair = pictures(self.scene, lies, cameras(), self.seed)
+                sight = look(self.scene, lies, self.pair)
+                self.looked = sight.errors
                 shown(running, "look")
                 report(0.1, "the arm's way is planned")
                 wanted = Insertion(sight.tool, sight.fulcrum, sight.normal, self.axis, self.depth)
@@ -287,15 +300,6 @@ class Take:
         return ArmPerformance(
             self.scene, timeline, T_scene_world, self.looked, tuple(self.phases), self.seed
         )
-
-    def _look(self, lies: RigidTransform) -> ArmSight:
-        models = cameras()
-        outline = tool_outline(self.scene.tool)
-        watching = ToolEyes(models=models, outline=outline, noise_grey=NOISE)
-        self.pair = pictures(self.scene, lies, models, self.seed)
-        sight = look(self.scene, lies, self.pair, watching)
-        self.looked = sight.errors
-        return sight
 
     def _watch(self, state: ArmSceneState) -> None:
         now = min(len(self.phases), len(PHASES) - 1)
@@ -425,7 +429,7 @@ def carry_out(
         check = (progress or Progress()).check
         for turn in _TURNS_DEG:
             other, towards, _ = standing(stands_deg + turn)
-            if could_carry(other, towards, deep, check):
+            if could_carry(other, towards, deep, check) and _could_see(other, seed):
                 could = (stands_deg + turn + 180.0) % 360.0 - 180.0
                 raise CarryError(error.failure, str(error), could) from error
         raise
@@ -458,6 +462,15 @@ def _report(found: ArmTrial) -> str:
         },
         indent=2,
     )
+
+
+def _could_see(scene: ArmScene, seed: int) -> bool:
+    """Whether the eyes would find tool and trocar."""
+    try:
+        look(scene, scene.T_world_tool, pictures(scene, scene.T_world_tool, cameras(), seed))
+    except CarryError:
+        return False
+    return True
 
 
 def _draws(running: RunningScene, tell: Callable[[str], None]) -> bool:

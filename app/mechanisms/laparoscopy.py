@@ -24,7 +24,7 @@ TOOL_GREEN: Final = (70.0, 190.0, 60.0)
 TROCAR_BLUE: Final = (205.0, 95.0, 30.0)
 """Colour of the trocar's ring."""
 
-LEAN: Final = 15.0 * DEGREE
+LEAN: Final = 20.0 * DEGREE
 """How far a shaft may lean in its trocar before the ring is laid aslant for it [rad]."""
 
 RING_HALF: Final = 0.001

@@ -213,13 +213,15 @@ def eyes(
     image_size: tuple[int, int] = (640, 480),
     distance: float = 0.8,
     stands: tuple[tuple[float, float, float], tuple[float, float, float]] = _SIDES,
+    looks_at: tuple[float, float, float] = (0.020, 0.0, 0.030),
 ) -> tuple[CameraModel, CameraModel]:
     """Return two cameras on stands that look down at the table, by default from both sides.
 
     Args:
         image_size: width and height [px]; the field of view stays the same.
-        distance: from the middle of the table [m].
+        distance: from what they look at [m].
         stands: directions from there to the cameras, of any length.
+        looks_at: the place that both look at [m].
     """
     width, height = image_size
     focal = 1.1 * width
@@ -230,14 +232,14 @@ def eyes(
             focal_px=(focal, focal),
             centre_px=(0.5 * (width - 1), 0.5 * (height - 1)),
             distortion=(-0.11, 0.14, 0.0004, -0.0003, 0.0),
-            position_mm=_stand(towards, distance),
-            looks_at_mm=(20.0, 0.0, 30.0),
+            position_mm=_in_mm(looks_at + distance * unit(towards)),
+            looks_at_mm=_in_mm(looks_at),
         ).model()
         for name, towards in zip(("left", "right"), stands, strict=True)
     )
     return first, second
 
 
-def _stand(towards: tuple[float, float, float], distance: float) -> tuple[float, float, float]:
-    x, y, z = (distance / MILLIMETRE * unit(towards)).tolist()
-    return x + 20.0, y, z + 30.0
+def _in_mm(place: ArrayLike) -> tuple[float, float, float]:
+    x, y, z = (np.asarray(place) / MILLIMETRE).tolist()
+    return x, y, z
