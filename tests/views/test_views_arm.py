@@ -469,6 +469,24 @@ def test_stopped_in_the_body_the_attempt_is_kept_as_broken_off_and_no_debrief_op
     assert shown.conditions.hand == "arm"
 
 
+def test_the_arm_of_the_scene_does_it_to_the_end(real, settle) -> None:
+    for package in ("mujoco", "ompl", "ruckig"):
+        pytest.importorskip(package, reason="needs the extra arm: pip install 'acus[arm]'")
+    real.services.carry_out = real.services.desktop.carry_out
+    arm, said, results = real.feature(ArmFeature), [], []
+    arm.failed.connect(said.append)
+    real.conductor.controller.finished.connect(results.append)
+    arm.watch()
+    assert settle(lambda: said or arm.play is not None, timeout=300.0)
+    assert said == []
+    assert settle(lambda: arm.play.act is Act.FETCHING)
+    arm.bar.skip.click()
+    assert settle(lambda: bool(results), timeout=120.0)
+    assert results[0].state is State.ENDED
+    rows = {row.name: row.value for row in results[0].score.rows}
+    assert rows["lateral_error"] is None or rows["lateral_error"] < 2.7
+
+
 # --- whose attempt it is ------------------------------------------------------------------------
 def test_an_attempt_of_the_arm_meets_none_of_a_student() -> None:
     own = Conditions("one", 1, scoring_version=1, hand="mouse")

@@ -98,7 +98,7 @@ SETTLE_S: Final = 1.5
 """Time for the first picture in 3D after everything stands [s]."""
 
 MIDDLE, HOLD_PICTURE_S = 0.5, 1.0
-"""Share of a phase of the arm at which it is pictured, and after so long when it holds still [s]."""
+"""Share of a phase of the arm at which it is pictured; after so long where it holds still [s]."""
 
 FRESH_S: Final = 0.1
 """Pictures on the way wait until the cameras' last fix is no older [s]: drawing disturbs them."""
