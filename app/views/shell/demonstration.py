@@ -97,8 +97,9 @@ PATIENCE_S: Final = 300.0
 SETTLE_S: Final = 1.5
 """Time for the first picture in 3D after everything stands [s]."""
 
-MIDDLE, HOLD_PICTURE_S = 0.5, 1.0
-"""Share of a phase of the arm at which it is pictured; after so long where it holds still [s]."""
+MIDDLE, LATEST, HOLD_PICTURE_S = 0.5, 0.9, 1.0
+"""Share of a phase of the arm at which it is pictured, and at which without a fix of the cameras
+too; after so long where it holds still [s]."""
 
 FRESH_S: Final = 0.1
 """Pictures on the way wait until the cameras' last fix is no older [s]: drawing disturbs them."""
@@ -245,7 +246,10 @@ class Demonstration(QObject):
                 self._phase = phase
                 self.told.emit(bar.words.text())
             held = play.act is Act.HOLDING and self._waited >= HOLD_PICTURE_S
-            if held or (phase != "hold" and play.share >= MIDDLE):
+            snapshot = self._snapshot()
+            fresh = snapshot is not None and snapshot.pose.measured and has_fresh_fix(snapshot)
+            clear = fresh or phase != "insert" or play.share >= LATEST
+            if held or (phase != "hold" and clear and play.share >= MIDDLE):
                 self._pictures.take(f"arm-{phase}")
         if play is not None and play.act is not Act.HOLDING:
             self._waited = 0.0
