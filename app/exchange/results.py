@@ -225,7 +225,7 @@ def _student(person: Person, results: Results) -> dict[str, Any]:
 
 
 def _hands(one: Indexed) -> str:
-    """What held the needle: `arm` and `script` are nobody's attempts, whoever watched."""
+    """Return what held the needle: attempts of `arm` and `script` are nobody's, whoever watched."""
     known = one.conditions
     return f"{known.hand} then {known.taken_over}" if known.taken_over else known.hand
 

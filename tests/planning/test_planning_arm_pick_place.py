@@ -1,14 +1,24 @@
 """The tool from its tray into the trocar: phases that meet, within limits, and what cannot be."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from app.core.arrays import angle_between
+from app.core.arrays import angle_between, unit
 from app.core.transform import RigidTransform
 from app.mechanisms.errors import NoGripError
-from app.planning.arm.pick_place import Errand, PhaseName, pick_and_place
+from app.planning.arm import pick_place
+from app.planning.arm.pick_place import (
+    Errand,
+    NotPlacedError,
+    Obstacle,
+    PhaseName,
+    can_place,
+    pick_and_place,
+)
 from app.planning.arm.pivot import SHAFT_OFF
-from app.planning.arm.search import Collisions
+from app.planning.arm.search import Collisions, SearchError
 from app.planning.errors import MotionError
 from tests.planning.arm_rig import ARM, PIVOT, TOOL, post
 
@@ -20,12 +30,84 @@ START = np.array([0.0, 0.3, 0.0, -1.5, 0.0, 1.2, 0.0])
 LYING = RigidTransform(
     np.stack([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]], axis=1), [0.55, 0.4, 0.1]
 )
-ERRAND = Errand(LYING, np.array([0.0, 0.0, 1.0]), 0.1)
+LEANING = unit(PIVOT.inward_world + [0.1, 0.15, 0.0])
+ERRAND = Errand(LYING, np.array([0.0, 0.0, 1.0]), 0.1, LEANING)
 
 
 @pytest.fixture(scope="module")
 def done():
     return pick_and_place(PIVOT, ERRAND, START, POST, lambda tool: POST)
+
+
+def test_the_shaft_turns_about_the_fulcrum_outside_before_it_goes_in(done):
+    pivot = next(phase for phase in done.phases if phase.name is PhaseName.PIVOT)
+    times = np.linspace(pivot.begin, pivot.end, 200)
+    states = [done.pivot.state(done.at(float(t))) for t in times]
+    assert max(state.off for state in states) <= SHAFT_OFF
+    assert [state.depth for state in states] == pytest.approx([-ERRAND.before] * 200, abs=1e-4)
+    assert angle_between(states[0].axis_world, PIVOT.inward_world) < 1e-6
+    assert angle_between(states[-1].axis_world, LEANING) < 1e-6
+    whole = angle_between(PIVOT.inward_world, LEANING)
+    for state in states:  # the shortest way
+        parts = [angle_between(state.axis_world, end) for end in (PIVOT.inward_world, LEANING)]
+        assert sum(parts) == pytest.approx(whole, abs=2e-3)
+
+
+def test_along_the_trocars_axis_there_is_nothing_to_turn():
+    straight = replace(ERRAND, axis_world=None)
+    planned = pick_and_place(PIVOT, straight, START, POST, lambda tool: POST)
+    assert PhaseName.PIVOT not in [phase.name for phase in planned.phases]
+    end = planned.pivot.state(planned.at(planned.duration))
+    assert angle_between(end.axis_world, PIVOT.inward_world) < 1e-6
+
+
+def test_with_the_tool_in_the_hand_it_is_as_careful_as_asked(done):
+    share = 0.3
+    slow = pick_and_place(PIVOT, replace(ERRAND, careful=share), START, POST, lambda tool: POST)
+    for before, after in zip(done.phases, slow.phases, strict=True):
+        if not after.held:
+            assert after.end - after.begin == pytest.approx(before.end - before.begin)
+        for motion in after.motions if after.held else ():
+            speed, acceleration, jerk = motion.use_of_limits(ARM).max(axis=1)
+            assert speed <= share * (1.0 + 1e-9)
+            assert acceleration <= share * (1.0 + 1e-9)
+            assert jerk <= share * (1.0 + 1e-9)
+
+
+def test_whether_it_can_be_is_told_without_a_search(monkeypatch):
+    def searched(*_, **__):
+        raise AssertionError("a way was searched")
+
+    monkeypatch.setattr(pick_place, "search", searched)
+    assert can_place(PIVOT, ERRAND, START, POST, lambda tool: POST)
+    far = replace(ERRAND, T_world_needle=RigidTransform(LYING.rotation, [1.5, 0.4, 0.1]))
+    assert not can_place(PIVOT, far, START, POST, lambda tool: POST)
+
+
+def test_a_refusal_names_the_phase_that_was_come_to_and_what_was_touched():
+    blocked = Collisions(
+        lambda q: PIVOT.state(q).depth < 0.05, names=lambda q: "the tip comes to a bone"
+    )
+    with pytest.raises(NotPlacedError) as caught:
+        pick_and_place(PIVOT, ERRAND, START, POST, lambda tool: POST, inside=lambda tool: blocked)
+    assert caught.value.phase is PhaseName.INSERT
+    assert caught.value.obstacle is Obstacle.TOUCH
+    assert caught.value.why.startswith("the tip comes to a bone after")
+    far = replace(ERRAND, T_world_needle=RigidTransform(LYING.rotation, [1.5, 0.4, 0.1]))
+    with pytest.raises(NotPlacedError) as caught:
+        pick_and_place(PIVOT, far, START, POST, lambda tool: POST)
+    assert (caught.value.phase, caught.value.obstacle) == (PhaseName.GRASP, Obstacle.REACH)
+
+
+def test_a_search_that_ends_without_a_way_is_an_obstacle_of_its_own(monkeypatch):
+    def none(*_, **__):
+        raise SearchError("no way in 7 tests")
+
+    monkeypatch.setattr(pick_place, "search", none)
+    with pytest.raises(NotPlacedError) as caught:
+        pick_and_place(PIVOT, ERRAND, START, POST, lambda tool: POST)
+    assert (caught.value.phase, caught.value.obstacle) == (PhaseName.APPROACH, Obstacle.WAY)
+    assert caught.value.why == "no way in 7 tests"
 
 
 def test_all_phases_follow_each_other_without_a_jump_within_the_limits(done):
@@ -68,7 +150,7 @@ def test_the_shaft_stays_in_the_fulcrum_while_it_goes_in_and_the_tool_is_held_fr
     depths = [done.pivot.state(done.at(float(t))).depth for t in times]
     assert depths[0] == pytest.approx(-ERRAND.before)
     assert (np.diff(depths) > -1e-9).all()
-    assert [phase.held for phase in done.phases] == [False, False, True, True, True, True]
+    assert [phase.held for phase in done.phases] == [False, False, *[True] * 5]
 
 
 def test_the_same_plan_comes_out_again(done):

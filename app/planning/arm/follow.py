@@ -286,6 +286,7 @@ def follow(
     turn_within: float = TURN_WITHIN,
     least_dexterity: float = LEAST_DEXTERITY,
     suggest: bool = True,
+    starts: int = _STARTS,
 ) -> Followed:
     """Find a path of the joints for a motion.
 
@@ -300,6 +301,7 @@ def follow(
         turn_within: largest error of orientation [rad].
         least_dexterity: of all postures.
         suggest: whether a refusal looks for a placement of the base that could.
+        starts: how many postures are tried where none is given.
 
     Raises:
         MotionRefusedError: if the arm cannot: says where and why.
@@ -307,7 +309,7 @@ def follow(
     """
     job = _Job(arm, motion, T_tool_moved.inverse(), pivot, within, turn_within, least_dexterity)
     try:
-        return job.followed(start)
+        return job.followed(start, starts)
     except MotionRefusedError as error:
         if not suggest:
             raise

@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike
 from app.core.arrays import FloatArray, angle_between, cross
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
-from app.mechanisms.arm import ArmProfile
+from app.mechanisms.arm import ArmProfile, solve
 from app.mechanisms.arm.kinematics import seven
 from app.mechanisms.errors import MechanismError
 from app.planning.arm.follow import MotionRefusedError, PoseArc, PoseLine, PoseMotion, follow
@@ -42,6 +42,7 @@ SLOW: Final = 0.25
 """Share of the joints' speeds where something is near: in grasp, align, pivot and insert."""
 
 _STRAIGHT: Final = 1e-6  # angle below which there is nothing to pivot [rad]
+_STARTS: Final = 4  # postures with which a way in is begun, for each grip
 _WAYS: Final = 4  # grips for which a way is searched: the others keep less margin still
 
 
@@ -210,7 +211,7 @@ def can_place(
     holding: Callable[[HeldTool], Collisions],
     inside: Callable[[HeldTool], Collisions] | None = None,
 ) -> bool:
-    """Whether some grip does all that `pick_and_place` does but the searched ways between.
+    """Whether one of the first grips does all that `pick_and_place` does but the searched ways.
 
     Raises:
         FulcrumError, NoGripError: as `pick_and_place`.
@@ -350,7 +351,7 @@ class _Errands:
 
         Where none of these does, those between.
         """
-        for between in (0.0, 0.5):
+        for between in (0.0, 0.5) if self.budget is not None else (0.0,):
             found = []
             for roll in 2.0 * np.pi * (np.arange(ROLLS) + between) / ROLLS - np.pi:
                 outside, within = (
@@ -358,8 +359,18 @@ class _Errands:
                     for depth in (-self.errand.before, self.errand.depth)
                 )
                 try:
-                    path = self.line(PhaseName.INSERT, PoseLine(outside, within), pivot=self.pivot)
+                    solve(self.arm, self.pivot.wrist_pose(within))  # quickly told if it cannot
+                    path = self.line(
+                        PhaseName.INSERT,
+                        PoseLine(outside, within),
+                        pivot=self.pivot,
+                        starts=_STARTS,
+                    )
                     self.clear(PhaseName.INSERT, path, self.inside)
+                except MechanismError as error:
+                    stuck = _StuckError(PhaseName.INSERT, Obstacle.REACH, str(error))
+                    failed(f"roll {np.degrees(roll):.0f}°", stuck)
+                    continue
                 except _StuckError as error:
                     failed(f"roll {np.degrees(roll):.0f}°", error)
                     continue

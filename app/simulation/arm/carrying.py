@@ -56,6 +56,7 @@ _MARGIN: Final = 0.002  # distance kept from everything [m]
 _CAREFUL: Final = 0.2  # share of the joints' speeds with a tool in the hand
 _TESTS: Final = 3000  # of a search
 _REST: Final = 0.3  # after each phase [s]
+_AT_THE_TROCAR: Final = (PhaseName.ALIGN, PhaseName.PIVOT, PhaseName.INSERT)
 
 
 class CarryFailure(StrEnum):
@@ -243,13 +244,15 @@ def carry(
         state = running.state
         hand = running.scene.arm.tool_pose(forward(running.scene.arm, running.reference))
         errors["hand_mm"] = _millimetres(state.T_world_hand.translation - hand.translation)
+        if name in _AT_THE_TROCAR:
+            errors["ring_N"] = _pressed(running)
         if held is not None and name is not PhaseName.GRASP:
             errors |= _slipped(running, held)
         if name is PhaseName.LIFT:
             grip = [0.0, 0.0, running.scene.tool.grip]
             raised = state.T_world_tool @ grip - begin @ grip
             errors["height_mm"] = float(raised[2]) / MILLIMETRE
-        if name in (PhaseName.ALIGN, PhaseName.PIVOT, PhaseName.INSERT):
+        if name in _AT_THE_TROCAR:
             errors |= _at_the_trocar(running, wanted, planned, name)
         yield CarryPhase(name.value, state.time, errors)
 
@@ -395,7 +398,7 @@ def _at_the_trocar(
     """Measure the tool against the true trocar and what was wanted.
 
     Raises:
-        CarryError: if the shaft pressed the ring, or is not in it where it should be.
+        CarryError: if the shaft is not in the ring where it should be.
     """
     scene, place = running.scene, running.state.T_world_tool
     ring, axis = scene.trocar, place.rotate(_UP)
@@ -411,23 +414,30 @@ def _at_the_trocar(
         "depth_mm": (depth - deep) / MILLIMETRE,
         "axis_deg": float(np.degrees(angle_between(axis, direction))),
     }
+    if name is PhaseName.INSERT and (aside > ring.inner or depth < 0.5 * wanted.depth):
+        raise CarryError(
+            CarryFailure.MISSED,
+            f"the tool is not in the trocar: its axis passes {aside / MILLIMETRE:.1f} mm from the"
+            f" ring's centre, its tip is {depth / MILLIMETRE:.0f} mm beyond it; look again, and"
+            " grasp the tool anew",
+        )
+    return errors
+
+
+def _pressed(running: RunningScene) -> float:
+    """Largest force of the ring on the shaft since this was last asked [N].
+
+    Raises:
+        CarryError: if it is more than allowed.
+    """
     pressed = running.pressed()
-    if name is PhaseName.INSERT:
-        errors["ring_N"] = pressed
-        if aside > ring.inner or depth < 0.5 * wanted.depth:
-            raise CarryError(
-                CarryFailure.MISSED,
-                f"the tool is not in the trocar: its axis passes {aside / MILLIMETRE:.1f} mm from"
-                f" the ring's centre, its tip is {depth / MILLIMETRE:.0f} mm beyond it; look"
-                " again, and grasp the tool anew",
-            )
     if pressed > PRESSED:
         raise CarryError(
             CarryFailure.TOUCHED,
             f"the shaft pressed the trocar's ring with {pressed:.1f} N; up to {PRESSED:g} N are"
             " allowed: look again, or lay the trocar for this path",
         )
-    return errors
+    return pressed
 
 
 def _lying(scene: ArmScene, tool: SeenTool) -> RigidTransform:

@@ -219,25 +219,6 @@ class RunningScene:
         for q, speed, turn in zip(path, speeds, turns, strict=True):
             self._step(q, speed, turn)
 
-    def move(self, goals: ArrayLike, share: float = 0.4) -> None:
-        """Drive the arm from posture to posture [rad], shape (n, 7) or (7,), each a straight line.
-
-        It starts and ends each line at rest (a polynomial of the fifth degree), the quickest joint
-        at `share` of its largest speed.
-        """
-        for goal in np.asarray(goals, dtype=np.float64).reshape(-1, JOINTS):
-            self.follow(self.line(self.reference, goal, share))
-        self.stay(0.2)
-
-    def line(self, start: FloatArray, goal: FloatArray, share: float = 0.4) -> FloatArray:
-        """Return postures of a straight line in the joints, one per step, from rest to rest."""
-        top = 1.875  # largest speed of the polynomial over its mean
-        needed = float((np.abs(goal - start) * top / (share * self.scene.arm.speed)).max())
-        count = max(int(np.ceil(needed / self.scene.step)), 1)
-        s = np.arange(1, count + 1) / count
-        s = s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
-        return np.asarray(start + s[:, None] * (goal - start))
-
     def stay(self, duration: float) -> None:
         """Let time pass [s]; the arm holds its posture."""
         q, zero = self.reference.copy(), np.zeros(JOINTS)
