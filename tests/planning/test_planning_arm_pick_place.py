@@ -61,6 +61,18 @@ def test_along_the_trocars_axis_there_is_nothing_to_turn():
     assert angle_between(end.axis_world, PIVOT.inward_world) < 1e-6
 
 
+@pytest.mark.parametrize("lean", [1e-3, 1.1e-6, 0.9e-6, 1e-12])
+def test_a_direction_that_hardly_leans_makes_no_jump(lean):
+    aside = unit(np.cross(PIVOT.inward_world, [1.0, 0.0, 0.0]))
+    hardly = replace(ERRAND, axis_world=unit(PIVOT.inward_world + lean * aside))
+    planned = pick_and_place(PIVOT, hardly, START, POST, lambda tool: POST)
+    names = [phase.name for phase in planned.phases]
+    assert (PhaseName.PIVOT in names) is (lean > 1e-6)
+    times = np.linspace(planned.phases[2].begin, planned.duration, 2000)
+    q = np.array([planned.at(float(t)) for t in times])
+    assert (np.abs(np.diff(q, axis=0)) <= 1.001 * ARM.speed * np.diff(times)[0] + 1e-9).all()
+
+
 def test_with_the_tool_in_the_hand_it_is_as_careful_as_asked(done):
     share = 0.3
     slow = pick_and_place(PIVOT, replace(ERRAND, careful=share), START, POST, lambda tool: POST)

@@ -41,7 +41,7 @@ ROLLS: Final = 12
 SLOW: Final = 0.25
 """Share of the joints' speeds where something is near: in grasp, align, pivot and insert."""
 
-_STRAIGHT: Final = 1e-6  # angle below which there is nothing to pivot [rad]
+_STRAIGHT: Final = 1e-6  # angle up to which there is nothing to pivot [rad]
 _STARTS: Final = 4  # postures with which a way in is begun, for each grip
 _WAYS: Final = 4  # grips for which a way is searched: the others keep less margin still
 
@@ -383,13 +383,14 @@ class _Errands:
     def placed(self, q: FloatArray, roll: float, inserted: JointPath) -> list[_Leg]:
         """Transfer, align, pivot and insert, for one way in."""
         axis, errand = self.pivot.inward_world, self.errand
+        turns = angle_between(self.wanted, axis) > _STRAIGHT
         far, near = (
-            self.pivot.pose(axis, -depth, roll)
+            self.pivot.pose(axis if turns else self.wanted, -depth, roll)
             for depth in (errand.before + errand.aside, errand.before)
         )
         # planned backwards from where the way in begins, so that they meet in one posture
         legs, begin = [_Leg(PhaseName.INSERT, inserted, True)], inserted.q[0]
-        if angle_between(self.wanted, axis) > _STRAIGHT:
+        if turns:
             leaning = self.pivot.pose(self.wanted, -errand.before, roll)
             about = cross(self.wanted, axis)
             upright = PoseArc(leaning, near, self.pivot.p_world, about)

@@ -55,7 +55,7 @@ _UP: Final = read_only(np.array([0.0, 0.0, 1.0]))
 _MARGIN: Final = 0.002  # distance kept from everything [m]
 _CAREFUL: Final = 0.2  # share of the joints' speeds with a tool in the hand
 _TESTS: Final = 3000  # of a search
-_REST: Final = 0.3  # after each phase [s]
+_REST: Final = 0.3  # after each phase, and before the hand closes [s]
 _AT_THE_TROCAR: Final = (PhaseName.ALIGN, PhaseName.PIVOT, PhaseName.INSERT)
 
 
@@ -240,6 +240,7 @@ def carry(
         errors: dict[str, float] = {}
         if name is PhaseName.GRASP:
             errors = _grasp(running, wanted, force)
+            running.stay(_REST)
             held = running.state.T_hand_tool
         state = running.state
         hand = running.scene.arm.tool_pose(forward(running.scene.arm, running.reference))

@@ -3,13 +3,14 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cache
+from math import inf, sqrt
 from typing import Any, Final
 
 import numpy as np
 
 from app.core.arrays import FloatArray, unit
 from app.core.units import DEGREE
-from app.mechanisms.laparoscopy import ToolBody
+from app.mechanisms.laparoscopy import RING_HALF, ToolBody, TrocarRing
 from app.studies.hard_cases.case import Defect, HardCase, analytic, answers, digits
 from app.tracking.cameras.camera import Image
 from app.tracking.optics.camera_model import CameraModel
@@ -291,6 +292,35 @@ def _edge_on() -> HardCase:
     )
 
 
+def _in_the_rings_plane() -> HardCase:
+    ring, diameter = TrocarRing(np.zeros(3), np.array([0.0, 0.0, 1.0])), 0.010
+    slope = 1e-6
+    axis = np.array([1.0, 0.0, -slope])
+    length = sqrt(1.0 + slope**2)
+    room = ring.inner - 0.5 * diameter * length / slope - RING_HALF / slope
+
+    def by_the_angle(_: TrocarRing, towards: FloatArray, thick: float) -> float:
+        lean = float(np.float32(np.arccos(-unit(towards)[2])))
+        return float(ring.inner - 0.5 * thick / np.cos(lean) - RING_HALF * np.tan(lean))
+
+    def none() -> bool:
+        flat = ring.room(np.array([1.0, 0.0, 0.0]), diameter)
+        return bool(flat == -inf and ring.room(np.array([1.0, 0.0, -1e-300]), diameter) == -inf)
+
+    return HardCase(
+        subsystem="tool and trocar",
+        case="room in the trocar for a shaft that all but lies in the ring's plane",
+        given="10 mm thick, 1 µrad from the plane",
+        way=TrocarRing.room,
+        found=lambda way: way(ring, axis, diameter),
+        reference=analytic("inner - r √(1 + s²) / s - h / s", room),
+        unit="m",
+        bound=1e-9,  # of 6000 m
+        beyond=answers("in the plane: minus infinity, nothing is divided by 0", none),
+        defect=Defect("the angle in single precision", by_the_angle),
+    )
+
+
 CASES: Final = (
     _far_away(),
     _steep(),
@@ -299,5 +329,6 @@ CASES: Final = (
     _all_but_parallel(),
     _along_the_skin(),
     _edge_on(),
+    _in_the_rings_plane(),
 )
 """Blobs, pictures, lines, rings."""
