@@ -11,8 +11,8 @@ from app.mechanisms.errors import NoGripError
 from app.planning.arm import pick_place
 from app.planning.arm.pick_place import (
     Errand,
+    Hindrance,
     NotPlacedError,
-    Obstacle,
     PhaseName,
     can_place,
     pick_and_place,
@@ -103,12 +103,12 @@ def test_a_refusal_names_the_phase_that_was_come_to_and_what_was_touched():
     with pytest.raises(NotPlacedError) as caught:
         pick_and_place(PIVOT, ERRAND, START, POST, lambda tool: POST, inside=lambda tool: blocked)
     assert caught.value.phase is PhaseName.INSERT
-    assert caught.value.obstacle is Obstacle.TOUCH
+    assert caught.value.hindrance is Hindrance.TOUCH
     assert caught.value.why.startswith("the tip comes to a bone after")
     far = replace(ERRAND, T_world_needle=RigidTransform(LYING.rotation, [1.5, 0.4, 0.1]))
     with pytest.raises(NotPlacedError) as caught:
         pick_and_place(PIVOT, far, START, POST, lambda tool: POST)
-    assert (caught.value.phase, caught.value.obstacle) == (PhaseName.GRASP, Obstacle.REACH)
+    assert (caught.value.phase, caught.value.hindrance) == (PhaseName.GRASP, Hindrance.REACH)
 
 
 def test_a_search_that_ends_without_a_way_is_an_obstacle_of_its_own(monkeypatch):
@@ -118,7 +118,7 @@ def test_a_search_that_ends_without_a_way_is_an_obstacle_of_its_own(monkeypatch)
     monkeypatch.setattr(pick_place, "search", none)
     with pytest.raises(NotPlacedError) as caught:
         pick_and_place(PIVOT, ERRAND, START, POST, lambda tool: POST)
-    assert (caught.value.phase, caught.value.obstacle) == (PhaseName.APPROACH, Obstacle.WAY)
+    assert (caught.value.phase, caught.value.hindrance) == (PhaseName.APPROACH, Hindrance.WAY)
     assert caught.value.why == "no way in 7 tests"
 
 

@@ -58,7 +58,7 @@ class PhaseName(StrEnum):
     INSERT = "insert"
 
 
-class Obstacle(StrEnum):
+class Hindrance(StrEnum):
     """Why a phase cannot be."""
 
     REACH = "reach"  # no posture, or no going on from one to the next
@@ -159,14 +159,14 @@ class NotPlacedError(MotionError):
 
     Attributes:
         phase: the latest that a grip could not do.
-        obstacle: why it could not.
+        hindrance: why it could not.
         why: the same in words.
         tried: all grips, and why each could not.
     """
 
     def __init__(self, stuck: _StuckError, tried: tuple[str, ...]) -> None:
         super().__init__("no grip brings the tool into the trocar: " + "; ".join(tried))
-        self.phase, self.obstacle, self.why = stuck.phase, stuck.obstacle, stuck.why
+        self.phase, self.hindrance, self.why = stuck.phase, stuck.hindrance, stuck.why
         self.tried = tried
 
 
@@ -268,9 +268,9 @@ def _first(
 class _StuckError(MotionError):
     """A phase that cannot be."""
 
-    def __init__(self, phase: PhaseName, obstacle: Obstacle, why: str) -> None:
+    def __init__(self, phase: PhaseName, hindrance: Hindrance, why: str) -> None:
         super().__init__(f"{phase.value}: {why}")
-        self.phase, self.obstacle, self.why = phase, obstacle, why
+        self.phase, self.hindrance, self.why = phase, hindrance, why
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -313,14 +313,14 @@ class _Errands:
         try:
             made = follow(self.arm, motion, self.pivot.tool.T_tool_needle, suggest=False, **more)
         except (MotionRefusedError, MechanismError) as error:
-            raise _StuckError(name, Obstacle.REACH, str(error)) from error
+            raise _StuckError(name, Hindrance.REACH, str(error)) from error
         return made.path
 
     def clear(self, name: PhaseName, path: JointPath, things: Collisions) -> None:
         if (s := things.stopped(self.arm, path)) is not None:
             share = 100.0 * (s - path.s[0]) / (path.s[-1] - path.s[0])
             what = things.touched(path.at(s))
-            raise _StuckError(name, Obstacle.TOUCH, f"{what} after {share:.0f} %")
+            raise _StuckError(name, Hindrance.TOUCH, f"{what} after {share:.0f} %")
 
     def way(self, name: PhaseName, things: Collisions, a: FloatArray, b: FloatArray) -> list[_Leg]:
         """Search a way; none is needed where the arm is there already."""
@@ -328,11 +328,11 @@ class _Errands:
             return []
         for q in (a, b):
             if not things.free(q):
-                raise _StuckError(name, Obstacle.TOUCH, f"{things.touched(q)} at its end")
+                raise _StuckError(name, Hindrance.TOUCH, f"{things.touched(q)} at its end")
         try:
             found = search(self.arm, things, a, b, budget=self.budget)
         except SearchError as error:
-            raise _StuckError(name, Obstacle.WAY, str(error)) from error
+            raise _StuckError(name, Hindrance.WAY, str(error)) from error
         return [_Leg(name, path, name is PhaseName.TRANSFER) for path in found.paths]
 
     def picked(self) -> list[_Leg]:
@@ -368,7 +368,7 @@ class _Errands:
                     )
                     self.clear(PhaseName.INSERT, path, self.inside)
                 except MechanismError as error:
-                    stuck = _StuckError(PhaseName.INSERT, Obstacle.REACH, str(error))
+                    stuck = _StuckError(PhaseName.INSERT, Hindrance.REACH, str(error))
                     failed(f"roll {np.degrees(roll):.0f}°", stuck)
                     continue
                 except _StuckError as error:

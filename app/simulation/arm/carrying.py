@@ -24,8 +24,8 @@ from app.mechanisms.laparoscopy import TrocarRing
 from app.planning.arm.pick_place import (
     ArmPhase,
     Errand,
+    Hindrance,
     NotPlacedError,
-    Obstacle,
     PhaseName,
     PickPlace,
     can_place,
@@ -339,9 +339,9 @@ def _has_room(scene: ArmScene, wanted: Insertion) -> None:
 
 
 _WHY: Final = {
-    Obstacle.REACH: CarryFailure.UNREACHABLE,
-    Obstacle.TOUCH: CarryFailure.COLLIDES,
-    Obstacle.WAY: CarryFailure.NO_WAY,
+    Hindrance.REACH: CarryFailure.UNREACHABLE,
+    Hindrance.TOUCH: CarryFailure.COLLIDES,
+    Hindrance.WAY: CarryFailure.NO_WAY,
 }
 _DOING: Final = {
     PhaseName.APPROACH: "come to the tool",
@@ -356,7 +356,7 @@ _DOING: Final = {
 
 def _in_words(error: NotPlacedError) -> CarryError:
     return CarryError(
-        _WHY[error.obstacle],
+        _WHY[error.hindrance],
         f"the arm cannot {_DOING[error.phase]}: {error.why}; let it stand elsewhere round the entry"
         " or choose another path",
     )
