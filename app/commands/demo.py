@@ -67,38 +67,52 @@ def demo(
     ] = False,
     device: Annotated[
         DemoDevice,
-        typer.Option(help="arm: a simulated arm fetches a tool by pictures alone; no exercise."),
+        typer.Option(help="arm: a simulated arm carries out the plan; it never drives a real one."),
     ] = DemoDevice.PANTOGRAPH,
 ) -> None:
     """Show a whole exercise, from the plan to the debrief.
 
     Without a display it runs as with --headless.
 
-    With --device arm a simulated arm finds a tool and a trocar by the pictures of two cameras,
-    grasps the tool and inserts it through the trocar: always into memory, with pictures and a
-    report. It is a simulation only and never drives a real arm. Ends with code 3 if the tool is
-    not inserted; says why.
+    With --device arm a simulated arm carries out the exercise's plan: it finds its tool by the
+    pictures of two cameras, grasps it, brings it to the entry and inserts it. Without a display its
+    own scene is shown first: pictures of what it sees and does there, with a report. It is a
+    simulation only and never drives a real arm. Ends with code 3 if the tool is not
+    inserted; says why.
     """
     if device is DemoDevice.ARM:
-        if ct is not None or pen or cameras != "simulated":
+        if pen or cameras != "simulated":
             raise AcusError(
-                "the arm is shown on its own table before its own simulated cameras; leave out"
-                " --ct, --pen and --cameras"
+                "the arm works before its own simulated cameras; leave out --pen and --cameras"
             )
-        _show_arm(seed, out or Path("out") / "demo-arm")
-        return
+        _import_arm()
     from app.views.shell.application import has_display
 
     hidden = headless or not has_display()
-    folder = out or (Path("out") / "demo" if hidden else None)
-    _show(ct, exercise, hidden, folder, seed, skill, cameras, pen)
+    name = "demo-arm" if device is DemoDevice.ARM else "demo"
+    folder = out or (Path("out") / name if hidden else None)
+    if device is DemoDevice.ARM and hidden and folder is not None:
+        _show_arm(seed, folder)
+    _show(ct, exercise, hidden, folder, seed, skill, cameras, pen, device is DemoDevice.ARM)
+
+
+def _import_arm() -> None:
+    """Say what it is, and raise the error that names the extra before a window opens for nothing.
+
+    Raises:
+        SimulationError: if MuJoCo is not installed.
+    """
+    from app.compose.arm import SIMULATION_ONLY
+    from app.simulation.arm.mjcf import import_mujoco
+
+    typer.echo(SIMULATION_ONLY)
+    import_mujoco()
 
 
 def _show_arm(seed: int, folder: Path) -> None:
-    from app.compose.arm import SIMULATION_ONLY, demonstrate
+    from app.compose.arm import demonstrate
     from app.core.exits import Exit
 
-    typer.echo(SIMULATION_ONLY)
     shown = demonstrate(seed, folder, typer.echo)
     typer.echo(f"pictures and report are in {folder}")
     if shown.failure is not None:
@@ -115,6 +129,7 @@ def _show(
     skill: SkillName,
     cameras: str,
     pen: bool,
+    by_arm: bool = False,
 ) -> None:
     from app.compose.desktop import Desktop
     from app.exercises.library import load_exercise
@@ -132,13 +147,14 @@ def _show(
     chosen = parse_cameras(cameras)
     application = start(offscreen=hidden)
     sessions = None if out is None else out / "sessions"
-    window = open_window(Desktop(skill.value, seed, sessions, (shown,)))
+    trainee = None if by_arm else skill.value
+    window = open_window(Desktop(trainee, seed, sessions, (shown,)))
     if pen:
         window.equipment.take_pen("simulated")
     else:
         window.equipment.take("")  # nobody stands beside the robot that is remembered
     window.equipment.take_cameras(chosen)
-    script = DemonstrationScript(shown.id, ct, pictures=out)
+    script = DemonstrationScript(shown.id, ct, pictures=out, by_arm=by_arm)
     collector = collect_for(window)
     show = Demonstration(window, script)
     failures: list[str] = []

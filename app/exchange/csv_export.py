@@ -190,6 +190,7 @@ FIXED: Final = (
     "views",
     "hand",
     "scripted",
+    "taken_over",
     "robot",
     "device",
     "seed",
@@ -329,7 +330,7 @@ def _conditions(row: Summary) -> Sequence[object]:
     """Cells of what the score was made under; empty where it is not known."""
     c = row.conditions
     if c is None:
-        return [None] * 16
+        return [None] * 17
     dial = c.assistance
     return (
         c.version or None,
@@ -338,6 +339,7 @@ def _conditions(row: Summary) -> Sequence[object]:
         None if c.views is None else " ".join(c.views),
         c.hand,
         c.scripted,
+        c.taken_over,
         c.kind.value,
         c.device,
         c.seed,

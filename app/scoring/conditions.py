@@ -12,6 +12,9 @@ DIAL_TOLERANCE: Final = 0.05
 """Dials of assistance that differ by no more than this count as the same: a twentieth of the way
 from no guidance to all of it."""
 
+PROGRAMS: Final = ("script", "arm")
+"""Hands that are nobody's: the scripted trainee, and the simulated arm that carries out a plan."""
+
 
 class DeviceKind(StrEnum):
     """What stood behind the needle."""
@@ -67,6 +70,8 @@ class Conditions:
             the attempt began; None where nobody had checked.
         scoring_version: of the rules that the score follows; 0 without a score.
         models: `effect: model`, each that was chosen while the attempt ran, sorted.
+        taken_over: what held the needle from some moment on, after the arm; empty where nobody took
+            it over.
     """
 
     exercise: str
@@ -86,6 +91,16 @@ class Conditions:
     agreement_mm: float | None = None
     scoring_version: int = field(default=0)
     models: tuple[str, ...] = ()
+    taken_over: str = ""
+
+    @property
+    def by_person(self) -> bool:
+        """Whether a person had the needle from begin to end: else the attempt is nobody's.
+
+        This alone decides it, wherever attempts count for somebody: learning curves, boards,
+        attempts that a course allows, assistance that fades, what comes next.
+        """
+        return not self.scripted and self.hand not in PROGRAMS
 
     def document(self) -> dict[str, Any]:
         """JSON-ready mapping; the keys stand in docs/json.md."""
@@ -111,12 +126,18 @@ class Conditions:
         known["models"] = tuple(str(model) for model in known.get("models", ()))
         for name in ("version", "level", "scoring_version"):
             known[name] = int(known.get(name, 0))
-        for name in ("content", "hand", "scripted", "device", "ct", "software", "calibration"):
+        for name in _TEXTS:
             known[name] = str(known.get(name, ""))
         for name, kind in (("seed", int), ("agreement_mm", _number)):
             value = known.get(name)
             known[name] = None if value is None else kind(value)
         return cls(**known)
+
+
+_TEXTS: Final = (
+    *("content", "hand", "scripted", "device", "ct", "software", "calibration"),
+    "taken_over",
+)
 
 
 def comparable(a: Conditions, b: Conditions) -> tuple[str, ...]:
@@ -173,6 +194,7 @@ def _reasons(a: Conditions, b: Conditions) -> tuple[str, ...]:
         else "",
         _differ("hand", a.hand, b.hand),
         _differ("scripted trainee", a.scripted, b.scripted),
+        _differ("taken over by", a.taken_over, b.taken_over),
         "what robot it was is not known of one of them"
         if DeviceKind.UNKNOWN in (a.kind, b.kind)
         else _differ("robot", a.kind.value, b.kind.value),

@@ -299,8 +299,8 @@ def _why_not_counted(one: Indexed, item: CourseItem, said: Remarks | None) -> st
         return "declared void by the instructor"
     if not one.counts:
         known = one.conditions
-        if known.scripted:
-            return "scripted"
+        if not known.by_person:
+            return "carried out by the arm" if known.hand == "arm" else "scripted"
         return "emulated robot" if known.kind == "emulated" else "not scored or void"
     if one.version != item.version:
         return f"version {one.version} of the exercise"

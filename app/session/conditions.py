@@ -5,7 +5,7 @@ What held the needle is one of them; it stands in every record.
 
 import json
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -20,9 +20,13 @@ from app.session.samples import Samples
 TRAINEE: Final = "trainee"
 """Name of the metadata record; its key `hand` holds one of `HANDS`."""
 
-HANDS: Final = ("mouse", "keyboard", "tablet", "gamepad", "robot", "pen", "script")
+HANDS: Final = ("mouse", "keyboard", "tablet", "gamepad", "robot", "pen", "script", "arm")
 """Sources of the hand: `robot` is a real hand at a real robot, `pen` one that holds a pen with
-printed markers, `script` the scripted trainee."""
+printed markers, `script` the scripted trainee, `arm` the simulated arm that carries out a plan."""
+
+TAKEN_OVER: Final = "taken_over"
+"""Kind of the event at which another hand goes on with the needle: `hand` one of `HANDS`, `depth_m`
+where the tip was, None where nobody had measured it."""
 
 
 def hand_of(trainee: Mapping[str, str], asked: str = "") -> str:
@@ -68,7 +72,7 @@ def conditions_of(
     attachments: Mapping[str, bytes],
     samples: Samples,
     scoring_version: int,
-    events: Iterable[Event] = (),
+    events: Sequence[Event] = (),
 ) -> Conditions:
     """Gather the conditions of one attempt; what an old or damaged record does not say is empty.
 
@@ -103,6 +107,7 @@ def conditions_of(
         agreement_mm=agreement,
         scoring_version=scoring_version,
         models=tuple(sorted({f"{c.effect}: {c.model}" for c in choices_of(events)})),
+        taken_over=_taken_over(events),
     )
 
 
@@ -140,6 +145,12 @@ def kind_of(device: Mapping[str, str]) -> DeviceKind:
         return DeviceKind(device.get("kind", ""))
     except ValueError:
         return DeviceKind.UNKNOWN
+
+
+def _taken_over(events: Iterable[Event]) -> str:
+    """Return the last hand that took the needle over; one that is not known is left out."""
+    hands = [event.data.get("hand") for event in events if event.kind == TAKEN_OVER]
+    return next((hand for hand in reversed(hands) if hand in HANDS and isinstance(hand, str)), "")
 
 
 def _said(record: Mapping[str, str], attachments: Mapping[str, bytes]) -> Mapping[str, str]:

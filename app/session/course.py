@@ -410,5 +410,5 @@ def attempts_used(attempts: Sequence[Indexed], item: CourseItem) -> list[Indexed
         if one.exercise == item.exercise
         and one.version == item.version
         and one.state in ("ended", "aborted", "unfinished")
-        and not one.conditions.scripted
+        and one.conditions.by_person
     ]

@@ -59,7 +59,7 @@ class Indexed:
         total: points; None where it was not scored or is void.
         passed: whether the score passes; None without one.
         verdict: of the signature.
-        counts: whether it counts for a person: scored, and neither scripted nor emulated.
+        counts: whether it counts for a person: scored, by a person, and not emulated.
         under: what the score was made under, as text; empty where nothing is known.
         document: the summary as `Summary.document` gives it, as text.
     """
@@ -123,7 +123,7 @@ class Refreshed:
 def totals_of(folder: Path, student: str, exercise: str, version: int) -> list[float | None]:
     """Return the scores of a student's attempts at a version of an exercise, oldest first.
 
-    Attempts of scripted trainees and void ones are left out; one without a score is None.
+    Those that are nobody's and void ones are left out; one without a score is None.
 
     Args:
         folder: of the records.
@@ -141,7 +141,7 @@ def totals_of(folder: Path, student: str, exercise: str, version: int) -> list[f
         for one in index.attempts([student])
         if (one.exercise, one.version) == (exercise, version)
         and one.state in ("ended", "aborted", "unfinished")
-        and not one.conditions.scripted
+        and one.conditions.by_person
         and (one.id not in remarks or not remarks[one.id].void)
     ]
 
@@ -301,7 +301,7 @@ def _rows(
         return []
     score, known = summary.score or {}, summary.conditions
     total = score.get("total")
-    person = known is not None and not known.scripted and known.kind is not DeviceKind.EMULATED
+    person = known is not None and known.by_person and known.kind is not DeviceKind.EMULATED
     return [
         {
             "id": name,

@@ -35,6 +35,7 @@ class ProposalReason(StrEnum):
     AGAIN = "again"  # not passed: the same once more
     EASIER = "easier"  # not passed several times
     VOID = "void"  # nothing was judged: the same once more
+    YOURSELF = "yourself"  # a program did it: the same, by hand
     DONE = "done"  # everything is passed: where most is to be gained
     CLOSED = "closed"  # none may be begun, or none can be named yet
 
@@ -258,7 +259,8 @@ def around(
         owner = person if same(one.student) else None
         return holding(courses_here, owner, one.exercise, one.version, released) is None
 
-    under, own = shown.conditions, [one for one in attempts if same(one.student)]
+    under = shown.conditions
+    own = [one for one in attempts if same(one.student) and one.conditions.by_person]
     done = under.exercise if under is not None else ""
     course = next(
         (
@@ -272,9 +274,20 @@ def around(
     )
     seen = not_void((one for one in own if is_open(one)), remarks)
     score = None if held else shown.score
-    proposal = propose(done, score, seen, exercises, course, refusal, held)
+    if under is not None and not under.by_person:
+        proposal = _yourself(done, exercises, refusal)
+    else:
+        proposal = propose(done, score, seen, exercises, course, refusal, held)
     found = () if held or under is None else rivals(attempts, shown.id, under, same, is_open)
     return Around(proposal, tuple((one, same(one.student)) for one in found[:MOST_RIVALS]))
+
+
+def _yourself(done: str, exercises: Sequence[Exercise], refused: Callable[[str], str]) -> Proposal:
+    """Propose to do by hand what a program did."""
+    same = next((one for one in exercises if one.id == done), None)
+    if same is None or refused(done):
+        return Proposal("", "", ProposalReason.CLOSED)
+    return Proposal(same.id, same.title, ProposalReason.YOURSELF, level=same.level)
 
 
 Whose = tuple[Person | None, Mapping[str, str], Sequence[Course], Mapping[str, Remarks]]

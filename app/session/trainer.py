@@ -10,13 +10,15 @@ from app.core.clock import Clock, SystemClock
 from app.core.errors import AcusError
 from app.core.events import EventQueue
 from app.core.latest import Latest
+from app.core.units import MILLIMETRE
 from app.exercises.locks import Lock
 from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
 from app.session.attempt_log import AttemptLog
+from app.session.conditions import TAKEN_OVER, hand_of
 from app.session.context import RunContext
 from app.session.effect_models import KIND, ModelChoice
-from app.session.errors import ControlLockedError, SessionError
+from app.session.errors import ControlLockedError, IllegalTransitionError, SessionError
 from app.session.fixes import TRUST, DepthTrust
 from app.session.inputs import Arming, ClearanceOf, LoopInputs
 from app.session.machine import AttemptEvent, State
@@ -158,8 +160,9 @@ class Trainer:
 
         Args:
             student: pseudonym.
-            hand: what holds the needle, one of `hands.HANDS`; a run that was built for one hand
-                keeps it.
+            hand: what holds the needle, one of `conditions.HANDS`; a run that was built for one
+                hand keeps it.
+
 
         Raises:
             IllegalTransitionError: if an attempt is running.
@@ -242,6 +245,30 @@ class Trainer:
         """
         if not self._withdrawal.moves_hand:
             self._inputs.hand(x, y, depth, holds)
+
+    def take_over(self, hand: str) -> None:
+        """Let another hand go on with the needle of a running attempt: told and recorded.
+
+        Args:
+            hand: which, one of `session.conditions.HANDS`.
+
+        Raises:
+            IllegalTransitionError: if no attempt is running.
+            SessionError: for an unknown hand.
+        """
+        hand = hand_of({}, hand)
+        with self._lock:
+            now = self._clock.now()
+            if not self._running.attempt.running:
+                raise IllegalTransitionError(
+                    f"nobody can take the needle over while {self._running.attempt.state}: no "
+                    "attempt is running"
+                )
+            pose = self._sources.newest(self._placed, now).pose
+            depth = float(pose.depth) if pose.measured else None
+            at = "" if depth is None else f" at {depth / MILLIMETRE:.0f} mm"
+            words = f"taken over by {hand}{at}"
+            self._running.say(TAKEN_OVER, words, now, {"hand": hand, "depth_m": depth})
 
     def roll(self, step: float) -> None:
         """Turn the needle about its axis by `step` [rad], clockwise seen from the hub.

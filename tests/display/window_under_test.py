@@ -35,6 +35,7 @@ from PySide6.QtWidgets import (
 
 from app.compose.desktop import Desktop
 from app.core.files import write_atomically
+from app.views.arm.feature import ArmFeature
 from app.views.author.feature import AuthorFeature
 from app.views.debrief.feature import DebriefFeature
 from app.views.shell.application import start
@@ -77,6 +78,7 @@ def state_of(window: MainWindow) -> dict[str, Any]:
         "exercise_tab": tab(window, 1),
         "start": middle(panel.buttons.start) if panel.buttons.start.isEnabled() else None,
         "start_visible": panel.buttons.start.isVisible(),
+        "arm": arm(window),
         "tool": window.workspace.viewing.tool.value,
         "plan": plan(window),
         "marks": marks(window),
@@ -93,6 +95,12 @@ def state_of(window: MainWindow) -> dict[str, Any]:
         "remaining_mm": None if snapshot is None else 1e3 * snapshot.offset.remaining,
         "off_mm": None if snapshot is None else 1e3 * snapshot.offset.lateral,
     }
+
+
+def arm(window: MainWindow) -> str:
+    """What the bar over the views says of the simulated arm; empty without it."""
+    bar = window.feature(ArmFeature).bar
+    return bar.words.text() if bar.isVisible() else ""
 
 
 def axial(window: MainWindow) -> dict[str, list[float]] | None:

@@ -331,4 +331,4 @@ def test_without_the_extra_the_command_says_which_to_install():
 def test_what_the_arm_cannot_show_is_refused():
     found = acus("demo", "--device", "arm", "--pen")
     assert found.returncode == 2
-    assert "leave out --ct, --pen and --cameras" in found.stderr
+    assert "leave out --pen and --cameras" in found.stderr

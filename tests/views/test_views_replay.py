@@ -323,15 +323,22 @@ def test_a_result_that_is_held_shows_neither_score_nor_replay_but_who_releases_i
 def test_beside_an_attempt_stand_the_ideal_path_and_comparable_ones_by_their_points(shown, window):
     from app.views.debrief.feature import ghost_words
 
-    one = SimpleNamespace(id="a", total=87.4, started="2026-11-20T10:00:00", student="ada")
-    two = SimpleNamespace(id="b", total=80.0, started="2026-11-21T10:00:00", student="ada")
-    other = SimpleNamespace(id="c", total=99.0, started="2026-11-21T10:00:00", student="ben")
-    words = ghost_words([(one, True), (two, True), (other, False)], shown.review)
-    assert [key for key, _ in words] == [IDEAL, "a", "b", "c"]
-    assert words[1][1].startswith("own best: 87")
-    assert words[3][1].startswith("ben: 99")
+    def attempt(key, total, student, hand="mouse"):
+        made = Conditions("one", hand=hand)
+        return SimpleNamespace(
+            id=key, total=total, started="2026-11-20T10:00:00", student=student, conditions=made
+        )
+
+    arms = attempt("z", 100.0, "ada", "arm")
+    one, two = attempt("a", 87.4, "ada"), attempt("b", 80.0, "ada")
+    other = attempt("c", 99.0, "ben")
+    words = ghost_words([(arms, True), (one, True), (two, True), (other, False)], shown.review)
+    assert [key for key, _ in words] == [IDEAL, "z", "a", "b", "c"]
+    assert words[1][1].startswith("the arm (simulation): 100")  # nobody's best
+    assert words[2][1].startswith("own best: 87")
+    assert words[4][1].startswith("ben: 99")
     shown.offer_ghosts(words)
-    assert shown.bar.ghost.count() == 5
+    assert shown.bar.ghost.count() == 6
     got = []
     shown.ghost_wanted.connect(got.append)
     shown.bar.ghost.setCurrentIndex(1)

@@ -49,7 +49,8 @@ STUDENTS_MAY = listed(
     "Key for the forces: H…|Arm the simulated robot by a held key too|Measure the delay…|"
     "Cost of accuracy…|"
     # exercises to do, and what comes of them
-    "Briefing of this exercise|Show me this exercise|Past sessions|Workspace|Start page|"
+    "Briefing of this exercise|Show me this exercise|Watch the arm do my plan|Past sessions|"
+    "Workspace|Start page|"
     "Progress, students and courses|Curve|Attempts…|Sign in as a student…|"
     "Sign in as the instructor…|Sign out|Three-minute tour|User guide|Help on this part|"
     "Keys and mouse|Report a problem…|About Acus|Quit"

@@ -6,6 +6,7 @@ from functools import cache
 from types import MappingProxyType, SimpleNamespace
 
 import numpy as np
+from arm_rig import performance_of
 from views_robot_fakes import FakeBench
 
 from app.compose.effect_models import with_model
@@ -37,7 +38,7 @@ from app.views.slices.viewing import Tool
 class FakeTrainer:
     def __init__(self, placed):
         self.placed, self.events, self.result, self.state = placed, EventQueue(), None, State.READY
-        self.dial = 1.0
+        self.dial, self.hands, self.begun, self.taken_over = 1.0, [], None, ""
 
     def snapshot(self):
         placed = self.placed
@@ -55,7 +56,7 @@ class FakeTrainer:
                         ())  # fmt: skip
 
     def begin(self, student="", hand=""):
-        self.state = State.ALIGNING
+        self.state, self.begun = State.ALIGNING, (student, hand)
         return "session-1"
 
     def abort(self, reason=""):
@@ -63,7 +64,12 @@ class FakeTrainer:
 
     def heartbeat(self): ...
     def assistance(self, value): ...
-    def hand(self, *_): ...
+    def take_over(self, hand):
+        self.taken_over = hand
+
+    def hand(self, *pose):
+        self.hands.append(pose)
+
     def arm(self): ...
     def disarm(self): ...
 
@@ -165,6 +171,8 @@ class FakeServices:
         self.prepared, self.missing, self.unusable = threading.Event(), "", ()
         self.sources, self.lives = (RobotPort("usb:1-1", "Webcam (usb:1-1)"),), []
         self.pens, self.seen = [], None
+        self.carried, self.cannot, self.arm_waits = [], None, threading.Event()
+        self.arm_waits.set()
         self.ports, self.benches = (RobotPort("/dev/ttyACM0", "icube A17 on /dev/ttyACM0"),), []
 
     def robots(self):
@@ -236,6 +244,14 @@ class FakeServices:
         if self.missing:
             raise ImportError(self.missing)
         return self.unusable
+
+    def carry_out(self, placed, seed, stands_deg, progress):
+        self.carried.append((placed, seed, stands_deg))
+        while not self.arm_waits.wait(0.01):
+            progress.report(0.5, "looking for the tool")
+        if self.cannot is not None:
+            raise self.cannot
+        return performance_of(placed)
 
     def open_run(self, setup, progress):
         if self.refuses:

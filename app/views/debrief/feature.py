@@ -44,6 +44,7 @@ from app.session.summary import Summary
 from app.views.debrief.page import DebriefPage, date_text
 from app.views.debrief.replay import Ghost
 from app.views.debrief.report import report_bytes
+from app.views.debrief.score_words import hand_word
 from app.views.debrief.sessions import SessionsPage
 from app.views.exercise.conductor import Conductor
 from app.views.exercise.readouts import clock_text
@@ -337,7 +338,10 @@ def ghost_words(found: Sequence[tuple[Indexed, bool]], shown: Review) -> list[tu
     best = True
     for one, own in found:
         total, date = f"{one.total or 0.0:.0f}", date_text(one.started)
-        if own and best:
+        if not one.conditions.by_person:
+            who = hand_word(one.conditions)
+            words = tr("{who}: {total} ({date})", who=who, total=total, date=date)
+        elif own and best:
             words, best = tr("own best: {total} ({date})", total=total, date=date), False
         elif own:
             words = tr("own: {total} ({date})", total=total, date=date)

@@ -53,6 +53,7 @@ from app.views.debrief.score_words import (
     shown_only,
     total_text,
     verdict,
+    whose_words,
 )
 from app.views.exercise.readouts import clock_text
 from app.views.exercise.steps import state_word
@@ -247,6 +248,7 @@ class DebriefPage(QWidget):
         self._ghost: Ghost | None = None
         self._alignment = Alignment.TIME
         self._title, self._facts, self.conditions = QLabel(self), QLabel(self), QLabel(self)
+        self.whose = QLabel(self)
         self._verdict, self._total, self._reason = QLabel(self), QLabel(self), QLabel(self)
         self._problems, self.risks = QLabel(self), QLabel(self)
         self.ending, self.lessons, self.proposal = QLabel(self), QLabel(self), QLabel(self)
@@ -347,6 +349,9 @@ class DebriefPage(QWidget):
     def _show_conditions(self, review: Review) -> None:
         """Say what the score was made under in one line, and all of it to whoever points there."""
         known = review.conditions
+        whose = whose_words(known)
+        self.whose.setText(whose)
+        self.whose.setVisible(bool(whose))
         self.conditions.setText(short_words(known))
         self.conditions.setVisible(known is not None)
         lines = [f"{name}: {value}" for name, value in facts_of(known)] if known else []
@@ -436,9 +441,14 @@ class DebriefPage(QWidget):
         self.comment.setStyleSheet(
             f"background: {theme.RAISED}; border-left: 3px solid {theme.ACCENT}; padding: 4px 8px;"
         )
+        self.whose.setStyleSheet(
+            f"background: {theme.RAISED}; border-left: 3px solid {theme.WARNING}; padding: 4px 8px;"
+            " font-weight: 600;"
+        )
         for label in (
             self._title,
             self._facts,
+            self.whose,
             self.conditions,
             self._reason,
             self._problems,
@@ -478,6 +488,7 @@ class DebriefPage(QWidget):
         headline = QHBoxLayout()
         headline.addWidget(self._verdict)
         headline.addWidget(self._total, 1, Qt.AlignmentFlag.AlignRight)
+        column.addWidget(self.whose)
         column.addLayout(headline)
         column.addWidget(self.conditions)
         for widget in (
@@ -602,7 +613,10 @@ class DebriefPage(QWidget):
             signal.emit(self._review)
 
 
-SAME: Final = (ProposalReason.AGAIN, ProposalReason.VOID, ProposalReason.DONE)
+SAME: Final = (
+    *(ProposalReason.AGAIN, ProposalReason.VOID, ProposalReason.DONE),
+    ProposalReason.YOURSELF,
+)
 """Reasons to propose the same exercise once more: the button *Again* does it."""
 
 

@@ -42,6 +42,7 @@ from app.views.debrief.score_words import (
     shown_only,
     total_text,
     verdict,
+    whose_words,
 )
 from app.views.exercise.pad_canvas import PadArea
 from app.views.exercise.readouts import clock_text
@@ -315,16 +316,19 @@ def _risks(painter: QPainter, review: Review, y: float) -> float:
 
 
 def _heading(painter: QPainter, review: Review) -> float:
+    whose = whose_words(review.conditions)
     _text(painter, MARGIN, MARGIN + 14.0, review.exercise, font(17.0, bold=True))
-    _text(painter, MARGIN, MARGIN + 31.0, tr("Report of an attempt"), font(10.0), DIM)
+    _text(painter, MARGIN, MARGIN + 31.0, whose or tr("Report of an attempt"), font(10.0), DIM)
     painter.setPen(QPen(QColor(RULE), 0.8))
     painter.drawLine(QPointF(MARGIN, MARGIN + 40.0), QPointF(WIDTH - MARGIN, MARGIN + 40.0))
     return MARGIN + 60.0
 
 
 def _facts(painter: QPainter, review: Review, y: float) -> float:
+    watched = bool(whose_words(review.conditions))
+    who = tr("Watched by (pseudonym)") if watched else tr("Student (pseudonym)")
     facts = (
-        (tr("Student (pseudonym)"), ACCESS.shown(review.student)),
+        (who, ACCESS.shown(review.student)),
         (tr("Date"), date_text(review.started)),
         (tr("Session"), review.id),
         (tr("State"), state_word(review.state) + (f": {review.reason}" if review.reason else "")),

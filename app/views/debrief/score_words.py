@@ -3,7 +3,7 @@ under.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from app.core.units import MILLIMETRE
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
@@ -67,7 +67,29 @@ def hand_word(conditions: Conditions) -> str:
         "robot": tr("hand at the robot"),
         "pen": tr("pen"),
         "script": tr("script"),
+        "arm": tr("the arm (simulation)"),
     }.get(conditions.hand, "")
+
+
+def hands_word(conditions: Conditions) -> str:
+    """Say what held the needle, one after the other where another hand took it over."""
+    if not conditions.taken_over:
+        return hand_word(conditions)
+    later = hand_word(replace(conditions, hand=conditions.taken_over))
+    return tr("{first}, then {later}", first=hand_word(conditions), later=later)
+
+
+def whose_words(conditions: Conditions | None) -> str:
+    """Say whose attempt it is where it is no student's; empty for a student's."""
+    if conditions is None or conditions.hand != "arm":
+        return ""
+    if conditions.taken_over:
+        return tr(
+            "◇ Begun by the arm (simulation), then taken over by {hand}: no student's attempt, it "
+            "counts for nobody",
+            hand=hand_word(replace(conditions, hand=conditions.taken_over)),
+        )
+    return tr("◇ Carried out by the arm (simulation), not by a student: it counts for nobody")
 
 
 def dial_text(dial: Assistance | None) -> str:
@@ -85,7 +107,8 @@ def short_words(conditions: Conditions | None) -> str:
         return ""
     dial = dial_text(conditions.assistance)
     parts = (
-        hand_word(conditions),
+        tr("◇ no student's") if conditions.hand == "arm" else "",
+        hands_word(conditions),
         kind_word(conditions.kind),
         tr("assistance {dial}", dial=dial) if dial else "",
         tr("▲ model changed meanwhile: {models}", models=models_text(conditions))
@@ -107,7 +130,7 @@ def facts_of(conditions: Conditions) -> tuple[tuple[str, str], ...]:
         (tr("Exercise"), _exercise(c)),
         (tr("Assistance"), assistance_words(c.assistance)),
         (tr("Views"), _views(c)),
-        (tr("Hand and robot"), f"{hand_word(c) or tr('not recorded')}, {_robot(c)}"),
+        (tr("Hand and robot"), f"{hands_word(c) or tr('not recorded')}, {_robot(c)}"),
         (tr("Screen and needle"), agreement_words(c)),
         *(((tr("Models changed meanwhile"), models_text(c)),) if c.models else ()),
         (tr("Software"), _software(c)),
@@ -357,6 +380,7 @@ def proposal_words(proposal: Proposal) -> str:
             level=proposal.level,
         )
         + cost,
+        ProposalReason.YOURSELF: tr("Now you: {title}.", title=proposal.title),
         ProposalReason.VOID: tr("The same again: this attempt was not judged."),
         ProposalReason.DONE: tr("All exercises that are open to you are passed.") + cost,
         ProposalReason.CLOSED: "",

@@ -43,7 +43,7 @@ from app.session.store import SUFFIX, delete, list_sessions, restore
 from app.session.summary import BROKEN, Summary
 from app.views.debrief.page import date_text
 from app.views.debrief.remarks import RemarkActions, said_words
-from app.views.debrief.score_words import facts_of, short_words
+from app.views.debrief.score_words import facts_of, short_words, whose_words
 from app.views.exercise.readouts import clock_text
 from app.views.exercise.steps import state_word
 from app.views.kit import theme
@@ -206,7 +206,14 @@ class SessionsModel(QAbstractTableModel):
             known = summary.conditions
             under = [f"{name}: {value}" for name, value in facts_of(known)] if known else []
             remarks = self._listed.remarks(summary, self._manages)
-            every = (summary.id, *remarks, summary.reason, *summary.problems, *under)
+            every = (
+                summary.id,
+                whose_words(known),
+                *remarks,
+                summary.reason,
+                *summary.problems,
+                *under,
+            )
             return NAMES.without_names("\n".join(line for line in every if line), files=True)
         if role == Qt.ItemDataRole.TextAlignmentRole and column in _RIGHT:
             return _RIGHTWARDS

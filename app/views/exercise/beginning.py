@@ -61,6 +61,7 @@ class BeginWish(Enum):
     LOOK = auto()
     ATTEMPT = auto()
     SHOW = auto()
+    ARM = auto()
 
 
 class DemonstrationBar(QFrame):
@@ -268,6 +269,10 @@ class Beginning(QObject):
         """Let the exercise be shown."""
         self._go(BeginWish.SHOW)
 
+    def let_arm(self) -> None:
+        """Let the simulated arm do the exercise, along its plan."""
+        self._go(BeginWish.ARM)
+
     def show_taken(self) -> None:
         """Let the scripted expert do the exercise that is prepared."""
         taken = self._conductor.exercise
@@ -384,6 +389,7 @@ class Beginning(QObject):
             BeginWish.LOOK: self._end_wish,
             BeginWish.ATTEMPT: self._start,
             BeginWish.SHOW: self._show,
+            BeginWish.ARM: self._let_arm,
         }.get(self.wish)
         if step is not None:
             step()
@@ -402,6 +408,10 @@ class Beginning(QObject):
             self._end_wish()
             start.click()
             self._guard.hold()
+
+    def _let_arm(self) -> None:
+        self._end_wish()
+        self._conductor.arm_wanted.emit()
 
     def _show(self) -> None:
         self._escape.setEnabled(True)
@@ -445,6 +455,7 @@ class Beginning(QObject):
         page.begin_wanted.connect(self.begin)
         page.show_wanted.connect(self.show_me)
         page.look_wanted.connect(self.look)
+        page.arm_wanted.connect(self.let_arm)
         page.back_wanted.connect(self.back)
         self.bar.stop.clicked.connect(self.stop)
         controller.intercepted = self._intercepted

@@ -255,14 +255,16 @@ WORDS_WIDTH = 500
 
 
 class BriefingPage(QWidget):
-    """What is to be done, before it begins. Enter begins, D shows, L looks around, Esc goes back.
+    """What is to be done, before it begins. Enter begins, D shows, W lets the arm do it, L looks
+    around, Esc goes back.
 
     Signals:
-        begin_wanted(), show_wanted(), look_wanted(), back_wanted().
+        begin_wanted(), show_wanted(), arm_wanted(), look_wanted(), back_wanted().
     """
 
     begin_wanted = Signal()
     show_wanted = Signal()
+    arm_wanted = Signal()
     look_wanted = Signal()
     back_wanted = Signal()
 
@@ -274,12 +276,16 @@ class BriefingPage(QWidget):
         self.views = tuple(PortraitView(name, self) for name in ("axial", "coronal", "sagittal"))
         self.begin = _key_button(tr("Begin (Enter)"), "primary")
         self.show_me = _key_button(tr("Show me (D)"))
+        self.arm = _key_button(tr("Watch the arm (W)"))
         self.look = _key_button(tr("Look around first (L)"))
         self.back = _key_button(tr("Back (Esc)"))
         self.skip = QCheckBox(tr("Do not show this again for this exercise"), self)
         self.why_not = label("", "dim")
         self.begin.setToolTip(tr("The attempt starts as soon as robot and cameras are there"))
         self.show_me.setToolTip(tr("An expert does the exercise; nothing is recorded"))
+        self.arm.setToolTip(
+            tr("A simulated arm carries out the plan; it counts for nobody, and drives no real arm")
+        )
         self.look.setToolTip(tr("Study the CT without the clock; F5 starts the attempt"))
         self._lay_out()
         self._connect()
@@ -300,6 +306,8 @@ class BriefingPage(QWidget):
         self.begin.setText(tr("Begin to plan (Enter)") if own else tr("Begin (Enter)"))
         self.look.setVisible(not own)
         self.show_me.setEnabled(not own)
+        self.arm.setEnabled(not own)
+        self.arm.setVisible(exercise.purpose is Purpose.PRACTICE)
         self.why_not.setText(
             tr("You choose the entry here, so there is nothing to show before you have.")
             if own
@@ -361,7 +369,7 @@ class BriefingPage(QWidget):
         for widget in (self.back, self.skip):
             buttons.addWidget(widget)
         buttons.addStretch(1)
-        for widget in (self.show_me, self.look, self.begin):
+        for widget in (self.show_me, self.arm, self.look, self.begin):
             buttons.addWidget(widget)
         self.begin.setMinimumWidth(theme.px(170))
         page = QVBoxLayout(self)
@@ -381,11 +389,13 @@ class BriefingPage(QWidget):
             key.Key_Enter: self.begin,
             key.Key_F5: self.begin,
             key.Key_D: self.show_me,
+            key.Key_W: self.arm,
             key.Key_L: self.look,
             key.Key_Escape: self.back,
         }
         self.begin.clicked.connect(self.begin_wanted)
         self.show_me.clicked.connect(self.show_wanted)
+        self.arm.clicked.connect(self.arm_wanted)
         self.look.clicked.connect(self.look_wanted)
         self.back.clicked.connect(self.back_wanted)
 

@@ -6,6 +6,7 @@ from typing import Any, Final
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QWidget
 
 from app.core import state_vector
 from app.core.arrays import FloatArray
@@ -70,9 +71,18 @@ class LiveNeedle:
         """Draw everything anew at the next snapshot: another run, or another plan."""
         self._drawn, self._hidden = None, False
 
-    def show(self, run: ExerciseRun, snapshot: Snapshot) -> None:
-        """Draw a moment; nothing where the run tells nothing of its needle."""
-        if not run.shown.live:
+    def show(
+        self, run: ExerciseRun, snapshot: Snapshot, absent: bool = False, bare: bool = False
+    ) -> None:
+        """Draw a moment; nothing where the run tells nothing of its needle.
+
+        Args:
+            run: whose needle it is.
+            snapshot: of the moment.
+            absent: whether the needle is not there yet.
+            bare: whether it is drawn without the robot, which somebody else does not use.
+        """
+        if absent or not run.shown.live:
             if not self._hidden:
                 self.hide()
             return
@@ -99,7 +109,7 @@ class LiveNeedle:
             self._drawn, self._pulled = ends, pulls
             self._workspace.scene.set_needle(needle)
             q = None if snapshot.device is None else snapshot.device.q
-            robot = RobotShape.of(run.profile, q, pulls)
+            robot = None if bare else RobotShape.of(run.profile, q, pulls)
             self._workspace.scene.set_robot(robot, transform.inverse())
 
     def hide(self) -> None:
@@ -145,6 +155,7 @@ class Conductor(QObject):
         exercises_changed(): there are others to choose from.
         exercise_wanted(str): somebody wants to begin an exercise, by its identifier.
         start_wanted(): somebody wants to choose another exercise, on the start page.
+        arm_wanted(): somebody wants to watch the arm carry out the plan.
 
     Attributes:
         controller: serves the attempt.
@@ -163,6 +174,7 @@ class Conductor(QObject):
     exercises_changed = Signal()
     exercise_wanted = Signal(str)
     start_wanted = Signal()
+    arm_wanted = Signal()
 
     def __init__(
         self,
@@ -180,7 +192,7 @@ class Conductor(QObject):
         self.patient: Patient | None = None
         self.exercise: Exercise | None = None
         self._robot, self._released, self._leaving = RobotChoice(), False, False
-        self._demonstrates = False
+        self._demonstrates = self._lent = self._bare = False
         self._cameras: CameraSettings | None = None
         self._profile: DeviceProfile | None = None
         self._surfaces = SurfaceExtraction(workspace.scene, self)
@@ -242,7 +254,7 @@ class Conductor(QObject):
         """End the run on the patient, and forget everything that was known of it; idempotent."""
         if self.patient is None:
             return
-        self._demonstrates = False
+        self._demonstrates = self._lent = False
         self._leaving = True  # no run may be wanted for a plan that is about to go
         try:
             self.runs.abort(tr("another patient was opened"))
@@ -360,6 +372,29 @@ class Conductor(QObject):
             self._demonstrates = on
             self._show_plan()
 
+    def lend(self, on: bool) -> None:
+        """Give the needle to the simulated arm, on a simulated robot, or take it back."""
+        if on != self._lent:
+            self._lent = on
+            self._show_plan()
+
+    def show_arm(self, bar: QWidget | None) -> None:
+        """Let a bar say what the arm does, in place of the next step, and draw no robot; None ends
+        that.
+        """
+        self._bare = bar is not None
+        self._needle.forget()
+        self._workspace.lead_by(bar)
+
+    def show_scene_alone(self, alone: bool) -> None:
+        """Give the 3D view the whole room, if the exercise shows it, or share it again."""
+        workspace = self._workspace
+        if alone and not workspace.scene.off and workspace.grid.maximised is not workspace.scene:
+            workspace.share_room()
+            workspace.grid.toggle(workspace.scene)
+        elif not alone:
+            workspace.share_room()
+
     def let_go(self) -> None:
         """End the run, so that somebody else can have the robot; the plan stays."""
         self._released = True
@@ -449,7 +484,8 @@ class Conductor(QObject):
         if self.exercise is None or self.patient is None:
             return
         shows, volume = self._demonstrates, self.patient.volume
-        robot, cameras = (RobotChoice(), None) if shows else (self._robot, self._cameras)
+        simulated = shows or self._lent
+        robot, cameras = (RobotChoice(), None) if simulated else (self._robot, self._cameras)
         ct = CtFacts.of_volume(volume)
         self.runs.want(RunSetup(self.exercise, placed, ct, robot, cameras, volume, shows))
 
@@ -494,7 +530,7 @@ class Conductor(QObject):
         if run is None:
             return
         self._editor_lock(snapshot)
-        self._needle.show(run, snapshot)
+        self._needle.show(run, snapshot, self.controller.is_absent, self._bare)
         self._motion.show(run, snapshot)
 
     def _editor_lock(self, snapshot: Snapshot) -> None:

@@ -18,6 +18,7 @@ from app.planning.placement import PlacedPlan
 from app.session.machine import RUNNING, State
 from app.session.pad.hand import HandPose
 from app.session.result import AttemptResult
+from app.session.shown_views import without_needle
 from app.session.snapshot import Snapshot
 from app.views.exercise.axial_gauge import AxialGauge, axial_force
 from app.views.exercise.bullseye import Bullseye
@@ -38,6 +39,7 @@ from app.views.exercise.status import MessageList, StatusStrip
 from app.views.exercise.status_items import MISSED_WINDOW
 from app.views.exercise.tracker_panel import TrackerPanel
 from app.views.kit.background import run_in_background
+from app.views.kit.text import tr
 from app.views.kit.verdict import StatusItem
 
 STATUS_PERIOD: Final = 0.25
@@ -65,6 +67,8 @@ class ExerciseDisplay:
     Attributes:
         rates: of the loop [Hz], and the share of deadlines it missed of late, at the last poll.
         extra_items: further lines of the status strip, by whoever else watches; none by default.
+        is_led: whether a part of the window leads the needle, not the student's hand.
+        is_absent: whether the needle is not there yet.
     """
 
     def __init__(self, views: ExerciseViews) -> None:
@@ -73,6 +77,7 @@ class ExerciseDisplay:
         self._figured: tuple[object, ...] = ()
         self._going: State | None = None
         self._aimed: PlacedPlan | None = None
+        self.is_led = self.is_absent = False
         self.rates = (0.0, 0.0)
         self.extra_items: list[Callable[[Snapshot], tuple[StatusItem, ...]]] = []
         self._rates = LoopRates()
@@ -86,7 +91,8 @@ class ExerciseDisplay:
         live, shows = run.shown.live, run.shown.shows
         self._aimed = None
         self._views.bullseye.hide_needle(not shows(ViewName.BULLSEYE), beside_scan=not live)
-        self._views.bullseye.set_scene(run.scene(), run.interactive, run.is_real, run.held_at_hub)
+        by_hand = run.interactive and not self.is_led
+        self._views.bullseye.set_scene(run.scene(), by_hand, run.is_real, run.held_at_hub)
         self._views.panel.set_forceful(run.forceful)
         self._views.panel.set_guidance(None if live else run.guidance, run.placed.plan)
         self._views.panel.set_offsets(shows(ViewName.BULLSEYE))
@@ -134,7 +140,8 @@ class ExerciseDisplay:
             self._views.bullseye.let_go()
 
     def _show_panel(self, run: ExerciseRun, snapshot: Snapshot, limit: float, now: float) -> None:
-        views, hidden, interactive = self._views, not run.shown.live, not run.demonstrates
+        views, interactive = self._views, not run.demonstrates
+        hidden = self.is_absent or not run.shown.live
         views.bullseye.source.set_locked(snapshot.state in RUNNING)
         views.panel.withdrawal.show_snapshot(snapshot)
         commands = interactive and snapshot.state in RUNNING
@@ -205,7 +212,7 @@ class ExerciseController(QObject):
         beginning(): an attempt is about to begin; everything is to be as the exercise has it.
         began(str): session id of an attempt that began.
         finished(AttemptResult): an attempt ended or was aborted, once each.
-        demonstrated(): what a scripted expert showed is over; it was nobody's attempt.
+        demonstrated(): what was only shown is over: nobody's attempt, of which nothing follows.
         failed(str): something that the user asked for did not work, in one line.
         worked(): something that the user asked for did.
 
@@ -233,8 +240,8 @@ class ExerciseController(QObject):
         self._clock = clock or SystemClock()
         self._run: ExerciseRun | None = None
         self._seen: AttemptResult | None = None
-        self._ending = False
-        self._beat, self._unreadable, self._waiting = 0.0, "", ""
+        self._ending = self._quiet = False
+        self._beat, self._unreadable, self._waiting, self._led_as = 0.0, "", "", ""
         self.refusal: Callable[[], str] = str
         self.intercepted: Callable[[], bool] = bool
         self._display = ExerciseDisplay(views)
@@ -261,7 +268,7 @@ class ExerciseController(QObject):
         """Let go of the trainer, without closing it; idempotent."""
         self._timer.stop()
         self._views.panel.enable.set_wanted(False)  # lets go before the trainer is gone
-        self._run, self._ending = None, False
+        self._run, self._ending, self._quiet = None, False, False
         self._views.bullseye.set_scene(None, False)
         self._views.panel.set_ready(False)
         self._views.panel.show_figures(None)
@@ -272,6 +279,24 @@ class ExerciseController(QObject):
         """Take another plan of the same trainer: the pad is drawn anew, the rest goes on."""
         self._run = run
         self._display.show_run(run)
+
+    def lead(self, hand: str, is_absent: bool = False) -> None:
+        """Let a part of the window lead the needle in place of the student's hand.
+
+        Args:
+            hand: as attempts that begin now are recorded, one of `session.conditions.HANDS`; empty
+                gives the needle back to mouse, tablet or gamepad, where it is.
+            is_absent: whether the needle is not there yet: nothing of it is shown.
+        """
+        self._led_as = hand
+        self._display.is_led, self._display.is_absent = bool(hand), is_absent
+        if self._run is not None:
+            self._display.show_run(self._run)
+
+    @property
+    def is_absent(self) -> bool:
+        """Whether the needle is not there yet, and nothing of it is shown."""
+        return self._display.is_absent
 
     def set_waiting(self, why: str) -> None:
         """Let no attempt begin, because of `why`; empty ends that. One that runs goes on."""
@@ -317,7 +342,8 @@ class ExerciseController(QObject):
         self._drain(run)
         self._display.take_hand(snapshot)
         # Nobody beyond this line knows more than may be told.
-        shown = run.shown.of(snapshot, run.placed)
+        absent = self._display.is_absent
+        shown = without_needle(snapshot) if absent else run.shown.of(snapshot, run.placed)
         self.snapshot_taken.emit(shown)  # first: pictures are made while the rest is shown
         self._display.show(run, shown, now, late)
         if shown.pose.valid:
@@ -341,7 +367,8 @@ class ExerciseController(QObject):
         result = run.trainer.result
         if result is not None and result is not self._seen and not self._ending:
             self._seen = result
-            if run.demonstrates:
+            quiet, self._quiet = self._quiet, False
+            if run.demonstrates or quiet:
                 self.demonstrated.emit()
             else:
                 self.finished.emit(result)
@@ -352,17 +379,19 @@ class ExerciseController(QObject):
         run = self._run
         if run is None:
             return
-        refused = self._waiting or ("" if run.demonstrates else self.refusal())
+        absent = tr("The needle is not there yet.") if self.is_absent else ""
+        refused = absent or self._waiting or ("" if run.demonstrates else self.refusal())
         if refused:
             self._fail(refused)
             return
-        if not run.demonstrates and self.intercepted():
+        if not (run.demonstrates or self._led_as) and self.intercepted():
             return
         self.beginning.emit()
         self._views.messages.clear()
         self._views.messages.start_clock(self._clock.now())
         try:
-            hand = self._views.bullseye.source.name if run.interactive else ""
+            by_hand = self._views.bullseye.source.name if run.interactive else ""
+            hand = self._led_as or by_hand
             session = run.trainer.begin(student, hand)
         except AcusError as error:
             self._fail(str(error))
@@ -407,9 +436,13 @@ class ExerciseController(QObject):
         if self._run is not None:
             self._finish(self._run.trainer.end)
 
-    def abort(self) -> None:
-        """Break the attempt off: forces off at once; score and record follow beside the window."""
+    def abort(self, quietly: bool = False) -> None:
+        """Break the attempt off: forces off at once; score and record follow beside the window.
+
+        `quietly`: it is recorded, but nobody is to look at it now: `demonstrated` follows.
+        """
         if self._run is not None:
+            self._quiet = quietly
             self._run.trainer.disarm()
             self._finish(self._run.trainer.abort)
 

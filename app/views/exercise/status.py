@@ -53,6 +53,7 @@ _LOOKS: Final = {
     "state": (theme.TEXT, "•"),
     "scan": (theme.ACCENT, "▼"),
     "breath": (theme.ACCENT, "•"),
+    "taken_over": (theme.ACCENT, "◇"),
     "abort": (theme.BAD, "✖"),
     "fault": (theme.BAD, "✖"),
     "recorder": (theme.WARNING, "▲"),

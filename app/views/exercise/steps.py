@@ -248,7 +248,7 @@ class NextStepLine(QLabel):
         self._steps: NextSteps | None = None
         self._run: ExerciseRun | None = None
         self._snapshot: Snapshot | None = None
-        self._moves_hub = False
+        self._moves_hub = self._gives_way = False
         self._touched, self._told = 0, ""
         self._tell = QTimer(self, interval=TOLD_MS, singleShot=True)
         self._tell.timeout.connect(self._stop_telling)
@@ -267,8 +267,16 @@ class NextStepLine(QLabel):
         self._stop_telling()
         if run is not None:
             self._steps = NextSteps(run.placed, run.rings[0], run.depth_tolerance)
-        self.setVisible(run is not None)
+        self._stand()
         self.setText("" if run is None else tr("One moment: the robot is starting"))
+
+    def give_way(self, on: bool) -> None:
+        """Be there no more, because another line stands in this place, or be there again."""
+        self._gives_way = on
+        self._stand()
+
+    def _stand(self) -> None:
+        self.setVisible(self._run is not None and not self._gives_way)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Say what comes after this moment."""

@@ -130,6 +130,7 @@ class WorkspacePage(QWidget):
         panes: dict[str, QWidget] = {str(pane.pane): pane for pane in self.slices}
         self.grid = ViewGrid(panes | {SCENE: self.scene, BULLSEYE: Cell(self.needle_cell)}, self)
         self.layout_name, self.has_bullseye, self.is_left_handed = FOUR.name, False, False
+        self._bar: QWidget | None = None
         self.is_layout_fixed = self.is_cell_fixed = False
         self._has_cell = True
         for pane in self.slices:
@@ -280,6 +281,17 @@ class WorkspacePage(QWidget):
         self.side.setCurrentWidget(self.exercise_panel)
         self.show_bullseye(True)
 
+    def lead_by(self, bar: QWidget | None) -> None:
+        """Let a bar stand where the next step is said, in its place; None brings that back."""
+        if self._bar is not None and self._bar is not bar:
+            self._bar.hide()
+            self._right.removeWidget(self._bar)
+        if bar is not None and self._bar is not bar:
+            self._right.insertWidget(0, bar)
+            bar.show()
+        self._bar = bar
+        self.next_step.give_way(bar is not None)
+
     def _show_details(self, detailed: bool) -> None:
         self.exercise_panel.energy.set_detailed(detailed)
         self.arranged.emit()
@@ -318,7 +330,7 @@ class WorkspacePage(QWidget):
         self.messages.suit_room()
 
     def _lay_out(self) -> None:
-        right = QVBoxLayout()
+        self._right = right = QVBoxLayout()
         right.setContentsMargins(0, 0, 0, 0)
         right.setSpacing(0)
         right.addWidget(self.next_step)

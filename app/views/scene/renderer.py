@@ -34,6 +34,9 @@ MOVING_S, LEAST_SIZE = 0.08, 0.4
 """What a picture may take while the view is turned, and how small it is made for that at most, as
 a share of the pane's width and height."""
 
+STIRRED_SIZE = 0.7
+"""How small it is made at most where something in it moves: that is looked at, not turned away."""
+
 SHORTEST_PAUSE_S, SHARE = 0.1, 0.25
 """Fine pictures come at most this often, and take at most this share of the time."""
 
@@ -182,7 +185,7 @@ class SceneFeed(QObject):
         self.orbit, self.image = orbit, QImage()
         self._turned_at = self._fine_at = -SETTLE_S
         self._fine, self._pending, self._paused = False, False, False
-        self._moving_size = 1.0
+        self._moving_size, self._least = 1.0, LEAST_SIZE
         self._timer = QTimer(self, interval=POLL_MS)
         self._timer.timeout.connect(self._poll)
         self._timer.start()
@@ -223,8 +226,12 @@ class SceneFeed(QObject):
 
     def turn(self, orbit: Orbit) -> None:
         """Look from somewhere else."""
-        self.orbit, self._turned_at = orbit, monotonic()
+        self.orbit, self._turned_at, self._least = orbit, monotonic(), LEAST_SIZE
         self._pending = True
+
+    def stir(self) -> None:
+        """Draw a little coarsely for a while: something moves that is to be seen moving."""
+        self._turned_at, self._least = monotonic(), STIRRED_SIZE
 
     def refresh(self) -> None:
         """Ask for another picture, as after a change of the size."""
@@ -260,7 +267,8 @@ class SceneFeed(QObject):
     def _request(self, moving: bool) -> None:
         ratio, pane = self._pane.devicePixelRatioF(), self._pane
         if moving:
-            self._moving_size = moving_size(self._moving_size, self._renderer.moving_seconds)
+            seconds = self._renderer.moving_seconds
+            self._moving_size = max(self._least, moving_size(self._moving_size, seconds))
             ratio *= self._moving_size
         size = (max(1, int(pane.width() * ratio)), max(1, int(pane.height() * ratio)))
         self._pending = False

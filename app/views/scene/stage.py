@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from itertools import pairwise
+from itertools import islice, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,7 @@ from app.views.kit import theme
 from app.views.kit.theme import Mark
 from app.views.plan.entry_map import COLOURS, SIZES_PX, EntryMap
 from app.views.scene.actors import Ball, Cloud, Ring, Rod, SurfaceActor
+from app.views.scene.arm import ArmPiece, ArmShape
 from app.views.scene.display import ORGAN_COLOURS, SEEN_INTO, Display, Section, rgb
 from app.views.scene.mesh import Mesh
 from app.views.scene.orbit import Orbit
@@ -105,6 +106,8 @@ class Stage:
         self._links: list[Rod] = []
         self._cables: list[Rod] = []
         self._fulcrum = Ball(scene, theme.ROBOT, FULCRUM_RADIUS_MM)
+        self._arm: list[Rod | Ball] = []
+        self._trocar: list[Ring] = []
         self._needle = [self._new_piece()]
         self._tip = Ball(scene, theme.NEEDLE_TIP, 2 * NEEDLE_RADIUS_MM, 1.5 * NEEDLE_PX, over)
         self._error = Ball(scene, theme.NEEDLE_TIP, 1.0, opacity=0.35)
@@ -246,6 +249,8 @@ class Stage:
             *self._links,
             *self._cables,
             self._fulcrum,
+            *self._arm,
+            *self._trocar,
             *self._needle,
             self._tip,
             self._error,
@@ -345,6 +350,35 @@ class Stage:
             rod.span(*ends)
         fulcrum = None if robot is None else (T_patient_world @ robot.fulcrum) / MILLIMETRE
         self._fulcrum.put(fulcrum)
+
+    def set_arm(self, arm: ArmShape | None) -> None:
+        """Show the simulated arm with hand, tool, rails and trocar, or none."""
+        if arm is None:
+            for solid in self._arm:
+                solid.place(None)
+            for ring in self._trocar:
+                ring.place(None)
+            return
+        if not self._arm:
+            self._arm = [solid for piece in arm.pieces for solid in self._new_arm_piece(piece)]
+            self._trocar = [Ring(self._renderer, theme.ENTRY, RING_PX, self._over) for _ in "io"]
+            for new in (*self._arm, *self._trocar):
+                new.show(self._display)
+        solids = iter(self._arm)
+        for piece in arm.pieces:
+            for solid in islice(solids, 3 if piece.round else 1):
+                if isinstance(solid, Rod):
+                    solid.span(*piece.ends_mm)
+                    balls = iter(piece.ends_mm)
+                else:
+                    solid.put(next(balls))
+        for ring, radius in zip(self._trocar, arm.radii_mm, strict=True):
+            ring.surround(arm.trocar_mm, arm.normal, radius)
+
+    def _new_arm_piece(self, piece: ArmPiece) -> list[Rod | Ball]:
+        mark, radius = piece.part.value, piece.radius_mm
+        balls = [Ball(self._renderer, mark, radius) for _ in piece.ends_mm] if piece.round else []
+        return [Rod(self._renderer, mark, radius), *balls]
 
     # --- the picture --------------------------------------------------------------------------
     def render(self, orbit: Orbit, size_px: tuple[int, int], moving: bool) -> NDArray[np.uint8]:

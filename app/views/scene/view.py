@@ -40,6 +40,7 @@ from app.session.touching import TargetMarks
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.text import tr
+from app.views.scene.arm import ArmShape
 from app.views.scene.display import ORGAN_COLOURS, Display, Section, organ_title
 from app.views.scene.orbit import Orbit
 from app.views.scene.renderer import SceneFeed, SceneRenderer
@@ -306,6 +307,22 @@ class SceneView(QWidget):
             self._robot = points
             self._fit_home()
 
+    def set_arm(self, arm: ArmShape | None, often: bool = False) -> None:
+        """Show the simulated arm at a moment, or none; `often` at the cost of fineness."""
+        self._feed.change("arm", lambda stage: stage.set_arm(arm))
+        if often:
+            self._feed.stir()
+
+    @property
+    def body_mm(self) -> FloatArray:
+        """Corners of the patient's box, shape (8, 3)."""
+        return self._body
+
+    def look_at(self, points_mm: FloatArray) -> None:
+        """Look as the operator does at points (n, 3), and know the way back."""
+        eye = Orbit.from_operator(self._R_world_patient, points_mm.mean(axis=0), 1.0)
+        self.view_from(eye.fitted(points_mm))
+
     def _fit_home(self) -> None:
         """Let the home view show patient and robot whole; go there, unless one looks elsewhere."""
         was_home = self.orbit is self._home
@@ -321,6 +338,15 @@ class SceneView(QWidget):
     def set_orbit(self, orbit: Orbit) -> None:
         """Look from somewhere else."""
         self._feed.turn(orbit)
+
+    @property
+    def is_home(self) -> bool:
+        """Whether one sees the whole patient as at first; that view goes with what there is."""
+        return self.orbit is self._home
+
+    def view_home(self) -> None:
+        """Look at the whole patient as at first."""
+        self.set_orbit(self._home)
 
     def view_from(self, orbit: Orbit) -> None:
         """Look from somewhere else, and know the way back."""

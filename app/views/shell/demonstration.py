@@ -26,6 +26,8 @@ from app.session.needle import DepthSource
 from app.session.result import AttemptResult
 from app.session.review import review_of_result
 from app.session.snapshot import Snapshot
+from app.views.arm.feature import ArmFeature
+from app.views.arm.play import Act
 from app.views.debrief.feature import DebriefFeature
 from app.views.debrief.report import write_report
 from app.views.exercise.beginning import TRAINEE_DONE
@@ -95,6 +97,10 @@ PATIENCE_S: Final = 300.0
 SETTLE_S: Final = 1.5
 """Time for the first picture in 3D after everything stands [s]."""
 
+MIDDLE, LATEST, HOLD_PICTURE_S = 0.5, 0.9, 1.0
+"""Share of a phase of the arm at which it is pictured, and at which without a fix of the cameras
+too; after so long where it holds still [s]."""
+
 FRESH_S: Final = 0.1
 """Pictures on the way wait until the cameras' last fix is no older [s]: drawing disturbs them."""
 
@@ -112,12 +118,14 @@ class DemonstrationScript:
         ct: folder of another CT; None for the exercise's own patient.
         student: pseudonym.
         pictures: folder for pictures and report; None for none.
+        by_arm: whether the simulated arm carries out the plan, not a scripted trainee.
     """
 
     exercise: str = "first-insertion"
     ct: Path | None = None
     student: str = "demo"
     pictures: Path | None = None
+    by_arm: bool = False
 
 
 def has_fresh_fix(snapshot: Snapshot) -> bool:
@@ -152,6 +160,8 @@ class Demonstration(QObject):
         self._result: AttemptResult | None = None
         self._debrief = window.feature(DebriefFeature)
         self._drawn = False
+        self._arm = window.feature(ArmFeature)
+        self._phase = ""
         self._debrief.page.curves.drawn.connect(self._note_drawn)
         window.conductor.controller.finished.connect(self._take_result)
         for failure in (
@@ -159,6 +169,7 @@ class Demonstration(QObject):
             window.conductor.failed,
             window.runs.failed,
             window.conductor.controller.failed,
+            self._arm.failed,
         ):
             failure.connect(self._stop)
 
@@ -215,8 +226,36 @@ class Demonstration(QObject):
         self._pictures.take("1-plan")
         panel = self._window.workspace.exercise_panel
         panel.set_student(self._script.student)
+        if self._script.by_arm:
+            self._arm.watch()
+            return self._then("the arm works out its way", self._arm_is_done)
         panel.start_requested.emit(self._script.student)
         return self._then("attempt", self._needle_is_in)
+
+    def _arm_is_done(self) -> bool:
+        """Take a picture in the middle of each phase; the arm ends its attempt itself."""
+        bar, play = self._arm.bar, self._arm.play
+        if bar.offer.isVisible():
+            self.told.emit(bar.words.text())
+            bar.offer.click()
+            self._waited = 0.0
+            return False
+        if play is not None and play.act in (Act.FETCHING, Act.INSERTING, Act.HOLDING):
+            phase = "hold" if play.act is Act.HOLDING else play.phase
+            if phase != self._phase:
+                self._phase = phase
+                self.told.emit(bar.words.text())
+            held = play.act is Act.HOLDING and self._waited >= HOLD_PICTURE_S
+            snapshot = self._snapshot()
+            fresh = snapshot is not None and snapshot.pose.measured and has_fresh_fix(snapshot)
+            clear = fresh or phase != "insert" or play.share >= LATEST
+            if held or (phase != "hold" and clear and play.share >= MIDDLE):
+                self._pictures.take(f"arm-{phase}")
+        if play is not None and play.act is not Act.HOLDING:
+            self._waited = 0.0
+        if self._result is not None:
+            return self._then("scoring", self._debrief_is_shown)
+        return False
 
     def _needle_is_in(self) -> bool:
         if self._result is not None:  # broken off, by a fault

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from app.views.accuracy.feature import AccuracyFeature
+from app.views.arm.feature import ArmFeature
 from app.views.author.feature import AuthorFeature
 from app.views.cameras.feature import CamerasFeature
 from app.views.checks.feature import ChecksFeature
@@ -29,6 +30,7 @@ FEATURES: Final[tuple[type[Feature], ...]] = (
     PathsFeature,
     AuthorFeature,
     ExerciseFeature,
+    ArmFeature,
     RobotFeature,
     CamerasFeature,
     PenFeature,

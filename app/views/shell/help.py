@@ -295,6 +295,7 @@ _MARGIN_PX: Final = 40
 HOME: Final = "index.md"
 PAGES: Final = {
     "accuracy": "user-guide.md#what-accuracy-costs",
+    "arm": "user-guide.md#watch-the-arm-do-your-plan",
     "author": "authoring.md",
     "cameras": "cameras.md#in-the-trainer",
     "checks": "user-guide.md#every-day",

@@ -61,7 +61,10 @@ def groups(scheme: Scheme) -> list[Group]:
             tr("Attempt"),
             [
                 ("F5", tr("start the attempt; what is new is briefed first")),
-                ("Shift+F5, Ctrl+F5", tr("briefing of the exercise; a scripted expert shows it")),
+                (
+                    "Shift+F5, Ctrl+F5, Ctrl+Shift+F5",
+                    tr("briefing; an expert shows it; the arm does it"),
+                ),
                 ("S", tr("control scan")),
                 (tr("Enter"), tr("end the attempt")),
                 (tr("Hold Esc"), tr("abort: force to zero at once")),
