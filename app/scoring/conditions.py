@@ -102,6 +102,11 @@ class Conditions:
         """
         return not self.scripted and self.hand not in PROGRAMS
 
+    @property
+    def hands(self) -> str:
+        """What held the needle, one after the other; empty where it is not known."""
+        return f"{self.hand} then {self.taken_over}" if self.taken_over else self.hand
+
     def document(self) -> dict[str, Any]:
         """JSON-ready mapping; the keys stand in docs/json.md."""
         document = asdict(self)
