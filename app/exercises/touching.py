@@ -218,7 +218,7 @@ def _check_apart(task: TouchTask) -> None:
     for number, gap in enumerate(apart_mm.tolist(), 2):
         if gap * MILLIMETRE <= 2.0 * task.radius:
             raise ExerciseError(
-                f"touch: targets {number - 1} and {number} lie {gap:.1f} mm apart; with a radius of "
-                f"{task.radius / MILLIMETRE:g} mm a tip that stays touches both: lay them more than "
-                f"{2.0 * task.radius / MILLIMETRE:g} mm apart, or give a smaller radius_mm"
+                f"touch: targets {number - 1} and {number} lie {gap:.1f} mm apart; with a radius "
+                f"of {task.radius / MILLIMETRE:g} mm a tip that stays touches both: lay them more "
+                f"than {2.0 * task.radius / MILLIMETRE:g} mm apart, or give a smaller radius_mm"
             )

@@ -58,7 +58,7 @@ class Conditions:
         content: digest of what the exercise says; another one is another exercise.
         assistance: the dial; None where nothing was recorded of it.
         views: what was shown, sorted; None unknown.
-        hand: what held the needle, one of `session.hands.HANDS`.
+        hand: what held the needle, one of `session.conditions.HANDS`.
         scripted: skill of the scripted trainee; empty for a person.
         kind: real, emulated or simulated robot, or a pen.
         device: name of its profile.

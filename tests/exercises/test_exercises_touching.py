@@ -114,8 +114,16 @@ def test_a_target_out_of_reach_is_named_when_the_file_is_read(tmp_path, target, 
     ("targets", "radius", "words"),
     [
         ([[-73, -96, 182]], 20, r"target 1 at \[-73, -96, 182\] mm .* within its own radius of 20"),
-        ([[-73, -42, 184], [-73, -42, 184]], 4, r"targets 1 and 2 lie 0.0 mm apart.*more than 8 mm"),
-        ([[-73, -42, 184], [-73, -49, 184]], 4, r"targets 1 and 2 lie 7.0 mm apart.*more than 8 mm"),
+        (
+            [[-73, -42, 184], [-73, -42, 184]],
+            4,
+            r"targets 1 and 2 lie 0.0 mm apart.*more than 8 mm",
+        ),
+        (
+            [[-73, -42, 184], [-73, -49, 184]],
+            4,
+            r"targets 1 and 2 lie 7.0 mm apart.*more than 8 mm",
+        ),
         ([[-73, -42, 184], PLAN["entry_mm"]], 4, r"touch: target 2: .* 0 mm apart"),
     ],
     ids=["at the trocar", "the same", "overlapping", "the entry"],

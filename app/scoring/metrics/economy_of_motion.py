@@ -2,9 +2,9 @@
 
 From where it came into the body by straight lines to where it touched one target after the other,
 over its path up to the last touch: 100 % without any detour, if all targets were touched. A way
-that was left undone is not saved: of six targets touched one, it is 17 % at most. Published trainers give the path's
-length or its ratio to a shortest one as economy of motion; without the jitter of the tracking, as
-`path_length`.
+that was left undone is not saved: of six targets touched one, it is 17 % at most. Published
+trainers give the path's length or its ratio to a shortest one as economy of motion; without the
+jitter of the tracking, as `path_length`.
 """
 
 from typing import Any, Final
