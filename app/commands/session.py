@@ -71,7 +71,7 @@ def show(
     summary = CalibrationFlags.read().flagged(fresh_summary(path))
     held([summary], ask=True)
     document = _details(recording, summary.document())
-    return Answer(document, _detail_lines(document))
+    return Answer(document, _detail_lines(document, _nobodys(summary.conditions)))
 
 
 def replay(
@@ -307,7 +307,8 @@ def _print_table(summaries: list[Any]) -> None:
     for title in ("id", "student", "exercise", "state", "duration", "score", "signature", ""):
         table.add_column(title, overflow="fold", no_wrap=title == "id")
     for s in summaries:
-        note = s.reason or "; ".join(s.problems)
+        whose = _nobodys(s.conditions)
+        note = "; ".join(filter(None, (whose, s.reason or "; ".join(s.problems))))
         cells = (
             s.id,
             s.student,
@@ -337,13 +338,22 @@ def _total(score: Any) -> str:
     return f"{score['total']:.0f} %{' passed' if score.get('passed') else ''}"
 
 
-def _detail_lines(document: dict[str, Any]) -> list[str]:
+def _nobodys(conditions: Any) -> str:
+    """Say that an attempt is nobody's, and what held the needle; empty for a person's."""
+    if conditions is None or conditions.by_person:
+        return ""
+    return f"no student's attempt: {conditions.hands or 'script'}"
+
+
+def _detail_lines(document: dict[str, Any], nobodys: str) -> list[str]:
     keys = ("id", "started", "student", "state", "reason", "duration_s", "scans", "file")
     lines = [f"{key:12} {document[key]}" for key in keys]
     lines.append(f"{'exercise':12} {document['exercise']['title']} ({document['exercise']['id']})")
     lines.append(
         f"{'hand':12} {document['metadata'].get('trainee', {}).get('hand', 'not recorded')}"
     )
+    if nobodys:
+        lines.append(f"{'whose':12} {nobodys}")
     if document["calibration"]:
         lines.append(f"{'calibration':12} {document['calibration']}")
     if document["tip_radius_95_mm"] is not None:

@@ -175,7 +175,7 @@ def _tidy(results: Results, progress: Progress) -> Iterator[Sequence[object]]:
             one.exercise,
             one.version,
             one.state,
-            _hands(one),
+            one.conditions.hands,  # `arm` and `script` are nobody's, whoever watched
             one.verdict,
             void,
             group,
@@ -222,12 +222,6 @@ def _grouped(results: Results) -> Iterator[tuple[Indexed, int | None]]:
 def _student(person: Person, results: Results) -> dict[str, Any]:
     found = {"pseudonym": person.pseudonym, "groups": list(person.groups)}
     return found | ({"name": results.names.get(person.key, "")} if results.names else {})
-
-
-def _hands(one: Indexed) -> str:
-    """Return what held the needle: attempts of `arm` and `script` are nobody's, whoever watched."""
-    known = one.conditions
-    return f"{known.hand} then {known.taken_over}" if known.taken_over else known.hand
 
 
 def _passed(one: Indexed) -> str:

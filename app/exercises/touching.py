@@ -18,6 +18,7 @@ from app.core.configuration import Strict
 from app.core.units import DEGREE, MILLIMETRE
 from app.exercises.errors import ExerciseError
 from app.exercises.parts import Triple
+from app.planning.errors import PlanError
 from app.planning.limits import ReachLimits
 from app.planning.placement import PlacedPlan
 from app.planning.plan import Plan
@@ -164,17 +165,18 @@ def touch_task(part: TouchPart | None, placed: PlacedPlan, seed: int) -> TouchTa
     """
     if part is None:
         return None
-    plans = [
-        PlacedPlan.of(
-            Plan(placed.plan.entry_mm, at, f"target {number}"), placed.placement, placed.p_entry
-        )
-        for number, at in enumerate(targets_mm(part, placed.plan, seed), 1)
-    ]
+    plans = []
+    for number, at in enumerate(targets_mm(part, placed.plan, seed), 1):
+        try:
+            plan = Plan(placed.plan.entry_mm, at, f"target {number}")
+        except PlanError as error:
+            raise ExerciseError(f"touch: target {number}: {error}") from error
+        plans.append(PlacedPlan.of(plan, placed.placement, placed.p_entry))
     return TouchTask(tuple(plans), part.radius_mm * MILLIMETRE, part.dwell_s)
 
 
 def check_touch(task: TouchTask | None, profile: DeviceProfile, quick: bool = False) -> None:
-    """Refuse targets that the machine cannot bring the tip to.
+    """Refuse targets that the machine cannot bring the tip to, or that a tip at rest touches.
 
     Args:
         task: what is to be touched; None where nothing is.
@@ -195,10 +197,28 @@ def check_touch(task: TouchTask | None, profile: DeviceProfile, quick: bool = Fa
         depth_mm = one.length / MILLIMETRE
         if depth_mm < LEAST_DEPTH:
             reasons.append(f"it lies {depth_mm:.1f} mm from the trocar, not {LEAST_DEPTH:g} mm")
+        elif one.length <= task.radius:
+            reasons.append(
+                f"it lies {depth_mm:.1f} mm from the trocar, within its own radius of "
+                f"{task.radius / MILLIMETRE:g} mm, where a tool that only comes in touches it"
+            )
         if reasons:
             raise ExerciseError(
                 f"touch: target {number} at [{x:g}, {y:g}, {z:g}] mm cannot be touched with "
                 f"{profile.name}: {'; '.join(reasons)}. Reachable are targets "
                 f"{LEAST_DEPTH:g} to {limits.depth_limit / MILLIMETRE:.0f} mm from the entry, by a "
                 f"way that leans at most {limits.tilt_limit / DEGREE:.0f}° from straight down"
+            )
+    _check_apart(task)
+
+
+def _check_apart(task: TouchTask) -> None:
+    """Refuse targets that follow each other so closely that one stay touches both."""
+    apart_mm = np.linalg.norm(np.diff(task.points_mm, axis=0), axis=1)
+    for number, gap in enumerate(apart_mm.tolist(), 2):
+        if gap * MILLIMETRE <= 2.0 * task.radius:
+            raise ExerciseError(
+                f"touch: targets {number - 1} and {number} lie {gap:.1f} mm apart; with a radius "
+                f"of {task.radius / MILLIMETRE:g} mm a tip that stays touches both: lay them more "
+                f"than {2.0 * task.radius / MILLIMETRE:g} mm apart, or give a smaller radius_mm"
             )

@@ -58,7 +58,7 @@ class Conditions:
         content: digest of what the exercise says; another one is another exercise.
         assistance: the dial; None where nothing was recorded of it.
         views: what was shown, sorted; None unknown.
-        hand: what held the needle, one of `session.hands.HANDS`.
+        hand: what held the needle, one of `session.conditions.HANDS`.
         scripted: skill of the scripted trainee; empty for a person.
         kind: real, emulated or simulated robot, or a pen.
         device: name of its profile.
@@ -101,6 +101,11 @@ class Conditions:
         attempts that a course allows, assistance that fades, what comes next.
         """
         return not self.scripted and self.hand not in PROGRAMS
+
+    @property
+    def hands(self) -> str:
+        """What held the needle, one after the other; empty where it is not known."""
+        return f"{self.hand} then {self.taken_over}" if self.taken_over else self.hand
 
     def document(self) -> dict[str, Any]:
         """JSON-ready mapping; the keys stand in docs/json.md."""

@@ -58,7 +58,7 @@ class RunContext:
         """Head of a record that begins at monotonic time `now` [s].
 
         Raises:
-            SessionError: for a `hand` that is not one of `hands.HANDS`.
+            SessionError: for a `hand` that is not one of `conditions.HANDS`.
         """
         trainee = dict(self.metadata.get(TRAINEE, {}))
         trainee["hand"] = hand_of(trainee, hand)

@@ -75,12 +75,15 @@ def write_touch_script(
         seed: another seed is another attempt of the same skill.
 
     Raises:
-        SimulationError: for an unknown skill, no target, or one at the fulcrum.
+        SimulationError: for an unknown skill, no target, or one within its radius of the fulcrum.
     """
     skill, way = find_skill(skill), unit(axis, "axis")
     depths = np.linalg.norm(ways, axis=-1)
     if not len(ways) or not (depths > radius).all():
-        raise SimulationError(f"targets to be touched lie {depths} m deep; it must be beyond 0")
+        raise SimulationError(
+            f"targets to be touched lie {depths.tolist()} m deep; each must lie deeper than their"
+            f" radius of {radius} m"
+        )
     random = np.random.default_rng([seed, 2])
     basis = tangent_basis(way)
     places = np.column_stack([*tangents(ways / depths[:, None], way, basis), depths])

@@ -53,6 +53,32 @@ def test_list_shows_newest_first_and_broken_ones_with_the_reason(
     assert "not an MCAP file" in text
 
 
+def test_list_and_show_say_that_an_attempt_of_the_arm_is_no_students(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("ACUS_SESSIONS", str(tmp_path))
+    monkeypatch.setenv("COLUMNS", "200")
+    placed = PlacedPlan.of(Plan(np.zeros(3), np.array([0.0, 60.0, 0.0])), Placement(), np.zeros(3))
+    for name, hand in (("aaaa", "arm"), ("bbbb", "mouse")):
+        begun = datetime(2026, 1, 15, 10, tzinfo=UTC)
+        facts = {PLAN: plan_record(placed), "trainee": {"scripted": "", "hand": hand}}
+        header = SessionHeader(f"20260115-100000-{name}", begun, 0.0, "s-1", "e", metadata=facts)
+        recorder = Recorder(tmp_path, header, clock=VirtualClock())
+        recorder.open()
+        if hand == "arm":
+            recorder.event(Event(0.5, "taken_over", "taken over by pen", {"hand": "pen"}))
+        recorder.finish(result={"state": "ended", "reason": "", "duration_s": "1.5"})
+    assert run(monkeypatch, "list") == 0
+    of_arm, of_student = sorted(
+        line for line in capsys.readouterr().out.splitlines() if "20260115" in line
+    )
+    assert "no student's attempt: arm then pen" in of_arm
+    assert "no student's" not in of_student
+    for name, said in (("aaaa", True), ("bbbb", False)):
+        assert run(monkeypatch, "show", f"20260115-100000-{name}") == 0
+        assert ("no student's attempt: arm then pen" in capsys.readouterr().out) is said
+
+
 def test_list_as_json_has_the_documented_keys(
     store: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -110,6 +110,33 @@ def test_a_target_out_of_reach_is_named_when_the_file_is_read(tmp_path, target, 
         read_exercise(path)
 
 
+@pytest.mark.parametrize(
+    ("targets", "radius", "words"),
+    [
+        ([[-73, -96, 182]], 20, r"target 1 at \[-73, -96, 182\] mm .* within its own radius of 20"),
+        (
+            [[-73, -42, 184], [-73, -42, 184]],
+            4,
+            r"targets 1 and 2 lie 0.0 mm apart.*more than 8 mm",
+        ),
+        (
+            [[-73, -42, 184], [-73, -49, 184]],
+            4,
+            r"targets 1 and 2 lie 7.0 mm apart.*more than 8 mm",
+        ),
+        ([[-73, -42, 184], PLAN["entry_mm"]], 4, r"touch: target 2: .* 0 mm apart"),
+    ],
+    ids=["at the trocar", "the same", "overlapping", "the entry"],
+)
+def test_what_a_tip_at_rest_would_touch_is_refused_when_the_file_is_read(
+    tmp_path, targets, radius, words
+):
+    path = tmp_path / "still.yaml"
+    path.write_text(exercise_text(exercise({"targets_mm": targets, "radius_mm": radius})), "utf-8")
+    with pytest.raises(ConfigurationError, match=words):
+        read_exercise(path)
+
+
 def test_a_pattern_without_room_is_refused():
     crowded = exercise(
         {"pattern": {"count": 12, "depth_mm": [40, 41], "within_deg": 1}, "radius_mm": 20}

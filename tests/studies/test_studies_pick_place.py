@@ -50,6 +50,7 @@ def test_failures_are_counted_by_cause_and_nine_of_ten_must_succeed():
         assert len(sheets["trials"].rows) == 10
         assert found.passed is passed
         assert found.lines[0].startswith(f"{10 - bad} of 10 tools inserted")
+        assert "known exactly: no error of calibration" in found.lines[-1]  # what it leaves out
 
 
 def test_it_draws():
