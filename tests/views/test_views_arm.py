@@ -75,6 +75,21 @@ def test_an_attempt_that_runs_is_not_taken_away(planned) -> None:
     assert not arm.is_busy
 
 
+def test_why_it_was_not_done_is_said_no_longer_than_it_is_true(window, patient, settle) -> None:
+    window.show_patient(patient)
+    arm, bar = window.feature(ArmFeature), window.message_bar
+    arm.watch()
+    assert "Place entry and target first" in bar.text
+    plan(window)
+    assert bar.isHidden()
+    assert settle(lambda: window.runs.run is not None)
+    window.conductor.controller.run.trainer.state = State.INSERTING
+    arm.watch()
+    assert "An attempt is running" in bar.text
+    window.conductor.controller.began.emit("")
+    assert bar.isHidden()
+
+
 def test_an_assessment_is_done_by_the_student(planned) -> None:
     window, arm = planned
     taken = window.conductor.exercise

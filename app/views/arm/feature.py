@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar, Final
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, SignalInstance
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWidget
 
@@ -91,7 +91,7 @@ class ArmBar(QFrame):
             self.tell(tr("Simulated arm: stopping …"))
             return
         holds = play.act is Act.HOLDING
-        what = tr("holds the needle still at your target") if holds else phase_words(play.phase)
+        what = tr("holds still at your target") if holds else phase_words(play.phase)
         words = (
             tr("Simulated arm: {what}  ·  {now:.0f}/{all:.0f} s")
             if play.playing
@@ -380,6 +380,12 @@ class ArmFeature(Feature):
         """Stop: another patient is coming."""
         self.close()
         self._kept = None
+
+    def over(self) -> tuple[SignalInstance, ...]:
+        """After these, why the arm did not do it is true no more."""
+        conductor = self._conductor
+        controller = conductor.controller
+        return conductor.exercise_taken, self._editor.changed, controller.began, controller.finished
 
     def suit_room(self) -> None:
         """Take another size of text or other colours."""
