@@ -184,6 +184,15 @@ def test_a_step_goes_on_for_its_time_then_stands(planned, settle) -> None:
     assert arm.play.t == pytest.approx(t + STEP_S)
 
 
+def test_a_step_of_a_fast_insertion_is_as_long_as_it_is_watched(planned, settle) -> None:
+    _window, arm, _trainer = fetched(planned, settle)
+    arm.play.pause()
+    t, arm.play._pace = arm.play.t, 0.25  # a deep path that is gone along slowly
+    arm.bar.step.click()
+    assert settle(lambda: not arm.play.playing)
+    assert arm.play.t == pytest.approx(t + 0.25 * STEP_S)
+
+
 def test_the_fetching_may_be_left_out(planned, settle) -> None:
     _window, arm = planned
     arm.watch()
