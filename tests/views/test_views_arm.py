@@ -293,10 +293,23 @@ def test_a_plan_that_changed_meanwhile_is_not_the_one_to_show(planned, services,
     services.arm_waits.clear()
     arm.watch()
     window.editor.place(Tool.TARGET, (6.0, 6.0, 142.0), True)
+    assert settle(lambda: not arm.is_busy)  # at once: nobody waits for a way that is not wanted
+    assert "changed meanwhile" in window.message_bar.text
+    assert arm.bar.isHidden()
     services.arm_waits.set()
-    assert settle(lambda: arm.said)
-    assert "changed meanwhile" in arm.said[0]
+    settle(timeout=0.1)
     assert not arm.is_busy
+
+
+def test_no_place_is_offered_for_a_plan_that_changed(planned, services, settle) -> None:
+    from app.views.slices.viewing import Tool
+
+    window, arm = planned
+    services.cannot = CarryError(CarryFailure.UNREACHABLE, "it cannot reach the entry", 90.0)
+    arm.watch()
+    assert settle(arm.bar.offer.isVisible)
+    window.editor.place(Tool.TARGET, (6.0, 6.0, 142.0), True)
+    assert settle(arm.bar.isHidden)
 
 
 def test_a_real_robot_is_left_alone_and_comes_back(planned, services, settle) -> None:

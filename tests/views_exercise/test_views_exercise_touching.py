@@ -7,8 +7,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from PySide6.QtWidgets import QVBoxLayout, QWidget
+from views_exercise_attempts import review
 from views_exercise_fakes import FakeTrainer, pose, snapshot
 
+from app.core.events import Event
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
 from app.session.curves import offset
@@ -17,6 +19,7 @@ from app.session.pad.hand import HandPose
 from app.session.pad.view import depth_tolerance_of, rings_of
 from app.session.snapshot import NextStep, StepKind
 from app.session.touching import TargetMarks, TouchState
+from app.views.debrief.curves import curves_of
 from app.views.exercise.briefing import BriefingPage, aid_words, scored_words
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.controller import ExerciseDisplay
@@ -236,6 +239,14 @@ def test_the_steps_of_one_insertion_are_not_told_where_many_targets_are_touched(
     assert views.panel.is_brief
     ExerciseDisplay(views).show_run(replace(the_run(), touches=False))
     assert not views.panel.is_brief
+
+
+def test_no_curve_claims_one_target_where_many_are_touched(qt):
+    assert curves_of(review())[0].line is not None
+    touched = Event(0.0, "touched", {"target": 1})
+    depth = curves_of(review(touches=(touched,)))[0]
+    assert depth.line is None
+    assert not depth.line_name
 
 
 def test_the_arm_is_not_offered_where_it_would_be_refused(qt):
