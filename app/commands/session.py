@@ -307,7 +307,6 @@ def _print_table(summaries: list[Any]) -> None:
     for title in ("id", "student", "exercise", "state", "duration", "score", "signature", ""):
         table.add_column(title, overflow="fold", no_wrap=title == "id")
     for s in summaries:
-        note = s.reason or "; ".join(s.problems)
         cells = (
             s.id,
             s.student,
@@ -316,10 +315,18 @@ def _print_table(summaries: list[Any]) -> None:
             f"{s.duration:.0f} s",
             _total(s.score),
             s.signature,
-            note,
+            _note(s),
         )
         table.add_row(*(_plain(cell) for cell in cells))
     Console().print(table)
+
+
+def _note(summary: Any) -> str:
+    """Say what is to be known at a glance: first of all, whether it is no student's."""
+    notes = [summary.reason or "; ".join(summary.problems)]
+    if summary.conditions is not None and not summary.conditions.by_person:
+        notes.insert(0, f"no student's: {summary.conditions.hand}")
+    return "; ".join(filter(None, notes))
 
 
 def _plain(text: str) -> Any:

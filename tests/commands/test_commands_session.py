@@ -2,6 +2,7 @@
 
 import csv
 import json
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -17,6 +18,7 @@ from app.planning.plan import Plan
 from app.session.facts import PLAN, plan_record
 from app.session.header import SessionHeader
 from app.session.recorder import Recorder
+from app.session.store import list_sessions
 
 
 @pytest.fixture
@@ -51,6 +53,22 @@ def test_list_shows_newest_first_and_broken_ones_with_the_reason(
     text = capsys.readouterr().out
     assert text.index("bbbb") < text.index("aaaa")
     assert "not an MCAP file" in text
+
+
+@pytest.mark.parametrize(("hand", "said"), [("arm", True), ("mouse", False)])
+def test_list_says_whose_attempt_it_was_where_it_was_no_students(
+    store: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
+    hand: str, said: bool,
+) -> None:  # fmt: skip
+    from app.scoring.conditions import Conditions
+
+    listed = list_sessions(store)
+    whole = next(one for one in listed if one.id.endswith("aaaa"))
+    made = replace(whole, conditions=Conditions("e", hand=hand), reason="by the user")
+    monkeypatch.setattr("app.session.store.list_sessions", lambda _: [made])
+    monkeypatch.setenv("COLUMNS", "200")
+    assert run(monkeypatch, "list") == 0
+    assert ("no student's: arm; by the user" in capsys.readouterr().out) == said
 
 
 def test_list_as_json_has_the_documented_keys(
