@@ -349,6 +349,8 @@ class ArmFeature(Feature):
     def _another_plan(self) -> None:
         """Work no longer for a plan that is another one now, nor offer a place for it."""
         now, asked = self._editor.verdict.placed, self._asked
+        if now is not None and self.play is None:
+            self._shell.messages.forget(self.topic)  # there is a plan that can be followed
         same = (
             now is not None
             and asked is not None
@@ -395,7 +397,7 @@ class ArmFeature(Feature):
         """After these, why the arm did not do it is true no more."""
         conductor = self._conductor
         controller = conductor.controller
-        return conductor.exercise_taken, self._editor.changed, controller.began, controller.finished
+        return conductor.exercise_taken, controller.began, controller.finished
 
     def suit_room(self) -> None:
         """Take another size of text or other colours."""
