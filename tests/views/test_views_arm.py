@@ -75,6 +75,21 @@ def test_an_attempt_that_runs_is_not_taken_away(planned) -> None:
     assert not arm.is_busy
 
 
+def test_why_it_was_not_done_is_said_no_longer_than_it_is_true(window, patient, settle) -> None:
+    window.show_patient(patient)
+    arm, bar = window.feature(ArmFeature), window.message_bar
+    arm.watch()
+    assert "Place entry and target first" in bar.text
+    plan(window)
+    assert bar.isHidden()
+    assert settle(lambda: window.runs.run is not None)
+    window.conductor.controller.run.trainer.state = State.INSERTING
+    arm.watch()
+    assert "An attempt is running" in bar.text
+    window.conductor.controller.began.emit("")
+    assert bar.isHidden()
+
+
 def test_an_assessment_is_done_by_the_student(planned) -> None:
     window, arm = planned
     taken = window.conductor.exercise
@@ -167,6 +182,15 @@ def test_a_step_goes_on_for_its_time_then_stands(planned, settle) -> None:
     arm.bar.step.click()
     assert settle(lambda: not arm.play.playing)
     assert arm.play.t == pytest.approx(t + STEP_S)
+
+
+def test_a_step_of_a_fast_insertion_is_as_long_as_it_is_watched(planned, settle) -> None:
+    _window, arm, _trainer = fetched(planned, settle)
+    arm.play.pause()
+    t, arm.play._pace = arm.play.t, 0.25  # a deep path that is gone along slowly
+    arm.bar.step.click()
+    assert settle(lambda: not arm.play.playing)
+    assert arm.play.t == pytest.approx(t + 0.25 * STEP_S)
 
 
 def test_the_fetching_may_be_left_out(planned, settle) -> None:
@@ -269,10 +293,23 @@ def test_a_plan_that_changed_meanwhile_is_not_the_one_to_show(planned, services,
     services.arm_waits.clear()
     arm.watch()
     window.editor.place(Tool.TARGET, (6.0, 6.0, 142.0), True)
+    assert settle(lambda: not arm.is_busy)  # at once: nobody waits for a way that is not wanted
+    assert "changed meanwhile" in window.message_bar.text
+    assert arm.bar.isHidden()
     services.arm_waits.set()
-    assert settle(lambda: arm.said)
-    assert "changed meanwhile" in arm.said[0]
+    settle(timeout=0.1)
     assert not arm.is_busy
+
+
+def test_no_place_is_offered_for_a_plan_that_changed(planned, services, settle) -> None:
+    from app.views.slices.viewing import Tool
+
+    window, arm = planned
+    services.cannot = CarryError(CarryFailure.UNREACHABLE, "it cannot reach the entry", 90.0)
+    arm.watch()
+    assert settle(arm.bar.offer.isVisible)
+    window.editor.place(Tool.TARGET, (6.0, 6.0, 142.0), True)
+    assert settle(arm.bar.isHidden)
 
 
 def test_a_real_robot_is_left_alone_and_comes_back(planned, services, settle) -> None:

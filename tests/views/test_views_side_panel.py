@@ -3,6 +3,7 @@
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import (
     QApplication,
     QComboBox,
@@ -109,3 +110,15 @@ def test_a_box_that_comes_later_is_guarded_by_a_call_of_its_own_once(application
     turn(box, application)
     assert box.currentIndex() == 0
     assert len(box.findChildren(_WheelGuard)) == 1
+
+
+def test_a_click_on_a_name_leaves_the_keys_where_they_are(side):
+    field = QSpinBox(side)
+    field.show()
+    side.activateWindow()
+    field.setFocus()
+    QApplication.processEvents()
+    assert field.hasFocus()
+    QTest.mouseClick(side._buttons.button(3), Qt.MouseButton.LeftButton)
+    assert field.hasFocus()
+    assert side.currentIndex() == 3

@@ -2,11 +2,15 @@
 
 from dataclasses import replace
 from time import monotonic
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from PySide6.QtWidgets import QVBoxLayout, QWidget
+from views_exercise_attempts import review
 from views_exercise_fakes import FakeTrainer, pose, snapshot
 
+from app.core.events import Event
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
 from app.session.curves import offset
@@ -15,14 +19,19 @@ from app.session.pad.hand import HandPose
 from app.session.pad.view import depth_tolerance_of, rings_of
 from app.session.snapshot import NextStep, StepKind
 from app.session.touching import TargetMarks, TouchState
-from app.views.exercise.briefing import aid_words, scored_words
+from app.views.debrief.curves import curves_of
+from app.views.exercise.briefing import BriefingPage, aid_words, scored_words
 from app.views.exercise.bullseye import Bullseye
+from app.views.exercise.controller import ExerciseDisplay
 from app.views.exercise.hands.chooser import HandChooser
 from app.views.exercise.pad_canvas import PadCanvas
 from app.views.exercise.panel import TouchNote, hand_words
 from app.views.exercise.readings import pad_view
 from app.views.exercise.run import ExerciseRun
-from app.views.exercise.steps import NextStepLine, touch_words
+from app.views.exercise.steps import PADDING, NextStepLine, touch_words
+from app.views.kit import theme
+from app.views.kit.theme import LARGE
+from app.views.reading.workspace import SIDE_WIDTH
 from app.views.sounds.feature import _OF_EVENTS, CueKind, Cues
 
 EXERCISE = load_exercise("laparoscopic-tool")
@@ -177,3 +186,72 @@ def test_marks_are_alike_only_with_the_same_points_and_touches():
     assert not marks.same(None)
     assert not marks.same(TargetMarks(marks.points_mm + 1.0, 2))
     assert (marks.present, TouchState(TASK, 6).marks.present) == (3, 6)
+
+
+@pytest.mark.parametrize("size", [1.0, LARGE])
+def test_the_whole_line_can_be_read_on_a_small_screen_and_keeps_its_height(qt, size):
+    theme.apply_theme(qt, size=size)
+    try:
+        line = NextStepLine()
+        line.begin(the_run())
+        page = QWidget()
+        column = QVBoxLayout(page)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(line)
+        column.addWidget(QWidget(), 1)
+        page.resize(1366 - round(size * SIDE_WIDTH), 300)
+        page.show()
+        qt.processEvents()
+        height = line.height()
+        # Aside by both of two ways, and beyond it: the longest order.
+        tip = TASK.p_targets[0] + [0.008, 0.009, -0.012]
+        line.show_snapshot(moment(0, tip=tip))
+        settle(qt, lambda: " and " in line.text() and "pull" in line.text())
+        qt.processEvents()
+        room = line.width() - 2 * PADDING
+        assert line.fontMetrics().horizontalAdvance(line.text()) <= room
+        assert line.height() == height
+        page.close()
+    finally:
+        theme.apply_theme(qt)
+
+
+def test_the_steps_of_one_insertion_are_not_told_where_many_targets_are_touched(qt):
+    class Panel:
+        """Keeps what it is told."""
+
+        def __init__(self):
+            self.steps, self.is_brief = self, None
+
+        def set_brief(self, brief):
+            self.is_brief = brief
+
+        def set_guidance(self, guidance, plan):
+            self.steps.set_brief(guidance is not None)
+
+        def set_forceful(self, forceful):
+            pass
+
+        set_offsets = set_forceful
+
+    views = SimpleNamespace(bullseye=Bullseye(), panel=Panel())
+    ExerciseDisplay(views).show_run(the_run())
+    assert views.panel.is_brief
+    ExerciseDisplay(views).show_run(replace(the_run(), touches=False))
+    assert not views.panel.is_brief
+
+
+def test_no_curve_claims_one_target_where_many_are_touched(qt):
+    assert curves_of(review())[0].line is not None
+    touched = Event(0.0, "touched", {"target": 1})
+    depth = curves_of(review(touches=(touched,)))[0]
+    assert depth.line is None
+    assert not depth.line_name
+
+
+def test_the_arm_is_not_offered_where_it_would_be_refused(qt):
+    page = BriefingPage()
+    page.show_exercise(EXERCISE, None)
+    assert page.arm.isHidden()
+    page.show_exercise(load_exercise("first-insertion"), None)
+    assert not page.arm.isHidden()

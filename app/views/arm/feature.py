@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar, Final
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, SignalInstance
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWidget
 
@@ -91,7 +91,7 @@ class ArmBar(QFrame):
             self.tell(tr("Simulated arm: stopping …"))
             return
         holds = play.act is Act.HOLDING
-        what = tr("holds the needle still at your target") if holds else phase_words(play.phase)
+        what = tr("holds still at your target") if holds else phase_words(play.phase)
         words = (
             tr("Simulated arm: {what}  ·  {now:.0f}/{all:.0f} s")
             if play.playing
@@ -137,6 +137,7 @@ class ArmFeature(Feature):
         self.bar = ArmBar(context.shell.dialog_parent)
         self.play: ArmPlay | None = None
         self._task: BackgroundTask | None = None
+        self._asked: PlacedPlan | None = None
         self._stands_deg, self._could_deg = 0.0, 0.0
         self._exercise = ""
         self._keys: list[QShortcut] = []
@@ -173,6 +174,7 @@ class ArmFeature(Feature):
         self._conductor.runs.failed.connect(lambda _: self.stop())
         self._conductor.controller.beginning.connect(self._give_way)
         self._shell.page_changed.connect(lambda _: self._look_away())
+        self._editor.changed.connect(self._another_plan)
 
     @property
     def is_busy(self) -> bool:
@@ -219,7 +221,7 @@ class ArmFeature(Feature):
         exercise, placed = self._conductor.exercise, self._editor.verdict.placed
         if exercise is None or placed is None:
             return
-        services, stands = self.context.services, self._stands_deg
+        services, stands, self._asked = self.context.services, self._stands_deg, placed
         seed, self._exercise = exercise.seed, exercise.id
         key = placed.plan, placed.placement, placed.p_entry.tolist(), seed, stands
         self._shell.show_workspace()
@@ -253,11 +255,7 @@ class ArmFeature(Feature):
 
     def _take(self, performance: ArmPerformance, placed: PlacedPlan) -> None:
         self._task = None
-        now = self._editor.verdict.placed
-        changed = now is None or (now.plan, now.placement) != (placed.plan, placed.placement)
-        why = self._why_not() or (
-            tr("The plan was changed meanwhile: ask again for the new one.") if changed else ""
-        )
+        why = self._why_not()
         if why:
             self._put_away()
             self.failed.emit(why)
@@ -348,6 +346,20 @@ class ArmFeature(Feature):
         if identifier != self._exercise and self.play is None:
             self.stop()
 
+    def _another_plan(self) -> None:
+        """Work no longer for a plan that is another one now, nor offer a place for it."""
+        now, asked = self._editor.verdict.placed, self._asked
+        if now is not None and self.play is None:
+            self._shell.messages.forget(self.topic)  # there is a plan that can be followed
+        same = (
+            now is not None
+            and asked is not None
+            and (now.plan, now.placement) == (asked.plan, asked.placement)
+        )
+        if self.play is None and not self.bar.isHidden() and not same:
+            self.stop()
+            self.noted.emit(tr("The plan was changed meanwhile: ask again for the new one."))
+
     def _show_play(self) -> None:
         if self.play is not None and self.play.act is not Act.OVER:
             self.bar.show_play(self.play)
@@ -380,6 +392,12 @@ class ArmFeature(Feature):
         """Stop: another patient is coming."""
         self.close()
         self._kept = None
+
+    def over(self) -> tuple[SignalInstance, ...]:
+        """After these, why the arm did not do it is true no more."""
+        conductor = self._conductor
+        controller = conductor.controller
+        return conductor.exercise_taken, controller.began, controller.finished
 
     def suit_room(self) -> None:
         """Take another size of text or other colours."""

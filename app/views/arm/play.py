@@ -190,8 +190,9 @@ class ArmPlay(QObject):
         self.changed.emit()
 
     def step(self) -> None:
-        """Go on for `STEP_S`, then stand still."""
-        self.playing, self._until = True, self.t + STEP_S
+        """Go on for `STEP_S` as they are watched, then stand still."""
+        pace = 1.0 if self.act is Act.FETCHING else self._pace
+        self.playing, self._until = True, self.t + pace * STEP_S
         self.changed.emit()
 
     def skip(self) -> None:

@@ -53,14 +53,15 @@ class Curve:
 def curves_of(review: Review) -> tuple[Curve, ...]:
     """Return the plots of an attempt: depth, two errors, and the force if something could push."""
     c = review.curves
-    target_mm = 1e3 * review.placed.length
+    # Where many targets are touched, each has a depth of its own: no line is the target's.
+    target_mm = None if review.touches else 1e3 * review.placed.length
     return (
         Curve(
             tr("Depth [mm]"),
             1e3 * c.depth,
             theme.NEEDLE.colour,
             target_mm,
-            tr("target {mm:.0f} mm", mm=target_mm),
+            "" if target_mm is None else tr("target {mm:.0f} mm", mm=target_mm),
             "mm",
             tr("depth"),
         ),

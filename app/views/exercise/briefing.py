@@ -307,7 +307,8 @@ class BriefingPage(QWidget):
         self.look.setVisible(not own)
         self.show_me.setEnabled(not own)
         self.arm.setEnabled(not own)
-        self.arm.setVisible(exercise.purpose is Purpose.PRACTICE)
+        by_arm = exercise.purpose is Purpose.PRACTICE and exercise.touch is None
+        self.arm.setVisible(by_arm)
         self.why_not.setText(
             tr("You choose the entry here, so there is nothing to show before you have.")
             if own

@@ -434,7 +434,7 @@ class Bullseye(QWidget):
         """Take fonts, and reserve the lines that the longest words take in them."""
         self._brevity = brevity
         small, short = brevity >= Brevity.SMALL, brevity >= Brevity.SHORT
-        width = max(self.width() - 3 * theme.SPACING, 2)
+        width = max(self.width() - 4 * theme.SPACING, 2)
         across, beside = (
             width * TURNS // (TURNS + DISTANCES),
             width * DISTANCES // (TURNS + DISTANCES),
@@ -617,6 +617,7 @@ class Bullseye(QWidget):
         for label in (self._remaining, self._lateral, self._source):
             side.addWidget(label)
         said = QHBoxLayout()
+        said.setSpacing(2 * theme.SPACING)  # what turns is not read on into what is to be pushed
         said.addLayout(words, TURNS)
         said.addLayout(side, DISTANCES)
         depth = QVBoxLayout()

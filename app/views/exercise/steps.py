@@ -4,8 +4,8 @@ from math import degrees
 from typing import Final
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer
-from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
+from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPaintEvent, QPen, QResizeEvent
+from PySide6.QtWidgets import QApplication, QLabel, QSizePolicy, QWidget
 
 from app.core.units import MILLIMETRE
 from app.session.machine import State
@@ -239,6 +239,16 @@ def breath_words(breath: BreathHold, words: str, commands: bool) -> str:
 TOLD_MS: Final = 900
 """So long the line says that a target was touched, in another colour, before it goes on [ms]."""
 
+PADDING: Final = theme.SPACING // 2
+"""Round the words of the line [px]."""
+
+
+def _font_of(pixels: int) -> QFont:
+    font = QFont(QApplication.font())
+    font.setPixelSize(pixels)
+    font.setWeight(QFont.Weight.DemiBold)
+    return font
+
 
 class NextStepLine(QLabel):
     """The one line that always says the next step, over the views, to be read at arm's length."""
@@ -268,7 +278,7 @@ class NextStepLine(QLabel):
         if run is not None:
             self._steps = NextSteps(run.placed, run.rings[0], run.depth_tolerance)
         self._stand()
-        self.setText("" if run is None else tr("One moment: the robot is starting"))
+        self._say("" if run is None else tr("One moment: the robot is starting"))
 
     def give_way(self, on: bool) -> None:
         """Be there no more, because another line stands in this place, or be there again."""
@@ -304,10 +314,35 @@ class NextStepLine(QLabel):
         """Take another size of text or other colours."""
         ground = theme.now(theme.GOOD if self._told else theme.ACCENT)
         ink = theme.now(theme.BACKGROUND)
-        self.setStyleSheet(
-            f"background: {ground}; color: {ink}; font-size: {theme.TITLE_PX}px; font-weight: 600;"
-            f" padding: {theme.SPACING // 2}px;"
+        style = (
+            f"background: {ground}; color: {ink}; font-size: {self._fitting()}px; font-weight: 600;"
+            f" padding: {PADDING}px;"
         )
+        if style != self.styleSheet():
+            self.setStyleSheet(style)
+        # As high as for its largest letters: the views below do not move with the words.
+        self.setFixedHeight(QFontMetrics(_font_of(theme.TITLE_PX)).height() + 2 * PADDING + 1)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Take letters that fit the new width."""
+        super().resizeEvent(event)
+        self.suit_room()
+
+    def _fitting(self) -> int:
+        """Largest letters with which the whole line can be read; the smallest are small ones [px].
+
+        A line cut off at both ends tells neither what nor how far; that is worse in a room, too.
+        """
+        room, least = self.width() - 2 * PADDING, round(theme.SMALL_PX / theme.scale())
+        for pixels in range(theme.TITLE_PX, least, -1):
+            if QFontMetrics(_font_of(pixels)).horizontalAdvance(self.text()) <= room:
+                return pixels
+        return least
+
+    def _say(self, words: str) -> None:
+        self.setText(words)
+        self.setToolTip(words)
+        self.suit_room()
 
     def _write(self) -> None:
         if self._steps is None or self._run is None or self._snapshot is None:
@@ -322,5 +357,4 @@ class NextStepLine(QLabel):
             words = breath_words(self._snapshot.breath, words, not shows)
         words = self._told or words
         if words != self.text():
-            self.setText(words)
-            self.setToolTip(words)
+            self._say(words)

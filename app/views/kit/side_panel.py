@@ -58,6 +58,8 @@ class SidePanel(QWidget):
         button.setCheckable(True)
         button.setChecked(index == 0)
         button.setFlat(True)
+        # A click that took the focus would take the arrows from the needle in an attempt.
+        button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         button.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self._buttons.addButton(button, index)
         self._spread()
