@@ -209,7 +209,7 @@ class NextStep:
         angle: by which the needle is to be tilted [rad].
         towards: sides of the patient to which the hub goes, the larger part first, of `LRAPSI`.
         distance: along the needle that is left, or too much [m].
-        across: way of the tip to a target that is to be touched, across the tool [m].
+        across: way of the tip to a target that is to be touched, across the path to it [m].
         touch: how the attempt stands with its targets; None where there is nothing to touch.
     """
 
@@ -284,22 +284,23 @@ class NextSteps:
         return NextStep(StepKind.FINISH if snapshot.state is State.HOLDING else StepKind.HOLD)
 
     def _to_touch(self, snapshot: Snapshot, touch: TouchState) -> NextStep:
-        """Lead the tip of a tool to the present target: across the tool, and along it."""
-        pose = snapshot.pose
+        """Lead the tip of a tool to the present target: across the path to it, and along."""
+        pose, offset = snapshot.pose, snapshot.offset
         if touch.done:
             return NextStep(StepKind.FINISH, touch=touch)
         if not pose.measured:
             return NextStep(StepKind.SEE if pose.depth > 0.0 else StepKind.FEEL)
-        way = touch.aim.p_target - pose.p_tip
-        along = float(way @ pose.axis)
-        across = way - along * pose.axis
-        if float(np.linalg.norm(way)) <= touch.task.radius:
+        if hypot(offset.lateral, offset.remaining) <= touch.task.radius:
             return NextStep(StepKind.STAY, touch=touch)
         if pose.depth <= 0.0:
-            return NextStep(StepKind.INSERT, distance=along)
-        aside = float(np.linalg.norm(across))
+            return NextStep(StepKind.INSERT, distance=offset.remaining)
+        sides = self._sides(-offset.across)
         return NextStep(
-            StepKind.TOUCH, towards=self._sides(across), distance=along, across=aside, touch=touch
+            StepKind.TOUCH,
+            towards=sides,
+            distance=offset.remaining,
+            across=offset.lateral,
+            touch=touch,
         )
 
     def _within(self, kind: StepKind, limit: float) -> float:

@@ -189,12 +189,14 @@ def test_a_tool_is_led_to_its_target_by_where_the_tip_goes_and_how_deep():
             valid=True, measured=measured, p_tip=np.asarray(p_tip), axis=placed.axis, depth=depth
         )
         touch = TouchState(task, touched)
-        return steps.of(Moment(State.INSERTING, pose, None, touch))
+        away = offset(pose.p_tip, pose.axis, touch.aim, touch.aim.p_target)
+        return steps.of(Moment(State.INSERTING, pose, away, touch))
 
     second = task.p_targets[1]
     towards_left = placed.T_world_patient.rotation @ np.array([-1.0, 0.0, 0.0])
-    aside = towards_left - (towards_left @ placed.axis) * placed.axis
-    found = step(second + 0.012 * aside - 0.02 * placed.axis, touched=1)
+    path = task.plans[1].axis
+    aside = towards_left - (towards_left @ path) * path
+    found = step(second + 0.012 * aside - 0.02 * path, touched=1)
     assert found.kind is StepKind.TOUCH
     assert found.towards == "L"  # the tip lies to the right of it
     assert found.distance == pytest.approx(0.02)

@@ -8,6 +8,7 @@ from datetime import UTC, datetime
 import numpy as np
 import pytest
 from arm_rig import OUTSIDE, performance_of
+from PySide6.QtWidgets import QDialog
 from window_rig import FakeServices, plan
 
 from app.compose.desktop import Desktop
@@ -172,6 +173,18 @@ def test_a_pause_keeps_the_needle_where_it_is(planned, settle) -> None:
     assert trainer.hands[-1][2] == depth
     assert "‖" in arm.bar.words.text()
     arm.bar.pause.click()
+    assert settle(lambda: trainer.hands[-1][2] > depth)
+
+
+def test_nothing_goes_on_behind_a_question(planned, settle) -> None:
+    window, arm, trainer = fetched(planned, settle)
+    assert settle(lambda: trainer.hands[-1][2] > 0.0)
+    question = QDialog(window)
+    question.open()
+    depth, t = trainer.hands[-1][2], arm.play.t
+    settle(timeout=0.3)
+    assert (trainer.hands[-1][2], arm.play.t) == (depth, t)
+    question.reject()
     assert settle(lambda: trainer.hands[-1][2] > depth)
 
 

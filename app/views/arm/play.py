@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtWidgets import QApplication
 
 from app.core.errors import AcusError
 from app.planning.placement import PlacedPlan
@@ -241,6 +242,8 @@ class ArmPlay(QObject):
         """Go on by the time since the last tick."""
         now = self._clock()
         passed, self._last = min(max(now - self._last, 0.0), LONGEST_S), now
+        if QApplication.activeModalWidget() is not None:
+            passed = 0.0  # a question stands over it: nothing goes on behind it
         run = self._controller.run
         if self.act is Act.WAITING:
             if run is not None and run.interactive and not (run.is_real or run.demonstrates):
