@@ -29,7 +29,12 @@ settings.register_profile("seeded", derandomize=True, deadline=None)
 settings.load_profile("seeded")
 
 LONG_FILES = (
+    "simulation/test_simulation_arm_eyes.py",
+    "views/test_views_arm.py",
     "careless/test_careless_user.py",
+    "test_compose_trial.py",
+    "simulation/test_simulation_arm.py",
+    "test_packages_of_the_arm.py",
     "test_compose_hand.py",
     "test_privacy_leaks.py",
     "test_without_posix.py",

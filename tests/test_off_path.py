@@ -40,6 +40,10 @@ class Kept:
         self.needle = self.target = self.draft = None
         self.viewing = self.scene = self
 
+    @property
+    def target_now_mm(self):
+        return self.target
+
     def set_needle(self, needle):
         self.needle = needle
 

@@ -88,8 +88,8 @@ def test_cut_texts_are_found_and_whole_and_elided_ones_are_not(application):
 @pytest.mark.timeout(900)
 @pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="xvfb-run is not installed")
 @pytest.mark.skipif(shutil.which("xdotool") is None, reason="xdotool is not installed")
-def test_a_minute_of_a_careless_user_break_nothing(tmp_path):
-    command = [sys.executable, "-m", "tests.careless", "--minutes", "1", "--seed", "1", "--whole"]
+def test_half_a_minute_of_a_careless_user_breaks_nothing(tmp_path):
+    command = [sys.executable, "-m", "tests.careless", "--minutes", "0.5", "--seed", "1", "--whole"]
     said = subprocess.run(
         [*command, "--busy", "--keep", str(tmp_path)],
         cwd=ROOT, env=os.environ | {"PYTHONPATH": str(ROOT)}, capture_output=True, text=True,

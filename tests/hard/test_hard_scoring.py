@@ -258,6 +258,7 @@ def test_a_million_samples_are_scored() -> None:
     result = score(attempt(n, time=np.arange(n) * 1e-3, felt=felt, hub=felt, guide=felt))
     assert_bounded(result)
     not_asked = {"risk_breach", "risk_distance", "risk_time", "saturation"}
+    not_asked |= {"targets_touched", "time_per_target", "economy_of_motion"}
     assert {row.name for row in result.rows if row.value is not None} == set(
         available()
     ) - not_asked

@@ -1,6 +1,5 @@
 """The arm against the paper's table, Pinocchio, EAIK, differences, scans and Monte Carlo."""
 
-import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -395,15 +394,3 @@ def test_without_pinocchio_the_error_names_the_extra(monkeypatch):
     monkeypatch.setitem(sys.modules, "pinocchio", None)
     with pytest.raises(StudyError, match=r"install the extra `arm`: pip install 'acus\[arm\]'"):
         import_pinocchio()
-
-
-def test_neither_a_trainer_nor_the_arm_imports_a_package_of_the_extra():
-    code = (
-        "import sys, app.compose.trainer, app.mechanisms.arm\n"
-        "heavy = ('mujoco', 'ompl', 'ruckig', 'pinocchio', 'coal', 'eaik')\n"
-        "print([name for name in heavy if name in sys.modules])"
-    )
-    found = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT
-    )
-    assert found.stdout.strip() == "[]"
