@@ -273,8 +273,8 @@ class NextStepLine(QLabel):
     def begin(self, run: ExerciseRun | None) -> None:
         """Serve another run; None hides the line."""
         self._run, self._snapshot = run, None
-        self._steps, self._touched = None, 0
-        self._stop_telling()
+        self._steps, self._touched, self._told = None, 0, ""
+        self._tell.stop()
         if run is not None:
             self._steps = NextSteps(run.placed, run.rings[0], run.depth_tolerance)
         self._stand()
@@ -297,18 +297,18 @@ class NextStepLine(QLabel):
             self._tell.start()
             self.suit_room()
         self._touched = touched
-        self._written.ask()
+        self._ask()
 
     def _stop_telling(self) -> None:
         self._told = ""
         self._tell.stop()
         self.suit_room()
-        self._written.ask()
+        self._ask()
 
     def set_moves_hub(self, hub: bool) -> None:
         """Say where the hub goes, or the tip, where mouse or keys move the needle."""
         self._moves_hub = hub
-        self._written.ask()
+        self._ask()
 
     def suit_room(self) -> None:
         """Take another size of text or other colours."""
@@ -343,6 +343,10 @@ class NextStepLine(QLabel):
         self.setText(words)
         self.setToolTip(words)
         self.suit_room()
+
+    def _ask(self) -> None:
+        if self._snapshot is not None:  # else there is nothing to say, and the first word waits
+            self._written.ask()
 
     def _write(self) -> None:
         if self._steps is None or self._run is None or self._snapshot is None:
