@@ -275,6 +275,7 @@ class NextStepLine(QLabel):
         self._run, self._snapshot = run, None
         self._steps, self._touched, self._told = None, 0, ""
         self._tell.stop()
+        self._written.forget()
         if run is not None:
             self._steps = NextSteps(run.placed, run.rings[0], run.depth_tolerance)
         self._stand()

@@ -39,6 +39,11 @@ class Unhurried(QObject):
         else:
             self._timer.start()
 
+    def forget(self) -> None:
+        """Let nothing wait any more, and the next ask be done at once."""
+        self._timer.stop()
+        self._done_at = -1.0
+
     def do(self) -> None:
         """Do it now."""
         self._timer.stop()
