@@ -96,6 +96,17 @@ def settle(qt, there):
         qt.processEvents()
 
 
+def test_the_first_word_of_a_run_is_said_at_once_whatever_was_set_before(qt):
+    line = NextStepLine()
+    line.begin(the_run())
+    line.set_moves_hub(True)
+    line.show_snapshot(moment(0))
+    assert "Target 1 of 6" in line.text()
+    line.begin(the_run())  # another run at once
+    line.show_snapshot(moment(0))
+    assert "Target 1 of 6" in line.text()
+
+
 def test_a_touch_is_told_in_another_colour_and_then_what_comes(qt):
     line = NextStepLine()
     line.begin(the_run())
