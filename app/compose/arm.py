@@ -203,7 +203,7 @@ def look(
     return ArmSight(tool, ring.p_world, ring.normal_world, errors)
 
 
-class Take:
+class ArmRun:
     """The arm inserting a tool in its scene by pictures alone: what is known and done of it so far.
 
     Args:
@@ -324,18 +324,18 @@ def trial(seed: int, progress: Progress | None = None) -> ArmTrial:
         SimulationError, PlannerMissingError: if a package is missing; names the extra.
         Cancelled: when the progress says so.
     """
-    take = _take(seed, progress)
+    arm_run = _run_of(seed, progress)
     try:
-        take.run()
+        arm_run.run()
     except CarryError as error:
-        return take.trial(error)
-    return take.trial()
+        return arm_run.trial(error)
+    return arm_run.trial()
 
 
-def _take(seed: int, progress: Progress | None = None) -> Take:
+def _run_of(seed: int, progress: Progress | None = None) -> ArmRun:
     axis, depth = aimed(seed)
     scene = ArmScene.seeded(seed, ToolBody().reaching(depth), axis)
-    return Take(scene, axis, depth, seed, progress)
+    return ArmRun(scene, axis, depth, seed, progress)
 
 
 def demonstrate(
@@ -352,25 +352,27 @@ def demonstrate(
         SimulationError, PlannerMissingError: if a package is missing; names the extra.
         CameraError: if a picture cannot be written.
     """
-    take, shown, drawn = _take(seed), dict[str, Image](), folder is not None
+    arm_run, shown, drawn = _run_of(seed), dict[str, Image](), folder is not None
     failed: CarryError | None = None
 
     def show(running: RunningScene, name: str) -> None:
         nonlocal drawn
-        tell(f"{name}: {_in_words(take.phases[-1].errors if take.phases else take.looked)}")
+        tell(
+            f"{name}: {_in_words(arm_run.phases[-1].errors if arm_run.phases else arm_run.looked)}"
+        )
         drawn = drawn and (name != "look" or _draws(running, tell))
         if drawn and name != "look":
-            shown[f"{len(take.phases)}-{name}"] = running.picture(looks_at=_BETWEEN)
+            shown[f"{len(arm_run.phases)}-{name}"] = running.picture(looks_at=_BETWEEN)
 
     try:
-        take.run(show)
+        arm_run.run(show)
     except CarryError as error:
         failed = error
-    found = take.trial(failed)
+    found = arm_run.trial(failed)
     tell(f"the simulation ran at {found.real_time:.1f} times real time")
     if folder is not None:
-        if take.pair is not None:
-            shown |= {"0-look-left": take.pair[0], "0-look-right": take.pair[1]}
+        if arm_run.pair is not None:
+            shown |= {"0-look-left": arm_run.pair[0], "0-look-right": arm_run.pair[1]}
         write_pictures(folder, shown)
         write_atomically(folder / "report.json", _report(found).encode())
     return found
@@ -420,9 +422,9 @@ def carry_out(
         return scene, axis, RigidTransform(turn, move)
 
     scene, axis, T_scene_world = standing(stands_deg)
-    take = Take(scene, axis, deep, seed, progress)
+    arm_run = ArmRun(scene, axis, deep, seed, progress)
     try:
-        take.run()
+        arm_run.run()
     except CarryError as error:
         if error.failure not in _ELSEWHERE:
             raise
@@ -433,7 +435,7 @@ def carry_out(
                 could = (stands_deg + turn + 180.0) % 360.0 - 180.0
                 raise CarryError(error.failure, str(error), could) from error
         raise
-    return take.performance(T_scene_world)
+    return arm_run.performance(T_scene_world)
 
 
 def _report(found: ArmTrial) -> str:

@@ -10,10 +10,10 @@ from app.core.transform import RigidTransform
 from app.mechanisms.errors import NoGripError
 from app.planning.arm import pick_place
 from app.planning.arm.pick_place import (
-    Errand,
     Hindrance,
     NotPlacedError,
     PhaseName,
+    PickPlaceTask,
     can_place,
     pick_and_place,
 )
@@ -31,12 +31,12 @@ LYING = RigidTransform(
     np.stack([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]], axis=1), [0.55, 0.4, 0.1]
 )
 LEANING = unit(PIVOT.inward_world + [0.1, 0.15, 0.0])
-ERRAND = Errand(LYING, np.array([0.0, 0.0, 1.0]), 0.1, LEANING)
+TASK = PickPlaceTask(LYING, np.array([0.0, 0.0, 1.0]), 0.1, LEANING)
 
 
 @pytest.fixture(scope="module")
 def done():
-    return pick_and_place(PIVOT, ERRAND, START, POST, lambda tool: POST)
+    return pick_and_place(PIVOT, TASK, START, POST, lambda tool: POST)
 
 
 def test_the_shaft_turns_about_the_fulcrum_outside_before_it_goes_in(done):
@@ -44,7 +44,7 @@ def test_the_shaft_turns_about_the_fulcrum_outside_before_it_goes_in(done):
     times = np.linspace(pivot.begin, pivot.end, 200)
     states = [done.pivot.state(done.at(float(t))) for t in times]
     assert max(state.off for state in states) <= SHAFT_OFF
-    assert [state.depth for state in states] == pytest.approx([-ERRAND.before] * 200, abs=1e-4)
+    assert [state.depth for state in states] == pytest.approx([-TASK.before] * 200, abs=1e-4)
     assert angle_between(states[0].axis_world, PIVOT.inward_world) < 1e-6
     assert angle_between(states[-1].axis_world, LEANING) < 1e-6
     whole = angle_between(PIVOT.inward_world, LEANING)
@@ -54,7 +54,7 @@ def test_the_shaft_turns_about_the_fulcrum_outside_before_it_goes_in(done):
 
 
 def test_along_the_trocars_axis_there_is_nothing_to_turn():
-    straight = replace(ERRAND, axis_world=None)
+    straight = replace(TASK, axis_world=None)
     planned = pick_and_place(PIVOT, straight, START, POST, lambda tool: POST)
     assert PhaseName.PIVOT not in [phase.name for phase in planned.phases]
     end = planned.pivot.state(planned.at(planned.duration))
@@ -64,7 +64,7 @@ def test_along_the_trocars_axis_there_is_nothing_to_turn():
 @pytest.mark.parametrize("lean", [1e-3, 1.1e-6, 0.9e-6, 1e-12])
 def test_a_direction_that_hardly_leans_makes_no_jump(lean):
     aside = unit(np.cross(PIVOT.inward_world, [1.0, 0.0, 0.0]))
-    hardly = replace(ERRAND, axis_world=unit(PIVOT.inward_world + lean * aside))
+    hardly = replace(TASK, axis_world=unit(PIVOT.inward_world + lean * aside))
     planned = pick_and_place(PIVOT, hardly, START, POST, lambda tool: POST)
     names = [phase.name for phase in planned.phases]
     assert (PhaseName.PIVOT in names) is (lean > 1e-6)
@@ -75,7 +75,7 @@ def test_a_direction_that_hardly_leans_makes_no_jump(lean):
 
 def test_with_the_tool_in_the_hand_it_is_as_careful_as_asked(done):
     share = 0.3
-    slow = pick_and_place(PIVOT, replace(ERRAND, careful=share), START, POST, lambda tool: POST)
+    slow = pick_and_place(PIVOT, replace(TASK, careful=share), START, POST, lambda tool: POST)
     for before, after in zip(done.phases, slow.phases, strict=True):
         if not after.held:
             assert after.end - after.begin == pytest.approx(before.end - before.begin)
@@ -91,8 +91,8 @@ def test_whether_it_can_be_is_told_without_a_search(monkeypatch):
         raise AssertionError("a way was searched")
 
     monkeypatch.setattr(pick_place, "search", searched)
-    assert can_place(PIVOT, ERRAND, START, POST, lambda tool: POST)
-    far = replace(ERRAND, T_world_needle=RigidTransform(LYING.rotation, [1.5, 0.4, 0.1]))
+    assert can_place(PIVOT, TASK, START, POST, lambda tool: POST)
+    far = replace(TASK, T_world_needle=RigidTransform(LYING.rotation, [1.5, 0.4, 0.1]))
     assert not can_place(PIVOT, far, START, POST, lambda tool: POST)
 
 
@@ -101,11 +101,11 @@ def test_a_refusal_names_the_phase_that_was_come_to_and_what_was_touched():
         lambda q: PIVOT.state(q).depth < 0.05, names=lambda q: "the tip comes to a bone"
     )
     with pytest.raises(NotPlacedError) as caught:
-        pick_and_place(PIVOT, ERRAND, START, POST, lambda tool: POST, inside=lambda tool: blocked)
+        pick_and_place(PIVOT, TASK, START, POST, lambda tool: POST, inside=lambda tool: blocked)
     assert caught.value.phase is PhaseName.INSERT
     assert caught.value.hindrance is Hindrance.TOUCH
     assert caught.value.why.startswith("the tip comes to a bone after")
-    far = replace(ERRAND, T_world_needle=RigidTransform(LYING.rotation, [1.5, 0.4, 0.1]))
+    far = replace(TASK, T_world_needle=RigidTransform(LYING.rotation, [1.5, 0.4, 0.1]))
     with pytest.raises(NotPlacedError) as caught:
         pick_and_place(PIVOT, far, START, POST, lambda tool: POST)
     assert (caught.value.phase, caught.value.hindrance) == (PhaseName.GRASP, Hindrance.REACH)
@@ -117,7 +117,7 @@ def test_a_search_that_ends_without_a_way_is_an_obstacle_of_its_own(monkeypatch)
 
     monkeypatch.setattr(pick_place, "search", none)
     with pytest.raises(NotPlacedError) as caught:
-        pick_and_place(PIVOT, ERRAND, START, POST, lambda tool: POST)
+        pick_and_place(PIVOT, TASK, START, POST, lambda tool: POST)
     assert (caught.value.phase, caught.value.hindrance) == (PhaseName.APPROACH, Hindrance.WAY)
     assert caught.value.why == "no way in 7 tests"
 
@@ -149,7 +149,7 @@ def test_the_hand_grips_the_tool_where_it_lies_and_carries_it_to_its_depth(done)
     hand = ARM.tool_pose(ARM.wrist_pose(needle @ done.pivot.tool.T_tool_needle.inverse()))
     assert hand.rotation[2, 2] == pytest.approx(-1.0)
     end = done.pivot.state(done.at(done.duration))
-    assert abs(end.depth - ERRAND.depth) < 1e-9
+    assert abs(end.depth - TASK.depth) < 1e-9
     assert end.off < 1e-9
 
 
@@ -160,13 +160,13 @@ def test_the_shaft_stays_in_the_fulcrum_while_it_goes_in_and_the_tool_is_held_fr
     times = np.linspace(insert.begin, insert.end, 500)
     assert max(done.pivot.state(done.at(float(t))).off for t in times) <= SHAFT_OFF
     depths = [done.pivot.state(done.at(float(t))).depth for t in times]
-    assert depths[0] == pytest.approx(-ERRAND.before)
+    assert depths[0] == pytest.approx(-TASK.before)
     assert (np.diff(depths) > -1e-9).all()
     assert [phase.held for phase in done.phases] == [False, False, *[True] * 5]
 
 
 def test_the_same_plan_comes_out_again(done):
-    again = pick_and_place(PIVOT, ERRAND, START, POST, lambda tool: POST)
+    again = pick_and_place(PIVOT, TASK, START, POST, lambda tool: POST)
     assert again.duration == done.duration
     times = np.linspace(0.0, done.duration, 50)
     assert all((again.at(float(t)) == done.at(float(t))).all() for t in times)
@@ -175,11 +175,13 @@ def test_the_same_plan_comes_out_again(done):
 def test_a_tray_out_of_reach_and_a_blocked_trocar_are_named_by_phase():
     far = RigidTransform(LYING.rotation, [1.5, 0.4, 0.1])
     with pytest.raises(MotionError, match="grasp: the arm gets 0 %"):
-        pick_and_place(PIVOT, Errand(far, ERRAND.up_world, 0.1), START, POST, lambda tool: POST)
+        pick_and_place(
+            PIVOT, PickPlaceTask(far, TASK.up_world, 0.1), START, POST, lambda tool: POST
+        )
     blocked = Collisions(lambda q: PIVOT.state(q).off > 0.02)
     with pytest.raises(MotionError, match="insert: the arm touches something"):
-        pick_and_place(PIVOT, ERRAND, START, POST, lambda tool: blocked)
+        pick_and_place(PIVOT, TASK, START, POST, lambda tool: blocked)
     with pytest.raises(NoGripError):
         pick_and_place(
-            PIVOT, Errand(LYING, ERRAND.up_world, TOOL.grip), START, POST, lambda tool: POST
+            PIVOT, PickPlaceTask(LYING, TASK.up_world, TOOL.grip), START, POST, lambda tool: POST
         )

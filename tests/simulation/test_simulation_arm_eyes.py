@@ -13,7 +13,7 @@ import pytest
 from app.compose.arm import (
     DEEPEST,
     PHASES,
-    Take,
+    ArmRun,
     aimed,
     cameras,
     carry_out,
@@ -198,13 +198,13 @@ def test_a_leaning_plan_is_carried_out_on_the_bench(azimuth, stands):
 def test_a_timeline_is_what_the_scene_was_moment_by_moment():
     axis, depth = aimed(6)
     scene = ArmScene.seeded(6, ToolBody().reaching(depth), axis)
-    take, ends = Take(scene, axis, depth, 6), {}
+    arm_run, ends = ArmRun(scene, axis, depth, 6), {}
 
     def shown(running, name):
         ends[name] = (running.state, running.holding)
 
-    take.run(shown)
-    line = take.performance(RigidTransform.identity()).timeline
+    arm_run.run(shown)
+    line = arm_run.performance(RigidTransform.identity()).timeline
     assert line.names == PHASES
     assert np.diff(line.time) == pytest.approx(0.02, abs=1e-9)
     assert line.time[0] == 0.0

@@ -28,7 +28,7 @@ from app.session.store import records
 from app.simulation.arm.carrying import CarryError, CarryFailure
 from app.simulation.errors import SimulationError
 from app.views.arm.feature import ArmFeature
-from app.views.arm.play import STEP_S, STILL_S, Act
+from app.views.arm.play import STEP_S, STILL_S, PlayState
 from app.views.debrief.feature import DebriefFeature
 from app.views.debrief.score_words import short_words, whose_words
 from app.views.scene.arm import ArmShape
@@ -52,7 +52,7 @@ def fetched(planned, settle):
     """Lead it to where the attempt has begun."""
     window, arm = planned
     arm.watch()
-    assert settle(lambda: arm.play is not None and arm.play.act is Act.INSERTING)
+    assert settle(lambda: arm.play is not None and arm.play.state is PlayState.INSERTING)
     return window, arm, window.conductor.controller.run.trainer
 
 
@@ -139,7 +139,7 @@ def test_while_it_fetches_no_needle_is_shown_but_in_3d(planned, settle) -> None:
     shapes = []
     window.workspace.scene.set_arm = lambda shape, often=False: shapes.append(shape)
     arm.watch()
-    assert settle(lambda: arm.play is not None and arm.play.act is Act.FETCHING)
+    assert settle(lambda: arm.play is not None and arm.play.state is PlayState.FETCHING)
     assert settle(lambda: shapes)
     assert settle(lambda: window.workspace.viewing.needle is None)
     assert window.workspace.grid.maximised is window.workspace.scene
@@ -154,7 +154,7 @@ def test_its_attempt_is_the_arms_and_led_along_the_plan(planned, settle) -> None
     assert trainer.begun == ("", "arm")
     assert window.workspace.bullseye.hand is None  # the mouse moves nothing
     window.workspace.bullseye.pad.advanced.emit(0.02)
-    assert settle(lambda: arm.play.act is Act.HOLDING)
+    assert settle(lambda: arm.play.state is PlayState.HOLDING)
     placed = window.conductor.controller.run.placed
     x, y, depth = trainer.hands[-1][:3]
     np.testing.assert_allclose((x, y), placed.axis[:2], atol=1e-9)
@@ -209,10 +209,10 @@ def test_a_step_of_a_fast_insertion_is_as_long_as_it_is_watched(planned, settle)
 def test_the_fetching_may_be_left_out(planned, settle) -> None:
     _window, arm = planned
     arm.watch()
-    assert settle(lambda: arm.play is not None and arm.play.act is Act.FETCHING)
+    assert settle(lambda: arm.play is not None and arm.play.state is PlayState.FETCHING)
     arm.play.pause()
     arm.bar.skip.click()
-    assert settle(lambda: arm.play.act is Act.INSERTING)
+    assert settle(lambda: arm.play.state is PlayState.INSERTING)
 
 
 def test_taken_over_the_mouse_goes_on_from_exactly_there(planned, settle) -> None:
@@ -235,22 +235,26 @@ def test_taken_over_the_mouse_goes_on_from_exactly_there(planned, settle) -> Non
     assert not arm.is_busy
 
 
-@pytest.mark.parametrize("act", [Act.WAITING, Act.FETCHING, Act.INSERTING, Act.HOLDING])
-def test_it_is_stopped_at_any_time_and_all_is_as_before(planned, settle, act) -> None:
+@pytest.mark.parametrize(
+    "at", [PlayState[name] for name in ("WAITING", "FETCHING", "INSERTING", "HOLDING")]
+)
+def test_it_is_stopped_at_any_time_and_all_is_as_before(planned, settle, at) -> None:
     window, arm = planned
     window.workspace.bullseye.source.set_source("tablet")
-    if act is Act.WAITING:
+    if at is PlayState.WAITING:
         window.feature(ArmFeature).context.services.arm_waits.clear()
     arm.watch()
-    if act is Act.WAITING:
+    if at is PlayState.WAITING:
         assert settle(lambda: "50 %" in arm.bar.words.text())
     else:
-        assert settle(lambda: arm.play is not None and arm.play.act is act)
+        assert settle(lambda: arm.play is not None and arm.play.state is at)
     trainer = window.conductor.controller.run.trainer
     arm.bar.stop.click()
     assert settle(lambda: not arm.is_busy)
     arm.context.services.arm_waits.set()
-    assert trainer.state is (State.READY if act in (Act.WAITING, Act.FETCHING) else State.ABORTED)
+    assert trainer.state is (
+        State.READY if at in (PlayState.WAITING, PlayState.FETCHING) else State.ABORTED
+    )
     assert arm.bar.isHidden()
     assert window.workspace.next_step.isVisible()
     assert window.workspace.scene.is_home
@@ -331,7 +335,7 @@ def test_a_real_robot_is_left_alone_and_comes_back(planned, services, settle) ->
     assert settle(lambda: services.opened[-1].setup.robot.port == "/dev/ttyACM0")
     assert settle(lambda: window.runs.run is not None)
     arm.watch()
-    assert settle(lambda: arm.play is not None and arm.play.act is Act.FETCHING)
+    assert settle(lambda: arm.play is not None and arm.play.state is PlayState.FETCHING)
     assert services.opened[-1].setup.robot == RobotChoice()
     arm.bar.stop.click()
     assert settle(lambda: services.opened[-1].setup.robot.port == "/dev/ttyACM0")
@@ -369,7 +373,7 @@ def test_who_begins_by_himself_meanwhile_is_not_disturbed(planned, services, set
 def test_nothing_begins_while_the_needle_is_not_there(planned, settle) -> None:
     window, arm = planned
     arm.watch()
-    assert settle(lambda: arm.play is not None and arm.play.act is Act.FETCHING)
+    assert settle(lambda: arm.play is not None and arm.play.state is PlayState.FETCHING)
     window.conductor.controller.set_waiting("")  # as another part might
     window.conductor.controller.begin("S1")
     assert window.conductor.controller.run.trainer.begun is None
@@ -381,7 +385,7 @@ def test_where_scans_guide_the_arm_takes_them_on_its_way(planned, settle) -> Non
     trainer.scan = lambda order=None: scans.append(order)
     run = window.conductor.controller.run
     object.__setattr__(run, "shown", Shown(live=False))
-    assert settle(lambda: arm.play.act is Act.HOLDING)
+    assert settle(lambda: arm.play.state is PlayState.HOLDING)
     trainer.state = State.HOLDING
     assert settle(lambda: len(scans) == 1)  # the fake needle never comes in: one at the target
 
@@ -529,7 +533,7 @@ def test_the_arm_of_the_scene_does_it_to_the_end(real, settle) -> None:
     arm.watch()
     assert settle(lambda: said or arm.play is not None, timeout=300.0)
     assert said == []
-    assert settle(lambda: arm.play.act is Act.FETCHING)
+    assert settle(lambda: arm.play.state is PlayState.FETCHING)
     arm.bar.skip.click()
     assert settle(lambda: bool(results), timeout=120.0)
     assert results[0].state is State.ENDED

@@ -67,7 +67,7 @@ class Hindrance(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Errand:
+class PickPlaceTask:
     """What is to be done.
 
     Attributes:
@@ -124,13 +124,13 @@ class PickPlace:
     Attributes:
         phases: one after the other.
         pivot: the trocar, with the tool in the grip that was chosen.
-        errand: what was to be done.
+        task: what was to be done.
         tried: grips that could not, and why.
     """
 
     phases: tuple[ArmPhase, ...]
     pivot: Pivot
-    errand: Errand
+    task: PickPlaceTask
     tried: tuple[str, ...]
 
     @property
@@ -172,7 +172,7 @@ class NotPlacedError(MotionError):
 
 def pick_and_place(
     pivot: Pivot,
-    errand: Errand,
+    task: PickPlaceTask,
     start: ArrayLike,
     empty: Collisions,
     holding: Callable[[HeldTool], Collisions],
@@ -184,7 +184,7 @@ def pick_and_place(
     Args:
         pivot: the trocar, arm and tool; the hand comes from above the tray with its z axis down,
             whatever `axis_tool` says, and the shaft lies along x of the tool frame or against it.
-        errand: where the tool lies, and where it shall go.
+        task: where the tool lies, and where it shall go.
         start: joint angles at the begin [rad], shape (7,).
         empty: what is free with an empty hand.
         holding: the same with a tool in the hand as given.
@@ -198,14 +198,14 @@ def pick_and_place(
         PlannerMissingError: if OMPL or Ruckig is not installed.
     """
     import_ruckig()
-    found = _first(pivot, errand, start, (empty, holding, inside or holding), budget or Budget())
+    found = _first(pivot, task, start, (empty, holding, inside or holding), budget or Budget())
     job, picked, placed, tried = found
-    return PickPlace(job.phases(picked, placed), job.pivot, errand, tried)
+    return PickPlace(job.phases(picked, placed), job.pivot, task, tried)
 
 
 def can_place(
     pivot: Pivot,
-    errand: Errand,
+    task: PickPlaceTask,
     start: ArrayLike,
     empty: Collisions,
     holding: Callable[[HeldTool], Collisions],
@@ -217,7 +217,7 @@ def can_place(
         FulcrumError, NoGripError: as `pick_and_place`.
     """
     try:
-        _first(pivot, errand, start, (empty, holding, inside or holding), None)
+        _first(pivot, task, start, (empty, holding, inside or holding), None)
     except NotPlacedError:
         return False
     return True
@@ -227,11 +227,11 @@ _Things = tuple[Collisions, Callable[[HeldTool], Collisions], Callable[[HeldTool
 
 
 def _first(
-    pivot: Pivot, errand: Errand, start: ArrayLike, things: _Things, budget: Budget | None
-) -> tuple[_Errands, list[_Leg], list[_Leg], tuple[str, ...]]:
+    pivot: Pivot, task: PickPlaceTask, start: ArrayLike, things: _Things, budget: Budget | None
+) -> tuple[_Planning, list[_Leg], list[_Leg], tuple[str, ...]]:
     """Return the first grip that does all, with its legs; those before it, and why not."""
-    wanted = pivot.inward_world if errand.axis_world is None else errand.axis_world
-    pivot.aim(pivot.p_world + errand.depth * np.asarray(wanted))
+    wanted = pivot.inward_world if task.axis_world is None else task.axis_world
+    pivot.aim(pivot.p_world + task.depth * np.asarray(wanted))
     tried: list[str] = []
     stuck: list[_StuckError] = []
     empty, holding, inside = things
@@ -244,7 +244,7 @@ def _first(
     for sign in (1.0, -1.0):
         tool = HeldTool(pivot.tool.length, pivot.tool.grip, np.array([sign, 0.0, 0.0]))
         there = replace(pivot, tool=tool)
-        job = _Errands(there, errand, wanted, q0, empty, holding(tool), inside(tool), budget)
+        job = _Planning(there, task, wanted, q0, empty, holding(tool), inside(tool), budget)
         try:
             picked = job.picked()
         except _StuckError as error:
@@ -281,9 +281,9 @@ class _Leg:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Errands:
+class _Planning:
     pivot: Pivot
-    errand: Errand
+    task: PickPlaceTask
     wanted: FloatArray
     start: FloatArray
     empty: Collisions
@@ -298,13 +298,13 @@ class _Errands:
     def lying(self, above: float) -> RigidTransform:
         """Pose of the tip's frame for the hand over the tool, `above` the tray's."""
         # the hand's z down, its x along the shaft: what the grip says of the tip's frame
-        up = np.asarray(self.errand.up_world) / np.linalg.norm(self.errand.up_world)
-        shaft = self.errand.T_world_needle.rotation[:, 2]
+        up = np.asarray(self.task.up_world) / np.linalg.norm(self.task.up_world)
+        shaft = self.task.T_world_needle.rotation[:, 2]
         x = self.pivot.tool.axis_tool[0] * (shaft - up * float(shaft @ up))
         x /= np.linalg.norm(x)
         hand = RigidTransform(
             np.stack([x, np.cross(-up, x), -up], axis=1),
-            self.errand.T_world_needle.translation - self.pivot.tool.grip * shaft + above * up,
+            self.task.T_world_needle.translation - self.pivot.tool.grip * shaft + above * up,
         )
         return hand @ self.pivot.tool.T_tool_needle
 
@@ -337,7 +337,7 @@ class _Errands:
 
     def picked(self) -> list[_Leg]:
         """Approach, grasp and lift."""
-        above, on = self.lying(self.errand.lift), self.lying(0.0)
+        above, on = self.lying(self.task.lift), self.lying(0.0)
         down = self.line(PhaseName.GRASP, PoseLine(above, on))
         up = JointPath(down.s, down.q[::-1])
         self.clear(PhaseName.GRASP, down, self.empty)
@@ -356,7 +356,7 @@ class _Errands:
             for roll in 2.0 * np.pi * (np.arange(ROLLS) + between) / ROLLS - np.pi:
                 outside, within = (
                     self.pivot.pose(self.wanted, depth, float(roll))
-                    for depth in (-self.errand.before, self.errand.depth)
+                    for depth in (-self.task.before, self.task.depth)
                 )
                 try:
                     solve(self.arm, self.pivot.wrist_pose(within))  # quickly told if it cannot
@@ -382,16 +382,16 @@ class _Errands:
 
     def placed(self, q: FloatArray, roll: float, inserted: JointPath) -> list[_Leg]:
         """Transfer, align, pivot and insert, for one way in."""
-        axis, errand = self.pivot.inward_world, self.errand
+        axis, task = self.pivot.inward_world, self.task
         turns = angle_between(self.wanted, axis) > _STRAIGHT
         far, near = (
             self.pivot.pose(axis if turns else self.wanted, -depth, roll)
-            for depth in (errand.before + errand.aside, errand.before)
+            for depth in (task.before + task.aside, task.before)
         )
         # planned backwards from where the way in begins, so that they meet in one posture
         legs, begin = [_Leg(PhaseName.INSERT, inserted, True)], inserted.q[0]
         if turns:
-            leaning = self.pivot.pose(self.wanted, -errand.before, roll)
+            leaning = self.pivot.pose(self.wanted, -task.before, roll)
             about = cross(self.wanted, axis)
             upright = PoseArc(leaning, near, self.pivot.p_world, about)
             path = self.line(PhaseName.PIVOT, upright, start=begin, pivot=self.pivot)
@@ -409,7 +409,7 @@ class _Errands:
     def phases(self, picked: list[_Leg], placed: list[_Leg]) -> tuple[ArmPhase, ...]:
         """Give all legs their times."""
         slow = (PhaseName.GRASP, PhaseName.ALIGN, PhaseName.PIVOT, PhaseName.INSERT)
-        care, arm = self.errand.careful, self.arm
+        care, arm = self.task.careful, self.arm
         gentle = replace(arm, acceleration=care * arm.acceleration, jerk=care * arm.jerk)
         done: list[ArmPhase] = []
         for name in PhaseName:
@@ -423,7 +423,7 @@ class _Errands:
                     name,
                     done[-1].end if done else 0.0,
                     tuple(timed(gentle if held else arm, leg.path, scale) for leg in legs),
-                    self.errand.close if name is PhaseName.GRASP else 0.0,
+                    self.task.close if name is PhaseName.GRASP else 0.0,
                     held,
                 )
             )

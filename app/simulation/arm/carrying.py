@@ -23,11 +23,11 @@ from app.mechanisms.hand import HandFinger, ToolShaft, approach, close_hand
 from app.mechanisms.laparoscopy import TrocarRing
 from app.planning.arm.pick_place import (
     ArmPhase,
-    Errand,
     Hindrance,
     NotPlacedError,
     PhaseName,
     PickPlace,
+    PickPlaceTask,
     can_place,
     pick_and_place,
 )
@@ -182,11 +182,11 @@ def plan(
         SimulationError, PlannerMissingError: if a package is missing; names the extra.
     """
     q = scene.home if start is None else start
-    pivot, errand, empty, holding, inside = _job(scene, wanted, check)
+    pivot, task, empty, holding, inside = _job(scene, wanted, check)
     _has_room(scene, wanted)
     try:
         budget = Budget(seconds=60.0, tests=_TESTS)  # tests end it: the same on any computer
-        return pick_and_place(pivot, errand, q, empty, holding, budget, inside)
+        return pick_and_place(pivot, task, q, empty, holding, budget, inside)
     except NotPlacedError as error:
         raise _in_words(error) from error
     except FulcrumError as error:
@@ -205,10 +205,10 @@ def could_carry(
         check: as of `plan`.
     """
     wanted = Insertion.known(scene, axis, depth)
-    pivot, errand, empty, holding, inside = _job(scene, wanted, check)
+    pivot, task, empty, holding, inside = _job(scene, wanted, check)
     try:
         _has_room(scene, wanted)
-        return can_place(pivot, errand, scene.home, empty, holding, inside)
+        return can_place(pivot, task, scene.home, empty, holding, inside)
     except (FulcrumError, CarryError):
         return False
 
@@ -261,7 +261,11 @@ def carry(
 def _job(
     scene: ArmScene, wanted: Insertion, check: Callable[[], object]
 ) -> tuple[
-    Pivot, Errand, Collisions, Callable[[HeldTool], Collisions], Callable[[HeldTool], Collisions]
+    Pivot,
+    PickPlaceTask,
+    Collisions,
+    Callable[[HeldTool], Collisions],
+    Callable[[HeldTool], Collisions],
 ]:
     """Return what `pick_and_place` asks for: the task, and what is free as it is thought to be."""
     body, tool, hand = scene.tool, wanted.tool, scene.hand.hand
@@ -301,11 +305,11 @@ def _job(
 
     up = unit(_UP - tool.axis_world * float(_UP @ tool.axis_world))
     tip = RigidTransform.from_translation([0.0, 0.0, body.length])
-    errand = Errand(lying @ tip, up, wanted.depth, wanted.axis, careful=_CAREFUL)
+    task = PickPlaceTask(lying @ tip, up, wanted.depth, wanted.axis, careful=_CAREFUL)
     held = HeldTool(body.length, body.length - body.grip, np.array([1.0, 0.0, 0.0]))
     pivot = Pivot(arm, held, wanted.fulcrum, -wanted.normal)
     empty = things(SceneClearance(thought, np.zeros(2 * len(HandFinger)), lying))
-    return pivot, errand, empty, holding, lambda one: holding(one, in_trocar=True)
+    return pivot, task, empty, holding, lambda one: holding(one, in_trocar=True)
 
 
 def _beyond(scene: ArmScene, arm: ArmProfile) -> float:
@@ -408,7 +412,7 @@ def _at_the_trocar(
     aside = float(np.linalg.norm(away - depth * axis))
     upright = name is PhaseName.ALIGN
     direction = planned.pivot.inward_world if upright else wanted.axis
-    deep = wanted.depth if name is PhaseName.INSERT else -planned.errand.before
+    deep = wanted.depth if name is PhaseName.INSERT else -planned.task.before
     errors = {
         "axis_from_fulcrum_mm": aside / MILLIMETRE,
         "tip_mm": _millimetres(away - deep * direction),

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QSizePol
 
 from app.exercises.guidance import Purpose
 from app.planning.placement import PlacedPlan
-from app.views.arm.play import Act, ArmPlay
+from app.views.arm.play import ArmPlay, PlayState
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 
 KEYS: Final = {"pause": "Space", "step": "F10", "skip": "F3", "take": "F12", "stop": "Esc"}
 """Button of the bar -> its key, while the bar is there."""
+
+
+_LED: Final = (PlayState.FETCHING, PlayState.INSERTING, PlayState.HOLDING)
 
 
 class ArmBar(QFrame):
@@ -84,20 +87,20 @@ class ArmBar(QFrame):
     def show_play(self, play: ArmPlay) -> None:
         """Say what a play does, and offer what can be done about it."""
         self.pause.setText(tr("Pause (Space)") if play.playing else tr("Go on (Space)"))
-        if play.act is Act.WAITING:
+        if play.state is PlayState.WAITING:
             self.tell(tr("Simulated arm: robot and cameras are coming …"), self.stop)
             return
-        if play.act is Act.STOPPING:
+        if play.state is PlayState.STOPPING:
             self.tell(tr("Simulated arm: stopping …"))
             return
-        holds = play.act is Act.HOLDING
+        holds = play.state is PlayState.HOLDING
         what = tr("holds still at your target") if holds else phase_words(play.phase)
         words = (
             tr("Simulated arm: {what}  ·  {now:.0f}/{all:.0f} s")
             if play.playing
             else tr("Simulated arm  ‖  {what}  ·  {now:.0f}/{all:.0f} s")
         ).format(what=what, now=play.t, all=play.duration)
-        fetching = play.act is Act.FETCHING
+        fetching = play.state is PlayState.FETCHING
         self.tell(words, self.pause, self.step, self.skip if fetching else self.take, self.stop)
         self.take.setEnabled(play.may_take_over)
 
@@ -304,7 +307,11 @@ class ArmFeature(Feature):
         play = self.play
         if name == "stop":
             self.stop()
-        elif play is not None and play.act in (Act.FETCHING, Act.INSERTING, Act.HOLDING):
+        elif play is not None and play.state in (
+            PlayState.FETCHING,
+            PlayState.INSERTING,
+            PlayState.HOLDING,
+        ):
             commands = {
                 "pause": play.pause,
                 "step": play.step,
@@ -328,7 +335,7 @@ class ArmFeature(Feature):
         """Let nothing happen that nobody sees: another page is shown."""
         if self._shell.is_working:
             return
-        if self.play is not None and self.play.act is not Act.TAKEN:
+        if self.play is not None and self.play.state is not PlayState.TAKEN:
             if self.play.may_take_over:
                 if self.play.playing:
                     self.play.pause()
@@ -361,7 +368,7 @@ class ArmFeature(Feature):
             self.noted.emit(tr("The plan was changed meanwhile: ask again for the new one."))
 
     def _show_play(self) -> None:
-        if self.play is not None and self.play.act is not Act.OVER:
+        if self.play is not None and self.play.state is not PlayState.OVER:
             self.bar.show_play(self.play)
 
     def _taken(self) -> None:

@@ -70,7 +70,7 @@ PIVOT: Final = "pivot"
 """Phase from which on the shaft stands over the entry."""
 
 
-class Act(Enum):
+class PlayState(Enum):
     """What is going on."""
 
     WAITING = auto()  # for a simulated robot
@@ -105,7 +105,7 @@ class ArmPlay(QObject):
         clock: time [s].
 
     Attributes:
-        act: what is going on.
+        state: what is going on.
         t: time in the performance [s].
         playing: whether it goes on.
 
@@ -133,7 +133,7 @@ class ArmPlay(QObject):
         self._conductor, self._controller, self._scene = conductor, conductor.controller, scene
         self.performance, self._placed, self._student = performance, placed, student
         self._clock, self._last, self._drawn = clock, clock(), -np.inf
-        self.act, self.t, self.playing = Act.WAITING, 0.0, True
+        self.state, self.t, self.playing = PlayState.WAITING, 0.0, True
         self._until = np.inf
         self._begins = performance.timeline.begin(PIVOT)
         self._pace = pace_of(performance)
@@ -173,7 +173,9 @@ class ArmPlay(QObject):
     @property
     def may_take_over(self) -> bool:
         """Whether there is a needle that the student can go on with."""
-        return self.act in (Act.INSERTING, Act.HOLDING) and self._controller.is_running
+        return (
+            self.state in (PlayState.INSERTING, PlayState.HOLDING) and self._controller.is_running
+        )
 
     # --- what the user asks for ---------------------------------------------------------------
     def start(self) -> None:
@@ -192,13 +194,13 @@ class ArmPlay(QObject):
 
     def step(self) -> None:
         """Go on for `STEP_S` as they are watched, then stand still."""
-        pace = 1.0 if self.act is Act.FETCHING else self._pace
+        pace = 1.0 if self.state is PlayState.FETCHING else self._pace
         self.playing, self._until = True, self.t + pace * STEP_S
         self.changed.emit()
 
     def skip(self) -> None:
         """Leave out what is left of the fetching."""
-        if self.act is Act.FETCHING:
+        if self.state is PlayState.FETCHING:
             self.t = max(self.t, self._begins)
             self.playing, self._until = True, np.inf
             self.changed.emit()
@@ -214,7 +216,7 @@ class ArmPlay(QObject):
         except AcusError as error:  # it has just ended
             self._conductor.failed.emit(error)
             return
-        self.act = Act.TAKEN
+        self.state = PlayState.TAKEN
         self._timer.stop()
         self._controller.lead("")
         bullseye.take_hand(self._pose)
@@ -224,10 +226,10 @@ class ArmPlay(QObject):
 
     def stop(self, why: str = "") -> None:
         """End it; an attempt of the arm is broken off. One that was taken over is the student's."""
-        if self.act in (Act.OVER, Act.STOPPING, Act.TAKEN):
+        if self.state in (PlayState.OVER, PlayState.STOPPING, PlayState.TAKEN):
             return
         if self._runs():
-            self.act, self._why, self._waited = Act.STOPPING, why, 0.0
+            self.state, self._why, self._waited = PlayState.STOPPING, why, 0.0
             self._controller.abort(quietly=True)  # `demonstrated` follows
             self.changed.emit()
         else:
@@ -245,12 +247,12 @@ class ArmPlay(QObject):
         if QApplication.activeModalWidget() is not None:
             passed = 0.0  # a question stands over it: nothing goes on behind it
         run = self._controller.run
-        if self.act is Act.WAITING:
+        if self.state is PlayState.WAITING:
             if run is not None and run.interactive and not (run.is_real or run.demonstrates):
                 self._fetch(run)
             self.changed.emit()
             return
-        if self.act is Act.STOPPING:
+        if self.state is PlayState.STOPPING:
             self._waited += 0.0 if self._controller.is_running else passed
             if self._waited >= AFTER_S:  # nobody has told of its end
                 self._end(self._why)
@@ -260,9 +262,9 @@ class ArmPlay(QObject):
             self.stop(why)
             return
         snapshot = run.trainer.snapshot()
-        if self.act is Act.FETCHING:
+        if self.state is PlayState.FETCHING:
             self._bring(run, snapshot, passed)
-        elif self.act in (Act.INSERTING, Act.HOLDING):
+        elif self.state in (PlayState.INSERTING, PlayState.HOLDING):
             self._insert(run, snapshot, passed)
         self._draw(now)
         self.changed.emit()
@@ -277,7 +279,7 @@ class ArmPlay(QObject):
 
     def _fetch(self, run: ExerciseRun) -> None:
         """Begin with the fetching: the 3D view has the room, nothing else shows a needle."""
-        self.act, self._trainer = Act.FETCHING, run.trainer
+        self.state, self._trainer = PlayState.FETCHING, run.trainer
         self._controller.lead("arm", is_absent=True)
         self._conductor.show_scene_alone(True)
         self._before = None if self._scene.is_home else self._scene.orbit
@@ -303,7 +305,7 @@ class ArmPlay(QObject):
         if not self._controller.is_running:
             self._end("")  # whoever refused has said why
             return
-        self.act = Act.INSERTING
+        self.state = PlayState.INSERTING
         self._conductor.show_scene_alone(False)
         self._look_near()
 
@@ -315,9 +317,9 @@ class ArmPlay(QObject):
         self._feed(run, *self.performance.needle(self.t))
         if not run.shown.live:
             self._take_scans(run, snapshot)
-        if self.act is Act.INSERTING and self.t >= self.duration:
-            self.act, self._held, self._waited = Act.HOLDING, 0.0, 0.0
-        if self.act is Act.HOLDING and self.playing:
+        if self.state is PlayState.INSERTING and self.t >= self.duration:
+            self.state, self._held, self._waited = PlayState.HOLDING, 0.0, 0.0
+        if self.state is PlayState.HOLDING and self.playing:
             self._waited += passed
             self._held = self._held + passed if snapshot.state is State.HOLDING else 0.0
             if self._held >= STILL_S or self._waited >= PATIENCE_S:
@@ -343,7 +345,7 @@ class ArmPlay(QObject):
             return
         way = 1.0 - snapshot.offset.remaining / run.placed.length
         share = SCANS_AT[self._scans]
-        if way >= share or (self.act is Act.HOLDING and self._held > 0.0):
+        if way >= share or (self.state is PlayState.HOLDING and self._held > 0.0):
             self._scans += 1
             self._conductor.views.panel.scan.here.click()
             self._controller.scan()
@@ -353,13 +355,13 @@ class ArmPlay(QObject):
         return ArmShape.of(self.performance, t, self._placed.T_world_patient.inverse())
 
     def _draw(self, now: float) -> None:
-        pause = PICTURE_S if self.act is Act.FETCHING else ATTEMPT_PICTURE_S
-        if now - self._drawn < pause or self.act in (Act.WAITING, Act.OVER):
+        pause = PICTURE_S if self.state is PlayState.FETCHING else ATTEMPT_PICTURE_S
+        if now - self._drawn < pause or self.state in (PlayState.WAITING, PlayState.OVER):
             return
         shape = self._shape_at(self.t)
         if shape.moved_mm(self._shape) > LEAST_MM:
             self._shape, self._drawn = shape, now
-            self._scene.set_arm(shape, often=self.act is Act.FETCHING)
+            self._scene.set_arm(shape, often=self.state is PlayState.FETCHING)
 
     def _look_near(self) -> None:
         """Look at hand, entry and target."""
@@ -380,7 +382,7 @@ class ArmPlay(QObject):
 
     # --- the end ------------------------------------------------------------------------------
     def _runs(self) -> bool:
-        began = self.act in (Act.INSERTING, Act.HOLDING)
+        began = self.state in (PlayState.INSERTING, PlayState.HOLDING)
         return began and self._controller.is_running
 
     def _let_start(self) -> None:
@@ -390,17 +392,17 @@ class ArmPlay(QObject):
 
     def _finished(self, _: object) -> None:
         """Give everything back: the attempt is over, whoever ended it."""
-        if self.act is not Act.WAITING:
+        if self.state is not PlayState.WAITING:
             self._end("")
 
     def _demonstrated(self) -> None:
-        if self.act is Act.STOPPING:
+        if self.state is PlayState.STOPPING:
             self._end(self._why)
 
     def _end(self, why: str) -> None:
-        if self.act is Act.OVER:
+        if self.state is PlayState.OVER:
             return
-        taken, self.act = self.act is Act.TAKEN, Act.OVER
+        taken, self.state = self.state is PlayState.TAKEN, PlayState.OVER
         self._timer.stop()
         for signal, slot in self._links:
             signal.disconnect(slot)

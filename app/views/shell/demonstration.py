@@ -27,7 +27,7 @@ from app.session.result import AttemptResult
 from app.session.review import review_of_result
 from app.session.snapshot import Snapshot
 from app.views.arm.feature import ArmFeature
-from app.views.arm.play import Act
+from app.views.arm.play import PlayState
 from app.views.debrief.feature import DebriefFeature
 from app.views.debrief.report import write_report
 from app.views.exercise.beginning import TRAINEE_DONE
@@ -240,18 +240,22 @@ class Demonstration(QObject):
             bar.offer.click()
             self._waited = 0.0
             return False
-        if play is not None and play.act in (Act.FETCHING, Act.INSERTING, Act.HOLDING):
-            phase = "hold" if play.act is Act.HOLDING else play.phase
+        if play is not None and play.state in (
+            PlayState.FETCHING,
+            PlayState.INSERTING,
+            PlayState.HOLDING,
+        ):
+            phase = "hold" if play.state is PlayState.HOLDING else play.phase
             if phase != self._phase:
                 self._phase = phase
                 self.told.emit(bar.words.text())
-            held = play.act is Act.HOLDING and self._waited >= HOLD_PICTURE_S
+            held = play.state is PlayState.HOLDING and self._waited >= HOLD_PICTURE_S
             snapshot = self._snapshot()
             fresh = snapshot is not None and snapshot.pose.measured and has_fresh_fix(snapshot)
             clear = fresh or phase != "insert" or play.share >= LATEST
             if held or (phase != "hold" and clear and play.share >= MIDDLE):
                 self._pictures.take(f"arm-{phase}")
-        if play is not None and play.act is not Act.HOLDING:
+        if play is not None and play.state is not PlayState.HOLDING:
             self._waited = 0.0
         if self._result is not None:
             return self._then("scoring", self._debrief_is_shown)
