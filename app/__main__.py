@@ -31,7 +31,7 @@ def main() -> None:
         message = getattr(error, "format_message", None)
         if message is None:
             raise
-        fail(message())
+        fail(message().replace("Value error, ", ""))  # of the library, about our own words
 
 
 def fail(message: str) -> None:

@@ -140,6 +140,29 @@ def test_a_demonstration_of_a_file_that_is_not_there_or_wrong_says_so_in_one_lin
         assert words in done.stderr
 
 
+@pytest.mark.parametrize(
+    ("named", "words"),
+    [("no.yaml", "cannot read"), ("laparoscopic-tool", "targets are touched")],
+)
+def test_the_arm_does_not_begin_before_the_exercise_is_known_to_be_one_for_it(
+    tmp_path, named, words
+):
+    named = tmp_path / named if named.endswith("yaml") else named
+    out = tmp_path / "out"
+    done = acus("demo", "--device", "arm", "--headless", "--exercise", named, "--out", out)
+    assert done.returncode == 2
+    assert one_line(done.stderr)
+    assert words in done.stderr
+    assert not done.stdout
+    assert not out.exists()
+
+
+def test_an_unknown_device_is_named_with_those_that_there_are_in_our_own_words():
+    done = acus("demo", "--device", "leg")
+    assert done.returncode == 2
+    assert done.stderr.rstrip().endswith("'--device': 'leg' is not one of 'pantograph', 'arm'.")
+
+
 def test_a_demonstration_on_a_folder_without_ct_is_refused_at_once(tmp_path):
     (tmp_path / "note.txt").write_text("no CT here")
     result = acus("demo", "--headless", "--ct", tmp_path, "--out", tmp_path / "out")

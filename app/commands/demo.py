@@ -12,6 +12,7 @@ from app.commands import completion
 from app.core.errors import AcusError
 
 if TYPE_CHECKING:
+    from app.exercises.schema import Exercise
     from app.session.result import AttemptResult
     from app.views.shell.demonstration import DemonstrationScript
 
@@ -80,7 +81,15 @@ def demo(
     simulation only and never drives a real arm. Ends with code 3 if the tool is not
     inserted; says why.
     """
+    from app.exercises.library import load_exercise
+
+    shown = load_exercise(exercise)
     if device is DemoDevice.ARM:
+        if shown.touch is not None:
+            raise AcusError(
+                f"in {shown.id} targets are touched, and the arm inserts along a path: name another"
+                " exercise, or leave out --device arm"
+            )
         if pen or cameras != "simulated":
             raise AcusError(
                 "the arm works before its own simulated cameras; leave out --pen and --cameras"
@@ -93,20 +102,23 @@ def demo(
     folder = out or (Path("out") / name if hidden else None)
     if device is DemoDevice.ARM and hidden and folder is not None:
         _show_arm(seed, folder)
-    _show(ct, exercise, hidden, folder, seed, skill, cameras, pen, device is DemoDevice.ARM)
+    _show(ct, shown, hidden, folder, seed, skill, cameras, pen, device is DemoDevice.ARM)
 
 
 def _import_arm() -> None:
     """Say what it is, and raise the error that names the extra before a window opens for nothing.
 
     Raises:
-        SimulationError: if MuJoCo is not installed.
+        AcusError: if MuJoCo, OMPL or Ruckig is not installed.
     """
     from app.compose.arm import SIMULATION_ONLY
+    from app.planning.arm.search import import_ompl
+    from app.planning.arm.timing import import_ruckig
     from app.simulation.arm.mjcf import import_mujoco
 
     typer.echo(SIMULATION_ONLY)
-    import_mujoco()
+    for load in (import_mujoco, import_ompl, import_ruckig):
+        load()
 
 
 def _show_arm(seed: int, folder: Path) -> None:
@@ -122,7 +134,7 @@ def _show_arm(seed: int, folder: Path) -> None:
 
 def _show(
     ct: Path | None,
-    exercise: str,
+    shown: Exercise,
     hidden: bool,
     out: Path | None,
     seed: int,
@@ -132,7 +144,6 @@ def _show(
     by_arm: bool = False,
 ) -> None:
     from app.compose.desktop import Desktop
-    from app.exercises.library import load_exercise
     from app.imaging.reading import choose
     from app.imaging.scanning import scan_folder
     from app.tracking.cameras.settings import parse_cameras
@@ -141,7 +152,6 @@ def _show(
     from app.views.shell.demonstration import Demonstration, DemonstrationScript
     from app.views.shell.window import open_window
 
-    shown = load_exercise(exercise)
     if ct is not None:
         choose(scan_folder(ct))  # says here what a dialog would have to ask
     chosen = parse_cameras(cameras)
