@@ -270,8 +270,7 @@ def _job(
     """Return what `pick_and_place` asks for: the task, and what is free as it is thought to be."""
     body, tool, hand = scene.tool, wanted.tool, scene.hand.hand
     lying = _lying(scene, tool)
-    ring = TrocarRing(wanted.fulcrum, wanted.normal, scene.trocar.inner, scene.trocar.outer)
-    thought = replace(scene, trocar=ring)
+    thought = replace(scene, trocar=_ring(scene, wanted))
     try:
         pose = approach(hand, ToolShaft(tool.p_grip, tool.axis_world, body.shaft_diameter), -_UP)
     except MechanismError as error:
@@ -328,10 +327,14 @@ def _closed_on(scene: ArmScene, shaft: ToolShaft) -> FloatArray:
     return np.array([joints[finger] for finger in HandFinger]).ravel()
 
 
+def _ring(scene: ArmScene, wanted: Insertion) -> TrocarRing:
+    """Return the trocar where it is thought to be."""
+    return TrocarRing(wanted.fulcrum, wanted.normal, scene.trocar.inner, scene.trocar.outer)
+
+
 def _has_room(scene: ArmScene, wanted: Insertion) -> None:
     """Raise if the shaft, as it is wanted, would hardly go through the ring."""
-    ring = TrocarRing(wanted.fulcrum, wanted.normal, scene.trocar.inner, scene.trocar.outer)
-    gap = ring.room(wanted.axis, scene.tool.shaft_diameter)
+    gap = _ring(scene, wanted).room(wanted.axis, scene.tool.shaft_diameter)
     if gap < ROOM:
         lean = np.degrees(angle_between(wanted.axis, -wanted.normal))
         raise CarryError(
