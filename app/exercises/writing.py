@@ -245,16 +245,19 @@ def _parts(parts: Mapping[str, BaseModel]) -> dict[str, Any]:
 
 
 def _from(folder: Path | None, path: Path, other: Path | None = None) -> str:
-    """Return a path as it stands in a file: from a folder that it lies below, else whole."""
+    """Return a path as a file of `folder` writes it: relative to that or to `other`, else whole.
+
+    Without a folder nothing could resolve a relative path, so it stays whole.
+    """
     if not path.is_absolute():
         return str(path)
     if folder is not None and path.is_relative_to(folder):
         return path.relative_to(folder).as_posix()
-    if other is not None and path.is_relative_to(other) and path.is_file():
-        name = path.relative_to(other).as_posix()
-        if folder is None or not (folder / name).exists():  # that would be read in its place
-            return name
-    return str(path)
+    if folder is None or other is None or not path.is_relative_to(other) or not path.is_file():
+        return str(path)
+    name = path.relative_to(other).as_posix()
+    shadowed = (folder / name).exists()  # that would be read in its place
+    return str(path) if shadowed else name
 
 
 # --- schema -------------------------------------------------------------------------------------

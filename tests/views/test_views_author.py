@@ -17,6 +17,7 @@ from app.exercises.library import folders, load_exercise, versions
 from app.exercises.parts import OwnPlan, PlanPoints
 from app.exercises.schema import Exercise
 from app.imaging.reading import load_ct
+from app.imaging.structures.files import read_structures
 from app.imaging.structures.structure import Structure, StructureKind, StructureSet
 from app.imaging.window import WindowLevel
 from app.planning.placement import PatientOrientation, Placement
@@ -248,6 +249,61 @@ def test_structures_of_risk_are_written_and_go_along(opened, author, settle):
     assert dict(kept.structures[0].risks) == {"vessel": 3.0, "other": 7.0}
     assert kept.structures[0].file.is_file()
     assert kept.tolerances["risk_breach"].required
+
+
+@pytest.fixture
+def painted(opened, author):
+    """An exercise with a structure of risk that was painted in the window."""
+    volume = opened.conductor.patient.volume
+    mask = np.zeros(volume.hu.shape, bool)
+    mask[10:14, 20:24, 20:24] = True
+    drawn = Structure.of("vessel", mask, volume, StructureKind.VESSEL)
+    opened.editors.structures.add(StructureSet((drawn,)))
+    author.make()
+    write(author.dialog.task.name, "Past it")
+    return author.dialog
+
+
+def test_a_kept_exercise_with_a_painted_structure_goes_on_living(painted, author):
+    for _ in range(2):  # kept, and kept again without a change
+        painted.keep.click()
+        assert author.editor.problems == ()
+        assert all(b.isEnabled() for b in (painted.keep, painted.attempt, painted.export))
+    assert versions("past-it") == (1,)
+    painted.task.level.setValue(5)
+    painted.keep.click()
+    assert versions("past-it") == (1, 2)
+    painted.copy.click()
+    painted.keep.click()
+    assert load_exercise("past-it-copy").structures[0].file.is_file()
+
+
+def test_what_is_painted_after_keeping_is_in_the_next_version(opened, painted, author):
+    painted.keep.click()
+    book = opened.editors.structures
+    first = load_exercise("past-it").structures[0].file
+    mask = np.ones((3, 3, 3), bool)
+    book.put("vessel", mask, (2, 2, 2))
+    assert "not kept yet" in author.unsaved()
+    painted.keep.click()
+    second = load_exercise("past-it").structures[0].file
+    volume = opened.conductor.patient.volume
+    assert versions("past-it") == (1, 2)
+    assert read_structures(first, volume).find("vessel").mask.sum() == 64
+    assert read_structures(second, volume).find("vessel").mask.sum() == 27
+    assert author.unsaved() == ""
+
+
+def test_a_painted_structure_of_risk_that_was_removed_is_no_reason_to_lose_its_file(
+    opened, painted, author
+):
+    painted.keep.click()
+    opened.editors.structures.remove("vessel")
+    painted.task.level.setValue(4)
+    painted.keep.click()
+    volume = opened.conductor.patient.volume
+    kept = load_exercise("past-it")
+    assert read_structures(kept.structures[0].file, volume).find("vessel").mask.any()
 
 
 def test_effects_say_live_why_they_are_simulated_or_left_out_and_what_they_cost(

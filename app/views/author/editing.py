@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from copy import deepcopy
 from pathlib import Path
 from typing import Any, Final
@@ -136,6 +136,23 @@ class ExerciseEditor(QObject):
         kept, self._history = self.document == self._kept, self._history.amend(document)
         if kept:
             self._kept = document
+        self._judge()
+
+    def redraw(self, drawn: Collection[str]) -> None:
+        """Take the structures from the window again: they were painted since they were written.
+
+        The painting has an undo of its own, so it is no step of the form.
+
+        Args:
+            drawn: names of the structures that the window holds. Where a structure of risk is not
+                among them, or several files are named, the files stay.
+        """
+        parts = self.get("structures", default=[])
+        if len(parts) != 1 or not set(parts[0].get("risks", {})) <= set(drawn):
+            return
+        document = deepcopy(self.document)
+        document["structures"][0]["file"] = DRAWN
+        self._history = self._history.amend(document)
         self._judge()
 
     def undo(self) -> None:

@@ -349,6 +349,7 @@ class AuthorFeature(Feature):
         self._trial_timer = QTimer(self, singleShot=True, interval=TRIAL_AFTER_MS)
         self._trial_timer.timeout.connect(self._try_skills)
         self.editor.changed.connect(self._follow)
+        context.editors.structures.stepped.connect(lambda _: self._redraw())
         self.button = button(tr("Make an exercise from this…"))
         self.button.clicked.connect(self.make)
         self._shell.add_panel(self.button, below=tr("Plan"))
@@ -789,6 +790,14 @@ class AuthorFeature(Feature):
             return
         self._draw(exercise)
         self._cost_timer.start()
+
+    def _redraw(self) -> None:
+        """Let the next version hold what was painted since this one was kept."""
+        patient, exercise = self._conductor.patient, self.editor.exercise
+        if self.dialog is None or patient is None or exercise is None:
+            return
+        if self._conductor.fits(patient, exercise):
+            self.editor.redraw([part.name for part in self.context.editors.structures.structures])
 
     def _draw(self, exercise: Exercise | None) -> None:
         if exercise is not None:
