@@ -184,3 +184,23 @@ def test_a_window_is_not_opened_for_what_is_not_there(arguments, words):
     assert result.returncode == 2
     assert words in result.stderr
     assert one_line(result.stderr)
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
+@pytest.mark.parametrize("words", [["exercise", "list"], ["--help"], ["exercise", "list", "--json"]])
+def test_a_full_disk_behind_the_output_is_one_line_and_exit_code_2(words):
+    with open("/dev/full", "w") as full:
+        command = [sys.executable, "-m", "app", *words]
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    assert done.returncode == 2
+    assert one_line(done.stderr)
+    assert "No space left" in done.stderr
+
+
+@pytest.mark.parametrize("words", [["exercise", "list"], ["--help"]])
+def test_a_reader_that_goes_early_ends_the_program_quietly(words):
+    command = [sys.executable, "-u", "-m", "app", *words]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
+        running.stdout.close()
+        assert running.stderr.read() == b""
+    assert running.returncode == 0

@@ -304,8 +304,10 @@ def _print_table(summaries: list[Any]) -> None:
     from rich.table import Table
 
     table = Table(box=None, pad_edge=False)
-    for title in ("id", "student", "exercise", "state", "duration", "score", "signature", ""):
-        table.add_column(title, overflow="fold", no_wrap=title == "id")
+    table.add_column("id", no_wrap=True, min_width=max(len(s.id) for s in summaries))
+    for title in ("student", "exercise", "state", "duration", "score", "signature"):
+        table.add_column(title, no_wrap=True)
+    table.add_column("", min_width=12)
     for s in summaries:
         whose = _nobodys(s.conditions)
         note = "; ".join(filter(None, (whose, s.reason or "; ".join(s.problems))))
@@ -320,7 +322,10 @@ def _print_table(summaries: list[Any]) -> None:
             note,
         )
         table.add_row(*(_plain(cell) for cell in cells))
-    Console().print(table)
+    console = Console()
+    if not console.is_terminal:  # a file or a pipe has no width to wrap to
+        console.width = console.measure(table, options=console.options.update(width=10**4)).maximum
+    console.print(table)
 
 
 def _plain(text: str) -> Any:

@@ -160,3 +160,15 @@ def test_export_writes_all_or_the_chosen_attempts(
     rows = list(csv.DictReader(out.read_text(encoding="utf-8-sig").splitlines()))
     assert [row["id"][-4:] for row in rows] == ["bbbb", "aaaa"]
     assert run(monkeypatch, "export", "20260116", "--trajectory", "--out", str(out)) == 0
+
+
+def test_a_list_into_a_pipe_breaks_no_word(
+    store: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("COLUMNS", "40")
+    assert run(monkeypatch, "list") == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == 1 + 3
+    assert all("signature" in lines[0] and "20260115-100000-aaaa" in "".join(lines) for _ in lines)
+    assert lines[0].split() == ["id", "student", "exercise", "state", "duration", "score",
+                                "signature"]  # fmt: skip
