@@ -10,7 +10,6 @@ from app.core import paths
 from app.core.errors import AcusError
 from app.core.exits import Exit
 
-
 _OUTPUT_FULL: Final = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO}
 
 

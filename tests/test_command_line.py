@@ -187,7 +187,9 @@ def test_a_window_is_not_opened_for_what_is_not_there(arguments, words):
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
-@pytest.mark.parametrize("words", [["exercise", "list"], ["--help"], ["exercise", "list", "--json"]])
+@pytest.mark.parametrize(
+    "words", [["exercise", "list"], ["--help"], ["exercise", "list", "--json"]]
+)
 def test_a_full_disk_behind_the_output_is_one_line_and_exit_code_2(words):
     with open("/dev/full", "w") as full:
         command = [sys.executable, "-m", "app", *words]
