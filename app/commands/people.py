@@ -333,14 +333,23 @@ def show_course(name: CourseId) -> Answer:
 def save_course(
     file: Annotated[Path, typer.Argument(metavar="YAML", help="File of the course.")],
 ) -> Answer:
-    """Take a course from its file (instructor)."""
-    from app.session.course import pinned_problems, read_course
+    """Take a course from its file (instructor). Code 3 if its exercises are not all here.
+
+    An exercise without a version is pinned to the newest one; with an unknown one nothing is saved.
+    """
+    from app.session.course import newest_versions, pinned_problems, read_course
     from app.session.people import People
 
     instructor(People())
-    course = read_course(file)
-    path, problems = course.save(), pinned_problems(course)
-    lines = [f"{course.title} saved: {path}", *(f"✖ {problem}" for problem in problems)]
+    known = newest_versions()
+    course = read_course(file).pinned(known)
+    problems = pinned_problems(course)
+    lines = [f"✖ {problem}" for problem in problems]
+    if any(item.exercise not in known for item in course.items):
+        lines.append(f"{course.title} was not saved: correct these, or import the exercises first")
+        return Answer({"files": [], "problems": problems}, lines, yes=False)
+    path = course.save()
+    lines.insert(0, f"{course.title} saved: {path}")
     return Answer({"files": [path], "problems": problems}, lines, yes=not problems)
 
 

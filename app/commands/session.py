@@ -205,12 +205,16 @@ def recover(
     writes is none of them.
     """
     from app.session import interrupted
+    from app.session.store import find
 
     place = _folder(folder)
     if session_id:
+        cut = interrupted.is_cut_off(find(place, session_id))
         path = interrupted.recover(place, session_id)
         facts = {"id": path.stem, "file": path, "interrupted": []}
-        return Answer(facts, [f"{path.stem} was closed as it stands: listed as unfinished"])
+        closed = f"{path.stem} was closed as it stands: listed as unfinished"
+        whole = f"{path.stem} has its end: there was nothing to recover, and nothing was changed"
+        return Answer(facts, [closed if cut else whole])
     found, _ = interrupted.interrupted(place)
     lines = [
         f"{one.id}  {one.student}  {one.exercise_id}  {one.duration:.0f} s: `acus session recover "

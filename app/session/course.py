@@ -36,7 +36,8 @@ class CourseItem(Strict):
 
     Attributes:
         exercise: id.
-        version: of the exercise; attempts of another one do not count here.
+        version: of the exercise; attempts of another one do not count here. A course that is saved
+            without one pins the newest.
         content: digest of what the exercise says; empty pins the version alone.
         attempts: how many are allowed; None for any number.
         purpose: practice, or an assessment whose result the instructor releases.
@@ -90,8 +91,21 @@ class Course(Strict):
         return not self.groups or bool(set(self.groups) & set(person.groups))
 
     def document(self) -> dict[str, Any]:
-        """JSON-ready mapping, as in its file."""
-        return self.model_dump(mode="json", exclude_defaults=True)
+        """JSON-ready mapping, as in its file; every item says its version."""
+        document = self.model_dump(mode="json", exclude_defaults=True)
+        for shown, item in zip(document.get("items", ()), self.items, strict=False):
+            shown["version"] = item.version
+        return document
+
+    def pinned(self, versions: Mapping[str, int]) -> Course:
+        """Return the course with the newest version of each exercise where none was named."""
+        items = [
+            item
+            if "version" in item.model_fields_set or item.exercise not in versions
+            else item.model_copy(update={"version": versions[item.exercise]})
+            for item in self.items
+        ]
+        return self.model_copy(update={"items": tuple(items)})
 
     def save(self, folder: Path | None = None) -> Path:
         """Write its file, whole or not at all; return its path.
@@ -147,9 +161,14 @@ def find_course(name: str, folder: Path | None = None) -> Course:
     raise CourseError(f"{name!r} is no course; there: {known}")
 
 
+def newest_versions() -> dict[str, int]:
+    """Return the present version of each exercise of the library, by its id."""
+    return {exercise.id: exercise.version for exercise in library()}
+
+
 def pinned_problems(course: Course) -> list[str]:
     """Say which exercises of a course are not in the library as they are pinned, one line each."""
-    known = {exercise.id: exercise.version for exercise in library()}
+    known = newest_versions()
     found = []
     for item in course.items:
         if item.exercise not in known:

@@ -86,8 +86,13 @@ class Verification:
 
     @property
     def standing(self) -> Score | None:
-        """The score to show: what the record gives; of another scoring version, what it kept."""
-        if not self.finished or self.cut:
+        """The score to show: what the record gives; of another scoring version, what it kept.
+
+        None for an attempt that was not finished, whatever its record holds.
+        """
+        if not self.finished:  # what a cut record kept of a score is of no finished attempt
+            return None
+        if self.cut:
             return self.written
         return self.recomputed if self.same_rules else self.written
 

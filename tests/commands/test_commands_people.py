@@ -12,6 +12,8 @@ from session_fakes import Bench
 
 from app.__main__ import main
 from app.core.paths import sessions
+from app.exercises.library import load_exercise
+from app.session.course import find_course, read_course
 from app.session.people import People
 
 
@@ -49,7 +51,11 @@ def test_a_course_from_roster_to_gradebook(acus, tmp_path):
     assert acus("people", "list", "--names")["students"][0]["name"] == "Lovelace"
     course = tmp_path / "c.yaml"
     course.write_text("id: c\ntitle: C\ngroups: [A]\nitems:\n- {exercise: liver-01}\n")
-    assert "no such exercise" in acus("course", "save", course, code=3)["problems"][0]
+    refused = acus("course", "save", course, code=3)
+    assert "no such exercise" in refused["problems"][0]
+    assert refused["files"] == []
+    assert acus("course", "list")["courses"] == []
+    read_course(course).save()  # as one whose exercise was removed since
     assert acus("course", "list")["courses"][0]["id"] == "c"
     assert acus("course", "show", "c", code=3)["title"] == "C"
     cells = acus("results", "board", "--course", "c")["cells"]
@@ -155,7 +161,7 @@ def test_results_that_a_course_holds_are_shown_to_the_instructor_alone(acus, mon
     course = tmp_path / "c.yaml"
     item = f"{{exercise: liver-01, version: {version}, purpose: assessment}}"
     course.write_text(f"id: c\ntitle: Exam\nitems:\n- {item}\n")
-    acus("course", "save", course, code=3)  # saved; the exercise is not in the library
+    read_course(course).save()  # of an exercise that was removed since
     People().set_instructor("correct horse")
 
     held = acus("session", "list")["sessions"][0]
@@ -176,3 +182,30 @@ def test_results_that_a_course_holds_are_shown_to_the_instructor_alone(acus, mon
     monkeypatch.delenv("ACUS_INSTRUCTOR_PASSWORD")
     assert acus("session", "show", name)["score"]["total"] is not None
     assert acus("results", "board", "--course", "c")["cells"][0]["attempts"] == 1
+
+
+def test_a_course_without_versions_pins_the_newest_ones(acus, tmp_path):
+    course = tmp_path / "c.yaml"
+    course.write_text(
+        "id: c\ntitle: C\nitems:\n- {exercise: first-insertion}\n"
+        "- {exercise: thick-tissue, version: 1}\n"
+    )
+    newest = load_exercise("first-insertion").version
+    assert newest > 1
+    saved = acus("course", "save", course, code=3)  # the other is pinned to one of long ago
+    assert len(saved["files"]) == 1
+    assert "pins version 1" in saved["problems"][0]
+    items = acus("course", "show", "c", code=3)["items"]
+    assert [item["version"] for item in items] == [newest, 1]
+    assert [item.version for item in find_course("c").items] == [newest, 1]
+
+
+def test_an_intact_record_is_said_to_need_no_recovery(acus, monkeypatch, capsys):
+    attempts("Ada")
+    (path,) = sessions().glob("*.mcap")
+    before = path.read_bytes()
+    monkeypatch.setattr("sys.argv", ["acus", "session", "recover", path.stem])
+    with pytest.raises(SystemExit):
+        main()
+    assert "nothing to recover" in capsys.readouterr().out
+    assert path.read_bytes() == before

@@ -186,3 +186,28 @@ def test_another_program_holds_its_record_until_it_is_killed(tmp_path):
         child.kill()
         child.wait(timeout=30)
     assert [one.id for one in interrupted(tmp_path)[0]] == ["k"]
+
+
+@pytest.fixture(scope="module")
+def ended(tmp_path_factory):
+    """The whole record of an attempt that was scored."""
+    bench = Bench(tmp_path_factory.mktemp("ended"))
+    bench.trainer.begin("s")
+    bench.insertion()
+    bench.trainer.end()
+    (path,) = bench.folder.glob("*.mcap")
+    return path
+
+
+@pytest.mark.parametrize("share", [0.99, 0.95, 0.8, 0.5])
+def test_a_record_that_was_cut_has_a_score_only_if_all_of_its_attempt_is_there(
+    ended, tmp_path, share
+):
+    whole, path = read_recording(ended), tmp_path / "cut.mcap"
+    path.write_bytes(ended.read_bytes()[: int(share * ended.stat().st_size)])
+    age(path)
+    left, summary = read_recording(path), read_summary(path)
+    if len(left.samples.time) < len(whole.samples.time):
+        assert summary.state == UNFINISHED
+    assert (summary.score is None) == (summary.state == UNFINISHED)
+    assert any("cut off" in problem for problem in summary.problems)
