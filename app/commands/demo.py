@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
@@ -15,6 +15,12 @@ if TYPE_CHECKING:
     from app.exercises.schema import Exercise
     from app.session.result import AttemptResult
     from app.views.shell.demonstration import DemonstrationScript
+
+
+TOO_BUSY: Final = (
+    "this computer was too busy: the simulated cameras' pictures came too late; close other "
+    "programs, then try again"
+)
 
 
 class SkillName(StrEnum):
@@ -73,7 +79,7 @@ def demo(
 ) -> None:
     """Show a whole exercise, from the plan to the debrief.
 
-    Without a display it runs as with --headless.
+    Without a display it runs as with --headless; with code 3 if the attempt is void then.
 
     With --device arm a simulated arm carries out the exercise's plan: it finds its tool by the
     pictures of two cameras, grasps it, brings it to the entry and inserts it. Without a display its
@@ -144,6 +150,7 @@ def _show(
     by_arm: bool = False,
 ) -> None:
     from app.compose.desktop import Desktop
+    from app.core.exits import Exit
     from app.imaging.reading import choose
     from app.imaging.scanning import scan_folder
     from app.tracking.cameras.settings import parse_cameras
@@ -168,9 +175,11 @@ def _show(
     collector = collect_for(window)
     show = Demonstration(window, script)
     failures: list[str] = []
+    void: list[str] = []
     show.told.connect(lambda text: typer.echo(f"{text} …"))
     show.failed.connect(failures.append)
-    show.finished.connect(lambda result: _tell(result, script))
+    simulated = pen or cameras == "simulated"
+    show.finished.connect(lambda result: void.extend(_tell(result, script, simulated)))
     if hidden:
         window.resize(1400, 900)
         show.failed.connect(lambda _: application.exit(2))
@@ -182,11 +191,12 @@ def _show(
     collector.close()
     if failures and hidden:
         raise AcusError(failures[0])
-    raise typer.Exit(code)
+    raise typer.Exit(Exit.NO if void and hidden else code)
 
 
-def _tell(result: AttemptResult, script: DemonstrationScript) -> None:
-    score = result.score
+def _tell(result: AttemptResult, script: DemonstrationScript, simulated: bool) -> list[str]:
+    """Print how the attempt ended; return why it is void, nothing if it is not."""
+    score, void = result.score, []
     if score is not None:
         for row in score.rows:
             value = "–" if row.value is None else f"{row.value:z.2f} {row.unit}"
@@ -194,6 +204,10 @@ def _tell(result: AttemptResult, script: DemonstrationScript) -> None:
         total = "void" if score.total is None else f"{score.total:.0f} of 100"
         typer.echo(f"  {'Score':<28} {total}, {'passed' if score.passed else 'not passed'}")
         if score.void_reason:
+            void.append(score.void_reason)
             typer.echo(f"  void: {score.void_reason}")
+        if score.unseen and simulated:
+            typer.echo(f"  {TOO_BUSY}")
     if script.pictures is not None:
         typer.echo(f"pictures, report and session are in {script.pictures}")
+    return void

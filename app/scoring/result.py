@@ -71,6 +71,11 @@ class Score:
         return replace(judge(rows, self.rules, self.attempt_void), version=version)
 
     @property
+    def unseen(self) -> bool:
+        """Whether it is void for want of pictures, not for what the hand did."""
+        return bool(self.void_reason) and (not self.attempt_void or "cameras" in self.attempt_void)
+
+    @property
     def failures(self) -> tuple[Row, ...]:
         """Required metrics beyond their pass limit."""
         return tuple(row for row in self.rows if row.failed)

@@ -7,6 +7,7 @@ from window_rig import plan
 from app.exercises.parts import OwnPlan
 from app.session.shown_views import Shown
 from app.views.exercise.feature import ExerciseFeature
+from app.views.shell import demonstration
 from app.views.shell.demonstration import (
     FRESH_S,
     Demonstration,
@@ -93,3 +94,19 @@ def test_before_the_first_fix_pictures_on_the_way_wait(age, fresh) -> None:
 
     assert has_fresh_fix(SimpleNamespace(tracker=SimpleNamespace(age=age))) is fresh
     assert not has_fresh_fix(SimpleNamespace(tracker=None))
+
+
+def test_its_patience_is_measured_in_this_computers_work_not_in_time_lost_to_others(
+    window, own, patient, monkeypatch
+):
+    show, failed, used = own(patient, (5.0, 5.0, 140.0)), [], [0.0]
+    monkeypatch.setattr(demonstration, "process_time", lambda: used[0])
+    show.failed.connect(failed.append)
+    show._then("waiting", lambda: False)
+    show._timer.start()
+    for _ in range(int(2 * demonstration.PATIENCE_S / (1e-3 * demonstration.PERIOD_MS))):
+        show._poll()  # twice the patience by the clock, beside a program that takes everything
+    assert failed == []
+    used[0] = demonstration.PATIENCE_S + 1.0
+    show._poll()
+    assert "nothing has happened" in failed[0]

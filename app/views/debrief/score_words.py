@@ -426,7 +426,7 @@ def verdict(review: Review) -> tuple[str, str, str]:
         return theme.TEXT_DIM, "–", review.reason or tr("This attempt was not scored.")
     if score.void_reason:
         why = score.void_reason[:1].upper() + score.void_reason[1:]
-        return theme.WARNING, tr("▲ Void"), f"{why}. {remedy(score)}"
+        return theme.WARNING, tr("▲ Void"), f"{why}. {remedy(score, review.conditions)}"
     if score.passed:
         return theme.GOOD, tr("✔ Passed"), ""
     failures = ", ".join(row.label for row in score.failures)
@@ -438,9 +438,14 @@ def verdict(review: Review) -> tuple[str, str, str]:
     return theme.BAD, tr("✖ Not passed"), reason
 
 
-def remedy(score: Score) -> str:
+def remedy(score: Score, conditions: Conditions | None = None) -> str:
     """Say what can be done about a void attempt: it depends on what made it void."""
-    if score.attempt_void and "cameras" not in score.attempt_void:
+    if score.unseen and conditions is not None and conditions.kind is DeviceKind.SIMULATED:
+        return tr(
+            "It counts for nothing. The pictures of the simulated cameras came too late: this "
+            "computer was too busy. Close other programs, then try again."
+        )
+    if not score.unseen:
         return tr(
             "It counts for nothing and spoils no average; mend what is named, if anything, and "
             "try again."
