@@ -6,6 +6,7 @@ import sys
 from typing import Final
 
 from app.commands import build
+from app.commands.output import printable_output
 from app.core import paths
 from app.core.errors import AcusError
 from app.core.exits import Exit
@@ -16,6 +17,11 @@ _OUTPUT_FULL: Final = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO}
 def main() -> None:
     """Run the command line; a bad input is one line on stderr (`core.exits`)."""
     paths.keep_private()
+    with printable_output():
+        _main()
+
+
+def _main() -> None:
     try:
         _run()
     except BrokenPipeError:  # who reads has gone, as `head` does

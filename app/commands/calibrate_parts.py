@@ -38,16 +38,16 @@ BoardSpec = Annotated[
 
 def with_progress(work: "Callable[[Progress], T]") -> T:
     """Run `work(progress)` with a bar on the standard error; Ctrl-C cancels it."""
-    from rich.console import Console
     from rich.progress import Progress as Bar
 
+    from app.commands.output import console, printable
     from app.core.progress import Progress
 
-    with Bar(console=Console(stderr=True), transient=True, disable=wants_json()) as bar:
+    with Bar(console=console(stderr=True), transient=True, disable=wants_json()) as bar:
         task = bar.add_task("", total=1.0)
 
         def show(fraction: float, text: str) -> None:
-            bar.update(task, completed=fraction, description=text)
+            bar.update(task, completed=fraction, description=printable(text))
 
         return work(Progress(show))
 

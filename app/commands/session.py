@@ -304,8 +304,9 @@ def _details(recording: Any, summary: dict[str, Any]) -> dict[str, Any]:
 
 
 def _print_table(summaries: list[Any]) -> None:
-    from rich.console import Console
     from rich.table import Table
+
+    from app.commands.output import console as open_console
 
     table = Table(box=None, pad_edge=False)
     table.add_column("id", no_wrap=True, min_width=max(len(s.id) for s in summaries))
@@ -326,7 +327,7 @@ def _print_table(summaries: list[Any]) -> None:
             note,
         )
         table.add_row(*(_plain(cell) for cell in cells))
-    console = Console()
+    console = open_console()
     if not console.is_terminal:  # a file or a pipe has no width to wrap to
         console.width = console.measure(table, options=console.options.update(width=10**4)).maximum
     console.print(table)
@@ -336,7 +337,9 @@ def _plain(text: str) -> Any:
     """Text that no markup is read from: pseudonyms and reasons are other people's words."""
     from rich.text import Text
 
-    return Text(text)
+    from app.commands.output import printable
+
+    return Text(printable(text))
 
 
 def _total(score: Any) -> str:

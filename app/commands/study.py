@@ -55,8 +55,7 @@ def study(
         repeats = QUICK
     if name == "all":
         return _all(out, repeats, fresh, write, quick)
-    from rich.console import Console
-
+    from app.commands.output import console as open_console
     from app.studies.errors import StudyError
     from app.studies.findings import Survey
     from app.studies.runner import examine, find_study, run
@@ -82,9 +81,9 @@ def study(
 
         for path in write_files(result, out, repeats, quick=quick):
             typer.echo(f"wrote {path}", err=True)
-    console = Console()
+    console = open_console()
     if not console.is_terminal:  # a pipe or a file has no edge at which figures must be cut
-        console = Console(width=max(console.width, PIPE_WIDTH))
+        console = open_console(width=max(console.width, PIPE_WIDTH))
     passed = result.findings.passed if result.findings is not None else None
     return Answer(data, lambda: _print(result, console), yes=passed)
 
