@@ -54,6 +54,11 @@ class PixelFormat:
         return cls(0, 0, 1, 1, 0, 0, -1, False, "", None)
 
     @property
+    def size(self) -> tuple[int, int]:
+        """Columns and rows."""
+        return self.columns, self.rows
+
+    @property
     def frame_bytes(self) -> int:
         """Bytes of one uncompressed frame."""
         return self.rows * self.columns * self.samples * self.bits_allocated // 8
@@ -64,6 +69,14 @@ class PixelFormat:
         if self.signed:
             return -(1 << (self.bits_stored - 1)), (1 << (self.bits_stored - 1)) - 1
         return 0, (1 << self.bits_stored) - 1
+
+    @property
+    def pads_beyond_stored(self) -> bool:
+        """Whether padding needs more bits than are stored."""
+        if self.padding is None:
+            return False
+        lowest, highest = self.stored_range
+        return self.padding[0] < lowest or self.padding[1] > highest
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +109,7 @@ class PixelData:
         damage: what is wrong with them; empty when nothing is.
         start: byte in the file at which a deflated data set starts.
         stamp: of the file when it was looked at; None if not known.
+        behind: bytes that stand behind the pixels without being any, a padding byte left out.
     """
 
     syntax: str
@@ -103,3 +117,4 @@ class PixelData:
     damage: str
     start: int = 0
     stamp: Stamp | None = None
+    behind: int = 0
