@@ -7,6 +7,7 @@ that a slice missing between them is still seen.
 """
 
 import filecmp
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -30,6 +31,7 @@ MARKS = (
     "contrast",
     "number",
     "description",
+    "comments",
     "acquisition-moment",
     "acquisition-time",
     "content-time",
@@ -44,6 +46,9 @@ _OF_MR = ("time-position", "cardiac-phase", "echo", "image-type")
 
 _MIXED = {"kernel": "ConvolutionKernel", "tube-voltage": "KVP", "acquisition": "AcquisitionNumber"}
 """Marks by which values of neighbours may not compare -> their attribute."""
+
+_COUNTED = ("contrast", "description", "comments", "acquisition-moment", "content-time")
+"""Marks whose values are named by their number only: they may tell of the patient."""
 
 _MESHED = 1.5
 """Slices of a pass that others mesh with lie so many times as far apart as those of all."""
@@ -82,7 +87,7 @@ def passes(headers: Headers, name: str) -> list[Group]:
     kept = _without_copies(headers)
     remain = {id(header) for header in kept}
     copies = tuple(header for header in headers if id(header) not in remain)
-    notes = _words(len(copies))
+    notes = (*_words(len(copies)), *_namesakes(kept))
     return [
         Group(members, "-".join(filter(None, (name, part))), (*notes, *_mixture(members)), copies)
         for part, members in _divided(kept, MARKS)
@@ -100,6 +105,13 @@ def _mixture(headers: Headers) -> tuple[str, ...]:
     if not names:
         return ()
     return (f"its slices differ in {' and '.join(names)}: neighbours may not compare",)
+
+
+def _namesakes(headers: Headers) -> tuple[str, ...]:
+    """Say that different images have one SOPInstanceUID, which stands for one of them."""
+    counts = Counter((header.identity.sop_uid, header.frame) for header in headers)
+    doubled = sum(count for (uid, _), count in counts.items() if uid and count > 1)
+    return (f"{doubled} different images share a SOPInstanceUID",) if doubled else ()
 
 
 def _words(count: int) -> tuple[str, ...]:
@@ -191,14 +203,16 @@ def _divided(headers: Headers, marks: Sequence[str]) -> list[tuple[str, Headers]
         parts = _parted(headers, mark)
         if even and len(parts) > 2 and mark in _TIMES:
             parts = _sweeps(headers, mark)
-        if len(parts) < 2 or "" in parts or min(map(len, parts.values())) < 2:
+        if len(parts) < 2 or min(map(len, parts.values())) < 2 or ("" in parts and not even):
             continue
         chains = _chains([(value, parts[value]) for value in sorted(parts, key=_natural)])
         if len(chains) < 2 or (even and not _meshed(headers, [c[1] for c in chains], mark)):
             continue
         result: list[tuple[str, Headers]] = []
         for number, (names, members) in enumerate(chains, 1):
-            shown = "+".join(names) if all(name.isdecimal() for name in names) else str(number)
+            shown = str(number)
+            if mark not in _COUNTED and all(name.isdecimal() for name in names):
+                shown = "+".join(names)
             result.extend(
                 ("-".join(filter(None, (f"{mark}-{shown}", inner))), group)
                 for inner, group in _divided(members, marks[at + 1 :])

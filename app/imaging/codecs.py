@@ -43,12 +43,8 @@ def keep_stored(out: NDArray[Any], form: PixelFormat) -> None:
     """
     if form.bits_stored == 8 * out.itemsize:
         return
-    below = form.high_bit + 1 - form.bits_stored
-    if below and (out & ((1 << below) - 1)).any():
-        raise FileDamagedError(
-            f"HighBit {form.high_bit} and BitsStored {form.bits_stored} leave the lowest {below} "
-            f"bits of a pixel empty, and they are not; HighBit must be {form.bits_stored - 1}"
-        )
+    if form.bits_below and (out & ((1 << form.bits_below) - 1)).any():
+        raise FileDamagedError(form.bits_below_used)
     beyond = None
     if form.padding is not None and form.pads_beyond_stored:
         beyond = (out >= form.padding[0]) & (out <= form.padding[1])

@@ -92,6 +92,8 @@ def read_elements(
         raise NotStandardError
     try:
         return read_by_pydicom(stream, wanted, forced)
+    except FileDamagedError:
+        raise
     except Exception as error:  # hostile bytes make the parser raise nearly anything
         raise FileDamagedError(f"its header cannot be read ({brief(error)})") from error
 
@@ -124,7 +126,7 @@ def _check_order(start: bytes, syntax: str) -> None:
     Raises:
         FileDamagedError: if it is of the other one.
     """
-    if syntax not in RAW or len(start) < 6 or not start[4:6].isalpha():
+    if syntax not in (*RAW, *DECODERS) or len(start) < 6:
         return
     little, big = (int.from_bytes(start[:2], order) for order in ("little", "big"))
     said, other = (big, little) if syntax == EXPLICIT_BIG else (little, big)

@@ -42,11 +42,12 @@ _MARKS: Final = {
     "contrast": "ContrastBolusAgent",
     "number": "SeriesNumber",
     "description": "SeriesDescription",
+    "comments": "ImageComments",
     "acquisition-moment": "AcquisitionDateTime",
     "acquisition-time": "AcquisitionTime",
     "content-time": "ContentTime",
 }
-_TYPED: Final = ("contrast", "description")
+_TYPED: Final = ("contrast", "description", "comments")
 """Marks that are free text: kept as a digest, which tells them apart as well."""
 
 _OWNER: Final = (

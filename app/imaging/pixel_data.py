@@ -71,6 +71,20 @@ class PixelFormat:
         return 0, (1 << self.bits_stored) - 1
 
     @property
+    def bits_below(self) -> int:
+        """Bits of a pixel below the stored ones: none, but where HighBit is odd."""
+        return self.high_bit + 1 - self.bits_stored
+
+    @property
+    def bits_below_used(self) -> str:
+        """What to say if those bits are not empty."""
+        return (
+            f"HighBit {self.high_bit} and BitsStored {self.bits_stored} leave the lowest "
+            f"{self.bits_below} bits of a pixel empty, and they are not; HighBit must be "
+            f"{self.bits_stored - 1}"
+        )
+
+    @property
     def pads_beyond_stored(self) -> bool:
         """Whether padding needs more bits than are stored."""
         if self.padding is None:

@@ -225,7 +225,9 @@ def _raw(syntax: str, stream: BinaryIO, size: int, length: int, form: PixelForma
         missing = needed - (size - offset)
         what = f"{TRUNCATED}: the last {missing} bytes of pixels are missing"
         return PixelData(syntax, None, what)
-    return PixelData(syntax, offset, _wrong_length(length, needed), behind=_behind(length, needed))
+    wrong = _wrong_length(length, needed) or _wrong_bits(stream, needed, syntax, form)
+    behind = _behind(min(length, size - offset), needed)
+    return PixelData(syntax, offset, wrong, behind=behind)
 
 
 def _starts_with_item(stream: BinaryIO, length: int) -> bool:
@@ -240,6 +242,20 @@ def _starts_with_item(stream: BinaryIO, length: int) -> bool:
             starts = False
     stream.seek(offset)
     return starts
+
+
+def _wrong_bits(stream: BinaryIO, needed: int, syntax: str, form: PixelFormat) -> str:
+    """Say whether bits are in use that HighBit and BitsStored leave empty; looked at if they do."""
+    below = form.bits_below
+    if below < 1 or form.bits_stored < 1 or form.bits_allocated not in (8, 16):
+        return ""
+    data, mask = stream.read(needed), (1 << below) - 1
+    step = form.bits_allocated // 8
+    lowest = step - 1 if syntax == EXPLICIT_BIG else 0
+    used = any(value & mask for value in set(data[lowest::step]))
+    if step == 2:
+        used = used or any(value & (mask >> 8) for value in set(data[1 - lowest :: step]))
+    return form.bits_below_used if used else ""
 
 
 def _wrong_length(length: int, needed: int) -> str:

@@ -163,6 +163,8 @@ def _modality(headers: Headers, root: Path) -> str:
 def _object(header: SliceHeader) -> str:
     kind, image_type = header.identity.sop_class, header.identity.image_type
     modality, frames = header.identity.modality, header.format.frames
+    if header.damage and not header.format.photometric:  # which is the damage, or part of it
+        return ""
     if header.format.samples > 1 or header.format.photometric not in ("MONOCHROME1", "MONOCHROME2"):
         what = header.format.photometric or "no photometric interpretation"
         return f"not a CT image but a picture ({what}, secondary capture)"
