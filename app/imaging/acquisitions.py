@@ -10,6 +10,7 @@ import filecmp
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -24,6 +25,7 @@ MARKS = (
     "cardiac-phase",
     "trigger",
     "echo",
+    "stack",
     "image-type",
     "kernel",
     "tube-voltage",
@@ -47,7 +49,7 @@ _OF_MR = ("time-position", "cardiac-phase", "echo", "image-type")
 _MIXED = {"kernel": "ConvolutionKernel", "tube-voltage": "KVP", "acquisition": "AcquisitionNumber"}
 """Marks by which values of neighbours may not compare -> their attribute."""
 
-_COUNTED = ("contrast", "description", "comments", "acquisition-moment", "content-time")
+_COUNTED = ("stack", "contrast", "description", "comments", "acquisition-moment", "content-time")
 """Marks whose values are named by their number only: they may tell of the patient."""
 
 _MESHED = 1.5
@@ -99,8 +101,7 @@ def _mixture(headers: Headers) -> tuple[str, ...]:
     names = []
     for mark, attribute in _MIXED.items():
         parts = _parted(headers, mark)
-        overlap = mark != "acquisition" or len(_chains(sorted(parts.items()))) > 1
-        if len(parts) > 1 and overlap:
+        if len(parts) > 1 and not (mark == "acquisition" and _disjoint(list(parts.values()))):
             names.append(attribute)
     if not names:
         return ()
@@ -205,6 +206,8 @@ def _divided(headers: Headers, marks: Sequence[str]) -> list[tuple[str, Headers]
             parts = _sweeps(headers, mark)
         if len(parts) < 2 or min(map(len, parts.values())) < 2 or ("" in parts and not even):
             continue
+        if _disjoint(list(parts.values())):
+            continue
         chains = _chains([(value, parts[value]) for value in sorted(parts, key=_natural)])
         if len(chains) < 2 or (even and not _meshed(headers, [c[1] for c in chains], mark)):
             continue
@@ -232,7 +235,7 @@ def _meshed(headers: Headers, members: Sequence[Headers], mark: str) -> bool:
     """Whether parts of an even stack are passes of their own, each even and as sparse as that."""
     if mark not in _OF_MR and headers[0].identity.modality == "MR":
         return False
-    if "time" in mark and min(map(len, members)) < _FEWEST_OF_A_TIME:
+    if mark in (*_TIMES, "content-time") and min(map(len, members)) < _FEWEST_OF_A_TIME:
         return False
     least = _MESHED * _step(headers)
     return all(len(part) > 1 and _is_even(part) and _step(part) >= least for part in members)
@@ -274,13 +277,22 @@ def _chains(parts: Iterable[tuple[str, Headers]]) -> list[tuple[list[str], Heade
     chains: list[tuple[list[str], Headers]] = []
     for value, members in parts:
         free = [n for n, chain in enumerate(chains) if not _overlap(chain[1], members)]
-        even = [n for n in free if _is_even(chains[n][1] + members)]
         if free:
+            several = len(free) > 1
+            even = [n for n in free if several and _is_even(chains[n][1] + members)]
             n = (even or free)[0]
             chains[n] = ([*chains[n][0], value], chains[n][1] + members)
         else:
             chains.append(([value], members))
     return chains
+
+
+def _disjoint(parts: Sequence[Headers]) -> bool:
+    """Whether each part has a range along the normal of its own."""
+    ends = np.cumsum([len(part) for part in parts])[:-1]
+    along = np.split(_along(tuple(header for part in parts for header in part)), ends)
+    ranges = sorted((float(part.min()), float(part.max())) for part in along)
+    return all(low > high + stack.TOLERANCE_MM for (_, high), (low, _) in pairwise(ranges))
 
 
 def _overlap(a: Headers, b: Headers) -> bool:

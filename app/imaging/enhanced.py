@@ -169,6 +169,10 @@ def _marks(file: SliceHeader, group: _Group) -> tuple[tuple[str, str], ...]:
             "NominalPercentageOfCardiacPhase"
         ),
         "echo": group.macro("MREchoSequence").get("EffectiveEchoTime"),
+        "stack": content.get("StackID"),
+        "kernel": group.macro("CTReconstructionSequence").get("ConvolutionKernel"),
+        "tube-voltage": group.macro("CTXRayDetailsSequence").get("KVP"),
+        "acquisition-moment": content.get("FrameAcquisitionDateTime"),
         "image-type": "\\".join(_kinds(file, group)) or None,
     }
     own = {mark: str(value) for mark, value in values.items() if value is not None}

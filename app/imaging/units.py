@@ -30,14 +30,20 @@ _MAPS: Final = {
     "electron density map": "(RELATIVE_)?ELECTRON_DENSITY|RHO_?E",
     "stopping power map": "(PROTON_)?STOPPING_POWER(_RATIO)?|SPR",
     _ONE_MATERIAL: "MAT_(SPECIFIC|FRACTIONAL|VALUE_BASED)|MATERIAL_DENSITY"
-    "|((MD|MAP)_)?(IODINE|CALCIUM|WATER|FAT|URIC_ACID|XENON)(_(MAP|DENSITY|NO_WATER|OVERLAY))?",
+    "|((MD|MAP)_)?(IODINE|CALCIUM|WATER|FAT|URIC_ACID|XENON)"
+    "(_(MAP|DENSITY|NO_WATER|OVERLAY|CONCENTRATION))?",
     "parametric map": "PARAMETRIC(_MAP)?",
     "diffusion map": "DIFFUSION(_MAP)?",
 }
 """Name of a map -> words of ImageType that say so."""
 
-_MAP_WORDS: Final = {name: re.compile(words) for name, words in _MAPS.items()}
-_PERFUSION: Final = "PERFUSION"
+_MAP_WORDS: Final = {
+    name: re.compile(
+        f"(?P<core>{words})" if name == _ONE_MATERIAL else f"(.*_)?(?P<core>{words})(_.*)?"
+    )
+    for name, words in _MAPS.items()
+}
+_PERFUSION: Final = re.compile("(.*_)?PERFUSION(_.*)?")
 _HOUNSFIELD: Final = re.compile(
     r"VMI|MONO.*|VIRTUAL_MONO.*|MAT_REMOVED|MAT_MODIFIED|VNC|VIRTUAL_(NON_CONTRAST|UNENHANCED)|VUE"
 )
@@ -85,12 +91,15 @@ def _map_named(words: Sequence[str], rescale_type: str) -> str:
         if any(pattern.fullmatch(word) for word in words):
             return name
     computed = "DERIVED" in words[:1] and rescale_type != "HU"  # pictures it is computed from: HU
-    return "perfusion map" if computed and _PERFUSION in words else ""
+    return "perfusion map" if computed and any(map(_PERFUSION.fullmatch, words)) else ""
 
 
 def _flavour(words: Sequence[str], name: str) -> list[str]:
     """Word that says of which quantity it is a map; only one that is known is quoted."""
-    return [word for word in words if _MAP_WORDS[name].fullmatch(word)][:1]
+    if name not in _MAP_WORDS:
+        return []
+    cores = (found["core"] for word in words if (found := _MAP_WORDS[name].fullmatch(word)))
+    return list(cores)[:1]
 
 
 def _named_unit(words: Sequence[str], rescale_type: str, multi_energy: bool) -> str:
