@@ -201,7 +201,7 @@ def _truncated(headers: Headers, root: Path) -> str:
     if not cut:
         return ""
     more = f" (and {len(cut) - 1} more)" if len(cut) > 1 else ""
-    return f"{_name(cut[0], root)} is {cut[0].damage}{more}; have it sent again"
+    return f"{display_name(cut[0], root)} is {cut[0].damage}{more}; have it sent again"
 
 
 def _damaged(headers: Headers, root: Path) -> str:
