@@ -7,6 +7,7 @@ that a slice missing between them is still seen.
 """
 
 import filecmp
+import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -56,6 +57,7 @@ _MESHED = 1.5
 """Slices of a pass that others mesh with lie so many times as far apart as those of all."""
 
 _FEWEST_OF_A_TIME = 3
+_APART_S = 30.0
 
 Headers = tuple[SliceHeader, ...]
 
@@ -237,8 +239,19 @@ def _meshed(headers: Headers, members: Sequence[Headers], mark: str) -> bool:
         return False
     if mark in (*_TIMES, "content-time") and min(map(len, members)) < _FEWEST_OF_A_TIME:
         return False
+    if mark == "content-time" and not _times_apart(headers):
+        return False
     least = _MESHED * _step(headers)
     return all(len(part) > 1 and _is_even(part) and _step(part) >= least for part in members)
+
+
+def _times_apart(headers: Headers) -> bool:
+    """Whether the times at which images were made lie apart: several are made at once."""
+    times = sorted(_parted(headers, "content-time"))
+    if not all(re.fullmatch(r"\d{6}(\.\d+)?", time) for time in times):
+        return False
+    seconds = [3600 * int(t[:2]) + 60 * int(t[2:4]) + float(t[4:]) for t in times]
+    return all(later - one >= _APART_S for one, later in pairwise(seconds))
 
 
 def _step(headers: Headers) -> float:

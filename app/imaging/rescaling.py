@@ -60,6 +60,7 @@ def _array(name: str, shape: tuple[int, int], dtype: np.dtype[Any]) -> NDArray[A
 
 _INT16: Final = np.iinfo(np.int16)
 
+_AIR_HU: Final = -1000.0
 EMPTY_HU: Final = -1024.0
 """Value of voxels at which nothing was measured, in Hounsfield units; 0 where there is no unit."""
 
@@ -152,7 +153,8 @@ def padding_stands_out(header: SliceHeader) -> bool:
     form = header.format
     if form.padding is None:
         return False
-    return form.pads_beyond_stored or max(padding_ends(header)) > nothing_of(header)
+    most = 0.0 if header.identity.modality == "MR" else _AIR_HU
+    return form.pads_beyond_stored or max(padding_ends(header)) > most
 
 
 def padding_ends(header: SliceHeader) -> tuple[float, float]:

@@ -196,6 +196,7 @@ def test_two_sweeps_of_the_table_are_read_apart_though_every_slice_has_its_own_t
         lambda k: {"AcquisitionTime": f"1000{k // 4:02d}", "AcquisitionNumber": k // 4 + 1},
         lambda k: {"AcquisitionNumber": k + 1, "TriggerTime": str(10 * k)},
         lambda k: {"ContentTime": f"10000{(0, 2, 1, 3, 5, 4, 7, 6)[k]}"},
+        lambda k: {"ContentTime": f"10000{k % 2}"},
     ],
 )
 def test_step_and_shoot_and_helical_scans_stay_one_volume(tmp_path, per_slice):
