@@ -219,6 +219,7 @@ def _identity(header: Elements) -> Identity:
     def get(name: str) -> str:
         return elements.text(header, TAGS[name])
 
+    name = pseudonym(get("PatientID"), get("StudyInstanceUID"), get("StudyID"))
     return Identity(
         sop_uid=get("SOPInstanceUID"),
         sop_class=get("SOPClassUID"),
@@ -226,16 +227,22 @@ def _identity(header: Elements) -> Identity:
         modality=get("Modality"),
         image_type=elements.parts(header, TAGS["ImageType"]),
         label=_label(get("SeriesNumber"), get("BodyPartExamined"), get("ConvolutionKernel")),
-        pseudonym=pseudonym(get("PatientID"), get("StudyInstanceUID"), get("StudyID")),
+        pseudonym=name,
         former=former_pseudonym(get("PatientID"), get("StudyInstanceUID")),
         frame_of_reference=get("FrameOfReferenceUID"),
-        owner=_owner(installation_key(), tuple(get(name) for name in _OWNER)),
+        owner=_owner(name, tuple(get(name) for name in _OWNER)),
     )
 
 
 @lru_cache(maxsize=4)
-def _owner(key: bytes, values: tuple[str, ...]) -> tuple[tuple[str, str], ...]:
-    """Keyed digests of what says whose image it is; of a name its words in any spelling."""
+def _owner(pseudonym: str, values: tuple[str, ...]) -> tuple[tuple[str, str], ...]:
+    """Keyed digests of what says whose image it is; of a name its words in any spelling.
+
+    Args:
+        pseudonym: another one if the key changes, as the digests are then.
+        values: of `_OWNER`.
+    """
+    key = installation_key()
     said = dict(zip(_OWNER, values, strict=True))
     said["PatientName"] = _plain_name(said["PatientName"])
     return tuple(

@@ -8,6 +8,7 @@ scan (blood flow, effective atomic number, the share of a material) says so in I
 
 import re
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import Final
 
 _UNITS: Final = {
@@ -52,8 +53,9 @@ _HOUNSFIELD: Final = re.compile(
 _OTHER: Final = re.compile(r"[^A-Z0-9]+")
 
 
+@lru_cache(maxsize=16)
 def another_unit(
-    image_type: Sequence[str], rescale_type: str, multi_energy: bool, unit: str = ""
+    image_type: tuple[str, ...], rescale_type: str, multi_energy: bool, unit: str = ""
 ) -> str:
     """Say why the values of a CT image are no Hounsfield units; empty if they are.
 
