@@ -14,14 +14,14 @@ RLE: Final = "1.2.840.10008.1.2.5"
 JPEG: Final = tuple(f"1.2.840.10008.1.2.4.{n}" for n in (50, 51, 53, 55, 57, 70))
 """Baseline, extended (12 bits too), two retired progressive ones, and the lossless ones."""
 
-_JPEG_LS: Final = tuple(f"1.2.840.10008.1.2.4.{n}" for n in (80, 81))
-_JPEG_2000: Final = tuple(f"1.2.840.10008.1.2.4.{n}" for n in (90, 91, 201, 202, 203))
+JPEG_LS: Final = tuple(f"1.2.840.10008.1.2.4.{n}" for n in (80, 81))
+JPEG_2000: Final = tuple(f"1.2.840.10008.1.2.4.{n}" for n in (90, 91, 201, 202, 203))
 
 DECODERS: Final = {
     RLE: ("pylibjpeg-rle",),
     **dict.fromkeys(JPEG, ("python-gdcm",)),
-    **dict.fromkeys(_JPEG_LS, ("pyjpegls", "python-gdcm")),
-    **dict.fromkeys(_JPEG_2000, ("pylibjpeg-openjpeg", "python-gdcm")),
+    **dict.fromkeys(JPEG_LS, ("pyjpegls", "python-gdcm")),
+    **dict.fromkeys(JPEG_2000, ("pylibjpeg-openjpeg", "python-gdcm")),
 }
 """Encoded transfer syntax -> the packages that decode it, the quickest first."""
 

@@ -86,6 +86,23 @@ def test_native_pixels_under_a_compressed_label_are_refused(tmp_path, syntax, sa
     assert "960 bytes of pixels are not compressed" in reason(tmp_path)
 
 
+@pytest.mark.parametrize("said", [RLELossless, JPEGLSLossless, JPEG2000Lossless])
+@pytest.mark.parametrize("written", [RLELossless, JPEGLSLossless, JPEG2000Lossless])
+def test_one_compression_under_the_label_of_another_is_refused(tmp_path, written, said):
+    series = Archived(shape=(40, 56))
+    for path in series.write(tmp_path):
+        file = pydicom.dcmread(path)
+        file.compress(written, generate_instance_uid=False)
+        file.save_as(path)
+        path.write_bytes(archive.relabelled(path.read_bytes(), said))
+    if written == said:
+        np.testing.assert_array_equal(load_ct(tmp_path).hu, series.hu())
+    elif written == RLELossless:
+        assert "its compressed pixels are damaged (no frame header)" in reason(tmp_path)
+    else:
+        assert "its pixels are compressed as JPEG" in reason(tmp_path)
+
+
 @pytest.mark.parametrize("shape", [(20, 24), (3, 5), (40, 56)])
 @pytest.mark.parametrize(("written", "said"), [LITTLE, LITTLE[::-1]])
 def test_explicit_and_implicit_taken_for_each_other_are_read_rightly(
