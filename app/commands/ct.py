@@ -93,7 +93,8 @@ def point(
             folder, sop, _integers(pixel, 2, "--pixel", "COL,ROW"), (frame or 1) - 1
         )
     x, y, z = lps_mm
-    lines = [f"LPS {x:.3f} {y:.3f} {z:.3f} mm, {hu:g} HU"]
+    value = "no HU: padding, nothing was measured there" if hu is None else f"{hu:g} HU"
+    lines = [f"LPS {x:.3f} {y:.3f} {z:.3f} mm, {value}"]
     if source["sop_uid"] and voxel is not None:
         lines.append(f"SOPInstanceUID {source['sop_uid']}, frame {source['frame']}")
     return Answer({"lps_mm": lps_mm, "hu": hu, **source}, lines)
@@ -259,9 +260,10 @@ def _box(text: str) -> "MaskBox":
 
 def _voxel(
     folder: Path, series_uid: str | None, remedy: str | None, ijk: list[int]
-) -> tuple[list[float], float | int, dict[str, Any]]:
+) -> tuple[list[float], float | int | None, dict[str, Any]]:
     """Point and value of a voxel, and the picture that it stands in, where it stands in one."""
     from app.imaging.errors import OutsideImageError
+    from app.imaging.reading import is_padding
 
     volume = _volume(folder, series_uid, remedy)
     if not all(0 <= index < size for index, size in zip(ijk, volume.size, strict=True)):
@@ -276,7 +278,8 @@ def _voxel(
         "sop_uid": None if header is None else header.identity.sop_uid,
         "frame": None if header is None else header.frame + 1,
     }
-    return volume.lps_mm(ijk).tolist(), _plain(volume.hu[k, j, i].item()), source
+    hu = None if is_padding(volume, (i, j, k)) else _plain(volume.hu[k, j, i].item())
+    return volume.lps_mm(ijk).tolist(), hu, source
 
 
 def _volume(folder: Path, series_uid: str | None, remedy: str | None) -> "Volume":
@@ -307,12 +310,14 @@ def _start_reader() -> None:
     shared_worker().warm()
 
 
-def _pixel(folder: Path, sop: str, place: list[int], frame: int) -> tuple[list[float], float | int]:
+def _pixel(
+    folder: Path, sop: str, place: list[int], frame: int
+) -> tuple[list[float], float | int | None]:
     from app.imaging.reading import pixel_lps_mm
 
     column, row = place
     lps_mm, hu = pixel_lps_mm(folder, sop, column, row, frame=frame)
-    return lps_mm.tolist(), _plain(hu)
+    return lps_mm.tolist(), None if hu is None else _plain(hu)
 
 
 def _plain(hu: float) -> float | int:

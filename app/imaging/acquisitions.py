@@ -1,13 +1,17 @@
-"""One series, several stacks: copies of a file, passes over the same places, pictures beside them.
+"""One stack of images, several passes: copies of a file, and passes over the same places.
 
 A SeriesInstanceUID promises less than one volume. Copies of one image count once. Passes that
-cover the same places (phases, echoes, a repeated acquisition) become series of their own; passes
-that merely continue each other stay together, so that a slice missing between them is still seen.
+cover the same places (phases, echoes, kernels, a repeated acquisition) become series of their own,
+though they may mesh to an even stack; passes that merely continue each other stay together, so
+that a slice missing between them is still seen.
 """
 
 import filecmp
+import re
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -22,15 +26,38 @@ MARKS = (
     "cardiac-phase",
     "trigger",
     "echo",
+    "stack",
     "image-type",
     "kernel",
+    "tube-voltage",
+    "thickness",
+    "contrast",
+    "number",
+    "description",
+    "comments",
+    "acquisition-moment",
     "acquisition-time",
+    "content-time",
 )
 """What may tell passes apart, the most telling first (names of `SliceHeader.marks`)."""
 
-SECONDARY_CAPTURE = "1.2.840.10008.5.1.4.1.1.7"
-_FEWEST = 3
-"""A stack of another direction within a series counts as one from so many slices."""
+_TIMES = ("acquisition-moment", "acquisition-time")
+"""Marks that may differ with every slice of one pass, and grow along it."""
+
+_OF_MR = ("time-position", "cardiac-phase", "echo", "image-type")
+"""What may part an even stack of MR, whose acquisitions and times are meshed on purpose."""
+
+_MIXED = {"kernel": "ConvolutionKernel", "tube-voltage": "KVP", "acquisition": "AcquisitionNumber"}
+"""Marks by which values of neighbours may not compare -> their attribute."""
+
+_COUNTED = ("stack", "contrast", "description", "comments", "acquisition-moment", "content-time")
+"""Marks whose values are named by their number only: they may tell of the patient."""
+
+_MESHED = 1.5
+"""Slices of a pass that others mesh with lie so many times as far apart as those of all."""
+
+_FEWEST_OF_A_TIME = 3
+_APART_S = 30.0
 
 Headers = tuple[SliceHeader, ...]
 
@@ -44,75 +71,50 @@ class Group:
         part: what sets them apart from others of the same series; empty where nothing does.
         notes: what was left out, in words.
         copies: what was left out because it is here already.
+        obstacle: why they are no volume, whatever they are; empty mostly.
     """
 
     headers: Headers
     part: str = ""
     notes: tuple[str, ...] = ()
     copies: Headers = ()
+    obstacle: str = ""
 
 
-def split(headers: Sequence[SliceHeader]) -> tuple[Group, ...]:
-    """Sort the images of one SeriesInstanceUID into stacks.
+def passes(headers: Headers, name: str) -> list[Group]:
+    """Sort images of one grid into passes, each without copies.
 
     Args:
-        headers: every image of the series, in any order.
+        headers: of one size, direction and pixel spacing.
+        name: what sets them apart from others already; empty where nothing does.
     """
-    beside = [header for header in headers if kind_beside(header)]
-    images = [header for header in headers if not kind_beside(header)]
-    if not images or not beside:
-        return _stacks(tuple(headers))
-    kinds = sorted({kind_beside(header) for header in beside})
-    others = [Group(tuple(h for h in beside if kind_beside(h) == kind), kind) for kind in kinds]
-    return (*_stacks(tuple(images)), *others)
-
-
-def kind_beside(header: SliceHeader) -> str:
-    """Name what only accompanies a volume: "localizer", "capture"; "" for all else."""
-    if "LOCALIZER" in header.identity.image_type:
-        return "localizer"
-    return "capture" if header.identity.sop_class.startswith(SECONDARY_CAPTURE) else ""
-
-
-def _stacks(headers: Headers) -> tuple[Group, ...]:
-    if any(header.plane is None for header in headers):
-        return (Group(headers),)
-    classes: list[list[SliceHeader]] = []
-    for header in headers:
-        for one in classes:
-            if _same_grid(one[0], header):
-                one.append(header)
-                break
-        else:
-            classes.append([header])
-    if len(classes) > 1 and min(map(len, classes)) < _FEWEST:
-        return (Group(headers),)  # refused as mixed, by name
-    groups: list[Group] = []
-    for number, one in enumerate(classes, 1):
-        name = f"stack-{number}" if len(classes) > 1 else ""
-        groups.extend(_passes(tuple(one), name))
-    return tuple(groups)
-
-
-def _same_grid(a: SliceHeader, b: SliceHeader) -> bool:
-    same_size = (a.format.rows, a.format.columns) == (b.format.rows, b.format.columns)
-    return (
-        same_size
-        and a.plane is not None
-        and b.plane is not None
-        and stack.same_plane(a.plane, b.plane)
-    )
-
-
-def _passes(headers: Headers, name: str) -> list[Group]:
     kept = _without_copies(headers)
     remain = {id(header) for header in kept}
     copies = tuple(header for header in headers if id(header) not in remain)
-    notes = _words(len(copies))
+    notes = (*_words(len(copies)), *_namesakes(kept))
     return [
-        Group(members, "-".join(filter(None, (name, part))), notes, copies)
+        Group(members, "-".join(filter(None, (name, part))), (*notes, *_mixture(members)), copies)
         for part, members in _divided(kept, MARKS)
     ]
+
+
+def _mixture(headers: Headers) -> tuple[str, ...]:
+    """Say by what slices of one volume differ so that their values may not compare."""
+    names = []
+    for mark, attribute in _MIXED.items():
+        parts = _parted(headers, mark)
+        if len(parts) > 1 and not (mark == "acquisition" and _disjoint(list(parts.values()))):
+            names.append(attribute)
+    if not names:
+        return ()
+    return (f"its slices differ in {' and '.join(names)}: neighbours may not compare",)
+
+
+def _namesakes(headers: Headers) -> tuple[str, ...]:
+    """Say that different images have one SOPInstanceUID, which stands for one of them."""
+    counts = Counter((header.identity.sop_uid, header.frame) for header in headers)
+    doubled = sum(count for (uid, _), count in counts.items() if uid and count > 1)
+    return (f"{doubled} different images share a SOPInstanceUID",) if doubled else ()
 
 
 def _words(count: int) -> tuple[str, ...]:
@@ -199,29 +201,80 @@ def _same_pixels(a: SliceHeader, b: SliceHeader) -> bool:
 
 def _divided(headers: Headers, marks: Sequence[str]) -> list[tuple[str, Headers]]:
     """Find passes over the same places, each with its name; a single one is nameless."""
-    if not marks or len(headers) < 2 or _is_even(headers):
-        return [("", headers)]
-    values = [dict(header.marks).get(marks[0], "") for header in headers]
+    even = len(headers) > 1 and _is_even(headers)
+    for at, mark in enumerate(marks if len(headers) > 1 else ()):
+        parts = _parted(headers, mark)
+        if even and len(parts) > 2 and mark in _TIMES:
+            parts = _sweeps(headers, mark)
+        if len(parts) < 2 or min(map(len, parts.values())) < 2 or ("" in parts and not even):
+            continue
+        if _disjoint(list(parts.values())):
+            continue
+        chains = _chains([(value, parts[value]) for value in sorted(parts, key=_natural)])
+        if len(chains) < 2 or (even and not _meshed(headers, [c[1] for c in chains], mark)):
+            continue
+        result: list[tuple[str, Headers]] = []
+        for number, (names, members) in enumerate(chains, 1):
+            shown = str(number)
+            if mark not in _COUNTED and all(name.isdecimal() for name in names):
+                shown = "+".join(names)
+            result.extend(
+                ("-".join(filter(None, (f"{mark}-{shown}", inner))), group)
+                for inner, group in _divided(members, marks[at + 1 :])
+            )
+        return result
+    return [("", headers)]
+
+
+def _parted(headers: Headers, mark: str) -> dict[str, Headers]:
     parts: dict[str, list[SliceHeader]] = {}
-    for value, header in zip(values, headers, strict=True):
-        parts.setdefault(value, []).append(header)
-    if len(parts) < 2 or "" in parts or min(map(len, parts.values())) < 2:
-        return _divided(headers, marks[1:])
-    chains = _chains([(value, tuple(parts[value])) for value in sorted(parts, key=_natural)])
-    if len(chains) < 2:
-        return _divided(headers, marks[1:])
-    result: list[tuple[str, Headers]] = []
-    for number, (names, members) in enumerate(chains, 1):
-        shown = "+".join(names) if all(name.isdecimal() for name in names) else str(number)
-        result.extend(
-            ("-".join(filter(None, (f"{marks[0]}-{shown}", inner))), group)
-            for inner, group in _divided(members, marks[1:])
-        )
-    return result
+    for header in headers:
+        parts.setdefault(dict(header.marks).get(mark, ""), []).append(header)
+    return {value: tuple(members) for value, members in parts.items()}
+
+
+def _meshed(headers: Headers, members: Sequence[Headers], mark: str) -> bool:
+    """Whether parts of an even stack are passes of their own, each even and as sparse as that."""
+    if mark not in _OF_MR and headers[0].identity.modality == "MR":
+        return False
+    if mark in (*_TIMES, "content-time") and min(map(len, members)) < _FEWEST_OF_A_TIME:
+        return False
+    if mark == "content-time" and not _times_apart(headers):
+        return False
+    least = _MESHED * _step(headers)
+    return all(len(part) > 1 and _is_even(part) and _step(part) >= least for part in members)
+
+
+def _times_apart(headers: Headers) -> bool:
+    """Whether the times at which images were made lie apart: several are made at once."""
+    times = sorted(_parted(headers, "content-time"))
+    if not all(re.fullmatch(r"\d{6}(\.\d+)?", time) for time in times):
+        return False
+    seconds = [3600 * int(t[:2]) + 60 * int(t[2:4]) + float(t[4:]) for t in times]
+    return all(later - one >= _APART_S for one, later in pairwise(seconds))
+
+
+def _step(headers: Headers) -> float:
+    return float(np.ptp(_along(headers))) / (len(headers) - 1)
+
+
+def _sweeps(headers: Headers, mark: str) -> dict[str, Headers]:
+    """Part slices that each have a time of their own where the table went back over others."""
+    parts = _parted(headers, mark)
+    sweeps: list[Headers] = []
+    for value in sorted(parts, key=_natural):
+        if sweeps and not _overlap(sweeps[-1], parts[value]):
+            sweeps[-1] += parts[value]
+        else:
+            sweeps.append(parts[value])
+    return {str(number): sweep for number, sweep in enumerate(sweeps, 1)}
 
 
 def _natural(value: str) -> tuple[float, str]:
-    return (float(value) if value.isdecimal() else float("inf"), value)
+    try:
+        return float(value), value
+    except ValueError:
+        return float("inf"), value
 
 
 def _is_even(headers: Headers) -> bool:
@@ -237,13 +290,22 @@ def _chains(parts: Iterable[tuple[str, Headers]]) -> list[tuple[list[str], Heade
     chains: list[tuple[list[str], Headers]] = []
     for value, members in parts:
         free = [n for n, chain in enumerate(chains) if not _overlap(chain[1], members)]
-        even = [n for n in free if _is_even(chains[n][1] + members)]
         if free:
+            several = len(free) > 1
+            even = [n for n in free if several and _is_even(chains[n][1] + members)]
             n = (even or free)[0]
             chains[n] = ([*chains[n][0], value], chains[n][1] + members)
         else:
             chains.append(([value], members))
     return chains
+
+
+def _disjoint(parts: Sequence[Headers]) -> bool:
+    """Whether each part has a range along the normal of its own."""
+    ends = np.cumsum([len(part) for part in parts])[:-1]
+    along = np.split(_along(tuple(header for part in parts for header in part)), ends)
+    ranges = sorted((float(part.min()), float(part.max())) for part in along)
+    return all(low > high + stack.TOLERANCE_MM for (_, high), (low, _) in pairwise(ranges))
 
 
 def _overlap(a: Headers, b: Headers) -> bool:

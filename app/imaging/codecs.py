@@ -31,6 +31,29 @@ def keep_bits(out: NDArray[Any], stored: int, high: int) -> None:
     np.right_shift(out, allocated - stored, out=out)
 
 
+def keep_stored(out: NDArray[Any], form: PixelFormat) -> None:
+    """Keep the stored bits of pixels, and padding that is written in more bits than these.
+
+    Args:
+        out: changed in place.
+        form: of the pixels.
+
+    Raises:
+        FileDamagedError: if bits below the stored ones are in use: then HighBit cannot be right.
+    """
+    if form.bits_stored == 8 * out.itemsize:
+        return
+    if form.bits_below and (out & ((1 << form.bits_below) - 1)).any():
+        raise FileDamagedError(form.bits_below_used)
+    beyond = None
+    if form.padding is not None and form.pads_beyond_stored:
+        beyond = (out >= form.padding[0]) & (out <= form.padding[1])
+        padding = out[beyond]
+    keep_bits(out, form.bits_stored, form.high_bit)
+    if beyond is not None:
+        out[beyond] = padding
+
+
 Stored = NDArray[Any]
 Codec = Callable[[bytes, str, PixelFormat, int], Any]
 
@@ -63,7 +86,7 @@ def decode(data: bytes, syntax: str, form: PixelFormat, out: Stored) -> None:
     values = found[: out.size].reshape(out.shape)
     np.copyto(out, values.astype(f"u{out.itemsize}", copy=False).view(out.dtype))
     if syntax == RLE:
-        keep_bits(out, form.bits_stored, form.high_bit)
+        keep_stored(out, form)
     else:  # the code stream's own figure holds (PS3.5 8.2); JPEG's may count bits of overlays
         bits = min(precision, form.bits_stored) if syntax in JPEG else precision
         keep_bits(out, bits, bits - 1)

@@ -4,7 +4,7 @@ import struct
 from dataclasses import dataclass
 
 from app.imaging.errors import FileDamagedError
-from app.imaging.pixel_data import RLE, PixelFormat
+from app.imaging.pixel_data import JPEG, JPEG_2000, JPEG_LS, RLE, PixelFormat
 
 HEAD = 4096
 """Bytes in which the head of a code stream is looked for."""
@@ -12,6 +12,7 @@ HEAD = 4096
 _JPEG_START = b"\xff\xd8"
 _J2K_START = b"\xff\x4f\xff\x51"
 _NO_FRAME = (0xC4, 0xC8, 0xCC)  # Huffman tables, reserved, arithmetic conditioning
+_KINDS = {"JPEG": JPEG, "JPEG-LS": JPEG_LS, "JPEG 2000": JPEG_2000, "RLE": (RLE,)}
 _BARE = (0x01, *range(0xD0, 0xD9))  # markers without a length
 
 
@@ -21,12 +22,14 @@ class Codestream:
 
     Attributes:
         precision: bits of a sample.
+        kind: "JPEG", "JPEG-LS" or "JPEG 2000".
     """
 
     rows: int
     columns: int
     samples: int
     precision: int
+    kind: str
 
 
 def describe(data: bytes) -> Codestream | None:
@@ -53,7 +56,8 @@ def _jpeg(data: bytes) -> Codestream | None:
             if at + 10 > len(data):
                 return None
             precision, rows, columns, samples = struct.unpack_from(">BHHB", data, at + 4)
-            return Codestream(rows, columns, samples, precision)
+            kind = "JPEG-LS" if marker == 0xF7 else "JPEG"
+            return Codestream(rows, columns, samples, precision, kind)
         at += 2 + int(struct.unpack_from(">H", data, at + 2)[0])
     return None
 
@@ -63,7 +67,7 @@ def _jpeg_2000(data: bytes) -> Codestream | None:
         return None
     right, bottom, left, top = struct.unpack_from(">LLLL", data, 8)
     samples, depth = struct.unpack_from(">HB", data, 40)
-    return Codestream(bottom - top, right - left, samples, (depth & 0x7F) + 1)
+    return Codestream(bottom - top, right - left, samples, (depth & 0x7F) + 1, "JPEG 2000")
 
 
 def contradiction(data: bytes, syntax: str, form: PixelFormat) -> str:
@@ -76,9 +80,14 @@ def contradiction(data: bytes, syntax: str, form: PixelFormat) -> str:
         syntax: transfer syntax of the file.
         form: as the header gives it.
     """
+    found = describe(data)
+    if found is not None and found.kind != _kind(syntax):
+        return (
+            f"its pixels are compressed as {found.kind}, and its transfer syntax is of "
+            f"{_kind(syntax)}; have it sent again"
+        )
     if syntax == RLE:
         return _rle_contradiction(data, form)
-    found = describe(data)
     if found is None:
         return "" if len(data) >= HEAD else "its compressed pixels are damaged (no frame header)"
     if (found.rows, found.columns) != (form.rows, form.columns):
@@ -94,6 +103,13 @@ def contradiction(data: bytes, syntax: str, form: PixelFormat) -> str:
             f"BitsAllocated {form.bits_allocated}"
         )
     return ""
+
+
+def _kind(syntax: str) -> str:
+    for kind, syntaxes in _KINDS.items():
+        if syntax in syntaxes:
+            return kind
+    return "another kind"
 
 
 def _rle_contradiction(data: bytes, form: PixelFormat) -> str:

@@ -8,7 +8,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from app.imaging.codecs import keep_bits
+from app.imaging.codecs import keep_stored
 from app.imaging.deflated import Inflater
 from app.imaging.errors import FileDamagedError, brief
 from app.imaging.header import SliceHeader
@@ -91,7 +91,10 @@ def _read_raw(header: SliceHeader, stream: BinaryIO, out: Stored) -> None:
 def _finish_raw(header: SliceHeader, out: Stored) -> None:
     if header.pixels.syntax == EXPLICIT_BIG and out.itemsize == 2:
         out.byteswap(inplace=True)
-    keep_bits(out, header.format.bits_stored, header.format.high_bit)
+    try:
+        keep_stored(out, header.format)
+    except FileDamagedError as error:
+        raise FileDamagedError(f"{header.path}: {error}") from error
 
 
 def _read_deflated(header: SliceHeader, stream: BinaryIO, out: Stored) -> None:

@@ -52,7 +52,9 @@ class Inflater:
                 parts.append(part)
                 wanted -= len(part)
         except zlib.error as error:
-            raise FileDamagedError(f"its deflated data set is damaged ({error})") from error
+            raise FileDamagedError(
+                f"its data set is not deflated as its transfer syntax says, or damaged ({error})"
+            ) from error
         return b"".join(parts)
 
     def _next(self, most: int) -> bytes:

@@ -44,6 +44,8 @@ _LONG: Final = frozenset(b"OB OD OF OL OV OW SQ SV UC UN UR UT UV".split())
 
 _NAMES: Final = {name: name.decode("ascii") or None for name in (b"", *_SHORT, *_LONG)}
 _NEVER: Final = 1 << 32
+_LOW_GROUP: Final = 0x0100
+"""A data set starts with a group below this."""
 
 _EXPLICIT: Final = struct.Struct("<HH2sH").unpack_from
 _IMPLICIT: Final = struct.Struct("<HHL").unpack_from
@@ -90,6 +92,8 @@ def read_elements(
         raise NotStandardError
     try:
         return read_by_pydicom(stream, wanted, forced)
+    except FileDamagedError:
+        raise
     except Exception as error:  # hostile bytes make the parser raise nearly anything
         raise FileDamagedError(f"its header cannot be read ({brief(error)})") from error
 
@@ -103,6 +107,7 @@ def read_standard(stream: BinaryIO, wanted: frozenset[int]) -> Elements:
     walk = Walk(stream, PREAMBLE)
     meta = walk.take(frozenset((TRANSFER_SYNTAX,)), False, _FIRST_META_TAG, _FIRST_DATA_TAG)
     syntax = text(Elements(meta, ""), TRANSFER_SYNTAX)
+    _check_order(walk.peek(6), syntax)
     if syntax == DEFLATED:
         return _deflated_standard(stream, walk.place, wanted)
     if syntax == EXPLICIT_BIG or (syntax not in DECODERS and syntax not in RAW):
@@ -113,6 +118,24 @@ def read_standard(stream: BinaryIO, wanted: frozenset[int]) -> Elements:
     values = walk.take(wanted, implicit, _FIRST_DATA_TAG, FIRST_PIXEL_TAG)
     stream.seek(walk.place)
     return Elements(values, syntax)
+
+
+def _check_order(start: bytes, syntax: str) -> None:
+    """See that the first element of a data set is of the byte order that its syntax says.
+
+    Raises:
+        FileDamagedError: if it is of the other one.
+    """
+    if syntax not in (*RAW, *DECODERS) or len(start) < 6:
+        return
+    little, big = (int.from_bytes(start[:2], order) for order in ("little", "big"))
+    said, other = (big, little) if syntax == EXPLICIT_BIG else (little, big)
+    if other < _LOW_GROUP <= said:
+        is_big = syntax == EXPLICIT_BIG
+        raise FileDamagedError(
+            f"its transfer syntax says {'big' if is_big else 'little'} endian, and its header is "
+            f"{'little' if is_big else 'big'} endian; have it sent again"
+        )
 
 
 def _deflated_standard(stream: BinaryIO, start: int, wanted: frozenset[int]) -> Elements:
@@ -145,6 +168,12 @@ class Walk:
     def place(self) -> int:
         """Byte in the file of the next element."""
         return self._base + self._at
+
+    def peek(self, count: int) -> bytes:
+        """Return the next bytes, fewer where the file ends."""
+        with contextlib.suppress(NotStandardError):
+            self._have(count)
+        return self._data[self._at : self._at + count]
 
     def is_explicit(self) -> bool:
         """Whether the next element names its value representation."""
@@ -326,7 +355,9 @@ def _dataset_by_pydicom(stream: BinaryIO, wanted: Sequence[int], forced: bool) -
     values = {tag: header.get_item(tag) for tag in wanted if tag in header}
     meta: Dataset = getattr(header, "file_meta", Dataset())
     syntax = str(meta.get("TransferSyntaxUID", "") or "")
-    return Elements(values, syntax or _assumed_syntax(header))
+    if not syntax or syntax in RAW:  # how it is written counts, not what it says of that
+        syntax = _assumed_syntax(header)
+    return Elements(values, syntax)
 
 
 def _assumed_syntax(header: "Dataset") -> str:

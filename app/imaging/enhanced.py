@@ -16,22 +16,25 @@ from pydicom.dataset import Dataset
 from app.imaging.elements import check_orientation
 from app.imaging.errors import FileDamagedError, brief
 from app.imaging.header import MULTI_FRAME, ImagePlane, Rescale, SliceHeader
+from app.imaging.units import another_unit
 
 _SHARED, _EACH, _REAL_WORLD = 0x52009229, 0x52009230, 0x00409096
 _MOST_FRAMES = 1 << 16
-_MAPS = ("PERFUSION", "DIFFUSION", "PARAMETRIC")
 
 
-def frames_of(file: SliceHeader, stream: BinaryIO) -> tuple[SliceHeader, ...]:
+def frames_of(
+    file: SliceHeader, stream: BinaryIO, multi_energy: bool = False
+) -> tuple[SliceHeader, ...]:
     """One header for each frame of a multi-frame file.
 
     Args:
         file: the header of the whole file, without damage.
         stream: the file.
+        multi_energy: whether MultienergyCTAcquisition is YES.
     """
     try:
         groups = _groups(stream, file)
-        return tuple(_frame(file, number, group) for number, group in enumerate(groups))
+        return tuple(_frame(file, n, group, multi_energy) for n, group in enumerate(groups))
     except FileDamagedError as error:
         return (replace(file, damage=str(error)),)
     except Exception as error:  # hostile bytes make the parser raise nearly anything
@@ -86,8 +89,8 @@ def _groups(stream: BinaryIO, file: SliceHeader) -> list[_Group]:
         return [_Group(own, shared) for own in each]
 
 
-def _frame(file: SliceHeader, number: int, group: _Group) -> SliceHeader:
-    rescale, obstacle = _rescale(file, group)
+def _frame(file: SliceHeader, number: int, group: _Group, multi_energy: bool) -> SliceHeader:
+    rescale, obstacle = _rescale(file, group, multi_energy)
     thickness = group.numbers("PixelMeasuresSequence", "SliceThickness", 1)
     return replace(
         file,
@@ -113,7 +116,7 @@ def _plane(group: _Group) -> ImagePlane | None:
     return ImagePlane(position, orientation, spacing)  # type: ignore[arg-type]  # counts were checked
 
 
-def _rescale(file: SliceHeader, group: _Group) -> tuple[Rescale | None, str]:
+def _rescale(file: SliceHeader, group: _Group, multi_energy: bool) -> tuple[Rescale | None, str]:
     macro = "PixelValueTransformationSequence"
     slope = group.numbers(macro, "RescaleSlope", 1)
     intercept = group.numbers(macro, "RescaleIntercept", 1)
@@ -121,11 +124,10 @@ def _rescale(file: SliceHeader, group: _Group) -> tuple[Rescale | None, str]:
         raise FileDamagedError("RescaleSlope is 0; every pixel would have the same value")
     if "MR" in MULTI_FRAME[file.identity.sop_class]:
         return (Rescale(slope[0], intercept[0]) if slope and intercept else Rescale(1, 0)), ""
-    unit = str(group.macro(macro).get("RescaleType", "") or "").upper()
+    unit = str(group.macro(macro).get("RescaleType", "") or "")
     kinds = _kinds(file, group)
-    map_of = next((kind for kind in kinds if kind in _MAPS), "")
-    if map_of or unit not in ("", "HU"):
-        return None, _named_map(map_of, kinds, group)
+    if reason := another_unit(kinds, unit, multi_energy, _measured_in(group)):
+        return None, reason
     return (Rescale(slope[0], intercept[0]) if slope and intercept else None), ""
 
 
@@ -135,14 +137,10 @@ def _kinds(file: SliceHeader, group: _Group) -> tuple[str, ...]:
     return tuple(str(value) for value in values)
 
 
-def _named_map(kind: str, kinds: tuple[str, ...], group: _Group) -> str:
-    """Reason against a frame of other values, such as `perfusion map (RCBF, ml/100ml/s)`."""
+def _measured_in(group: _Group) -> str:
+    """Code of the unit of a frame's real world values; empty where it gives none."""
     units = group.macro("RealWorldValueMappingSequence").get("MeasurementUnitsCodeSequence")
-    unit = str(units[0].get("CodeValue", "") or "") if units else ""
-    flavour = kinds[3] if len(kinds) > 3 else ""
-    inside = ", ".join(word[:16] for word in (flavour, unit) if word)
-    name = f"{kind.lower()} map" if kind else "a map of values in another unit"
-    return f"{name}{f' ({inside})' if inside else ''}, no Hounsfield units"
+    return str(units[0].get("CodeValue", "") or "") if units else ""
 
 
 def _windows(group: _Group) -> tuple[tuple[float, float], ...]:
@@ -171,6 +169,10 @@ def _marks(file: SliceHeader, group: _Group) -> tuple[tuple[str, str], ...]:
             "NominalPercentageOfCardiacPhase"
         ),
         "echo": group.macro("MREchoSequence").get("EffectiveEchoTime"),
+        "stack": content.get("StackID"),
+        "kernel": group.macro("CTReconstructionSequence").get("ConvolutionKernel"),
+        "tube-voltage": group.macro("CTXRayDetailsSequence").get("KVP"),
+        "acquisition-moment": content.get("FrameAcquisitionDateTime"),
         "image-type": "\\".join(_kinds(file, group)) or None,
     }
     own = {mark: str(value) for mark, value in values.items() if value is not None}

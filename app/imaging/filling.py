@@ -10,6 +10,7 @@ import mmap
 import os
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -20,8 +21,8 @@ from app.core.progress import Progress
 from app.imaging import memory
 from app.imaging.decoding import is_raw, stored_type
 from app.imaging.errors import SeriesRefusedError
-from app.imaging.header import SliceHeader
-from app.imaging.rescaling import fill_slice, fresh_array
+from app.imaging.header import Rescale, SliceHeader
+from app.imaging.rescaling import fill_slice, fresh_array, padding_ends, padding_stands_out
 from app.imaging.worker.service import fill_slices
 
 _THREADS = 2
@@ -54,6 +55,34 @@ def filled(
     hu = _all_filled(headers, shape, dtype, progress)
     memory.hold(hu)
     return hu
+
+
+_APART = 131072.0
+"""Beyond all that 16 bits store."""
+
+
+def padding_of(header: SliceHeader, picture: NDArray[Any]) -> NDArray[np.bool_] | None:
+    """Find the pixels at which nothing was measured (PS3.3 C.7.5.1.1.2).
+
+    Args:
+        header: of a usable slice.
+        picture: its values as `filled` gives them, shape (rows, columns).
+
+    Returns:
+        True where padding stands, shape (rows, columns); None where the file knows of none.
+
+    Raises:
+        FileDamagedError: if the file has changed since the scan.
+    """
+    if header.format.padding is None:
+        return None
+    low, high = sorted(padding_ends(header))
+    if not padding_stands_out(header) and low >= np.iinfo(np.int16).min:
+        result: NDArray[np.bool_] = (picture >= np.float32(low)) & (picture <= np.float32(high))
+        return result
+    apart = replace(header, rescale=Rescale(1.0, _APART))  # measured values lie far above padding
+    result = filled((apart,), np.dtype(np.float32))[0] < _APART / 2.0
+    return result
 
 
 def _all_filled(

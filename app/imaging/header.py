@@ -7,6 +7,8 @@ from app.imaging.pixel_data import PixelData, PixelFormat
 
 Point = tuple[float, float, float]
 
+CT_IMAGE = "1.2.840.10008.5.1.4.1.1.2"
+MR_IMAGE = "1.2.840.10008.5.1.4.1.1.4"
 MULTI_FRAME = {
     "1.2.840.10008.5.1.4.1.1.2.1": "enhanced CT",
     "1.2.840.10008.5.1.4.1.1.2.2": "legacy converted enhanced CT",
@@ -20,7 +22,10 @@ MULTI_FRAME = {
 class Identity:
     """Which object a file holds. Patient and study appear only inside the pseudonym.
 
-    `former` is the pseudonym that earlier versions wrote: only to find old records by.
+    Attributes:
+        former: the pseudonym that earlier versions wrote: only to find old records by.
+        owner: what says whose image it is, as (attribute, keyed digest) pairs; an attribute that
+            is absent is left out. Only to be compared.
     """
 
     sop_uid: str
@@ -32,6 +37,7 @@ class Identity:
     pseudonym: str
     frame_of_reference: str
     former: str = ""
+    owner: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +75,7 @@ class SliceHeader:
         thickness_mm: of the slice; None where it is not given.
         marks: what tells several passes over the same places apart, as (name, value) pairs:
             acquisition, time position and the like; never shown as they are.
-        obstacle: why a frame cannot be used though nothing is damaged; empty mostly.
+        obstacle: why an image cannot be used though nothing is damaged; empty mostly.
     """
 
     path: Path

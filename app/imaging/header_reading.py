@@ -1,10 +1,12 @@
 """What one file holds: the headers of its images, or why it belongs to no series."""
 
+import hashlib
 import importlib
 import os
 import stat
 import struct
 import sys
+from functools import lru_cache
 from pathlib import Path
 from typing import BinaryIO, Final
 
@@ -13,12 +15,14 @@ from app.imaging import elements
 from app.imaging.element_reading import PREAMBLE, NotStandardError, read_elements
 from app.imaging.elements import TAG_LIST, TAGS, Elements
 from app.imaging.errors import FileDamagedError
-from app.imaging.header import MULTI_FRAME, Identity, ImagePlane, Rescale, SliceHeader
+from app.imaging.header import CT_IMAGE, MULTI_FRAME, Identity, ImagePlane, Rescale, SliceHeader
 from app.imaging.pixel_data import PixelFormat
-from app.imaging.pixel_finding import find_pixels
+from app.imaging.pixel_finding import TRUNCATED, find_pixels
+from app.imaging.privacy.key import derived, installation_key
 from app.imaging.privacy.known_words import body_parts, is_kernel
 from app.imaging.privacy.pseudonyms import former_pseudonym, pseudonym
 from app.imaging.series import Ignored
+from app.imaging.units import another_unit
 
 _WITH_PYDICOM: Final = ("pydicom", "pydicom.filereader", "app.imaging.enhanced")
 """What reads headers with pydicom, which takes half a second to load."""
@@ -33,8 +37,37 @@ _MARKS: Final = {
     "echo": "EchoNumbers",
     "image-type": "ImageType",
     "kernel": "ConvolutionKernel",
+    "tube-voltage": "KVP",
+    "thickness": "SliceThickness",
+    "contrast": "ContrastBolusAgent",
+    "number": "SeriesNumber",
+    "description": "SeriesDescription",
+    "comments": "ImageComments",
+    "acquisition-moment": "AcquisitionDateTime",
     "acquisition-time": "AcquisitionTime",
+    "content-time": "ContentTime",
 }
+_TYPED: Final = ("contrast", "description", "comments")
+"""Marks that are free text: kept as a digest, which tells them apart as well."""
+
+_OWNER: Final = (
+    "PatientID",
+    "IssuerOfPatientID",
+    "PatientBirthDate",
+    "PatientName",
+    "StudyInstanceUID",
+)
+_TYPE_1: Final = (
+    "SamplesPerPixel",
+    "PhotometricInterpretation",
+    "Rows",
+    "Columns",
+    "BitsAllocated",
+    "BitsStored",
+    "HighBit",
+    "PixelRepresentation",
+)
+"""What says how a pixel is stored; all of them must be given (PS3.3 C.7.6.3.1, Type 1)."""
 _AS_STORED: Final = Rescale(1.0, 0.0)
 
 
@@ -136,7 +169,7 @@ def _headers(
         raise NotStandardError
     from app.imaging.enhanced import frames_of
 
-    return frames_of(found, stream)
+    return frames_of(found, stream, is_multi_energy(header))
 
 
 def _slice_header(path: Path, stream: BinaryIO, header: Elements) -> SliceHeader:
@@ -146,7 +179,10 @@ def _slice_header(path: Path, stream: BinaryIO, header: Elements) -> SliceHeader
     pixels = find_pixels(stream, header, pixel_format)
     plane = _guarded(_plane, header, problems)
     rescale = _guarded(_rescale, header, problems)
-    damage = "; ".join([*problems, *([pixels.damage] if pixels.damage else [])])
+    missing = _missing(header)
+    damage = "; ".join(filter(None, (*problems, missing, pixels.damage)))
+    if pixels.damage.startswith(TRUNCATED):  # then what is missing was cut off
+        damage = pixels.damage
     if identity.modality == "MR" and rescale is None:
         rescale = _AS_STORED  # MR has no unit to be scaled to
     return SliceHeader(
@@ -160,7 +196,21 @@ def _slice_header(path: Path, stream: BinaryIO, header: Elements) -> SliceHeader
         damage,
         thickness_mm=_thickness(header),
         marks=_marks(header),
+        obstacle="" if identity.sop_class in MULTI_FRAME else _obstacle(header, identity),
     )
+
+
+def _obstacle(header: Elements, identity: Identity) -> str:
+    """Why the values of a CT image are no Hounsfield units, whatever its rescale makes of them."""
+    if (identity.modality, identity.sop_class) != ("CT", CT_IMAGE):
+        return ""
+    kind = elements.text(header, TAGS["RescaleType"])
+    return another_unit(identity.image_type, kind, is_multi_energy(header))
+
+
+def is_multi_energy(header: Elements) -> bool:
+    """Whether the image was made of more than one X-ray spectrum (PS3.3 C.8.2.1)."""
+    return elements.text(header, TAGS["MultienergyCTAcquisition"]).upper() == "YES"
 
 
 def _identity(header: Elements) -> Identity:
@@ -169,6 +219,7 @@ def _identity(header: Elements) -> Identity:
     def get(name: str) -> str:
         return elements.text(header, TAGS[name])
 
+    name = pseudonym(get("PatientID"), get("StudyInstanceUID"), get("StudyID"))
     return Identity(
         sop_uid=get("SOPInstanceUID"),
         sop_class=get("SOPClassUID"),
@@ -176,10 +227,39 @@ def _identity(header: Elements) -> Identity:
         modality=get("Modality"),
         image_type=elements.parts(header, TAGS["ImageType"]),
         label=_label(get("SeriesNumber"), get("BodyPartExamined"), get("ConvolutionKernel")),
-        pseudonym=pseudonym(get("PatientID"), get("StudyInstanceUID"), get("StudyID")),
+        pseudonym=name,
         former=former_pseudonym(get("PatientID"), get("StudyInstanceUID")),
         frame_of_reference=get("FrameOfReferenceUID"),
+        owner=_owner(name, tuple(get(name) for name in _OWNER)),
     )
+
+
+@lru_cache(maxsize=4)
+def _owner(pseudonym: str, values: tuple[str, ...]) -> tuple[tuple[str, str], ...]:
+    """Keyed digests of what says whose image it is; of a name its words in any spelling.
+
+    Args:
+        pseudonym: another one if the key changes, as the digests are then.
+        values: of `_OWNER`.
+    """
+    key = installation_key()
+    said = dict(zip(_OWNER, values, strict=True))
+    said["PatientName"] = _plain_name(said["PatientName"])
+    return tuple(
+        (name, derived(key, "owner", name, value).hex()[:16])
+        for name, value in said.items()
+        if value
+    )
+
+
+def _plain_name(name: str) -> str:
+    """Words of a person's name without case, order of parts and marks, and other alphabets.
+
+    Letters beyond ASCII are left out: the files of a series may spell them in several encodings.
+    """
+    first = name.split("=")[0]
+    words = "".join(c.lower() if c.isascii() and c.isalnum() else " " for c in first if c < "\x7f")
+    return " ".join(sorted(words.split())) or name
 
 
 def _label(number: str, body_part: str, kernel: str) -> str:
@@ -201,7 +281,11 @@ def _thickness(header: Elements) -> float | None:
 
 def _marks(header: Elements) -> tuple[tuple[str, str], ...]:
     values = ((mark, elements.text(header, TAGS[name])) for mark, name in _MARKS.items())
-    return tuple((mark, value) for mark, value in values if value)
+    return tuple(
+        (mark, hashlib.sha256(value.encode()).hexdigest()[:8] if mark in _TYPED else value)
+        for mark, value in values
+        if value
+    )
 
 
 def _guarded(read, header: Elements, problems: list[str]):  # type: ignore[no-untyped-def]
@@ -212,19 +296,35 @@ def _guarded(read, header: Elements, problems: list[str]):  # type: ignore[no-un
         return None
 
 
+def _missing(header: Elements) -> str:
+    """Say which attributes of the pixels are missing, but for what only one value can be.
+
+    SamplesPerPixel is 1 of grey pixels, and HighBit is one less than BitsStored (PS3.5 8.1.1).
+    """
+    values = {name: getattr(header.values.get(TAGS[name]), "value", None) for name in _TYPE_1}
+    absent = [name for name, value in values.items() if value in (None, b"", "")]
+    if elements.text(header, TAGS["PhotometricInterpretation"]).startswith("MONOCHROME"):
+        absent = [name for name in absent if name != "SamplesPerPixel"]
+    if len({"BitsStored", "HighBit"}.intersection(absent)) == 1:
+        absent = [name for name in absent if name not in ("BitsStored", "HighBit")]
+    if not absent:
+        return ""
+    verb = "is" if len(absent) == 1 else "are"
+    return f"{' and '.join(absent)} {verb} missing, without which its pixels cannot be told"
+
+
 def _format(header: Elements) -> PixelFormat:
     def get(name: str, default: int) -> int:
         value = elements.integer(header, TAGS[name], name)
         return default if value is None else value
 
-    signed = get("PixelRepresentation", 0) == 1
+    representation = get("PixelRepresentation", 0)
+    if representation not in (0, 1):
+        raise FileDamagedError(f"PixelRepresentation is {representation}; it must be 0 or 1")
+    signed = representation == 1
     allocated = get("BitsAllocated", 0)
-    stored = get("BitsStored", allocated)
+    stored = get("BitsStored", get("HighBit", allocated - 1) + 1)
     frames = elements.integer_string(header, TAGS["NumberOfFrames"], "NumberOfFrames")
-    padding = elements.integer(header, TAGS["PixelPaddingValue"], "PixelPaddingValue", signed)
-    limit = elements.integer(
-        header, TAGS["PixelPaddingRangeLimit"], "PixelPaddingRangeLimit", signed
-    )
     return PixelFormat(
         rows=get("Rows", 0),
         columns=get("Columns", 0),
@@ -235,12 +335,27 @@ def _format(header: Elements) -> PixelFormat:
         high_bit=get("HighBit", stored - 1),
         signed=signed,
         photometric=elements.text(header, TAGS["PhotometricInterpretation"]),
-        padding=None if padding is None else _range(padding, padding if limit is None else limit),
+        padding=_padding(header, signed),
     )
 
 
-def _range(a: int, b: int) -> tuple[int, int]:
-    return min(a, b), max(a, b)
+def _padding(header: Elements, signed: bool) -> tuple[int, int] | None:
+    """Lowest and highest stored value that is no measurement (PS3.3 C.7.5.1.1.2).
+
+    Both are as the pixels are, signed or not, whatever representation their elements name.
+    """
+
+    def get(name: str) -> int | None:
+        value = elements.integer(header, TAGS[name], name)
+        if value is None:
+            return None
+        return (value & 0xFFFF) - (0x10000 if signed and value & 0x8000 else 0)
+
+    padding, limit = get("PixelPaddingValue"), get("PixelPaddingRangeLimit")
+    if padding is None:
+        return None
+    ends = padding, padding if limit is None else limit
+    return min(ends), max(ends)
 
 
 def _plane(header: Elements) -> ImagePlane | None:

@@ -269,6 +269,7 @@ class CtLibrary:
             Cancelled: if `progress` was cancelled.
         """
         _require_openable(series, remedy)
+        _require_one_patient(series)
         progress = progress or Progress()
         with staging(self.folder, series) as folder:
             made, given = _fill(folder, series, boxes, remedy, progress)
@@ -283,6 +284,17 @@ class CtLibrary:
         entry = self.find(made.name)
         progress.report(1.0, f"{made.report.files} files taken into the library")
         return Imported(entry, made.report, again, len(before), len(given))
+
+
+def _require_one_patient(series: Series) -> None:
+    """Refuse what is not of one patient's study, by whatever way it came together."""
+    owners = {header.identity.owner for header in series.slices}
+    for name in ("PatientID", "StudyInstanceUID"):
+        if len({dict(owner).get(name) for owner in owners}) > 1:
+            raise SeriesRefusedError(
+                f"this series is not taken into the library: {name} differs among its files, and "
+                "they would get one pseudonym; give the files of one patient's study alone"
+            )
 
 
 def _require_openable(series: Series, remedy: Remedy) -> None:

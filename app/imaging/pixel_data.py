@@ -14,14 +14,14 @@ RLE: Final = "1.2.840.10008.1.2.5"
 JPEG: Final = tuple(f"1.2.840.10008.1.2.4.{n}" for n in (50, 51, 53, 55, 57, 70))
 """Baseline, extended (12 bits too), two retired progressive ones, and the lossless ones."""
 
-_JPEG_LS: Final = tuple(f"1.2.840.10008.1.2.4.{n}" for n in (80, 81))
-_JPEG_2000: Final = tuple(f"1.2.840.10008.1.2.4.{n}" for n in (90, 91, 201, 202, 203))
+JPEG_LS: Final = tuple(f"1.2.840.10008.1.2.4.{n}" for n in (80, 81))
+JPEG_2000: Final = tuple(f"1.2.840.10008.1.2.4.{n}" for n in (90, 91, 201, 202, 203))
 
 DECODERS: Final = {
     RLE: ("pylibjpeg-rle",),
     **dict.fromkeys(JPEG, ("python-gdcm",)),
-    **dict.fromkeys(_JPEG_LS, ("pyjpegls", "python-gdcm")),
-    **dict.fromkeys(_JPEG_2000, ("pylibjpeg-openjpeg", "python-gdcm")),
+    **dict.fromkeys(JPEG_LS, ("pyjpegls", "python-gdcm")),
+    **dict.fromkeys(JPEG_2000, ("pylibjpeg-openjpeg", "python-gdcm")),
 }
 """Encoded transfer syntax -> the packages that decode it, the quickest first."""
 
@@ -54,6 +54,11 @@ class PixelFormat:
         return cls(0, 0, 1, 1, 0, 0, -1, False, "", None)
 
     @property
+    def size(self) -> tuple[int, int]:
+        """Columns and rows."""
+        return self.columns, self.rows
+
+    @property
     def frame_bytes(self) -> int:
         """Bytes of one uncompressed frame."""
         return self.rows * self.columns * self.samples * self.bits_allocated // 8
@@ -64,6 +69,28 @@ class PixelFormat:
         if self.signed:
             return -(1 << (self.bits_stored - 1)), (1 << (self.bits_stored - 1)) - 1
         return 0, (1 << self.bits_stored) - 1
+
+    @property
+    def bits_below(self) -> int:
+        """Bits of a pixel below the stored ones: none, but where HighBit is odd."""
+        return self.high_bit + 1 - self.bits_stored
+
+    @property
+    def bits_below_used(self) -> str:
+        """What to say if those bits are not empty."""
+        return (
+            f"HighBit {self.high_bit} and BitsStored {self.bits_stored} leave the lowest "
+            f"{self.bits_below} bits of a pixel empty, and they are not; HighBit must be "
+            f"{self.bits_stored - 1}"
+        )
+
+    @property
+    def pads_beyond_stored(self) -> bool:
+        """Whether padding needs more bits than are stored."""
+        if self.padding is None:
+            return False
+        lowest, highest = self.stored_range
+        return self.padding[0] < lowest or self.padding[1] > highest
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +123,7 @@ class PixelData:
         damage: what is wrong with them; empty when nothing is.
         start: byte in the file at which a deflated data set starts.
         stamp: of the file when it was looked at; None if not known.
+        behind: bytes that stand behind the pixels without being any, a padding byte left out.
     """
 
     syntax: str
@@ -103,3 +131,4 @@ class PixelData:
     damage: str
     start: int = 0
     stamp: Stamp | None = None
+    behind: int = 0

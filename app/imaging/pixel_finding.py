@@ -16,6 +16,7 @@ from app.imaging.pixel_data import (
     DECODERS,
     DEFLATED,
     EXPLICIT_BIG,
+    EXPLICIT_LITTLE,
     IMPLICIT_LITTLE,
     RAW,
     PixelData,
@@ -26,6 +27,9 @@ from app.imaging.pixel_data import (
 _ITEM = (0xFFFE, 0xE000)
 _END = (0xFFFE, 0xE0DD)
 _UNDEFINED = 0xFFFFFFFF
+
+TRUNCATED = "truncated"
+"""What is said of a file that ends too early begins with this."""
 
 Place = tuple[int, int]
 """Byte in the file, and number of bytes."""
@@ -69,7 +73,7 @@ def walk(stream: BinaryIO, start: int, size: int) -> Fragments:
             break
         places.append((at, length))
         stream.seek(length, 1)
-    raise FileDamagedError("truncated: its compressed pixels do not end")
+    raise FileDamagedError(f"{TRUNCATED}: its compressed pixels do not end")
 
 
 def _with_table(stream: BinaryIO, places: list[Place]) -> Fragments:
@@ -133,6 +137,13 @@ def frame_bytes(stream: BinaryIO, places: Sequence[Place]) -> bytes:
 
 
 _PIXEL_DATA = (0x7FE0, 0x0010)
+_PIXEL_VRS = (b"OB", b"OW", b"UN")
+_RAW_NAMES = {
+    IMPLICIT_LITTLE: "Implicit VR Little Endian",
+    EXPLICIT_LITTLE: "Explicit VR Little Endian",
+    EXPLICIT_BIG: "Explicit VR Big Endian",
+    DEFLATED: "Deflated Explicit VR Little Endian",
+}
 
 
 def find_pixels(stream: BinaryIO, header: Elements, form: PixelFormat) -> PixelData:
@@ -153,14 +164,21 @@ def _find(stream: BinaryIO, size: int, header: Elements, form: PixelFormat) -> P
     if syntax not in RAW and syntax not in DECODERS and syntax != DEFLATED:
         return PixelData(syntax, None, f"no decoder for transfer syntax {_named(syntax)}")
     body = header.inflated or stream
-    length = _element_length(body, syntax != EXPLICIT_BIG, syntax == IMPLICIT_LITTLE)
-    if length is None:
-        return PixelData(syntax, None, f"truncated: {size} bytes and no pixels in them")
+    length, missing = _element_length(body, syntax != EXPLICIT_BIG)
+    if missing:
+        return PixelData(syntax, None, missing.format(size=size))
+    if length == _UNDEFINED and syntax not in DECODERS:
+        return PixelData(
+            syntax,
+            None,
+            "its pixels are of undefined length, as only compressed ones may be (PS3.5 A.4), and "
+            f"its transfer syntax is {_RAW_NAMES[syntax]}; have it sent again",
+        )
     if header.inflated is not None:
         return _deflated(header.inflated, header.start, length, form)
     if syntax in RAW:
-        return _raw(syntax, stream.tell(), size, length, form)
-    return _encoded(syntax, stream, size, form)
+        return _raw(syntax, stream, size, length, form)
+    return _encoded(syntax, stream, size, length, form)
 
 
 def _named(syntax: str) -> str:
@@ -174,46 +192,109 @@ def _named(syntax: str) -> str:
     return repr(syntax[:64]) if name == syntax else f"{syntax} ({name})"
 
 
-def _element_length(stream: BinaryIO, little: bool, implicit: bool) -> int | None:
+def _element_length(stream: BinaryIO, little: bool) -> tuple[int, str]:
+    """Length of the pixels, `stream` then standing at them; or what to say if there are none.
+
+    Whether the element names its representation is seen by itself, whatever the transfer syntax
+    says: read as a length, the name of one would be odd, which no length is.
+    """
     head = stream.read(8)
     order = "<" if little else ">"
-    if len(head) < 8 or struct.unpack(order + "HH", head[:4]) != _PIXEL_DATA:
-        return None
-    if implicit:
-        return int(struct.unpack("<L", head[4:])[0])
+    if len(head) < 8:
+        return 0, f"{TRUNCATED}: {{size}} bytes and no pixels in them"
+    if struct.unpack(order + "HH", head[:4]) != _PIXEL_DATA:
+        return 0, "no pixels in it (PixelData is missing)"
+    if head[4:6] not in _PIXEL_VRS:
+        return int(struct.unpack(order + "L", head[4:])[0]), ""
     tail = stream.read(4)
-    return int(struct.unpack(order + "L", tail)[0]) if len(tail) == 4 else None
+    if len(tail) < 4:
+        return 0, f"{TRUNCATED}: {{size}} bytes and no pixels in them"
+    return int(struct.unpack(order + "L", tail)[0]), ""
 
 
 def _needed(form: PixelFormat) -> int:
     return form.frame_bytes * max(form.frames, 1)
 
 
-def _raw(syntax: str, offset: int, size: int, length: int, form: PixelFormat) -> PixelData:
-    needed = _needed(form)
+def _raw(syntax: str, stream: BinaryIO, size: int, length: int, form: PixelFormat) -> PixelData:
+    offset, needed = stream.tell(), _needed(form)
+    if _starts_with_item(stream, length):
+        what = f"its pixels are compressed, and its transfer syntax is {_RAW_NAMES[syntax]}"
+        return PixelData(syntax, None, f"{what}; have it sent again")
     if size - offset < min(length, needed):
         missing = needed - (size - offset)
-        return PixelData(syntax, None, f"truncated: the last {missing} bytes of pixels are missing")
-    return PixelData(syntax, offset, _too_short(length, needed))
+        what = f"{TRUNCATED}: the last {missing} bytes of pixels are missing"
+        return PixelData(syntax, None, what)
+    wrong = _wrong_length(length, needed) or _wrong_bits(stream, needed, syntax, form)
+    behind = _behind(min(length, size - offset), needed)
+    return PixelData(syntax, offset, wrong, behind=behind)
 
 
-def _too_short(length: int, needed: int) -> str:
-    return f"{length} bytes of pixels where {needed} are needed" if length < needed else ""
+def _starts_with_item(stream: BinaryIO, length: int) -> bool:
+    """Whether what stands there are items to their end, as compressed pixels are."""
+    offset = stream.tell()
+    head = stream.read(8)
+    starts = len(head) == 8 and struct.unpack("<HH", head[:4]) == _ITEM
+    if starts:
+        try:
+            walk(stream, offset, offset + length)
+        except FileDamagedError:
+            starts = False
+    stream.seek(offset)
+    return starts
+
+
+def _wrong_bits(stream: BinaryIO, needed: int, syntax: str, form: PixelFormat) -> str:
+    """Say whether bits are in use that HighBit and BitsStored leave empty; looked at if they do."""
+    below = form.bits_below
+    if below < 1 or form.bits_stored < 1 or form.bits_allocated not in (8, 16):
+        return ""
+    data, mask = stream.read(needed), (1 << below) - 1
+    step = form.bits_allocated // 8
+    lowest = step - 1 if syntax == EXPLICIT_BIG else 0
+    used = any(value & mask for value in set(data[lowest::step]))
+    if step == 2:
+        used = used or any(value & (mask >> 8) for value in set(data[1 - lowest :: step]))
+    return form.bits_below_used if used else ""
+
+
+def _wrong_length(length: int, needed: int) -> str:
+    """Too few bytes, or several times as many: then frames or bits are not as the header says."""
+    if length < needed:
+        return f"{length} bytes of pixels where {needed} are needed"
+    times, rest = divmod(length, needed) if needed else (1, 0)
+    if times > 1 and rest <= 1:
+        return (
+            f"{length} bytes of pixels where {needed} are needed, {times} times as many: "
+            "NumberOfFrames or BitsAllocated is not what it should be"
+        )
+    return ""
+
+
+def _behind(length: int, needed: int) -> int:
+    return max(length - needed - needed % 2, 0)
 
 
 def _deflated(body: BinaryIO, start: int, length: int, form: PixelFormat) -> PixelData:
     """Judge as far as the data set was inflated; what is behind shows when it is read."""
     offset, needed = body.tell(), _needed(form)
     inflated = body.seek(0, 2)
-    damage = _too_short(length, needed)
+    damage = _wrong_length(length, needed)
     if inflated < HEAD_BYTES and inflated - offset < min(length, needed):
         missing = needed - (inflated - offset)
-        damage = f"truncated: the last {missing} bytes of pixels are missing"
-    return PixelData(DEFLATED, offset, damage, start)
+        damage = f"{TRUNCATED}: the last {missing} bytes of pixels are missing"
+    return PixelData(DEFLATED, offset, damage, start, behind=_behind(length, needed))
 
 
-def _encoded(syntax: str, stream: BinaryIO, size: int, form: PixelFormat) -> PixelData:
+def _encoded(syntax: str, stream: BinaryIO, size: int, length: int, form: PixelFormat) -> PixelData:
     start = stream.tell()
+    if length != _UNDEFINED and struct.unpack("<HH", stream.read(4).ljust(4)) != _ITEM:
+        return PixelData(
+            syntax,
+            None,
+            f"its {length} bytes of pixels are not compressed, and its transfer syntax is "
+            f"{_named(syntax)}; have it sent again",
+        )
     try:
         places = frame_places(stream, walk(stream, start, size), max(form.frames, 1))
         wrong = codestream.contradiction(_head(stream, places[0]), syntax, form)

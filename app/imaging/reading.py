@@ -25,30 +25,44 @@ from app.imaging.errors import (
     SeriesUnknownError,
     TooLargeError,
 )
-from app.imaging.filling import filled
+from app.imaging.filling import filled, padding_of
 from app.imaging.header import SliceHeader
 from app.imaging.rescaling import fresh_array, integral
 from app.imaging.scanning import scan_folder
-from app.imaging.series import Listing, Remedy, Series
+from app.imaging.series import AS_IT_IS, Listing, Remedy, Series
 from app.imaging.volume import Volume
 
 
-def reduced_block(slices: NDArray[Any], factors: tuple[int, int]) -> NDArray[Any]:
+def reduced_block(
+    slices: NDArray[Any], factors: tuple[int, int], padding: NDArray[np.bool_] | None = None
+) -> NDArray[Any]:
     """Average a few slices to one of fewer pixels.
 
     Args:
         slices: shape (n, rows, columns), int16 or float32.
         factors: pixels of a block along i and j, at most as many as there are; what is left over
             at the far ends is left out.
+        padding: True where nothing was measured, of the shape of `slices`: that counts only where a
+            block has nothing else.
 
     Returns:
         Means, shape (rows // j, columns // i), rounded to the nearest where the input is whole.
     """
+    whole = _blocks(slices, factors)
+    mean: NDArray[Any] = whole.mean(axis=(0, 2, 4), dtype=np.float64)
+    if padding is not None and padding.any():
+        measured = ~_blocks(padding, factors)
+        count = measured.sum(axis=(0, 2, 4))
+        total = np.where(measured, whole, 0).sum(axis=(0, 2, 4), dtype=np.float64)
+        np.divide(total, count, out=mean, where=count > 0)
+    return np.rint(mean) if slices.dtype.kind == "i" else mean
+
+
+def _blocks(slices: NDArray[Any], factors: tuple[int, int]) -> NDArray[Any]:
+    """View slices as blocks of pixels, shape (n, rows // j, j, columns // i, i)."""
     i, j = factors
     count, rows, columns = len(slices), slices.shape[1] // j, slices.shape[2] // i
-    whole = slices[:, : rows * j, : columns * i].reshape(count, rows, j, columns, i)
-    mean: NDArray[Any] = whole.mean(axis=(0, 2, 4), dtype=np.float64)
-    return np.rint(mean) if slices.dtype.kind == "i" else mean
+    return slices[:, : rows * j, : columns * i].reshape(count, rows, j, columns, i)
 
 
 def reduced_affine(affine_mm: FloatArray, factors: tuple[int, int, int]) -> FloatArray:
@@ -65,7 +79,7 @@ def pixel_lps_mm(
     row: int,
     progress: Progress | None = None,
     frame: int = 0,
-) -> tuple[FloatArray, float]:
+) -> tuple[FloatArray, float | None]:
     """Where one pixel of one file lies, by that file's own position and orientation.
 
     Works for files of refused series too (tilted, gapped, single).
@@ -79,7 +93,8 @@ def pixel_lps_mm(
         frame: of a multi-frame file, from 0.
 
     Returns:
-        The point [mm, LPS], shape (3,), and the Hounsfield value.
+        The point [mm, LPS], shape (3,), and the Hounsfield value; None for it where the pixel is
+        padding: nothing was measured there.
 
     Raises:
         SeriesUnknownError: if no file has this UID.
@@ -103,8 +118,24 @@ def pixel_lps_mm(
             "rescale; choose a file that is"
         )
     affine = stack.plane_affine(header.plane, stack.normal(header.plane))
-    value = _single(header)[row, column]
-    return affine[:3, :3] @ (column, row, 0.0) + affine[:3, 3], float(value)
+    picture = _single(header)
+    padding = padding_of(header, picture)
+    padded = padding is not None and bool(padding[row, column])
+    value = None if padded else float(picture[row, column])
+    return affine[:3, :3] @ (column, row, 0.0) + affine[:3, 3], value
+
+
+def is_padding(volume: Volume, ijk: tuple[int, int, int]) -> bool:
+    """Whether nothing was measured at a voxel of a volume that was read as it is.
+
+    Raises:
+        FileDamagedError: if its file has changed since.
+    """
+    i, j, k = ijk
+    if volume.recipe != AS_IT_IS or not volume.series.slices:
+        return False
+    padding = padding_of(volume.series.slices[k], volume.hu[k])
+    return padding is not None and bool(padding[j, i])
 
 
 def _instance(listing: Listing, sop_uid: str, frame: int) -> SliceHeader:
@@ -294,6 +325,14 @@ def _halvable(series: Series, reason: str) -> Series:
     return replace(series, usable=False, reason=reason, remedy=Remedy.HALVE)
 
 
+def _padding(headers: tuple[SliceHeader, ...], whole: NDArray[Any]) -> NDArray[np.bool_] | None:
+    """Find what was not measured in a few slices, of the shape of `whole`; None if all was."""
+    found = [padding_of(header, picture) for header, picture in zip(headers, whole, strict=True)]
+    if all(padding is None for padding in found):
+        return None
+    return np.stack([np.zeros(whole.shape[1:], bool) if p is None else p for p in found])
+
+
 def _filled(
     series: Series, dtype: np.dtype[Any], progress: Progress, factors: tuple[int, int, int]
 ) -> NDArray[Any]:
@@ -305,7 +344,8 @@ def _filled(
     memory.hold(hu)
     for block in range(len(hu)):  # never more than a few slices at full size in memory
         progress.report(block / len(hu), f"slice {block * k + 1} of {count}")
-        whole = filled(series.slices[block * k : (block + 1) * k], dtype)
-        hu[block] = reduced_block(whole, (i, j))
+        slices = series.slices[block * k : (block + 1) * k]
+        whole = filled(slices, dtype)
+        hu[block] = reduced_block(whole, (i, j), _padding(slices, whole))
     progress.report(1.0, f"{count} slices read, {i} × {j} × {k} voxels taken together")
     return hu

@@ -3,7 +3,8 @@
 Resampling puts uneven slices on an even, right-angled grid; straightening does the same with a
 tilted stack. Each value lies between its two neighbouring slices, each sampled where its own file
 puts it: linear along the normal, bilinear in the slice. Where slices are missing nothing is
-invented: the gap stays empty. Halving averages blocks of voxels, so that a volume fits the memory.
+invented: the gap stays empty, and so does what lies nearer to padding than to anything measured: no
+value is mixed with it. Halving averages blocks of voxels, so that a volume fits the memory.
 """
 
 from collections.abc import Callable
@@ -19,16 +20,17 @@ from app.core.arrays import FloatArray, read_only
 from app.core.progress import Progress
 from app.imaging import memory, stack
 from app.imaging.errors import SeriesRefusedError, TooLargeError
+from app.imaging.filling import padding_of
 from app.imaging.reading import grid_of, read_pixels, read_series, reduced_affine
-from app.imaging.rescaling import fresh_array
+from app.imaging.rescaling import EMPTY_HU, fresh_array
 from app.imaging.series import Recipe, Remedy, Series
 from app.imaging.volume import Volume
 
-EMPTY_HU = -1024.0
-"""Value of voxels that no slice covers, in Hounsfield units; 0 where there is no unit."""
-
 FINEST_MM, COARSEST_MM = 0.1, 20.0
 """Slice spacings that can be asked for."""
+
+_MEASURED = 0.5
+"""Share of what a value is interpolated from that must have been measured."""
 
 _WHOLE = 1e-4
 """A sampling place this near to a pixel (or slice) is that pixel, in pixels (or slices)."""
@@ -169,7 +171,10 @@ def _target(series: Series, grid: stack.Stack, spacing_mm: float | None) -> _Tar
 def _sampler(
     series: Series, stored: NDArray[Any], target: _Target
 ) -> Callable[[int], NDArray[np.float32]]:
-    """Slices of the series on the pixels of the target, seen along its normal; NaN beside them."""
+    """Slices of the series on the pixels of the target, seen along its normal.
+
+    NaN beside them, and where they are padding.
+    """
     columns, rows, _ = target.size
 
     @lru_cache(maxsize=2)
@@ -182,18 +187,44 @@ def _sampler(
         matrix = to_own[1::-1, 1::-1]  # (row, column) of the target -> of the slice
         start = to_own[1::-1, 3]
         picture = stored[k].astype(np.float32)
+        padding = padding_of(series.slices[k], stored[k])
         nearest = np.rint(start)
         if np.abs(matrix - np.eye(2)).max() * max(columns, rows) < _WHOLE and (
             np.abs(start - nearest).max() < _WHOLE
         ):
+            if padding is not None:
+                picture[padding] = np.nan
             return _placed(picture, -nearest.astype(int), (rows, columns))
-        out = np.empty((rows, columns), np.float32)
+        return _turned(picture, padding, matrix, start, (rows, columns))
+
+    return sampled
+
+
+def _turned(
+    picture: NDArray[np.float32],
+    padding: NDArray[np.bool_] | None,
+    matrix: FloatArray,
+    start: FloatArray,
+    shape: tuple[int, int],
+) -> NDArray[np.float32]:
+    """Interpolate a picture between its pixels, of which padding is none."""
+
+    def transformed(values: NDArray[np.float32], beside: float) -> NDArray[np.float32]:
+        out = np.empty(shape, np.float32)
         ndimage.affine_transform(
-            picture, matrix, start, (rows, columns), out, order=1, mode="constant", cval=np.nan
+            values, matrix, start, shape, out, order=1, mode="constant", cval=beside
         )
         return out
 
-    return sampled
+    if padding is None or not padding.any():
+        return transformed(picture, np.nan)
+    picture[padding] = 0.0
+    values = transformed(picture, np.nan)
+    measured = transformed((~padding).astype(np.float32), 0.0)
+    near = measured >= _MEASURED
+    np.divide(values, measured, out=values, where=near)
+    values[~near] = np.nan
+    return values
 
 
 def _placed(

@@ -60,6 +60,10 @@ def _array(name: str, shape: tuple[int, int], dtype: np.dtype[Any]) -> NDArray[A
 
 _INT16: Final = np.iinfo(np.int16)
 
+_AIR_HU: Final = -1000.0
+EMPTY_HU: Final = -1024.0
+"""Value of voxels at which nothing was measured, in Hounsfield units; 0 where there is no unit."""
+
 
 def fresh_array(shape: tuple[int, int, int], dtype: np.dtype[Any]) -> NDArray[Any]:
     """Uninitialised array on ordinary memory pages.
@@ -94,7 +98,7 @@ def fill_slice(header: SliceHeader, out: NDArray[Any], stored: NDArray[Any]) -> 
     """
     read_stored(header, stored)
     if out.dtype == np.float32:
-        _scale_float(stored, _rescale(header), out)
+        _scale_float(header, stored, _rescale(header), out)
     else:
         _scale_exact(header, stored, _rescale(header), out)
 
@@ -118,12 +122,13 @@ def _scale_exact(
     if not integral(header):
         raise NotExactError
     slope, intercept = int(rescale.slope), int(rescale.intercept)
-    if not _fits(header.format.stored_range, slope, intercept):
+    fits = _fits(header.format.stored_range, slope, intercept)
+    if not fits or padding_stands_out(header):
         padding = _padding(header, stored)
         if padding is not None and padding.any():  # padding is no measurement: it may saturate
-            _scale_padded(stored, padding, slope, intercept, out)
+            _scale_padded(stored, padding, (slope, intercept), nothing_of(header), out)
             return
-        if not _fits((int(stored.min()), int(stored.max())), slope, intercept):
+        if not fits and not _fits((int(stored.min()), int(stored.max())), slope, intercept):
             raise NotExactError
     if stored.dtype.itemsize == 1:
         stored = stored.astype(np.int16)
@@ -138,6 +143,27 @@ def _fits(bounds: tuple[int, int], slope: int, intercept: int) -> bool:
     return min(ends) >= _INT16.min and max(ends) <= _INT16.max
 
 
+def nothing_of(header: SliceHeader) -> float:
+    """Value of a pixel at which nothing was measured: air of a CT, 0 where there is no unit."""
+    return 0.0 if header.identity.modality == "MR" else EMPTY_HU
+
+
+def padding_stands_out(header: SliceHeader) -> bool:
+    """Whether padding would count as more than nothing if it were scaled like a measurement."""
+    form = header.format
+    if form.padding is None:
+        return False
+    most = 0.0 if header.identity.modality == "MR" else _AIR_HU
+    return form.pads_beyond_stored or max(padding_ends(header)) > most
+
+
+def padding_ends(header: SliceHeader) -> tuple[float, float]:
+    """Scale the ends of the padding of a file that has any, as if they were measurements."""
+    rescale, padding = _rescale(header), header.format.padding or (0, 0)
+    low, high = (rescale.slope * value + rescale.intercept for value in padding)
+    return low, high
+
+
 def _padding(header: SliceHeader, stored: NDArray[Any]) -> NDArray[np.bool_] | None:
     if header.format.padding is None:
         return None
@@ -147,15 +173,26 @@ def _padding(header: SliceHeader, stored: NDArray[Any]) -> NDArray[np.bool_] | N
 
 
 def _scale_padded(
-    stored: NDArray[Any], padding: NDArray[np.bool_], slope: int, intercept: int, out: NDArray[Any]
+    stored: NDArray[Any],
+    padding: NDArray[np.bool_],
+    scale: tuple[int, int],
+    nothing: float,
+    out: NDArray[Any],
 ) -> None:
-    scaled = stored.astype(np.int64) * slope + intercept  # one slice only
+    """Scale to int16 by slope and intercept; padding becomes no more than `nothing`."""
+    scaled = stored.astype(np.int64) * scale[0] + scale[1]  # one slice only
     measured = scaled[~padding]
     if measured.size and not _fits((int(measured.min()), int(measured.max())), 1, 0):
         raise NotExactError
-    np.copyto(out, np.clip(scaled, _INT16.min, _INT16.max).astype(np.int16))
+    scaled[padding] = np.clip(scaled[padding], _INT16.min, int(nothing))
+    np.copyto(out, scaled.astype(np.int16))
 
 
-def _scale_float(stored: NDArray[Any], rescale: Rescale, out: NDArray[Any]) -> None:
+def _scale_float(
+    header: SliceHeader, stored: NDArray[Any], rescale: Rescale, out: NDArray[Any]
+) -> None:
     scaled = stored.astype(np.float64) * rescale.slope + rescale.intercept  # one slice only
+    if padding_stands_out(header):
+        padding = _padding(header, stored)
+        np.minimum(scaled, nothing_of(header), out=scaled, where=padding)
     np.copyto(out, scaled.astype(np.float32))

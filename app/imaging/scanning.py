@@ -12,16 +12,17 @@ import numpy as np
 
 from app.core.progress import Progress
 from app.imaging import memory, stack
-from app.imaging.acquisitions import SECONDARY_CAPTURE, Group, split
-from app.imaging.header import MULTI_FRAME, ImagePlane, Point, SliceHeader
+from app.imaging.acquisitions import Group
+from app.imaging.header import CT_IMAGE, MR_IMAGE, MULTI_FRAME, ImagePlane, Point, SliceHeader
 from app.imaging.nifti import find_nifti
+from app.imaging.pixel_finding import TRUNCATED
 from app.imaging.series import Ignored, Listing, Remedy, Series
+from app.imaging.sorting import SECONDARY_CAPTURE, split
 from app.imaging.sources import is_nifti, open_source
+from app.imaging.units import caveat
 from app.imaging.worker.pool import shared_worker
 from app.imaging.worker.service import read_headers
 
-_CT_IMAGE: Final = "1.2.840.10008.5.1.4.1.1.2"
-_MR_IMAGE: Final = "1.2.840.10008.5.1.4.1.1.4"
 PRACTICE: Final = "MR, for practice only: its values are no Hounsfield units"
 
 _NOT_UNIT: Final = 1e-5
@@ -57,6 +58,8 @@ def judge(group: Group, root: Path) -> Suitability:
         root: the folder that was searched; files are named relative to it.
     """
     headers = group.headers
+    if group.obstacle:
+        return Suitability(group.obstacle, notes=group.notes)
     for wrong in _JUDGES:
         if reason := wrong(headers, root):
             return Suitability(reason, notes=group.notes)
@@ -119,6 +122,12 @@ def _notes(headers: Headers, tilt_deg: float) -> list[str]:
         off = max(abs(sum(v * v for v in vector) - 1.0) for vector in (row, column))
         if off > 2.0 * _NOT_UNIT:
             notes.append("direction cosines not of length one: taken as they are written")
+    behind = sum(header.pixels.behind > 0 for header in headers)
+    if behind:
+        files = "1 file holds" if behind == 1 else f"{behind} files hold"
+        notes.append(f"{files} bytes behind the pixels, which are left out")
+    if words := caveat(headers[0].identity.image_type):
+        notes.append(words)
     return notes
 
 
@@ -154,29 +163,45 @@ def _modality(headers: Headers, root: Path) -> str:
 def _object(header: SliceHeader) -> str:
     kind, image_type = header.identity.sop_class, header.identity.image_type
     modality, frames = header.identity.modality, header.format.frames
-    if header.obstacle:
-        return header.obstacle
+    if header.damage and not header.format.photometric:  # which is the damage, or part of it
+        return ""
     if header.format.samples > 1 or header.format.photometric not in ("MONOCHROME1", "MONOCHROME2"):
         what = header.format.photometric or "no photometric interpretation"
         return f"not a CT image but a picture ({what}, secondary capture)"
     if kind.startswith(SECONDARY_CAPTURE):
         return "secondary capture, not an original CT image"
+    if "LOCALIZER" in image_type:
+        return "localizer (scout view), not a volume"
+    if header.obstacle:
+        return header.obstacle
     if kind in MULTI_FRAME and modality in MULTI_FRAME[kind]:
         return ""
     if frames > 1:
         return f"multi-frame file ({frames} frames) that does not say where each of them lies"
-    if kind != (_MR_IMAGE if modality == "MR" else _CT_IMAGE):
+    if kind != (MR_IMAGE if modality == "MR" else CT_IMAGE):
         what = "not CT but MR, and not an MR image" if modality == "MR" else "not a CT image"
         return f"{what} (SOP class {kind or 'missing'})"
     if "MOSAIC" in image_type:
         return "a mosaic: many slices side by side in one picture, which says of none where it lies"
-    if "LOCALIZER" in image_type:
-        return "localizer (scout view), not a volume"
     return ""
 
 
 def _wrong_object(headers: Headers, root: Path) -> str:
     return _first(headers, root, _object)
+
+
+def _truncated(headers: Headers, root: Path) -> str:
+    """Say which images end too early; what else they lack may have been cut off."""
+    images = (CT_IMAGE, MR_IMAGE, *MULTI_FRAME)
+    cut = [
+        header
+        for header in headers
+        if header.damage.startswith(TRUNCATED) and header.identity.sop_class in images
+    ]
+    if not cut:
+        return ""
+    more = f" (and {len(cut) - 1} more)" if len(cut) > 1 else ""
+    return f"{display_name(cut[0], root)} is {cut[0].damage}{more}; have it sent again"
 
 
 def _damaged(headers: Headers, root: Path) -> str:
@@ -216,7 +241,7 @@ def _single(headers: Headers, root: Path) -> str:
     return "a single slice; a volume needs at least two" if len(headers) < 2 else ""
 
 
-_JUDGES: Final = (_modality, _wrong_object, _damaged, _wrong_pixels, _mixed, _single)
+_JUDGES: Final = (_modality, _truncated, _wrong_object, _damaged, _wrong_pixels, _mixed, _single)
 
 
 def scan_folder(path: Path | str, progress: Progress | None = None) -> Listing:
@@ -306,7 +331,7 @@ def _shared_frame(headers: list[SliceHeader]) -> str:
 
 
 def _frame_notes(headers: list[SliceHeader]) -> tuple[str, ...]:
-    frames = {header.identity.frame_of_reference for header in headers}
+    frames = {h.identity.frame_of_reference for h in headers if not h.damage}
     if len(frames) < 2:
         return ()
     if "" in frames:

@@ -23,6 +23,9 @@ TILT_DEG: Final = 0.1
 SAME_DIRECTION: Final = 1e-3
 """Orientations and pixel spacings that differ by more than this belong to different stacks."""
 
+_STEADY: Final = 5.0
+"""A drift is a tilt if it is so many times as large as what slices jump beside it."""
+
 _GAP_SHARE: Final = 0.02
 _HOLE: Final = 1.5
 
@@ -59,10 +62,15 @@ class Stack:
 
     @property
     def tilt_deg(self) -> float:
-        """Angle between the normal and the stacking direction [degrees]; 0 where negligible."""
+        """Angle between the normal and the stacking direction [degrees]; 0 where negligible.
+
+        0 too where slices jump sideways by as much as they would drift in all: that is no tilt.
+        """
         along, drift = _drift(self)
         angle = float(np.degrees(np.arctan2(drift, along)))
-        return angle if angle > TILT_DEG and drift > 2.0 * TOLERANCE_MM else 0.0
+        if angle <= TILT_DEG or drift <= 2.0 * TOLERANCE_MM:
+            return 0.0
+        return angle if drift >= _STEADY * _jumps(self) else 0.0
 
 
 def plane_affine(plane: ImagePlane, step: FloatArray) -> FloatArray:
@@ -237,10 +245,32 @@ def _unit(vector: FloatArray) -> FloatArray:
 
 
 def _drift(slices: Stack) -> tuple[float, float]:
-    """Way from the first slice to the last: along the normal, and beside it [mm]."""
-    extent = slices.positions_mm[-1] - slices.positions_mm[0]
-    along = float(extent @ slices.normal)
-    return along, float(np.linalg.norm(extent - along * slices.normal))
+    """Way from the first slice to the last: along the normal, and beside it [mm].
+
+    Of more than two slices the latter is that of the straight line that fits them all best.
+    """
+    heights, beside = _beside(slices)
+    along = float(heights[-1])
+    if len(heights) < 3 or along <= 0.0:
+        return along, float(np.linalg.norm(beside[-1]))
+    slope = np.polyfit(heights, beside, 1)[0]
+    return along, float(np.linalg.norm(slope)) * along
+
+
+def _jumps(slices: Stack) -> float:
+    """How far slices lie at most from the straight line that fits them best, sideways [mm]."""
+    heights, beside = _beside(slices)
+    if len(heights) < 3 or heights[-1] <= 0.0:
+        return 0.0
+    slope, start = np.polyfit(heights, beside, 1)
+    return float(np.linalg.norm(beside - start - heights[:, None] * slope, axis=1).max())
+
+
+def _beside(slices: Stack) -> tuple[FloatArray, FloatArray]:
+    """Heights along the normal, shape (K,), and what lies beside it, shape (K, 3) [mm]."""
+    ways = slices.positions_mm - slices.positions_mm[0]
+    heights: FloatArray = ways @ slices.normal
+    return heights, ways - heights[:, None] * slices.normal
 
 
 def _missing(gaps: FloatArray, names: Sequence[str]) -> str:
@@ -260,6 +290,12 @@ def _uneven(slices: Stack, names: Sequence[str]) -> str:
     if slices.off_mm.max() <= TOLERANCE_MM:
         return ""
     gaps = slices.gaps_mm
+    if np.ptp(gaps) <= TOLERANCE_MM:
+        return (
+            f"slices shifted sideways against each other: up to {slices.off_mm.max():.3f} mm off "
+            f"a straight stack at {names[int(np.argmax(slices.off_mm))]} "
+            f"(limit {TOLERANCE_MM:g} mm)"
+        )
     return (
         f"uneven spacing: slices {gaps.min():.3f} to {gaps.max():.3f} mm apart, up to "
         f"{slices.off_mm.max():.3f} mm off an even grid at {names[int(np.argmax(slices.off_mm))]} "

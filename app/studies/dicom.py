@@ -141,6 +141,26 @@ def _doubled(reason: str, facts: Sequence[Fact]) -> bool:
     return apart.size > 0 and float(apart.min()) < _SAME_MM
 
 
+def _sideways(reason: str, facts: Sequence[Fact]) -> bool:
+    """Whether slices evenly apart lie on no straight line."""
+    apart = _distances(facts)
+    at = np.array([plane[0] for plane in _planes(facts)])
+    if apart.size < 2 or np.ptp(apart) > _SAME_MM:
+        return False
+    row, column = np.reshape(_planes(facts)[0][1], (2, 3))
+    ordered = at[np.argsort(at @ np.cross(row, column))]
+    return bool(np.abs(np.diff(ordered, 2, axis=0)).max() > _SAME_MM)
+
+
+def _missing(reason: str, facts: Sequence[Fact]) -> bool:
+    return any(name in reason for fact in facts for name in fact["missing"])
+
+
+def _undeclared(fact: Fact) -> bool:
+    """Whether values are of another unit than HU, or nobody says of which they are."""
+    return fact["unit"] not in ("", "HU") or (fact["energies"] and not fact["unit"])
+
+
 def _orientations(reason: str, facts: Sequence[Fact]) -> bool:
     planes = _planes(facts)
     return len(planes) > 1 and _several(planes, 1)
@@ -244,10 +264,22 @@ _RULES: tuple[tuple[str, Holds, str], ...] = (
         _any(lambda fact: None in fact["planes"]),
         "cut short, or its frames have no place in the patient",
     ),
+    ("missing, without which its pixels", _missing, "nobody says how its pixels are stored"),
+    (
+        "undefined length",
+        _any(lambda fact: fact["undefined"]),
+        "compressed and not, both at once",
+    ),
     ("truncated", _cut_short, "cut short, or its frames have no place in the patient"),
     ("damaged", _damaged, "cut short, or its frames have no place in the patient"),
     ("no pixels", _any(lambda fact: not fact["pixels"]), "no picture"),
     ("bits per pixel", _bits, "values that no CT has"),
+    (
+        " map",
+        _any(lambda fact: len(fact["image_type"]) > 3 or _undeclared(fact)),
+        "computed from a scan: no Hounsfield units",
+    ),
+    ("RescaleType", _any(_undeclared), "values of another unit, or of one that is not said"),
     ("Hounsfield", _any(lambda fact: not fact["rescale"]), "values of no known unit"),
     (
         "ImagePositionPatient",
@@ -257,6 +289,7 @@ _RULES: tuple[tuple[str, Holds, str], ...] = (
     ("single slice", _single, "no volume; its pixels and its place are compared above"),
     ("doubled", _doubled, "two differing pictures of one place"),
     ("gap", _gap, "a slice is missing; read on request, resampled"),
+    ("sideways", _sideways, "slices not above each other; read on request, resampled"),
     ("uneven", _uneven, "slices not evenly apart; read on request, resampled"),
     ("mixed orientations", _orientations, "views in several directions, no stack"),
     ("mixed pixel spacings", _spacings, "pictures of several scales, no stack"),
@@ -418,6 +451,8 @@ def _reason(case: DicomCase) -> str:
 
 def _kind(reason: str) -> str:
     """Reason without the names and figures in it."""
+    if " is truncated" in reason:
+        return "truncated"
     brief = reason.split(":")[0].split(" (")[0].split("; ")[0]
     return reason[:60] if brief == "not CT" else brief
 

@@ -95,11 +95,11 @@ def test_a_gap_between_acquisitions_is_not_hidden_by_splitting_them(tmp_path):
     assert series.reason.startswith("gap: 1 slice is missing")
 
 
-def test_interleaved_acquisitions_are_one_even_series(tmp_path):
+def test_interleaved_acquisitions_are_apart_though_they_mesh_to_an_even_stack(tmp_path):
     slices = Slices()
     for k, offset in enumerate(slices.offsets):
         slices.write_one(tmp_path / f"s{k}", k, offset, AcquisitionNumber=1 + k % 2)
-    assert parts(tmp_path) == {"": (5, True)}
+    assert parts(tmp_path) == {"acquisition-1": (3, True), "acquisition-2": (2, True)}
 
 
 def test_overlapping_ranges_at_other_places_are_split(tmp_path):

@@ -163,3 +163,65 @@ def test_a_legacy_converted_enhanced_ct_equals_its_single_files(tmp_path):
     whole, single = load_ct(tmp_path / "legacy"), load_ct(tmp_path / "single")
     np.testing.assert_array_equal(whole.hu, single.hu)
     np.testing.assert_allclose(whole.affine_mm, single.affine_mm, atol=1e-9)
+
+
+def _each(**macros):
+    """Give every other frame one of two values of its functional groups."""
+
+    def change(file):
+        for n, group in enumerate(file.PerFrameFunctionalGroupsSequence):
+            for macro, (name, values) in macros.items():
+                held = group[macro].value[0] if macro in group else Dataset()
+                setattr(held, name, values[n % 2])
+                setattr(group, macro, Sequence([held]))
+
+    return change
+
+
+def _written(tmp_path, change, count=8):
+    slices = Slices(offsets=tuple(2.0 * k for k in range(count)))
+    path = write_enhanced(tmp_path / "e", slices)
+    file = pydicom.dcmread(path)
+    change(file)
+    file.save_as(path)
+    return slices
+
+
+@pytest.mark.parametrize(
+    "macros",
+    [
+        {"CTReconstructionSequence": ("ConvolutionKernel", ("B30f", "B70f"))},
+        {"FrameContentSequence": ("StackID", ("1", "2"))},
+        {"FrameContentSequence": ("FrameAcquisitionNumber", (1, 2))},
+    ],
+)
+def test_frames_of_two_passes_that_mesh_are_read_apart(tmp_path, macros):
+    _written(tmp_path, _each(**macros))
+    assert [(s.size[2], s.usable) for s in scan_folder(tmp_path).series] == [(4, True)] * 2
+
+
+@pytest.mark.parametrize(
+    ("words", "energies", "reason"),
+    [
+        (("EFF_ATOMIC_NUM",), True, "effective atomic number map"),
+        (("MAT_SPECIFIC",), True, "map of one material"),
+        ((), True, "RescaleType must say what the values are"),
+        (("VMI",), True, ""),
+        ((), False, ""),
+    ],
+)
+def test_frames_without_rescale_type_are_read_only_if_they_can_be_nothing_else(
+    tmp_path, words, energies, reason
+):
+    kind = ["DERIVED", "PRIMARY", "VOLUME", *words]
+
+    def change(file):
+        _each(CTImageFrameTypeSequence=("FrameType", (kind, kind)))(file)
+        for group in file.PerFrameFunctionalGroupsSequence:
+            del group.PixelValueTransformationSequence[0].RescaleType
+        if energies:
+            file.MultienergyCTAcquisition = "YES"
+
+    _written(tmp_path, change)
+    (series,) = scan_folder(tmp_path).series
+    assert (reason in series.reason, series.usable) == (True, not reason)

@@ -75,7 +75,7 @@ REFUSED = {
     "not CT (modality SR)": """
         reportsi.dcm reportsi_with_empty_number_tags.dcm test-SR.dcm
     """,
-    "damaged file (truncated": """
+    "is truncated": """
         MR_truncated.dcm emri_small_jpeg_2k_lossless_too_short.dcm
     """,
     "not CT (modality ECG)": """

@@ -18,8 +18,10 @@ from app.core.arrays import FloatArray
 from app.core.errors import AcusError
 from app.core.extras import not_installed
 from app.imaging import stack
+from app.imaging.filling import padding_of
 from app.imaging.header import SliceHeader
 from app.imaging.reading import read_pixels, read_series
+from app.imaging.rescaling import padding_stands_out
 from app.imaging.series import Series
 from app.studies.errors import StudyError
 
@@ -195,7 +197,7 @@ def read(series: Series) -> Ours:
 
 def _ordered(series: Series) -> bool:
     """Whether both readers would put the slices into one order, though there is no volume."""
-    return len(series.slices) == 1 or series.reason.startswith(("gap", "uneven"))
+    return len(series.slices) == 1 or series.reason.startswith(("gap", "uneven", "slices shifted"))
 
 
 def _decodable(headers: Sequence[SliceHeader]) -> bool:
@@ -225,7 +227,8 @@ def compare(series: Series, ours: Ours, theirs: PeerImage, peer: Peer) -> Series
     if ours.affine_mm is not None:
         apart = _apart(ours.affine_mm, affine, ours.values.shape)
     off = _off(affine, planes, ours.values.shape)
-    differ = _differ(ours.values, values)
+    padding = _padding(series, ours.values)
+    differ = _differ(ours.values, np.where(padding, ours.values, values))
     return SeriesAgreement(
         differ,
         apart,
@@ -233,6 +236,15 @@ def compare(series: Series, ours: Ours, theirs: PeerImage, peer: Peer) -> Series
         off,
         "; ".join(filter(None, (_cause(series, differ), _misplacement(series, off)))),
     )
+
+
+def _padding(series: Series, values: NDArray[Any]) -> NDArray[np.bool_]:
+    """Where nothing was measured and a file's own number would count as tissue; not compared."""
+    masks = [
+        padding_of(header, picture) if padding_stands_out(header) else None
+        for header, picture in zip(series.slices, values, strict=True)
+    ]
+    return np.stack([np.zeros(values.shape[1:], bool) if mask is None else mask for mask in masks])
 
 
 def standard_planes(series: Series, peer: Peer) -> list[Any]:
@@ -288,7 +300,7 @@ def _misplacement(series: Series, peer_mm: float | None) -> str:
         return ""
     if series.tilt_deg:
         return f"gantry tilt {series.tilt_deg:.1f}°: GDCM stacks the slices straight"
-    if series.reason.startswith(("gap", "uneven")):
+    if series.reason.startswith(("gap", "uneven", "slices shifted")):
         return "GDCM takes the mean distance for every slice"
     return UNEXPLAINED
 

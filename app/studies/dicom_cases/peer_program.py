@@ -27,8 +27,23 @@ _NO_DICOM: dict[str, Any] = {
     "image_type": [],
     "rescale": False,
     "pixels": False,
+    "undefined": False,
+    "missing": [],
+    "unit": "",
+    "energies": False,
     "planes": [],
 }
+
+
+_TYPE_1 = (
+    "PhotometricInterpretation",
+    "Rows",
+    "Columns",
+    "BitsAllocated",
+    "BitsStored",
+    "HighBit",
+    "PixelRepresentation",
+)
 
 
 def image(files: list[str], folder: str, out: str) -> dict[str, Any]:
@@ -126,6 +141,10 @@ def facts(file: str) -> dict[str, Any]:
         "image_type": [str(word) for word in data.get("ImageType") or ()],
         "rescale": "RescaleSlope" in data,
         "pixels": decodes(file),
+        "undefined": undefined(file),
+        "missing": [name for name in _TYPE_1 if data.get(name) is None],
+        "unit": str(data.get("RescaleType", "")),
+        "energies": str(data.get("MultienergyCTAcquisition", "")) == "YES",
         "planes": [plane(data, number) for number in range(frames)] if frames < 5000 else [],
     }
 
@@ -144,6 +163,17 @@ def decodes(file: str) -> bool:
 
     try:
         return bool(pydicom.dcmread(file, force=True).pixel_array.size)
+    except Exception:  # whatever a damaged file makes it raise
+        return False
+
+
+def undefined(file: str) -> bool:
+    """Whether the pixels are of undefined length."""
+    import pydicom
+
+    try:
+        data = pydicom.dcmread(file, force=True)
+        return bool(data["PixelData"].is_undefined_length)
     except Exception:  # whatever a damaged file makes it raise
         return False
 
