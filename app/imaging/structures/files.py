@@ -43,7 +43,9 @@ def read_structures(path: Path, volume: Volume, progress: Progress | None = None
     progress = progress or Progress()
     progress.report(0.0, f"reading {path.name}")
     numbers = tuple(float(number) for number in volume.affine_mm.ravel())
-    arguments = (path.absolute(), volume.size, numbers, volume.series.frame_of_reference)
+    series = volume.series
+    uids = (series.uid, *dict.fromkeys(header.identity.sop_uid for header in series.slices))
+    arguments = (path.absolute(), volume.size, numbers, series.frame_of_reference, uids)
     try:
         parsed = shared_worker().call(STRUCTURES, arguments, _allowed(volume), progress)
         structures = tuple(_structure(one, volume) for one in parsed.structures)
