@@ -187,9 +187,9 @@ def _rle(frame: bytes, pixels: int) -> bytes:
     offsets = [*struct.unpack_from(f"<{count}L", frame, 4), len(frame)]
     parts, places, at = [], [], 64
     for start, stop in pairwise(offsets):
-        used = _packed_bytes(frame, start, stop, pixels)
-        part = frame[start : start + used]
-        part += b"\0" * (used % 2)
+        part = frame[start : start + _packed_bytes(frame, start, stop, pixels)]
+        if frame[start + len(part) : stop] != b"":
+            part += b"\0" * (len(part) % 2)
         places.append(at)
         parts.append(part)
         at += len(part)

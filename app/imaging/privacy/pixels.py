@@ -137,20 +137,17 @@ def _drawn_over(original: Dataset) -> bool:
 
 
 def _hides_bits(frame: bytes, header: SliceHeader) -> bool:
-    """Tell whether a frame's samples have bits that are not read: see `codecs.decode`."""
+    """Tell whether there is something in bits of a frame that `codecs.decode` does not read."""
     syntax, form = header.pixels.syntax, header.format
-    if syntax == RLE:
-        return form.bits_stored < form.bits_allocated and _rle_hides(frame, header)
-    return syntax in JPEG and codestream.precision(frame, syntax, form) > form.bits_stored
-
-
-def _rle_hides(frame: bytes, header: SliceHeader) -> bool:
-    form = header.format
+    if syntax not in (RLE, *JPEG) or (
+        codestream.precision(frame, syntax, form) <= form.bits_stored
+        and (syntax != RLE or form.bits_stored == form.bits_allocated)
+    ):
+        return False
     whole = replace(form, bits_stored=form.bits_allocated, high_bit=form.bits_allocated - 1)
-    all_bits, kept = (np.empty((form.rows, form.columns), stored_type(form)) for _ in range(2))
-    codecs.decode(frame, RLE, whole, all_bits)
-    codecs.decode(frame, RLE, form, kept)
-    cells = all_bits.view(f"u{all_bits.itemsize}")
+    out = np.empty((form.rows, form.columns), stored_type(form))
+    codecs.decode(frame, syntax, whole, out)
+    cells = out.view(np.dtype(f"u{out.itemsize}"))
     return not np.array_equal(_used_bits(cells, header, None), cells)
 
 
