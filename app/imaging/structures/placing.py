@@ -28,6 +28,10 @@ SAME_MM = 0.02
 """Grids whose voxels lie this near to each other are the same."""
 
 
+_OFF_TIES = 1e-3
+"""Voxels of the file by which grids are moved against each other."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Labelled:
     """What a file holds of one structure, on the file's own grid.
@@ -213,7 +217,8 @@ def _resampled(box: Mask, to_volume: FloatArray, volume: Volume) -> Mask | None:
         tuple(int(2 * h + 1) for h in half),
         mode="constant",
     )
-    offset = (back[:3, :3] @ low + back[:3, 3])[::-1] + 1.0 + half
+    # a voxel just on a boundary belongs to one side of it: half-open, or both ends would grow
+    offset = (back[:3, :3] @ low + back[:3, 3])[::-1] + 1.0 + half + _OFF_TIES
     share = ndimage.affine_transform(
         values, flip @ back[:3, :3] @ flip, offset, output_shape=tuple((high - low)[::-1]), order=1
     )
