@@ -9,9 +9,16 @@ from pydicom import dcmread
 from pydicom.dataset import Dataset, FileDataset, FileMetaDataset
 from pydicom.uid import ExplicitVRLittleEndian, RLELossless
 
+from app.core import paths
 from app.core.progress import Progress
+from app.imaging.library import CtLibrary
 from app.imaging.reading import load_ct
-from app.imaging.structures.errors import FrameOfReferenceError, StructureFileError
+from app.imaging.scanning import scan_folder
+from app.imaging.structures.errors import (
+    FrameOfReferenceError,
+    StructureError,
+    StructureFileError,
+)
 from app.imaging.structures.files import read_structures, write_structures
 from app.imaging.structures.parsing import parse_structures
 from app.imaging.structures.structure import PlacedStructures, Structure, StructureSet
@@ -123,7 +130,8 @@ def read(path: Path, volume: Volume) -> PlacedStructures:
     numbers = tuple(float(v) for v in volume.affine_mm.ravel())
     uids = (volume.series.uid, *(h.identity.sop_uid for h in volume.series.slices))
     frame = volume.series.frame_of_reference
-    return parse_structures(path, volume.size, numbers, frame, uids, Progress())
+    settings = paths.settings()
+    return parse_structures(path, volume.size, numbers, frame, uids, settings, Progress())
 
 
 def full(found: PlacedStructures, volume: Volume, name="A") -> np.ndarray:
@@ -356,4 +364,21 @@ def test_a_file_without_any_place_is_refused_by_name(tmp_path, volume):
         read(path, volume)
     path = seg(tmp_path / "x.dcm", volume, on(volume, mask), "PROBABLY")
     with pytest.raises(StructureFileError, match=r"PROBABLY.*LABELMAP"):
+        read(path, volume)
+
+
+def test_a_file_of_the_original_lies_on_the_de_identified_copy_of_its_ct(tmp_path, volume):
+    mask = blob(volume)
+    path = seg(tmp_path / "x.dcm", volume, on(volume, mask))
+    entry = CtLibrary().import_series(scan_folder(tmp_path / "ct").series[0]).entry
+    copy = load_ct(entry.folder)
+    assert copy.series.frame_of_reference != volume.series.frame_of_reference
+    found = read_structures(path, copy)
+    assert np.array_equal(found.find("A").full(copy.hu.shape), mask)
+    assert found.notes == ()
+
+
+def test_empty_segments_are_called_empty_and_not_of_another_patient(tmp_path, volume):
+    path = seg(tmp_path / "x.dcm", volume, on(volume, np.zeros(volume.hu.shape, bool), (3, 4)))
+    with pytest.raises(StructureError, match="are empty"):
         read(path, volume)

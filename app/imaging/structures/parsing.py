@@ -5,6 +5,8 @@ Label maps as NIfTI files: each whole number above 0 is a structure.
 
 from __future__ import annotations
 
+import os
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +15,8 @@ import numpy as np
 from app.core.progress import Progress
 from app.imaging.errors import brief
 from app.imaging.header_reading import starts_like_dicom
+from app.imaging.privacy.key import installation_key
+from app.imaging.privacy.uids import UidMap
 from app.imaging.series import Series
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.extras import extra
@@ -93,6 +97,7 @@ def parse_structures(
     affine_mm: tuple[float, ...],
     frame_of_reference: str,
     uids: tuple[str, ...],
+    settings: Path,
     progress: Progress,
 ) -> PlacedStructures:
     """Job of the worker: read a file of structures onto the grid of a CT.
@@ -103,15 +108,18 @@ def parse_structures(
         affine_mm: its voxel (i, j, k) -> LPS [mm], row by row, 16 numbers.
         frame_of_reference: its FrameOfReferenceUID.
         uids: of its series and images.
+        settings: folder with the key that gives de-identified copies their UIDs.
         progress: told of each structure.
 
     Raises:
         StructureFileError, FrameOfReferenceError, StructureError, ExtraMissingError: see
             `read_structures`.
     """
+    os.environ["ACUS_SETTINGS"] = str(settings)
     volume = _grid(size, affine_mm, frame_of_reference)
     own = frozenset(uids) - {""}
-    found = place(_read(path, volume, own), volume, progress, own)
+    read = _of_the_copy(_read(path, volume, own), frame_of_reference)
+    found = place(read, volume, progress, own)
     return PlacedStructures(
         tuple(
             PlacedStructure(
@@ -121,6 +129,17 @@ def parse_structures(
         ),
         found.notes,
     )
+
+
+def _of_the_copy(found: Found, own: str) -> Found:
+    """Name a file's frame of reference as the de-identified copy of its CT does, if this is it."""
+    named = found.frame_of_reference
+    if not named or not own or named == own:
+        return found
+    new = UidMap(installation_key()).new
+    drawn_on = found.drawn_on | {new(uid) for uid in found.drawn_on}
+    frame = own if new(named) == own else named
+    return replace(found, frame_of_reference=frame, drawn_on=drawn_on)
 
 
 def _grid(size: tuple[int, int, int], affine_mm: tuple[float, ...], frame: str) -> Volume:
@@ -191,7 +210,17 @@ def _read_dicom(path: Path, volume: Volume, own: frozenset[str]) -> Found:
         from app.imaging.structures.rtstruct import read_rtstruct
 
         return read_rtstruct(dataset, path, volume)
-    raise _unknown(path, f"a DICOM file of modality {name[:16]}" if kind else "no structures")
+    what = f"a DICOM file of modality {name[:16]} ({_class_name(kind)})"
+    raise _unknown(path, what if kind else "no structures")
+
+
+def _class_name(uid: str) -> str:
+    """Name of a SOP class; one that the standard does not know is not repeated."""
+    from pydicom import config
+    from pydicom.uid import UID
+
+    name = UID(uid, config.IGNORE).name
+    return "of an unknown SOP class" if name == uid else name
 
 
 def _unknown(path: Path, what: str) -> StructureFileError:

@@ -88,13 +88,14 @@ def place(
         StructureError: if none of the structures has a voxel in the CT.
     """
     said = [*found.notes, *_same_frame(found, volume.series.frame_of_reference, uids)]
-    placed = StructureSet()
+    placed, empty = StructureSet(), 0
     for number, labelled in enumerate(found.structures):
         progress.report(number / found.count, f"structure {number + 1} of {found.count}")
         mask, note = _onto(labelled, volume)
         if note:
             said.append(note)
-        if mask is None or not mask.any():
+        if mask is None:
+            empty += not any(part.any() for part, _ in _parts(labelled))
             continue
         name = free_name(_clean(labelled.name, number), [one.name for one in placed])
         kind = labelled.kind or guessed_kind(name)
@@ -102,6 +103,8 @@ def place(
         structure = Structure.of(name, mask, volume, kind, colour, labelled.warn_mm)
         placed = placed.with_one(structure)
     if found.count and not len(placed):
+        if empty == found.count:
+            raise StructureError("the structures in the file are empty: nothing is drawn in them")
         raise StructureError(
             "none of the structures in the file lies in this CT: they belong to another patient "
             "or another scan"
@@ -135,11 +138,15 @@ def _clean(name: str, number: int) -> str:
     )
 
 
+def _parts(labelled: Labelled) -> tuple[tuple[Mask, FloatArray], ...]:
+    return ((labelled.mask, labelled.affine_mm), *labelled.others)
+
+
 def _onto(labelled: Labelled, volume: Volume) -> tuple[Mask | None, str]:
     """Mask on the grid of the CT, None where nothing of it lies there, and what was lost."""
     whole: Mask | None = None
     there, outside, all_exact = 0.0, 0.0, True
-    for part, to_patient in ((labelled.mask, labelled.affine_mm), *labelled.others):
+    for part, to_patient in _parts(labelled):
         if not part.any():
             continue
         box, corner = cropped(part)
