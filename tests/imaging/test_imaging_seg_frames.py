@@ -363,7 +363,7 @@ def test_a_file_without_any_place_is_refused_by_name(tmp_path, volume):
     with pytest.raises(StructureFileError, match="no frame that says where it lies"):
         read(path, volume)
     path = seg(tmp_path / "x.dcm", volume, on(volume, mask), "PROBABLY")
-    with pytest.raises(StructureFileError, match=r"PROBABLY.*LABELMAP"):
+    with pytest.raises(StructureFileError, match=r"no SegmentationType that is read.*LABELMAP"):
         read(path, volume)
 
 

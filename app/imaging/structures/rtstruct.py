@@ -123,13 +123,7 @@ def _regions(dataset: Any, path: Path) -> tuple[list[Region], list[str]]:
     known, notes = _declared(dataset, path)
     drawn: dict[int, Region] = {}
     strange: Counter[str] = Counter()
-    try:
-        items = list(dataset.ROIContourSequence)
-    except (AttributeError, TypeError, ValueError) as error:
-        raise StructureFileError(
-            f"{path.name} is no whole RT Structure Set ({brief(error)})"
-        ) from error
-    for item in items:
+    for item in _needed(dataset, "ROIContourSequence", path):
         number = _number(item, "ReferencedROINumber")
         if number is None or number not in known:
             strange["without a number" if number is None else f"number {number}"] += 1
@@ -148,12 +142,7 @@ def _regions(dataset: Any, path: Path) -> tuple[list[Region], list[str]]:
 
 def _declared(dataset: Any, path: Path) -> tuple[dict[int, Region], list[str]]:
     """Return the regions that the file declares by number, without contours."""
-    try:
-        items = list(dataset.StructureSetROISequence)
-    except (AttributeError, TypeError, ValueError) as error:
-        raise StructureFileError(
-            f"{path.name} is no whole RT Structure Set ({brief(error)})"
-        ) from error
+    items = _needed(dataset, "StructureSetROISequence", path)
     kinds = {}
     for item in _items(dataset, "RTROIObservationsSequence"):
         number = _number(item, "ReferencedROINumber")
@@ -172,6 +161,18 @@ def _declared(dataset: Any, path: Path) -> tuple[dict[int, Region], list[str]]:
         frame = _text(item, "ReferencedFrameOfReferenceUID") or general
         known[number] = Region(name, None, kinds.get(number), frame)
     return known, notes
+
+
+def _needed(dataset: Any, keyword: str, path: Path) -> list[Any]:
+    """Return the items of a sequence that must be there."""
+    try:
+        return [item for item in getattr(dataset, keyword) if hasattr(item, "get")]
+    except MemoryError:
+        raise
+    except Exception as error:  # hostile bytes make the parser raise nearly anything
+        raise StructureFileError(
+            f"{path.name} is no whole RT Structure Set ({brief(error)})"
+        ) from error
 
 
 def _general_frame(dataset: Any) -> str:

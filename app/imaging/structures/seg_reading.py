@@ -107,7 +107,7 @@ def _named_images(dataset: Any) -> frozenset[str]:
 def _looked_through(dataset: Any, volume: Volume, names_ct: bool) -> tuple[Segmentation, list[str]]:
     kind = str(dataset.get("SegmentationType", "") or "").strip()
     if kind not in _TYPES:
-        raise StructureFileError(f"has the SegmentationType {kind!r}; {', '.join(_TYPES)} are read")
+        raise StructureFileError(f"has no SegmentationType that is read: {', '.join(_TYPES)}")
     if int(dataset.BitsAllocated) not in _BITS:
         raise StructureFileError(f"has {dataset.BitsAllocated} bits per pixel; 1, 8, 16 are read")
     rows, columns = int(dataset.Rows), int(dataset.Columns)
