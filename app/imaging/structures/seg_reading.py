@@ -72,10 +72,10 @@ def read_seg(dataset: Any, path: Path, volume: Volume, own: frozenset[str]) -> F
     with _named(path):
         drawn_on = _named_images(dataset)
         segmentation, notes = _looked_through(dataset, volume, bool(drawn_on & own))
-        numbers = [int(item.SegmentNumber) for item in dataset.SegmentSequence]
+        count = len(_described(segmentation))
         frame = str(dataset.get("FrameOfReferenceUID", "") or "")
     structures = _segments(segmentation, path, volume)
-    return Found(structures, len(numbers), frame, tuple(notes), drawn_on)
+    return Found(structures, count, frame, tuple(notes), drawn_on)
 
 
 @contextmanager
@@ -185,9 +185,17 @@ def _values(segmentation: Segmentation, index: int) -> NDArray[Any] | None:
     return np.unpackbits(part, bitorder="little")[first % 8 :][:count].reshape(shape)
 
 
+def _described(segmentation: Segmentation) -> list[Any]:
+    """Return the descriptions of the segments; 0 of a label map is what belongs to none."""
+    items = list(segmentation.dataset.SegmentSequence)
+    if segmentation.kind != "LABELMAP":
+        return items
+    return [item for item in items if int(item.SegmentNumber)]
+
+
 def _segments(segmentation: Segmentation, path: Path, volume: Volume) -> Iterator[Labelled]:
     """Yield the segments one after the other: each has the size of a whole CT."""
-    for description in segmentation.dataset.SegmentSequence:
+    for description in _described(segmentation):
         with _named(path):
             labelled = _segment(segmentation, description, volume)
         yield labelled
