@@ -184,6 +184,13 @@ def _meeting(mask: Any, lines: Any, out: Any) -> None:
                 break
 
 
+def _fixed(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return it read-only, as most are: each type of array is compiled by itself."""
+    view = np.ascontiguousarray(mask, bool).view()
+    view.setflags(write=False)
+    return view
+
+
 def spans_inside(mask: NDArray[np.bool_], start: FloatArray, end: FloatArray) -> FloatArray:
     """Find the parts of a straight line inside a mask.
 
@@ -195,12 +202,12 @@ def spans_inside(mask: NDArray[np.bool_], start: FloatArray, end: FloatArray) ->
     Returns:
         Begin and end of each part as shares of the line, ascending, shape (n, 2).
     """
-    ends = np.asarray(start, np.float64), np.asarray(end, np.float64)
+    ends = np.array(start, np.float64), np.array(end, np.float64)
     spans = np.empty((64, 2))
-    count = int(_inside(mask, *ends, spans, False))
+    count = int(_inside(_fixed(mask), *ends, spans, False))
     if count > len(spans):
         spans = np.empty((count, 2))
-        _inside(mask, *ends, spans, False)
+        _inside(_fixed(mask), *ends, spans, False)
     return spans[:count]
 
 
@@ -215,5 +222,5 @@ def meeting(mask: NDArray[np.bool_], lines: FloatArray) -> NDArray[np.bool_]:
         Shape (n,).
     """
     found = np.zeros(len(lines), bool)
-    _meeting(mask, np.ascontiguousarray(lines, np.float64), found)
+    _meeting(_fixed(mask), np.array(lines, np.float64), found)
     return found
