@@ -310,7 +310,7 @@ def test_text_in_the_offset_table_is_left_out_and_a_tidy_file_is_copied_bit_for_
 
 
 @pytest.mark.parametrize("signed", [False, True])
-@pytest.mark.parametrize("syntax", [RLELossless, JPEGLosslessSV1])
+@pytest.mark.parametrize("syntax", [RLELossless, JPEGLosslessSV1, JPEGLSLossless, JPEG2000Lossless])
 def test_text_in_unused_bits_of_encoded_pixels_is_left_out(tmp_path, syntax, signed):
     values = picture(12, signed)
     cells = (values.view("<u2") & 0x0FFF).ravel()
@@ -321,6 +321,8 @@ def test_text_in_unused_bits_of_encoded_pixels_is_left_out(tmp_path, syntax, sig
     dataset.PixelData = cells.tobytes()
     dataset, _ = encoded(dataset, syntax)
     dataset.BitsStored, dataset.HighBit, dataset.PixelRepresentation = 12, 11, int(signed)
+    if syntax in (JPEGLSLossless, JPEG2000Lossless):  # theirs are values unless they are overlays
+        dataset.add_new(0x60000102, "US", 15)
     copy, _, tally = copied(dataset, tmp_path)
     assert np.array_equal(stored_values(copy), values)
     assert copy.pixel_array.max() < 0x1000

@@ -98,12 +98,13 @@ def _encoded(header: SliceHeader, original: Dataset, result: Dataset) -> tuple[U
     stream = BytesIO(old)
     frames = [frame_bytes(stream, place) for place in places]
     syntax = header.pixels.syntax
-    if _drawn_over(original) or any(_hides_bits(frame, header) for frame in frames):
-        return _anew(header, result)
+    drawn_over = _drawn_over(original)
+    if drawn_over or any(_hides_bits(frame, header) for frame in frames):
+        return _anew(header, result, drawn_over)
     try:
         kept = [only_pixels(frame, syntax, form.rows * form.columns) for frame in frames]
     except NotKnownError:
-        return _anew(header, result)
+        return _anew(header, result, False)
     if kept == frames and _is_tidy(fragments, places):
         return UID(syntax), False
     for before, after in zip(frames, kept, strict=True):
@@ -159,14 +160,22 @@ def _decode_alike(header: SliceHeader, one: bytes, other: bytes) -> bool:
     return np.array_equal(first, second)
 
 
-def _anew(header: SliceHeader, result: Dataset) -> tuple[UID, bool]:
-    """Encode the values of all frames anew: JPEG-LS, without loss; uncompressed where it cannot."""
+def _anew(header: SliceHeader, result: Dataset, stored_only: bool) -> tuple[UID, bool]:
+    """Encode the values of all frames anew: JPEG-LS, without loss; uncompressed where it cannot.
+
+    Args:
+        header: of the file.
+        result: takes them up.
+        stored_only: leave out bits beyond BitsStored that the code stream counts as its own.
+    """
     form = header.format
     low, high = form.stored_range
     pictures, fit = [], form.bits_stored >= 2
     for frame in range(max(form.frames, 1)):
         out = np.empty((form.rows, form.columns), stored_type(form))
         read_stored(replace(header, frame=frame), out)
+        if stored_only:
+            codecs.keep_bits(out, form.bits_stored, form.bits_stored - 1)
         fit &= bool(out.min() >= low and out.max() <= high)
         pictures.append(out)
     encoded = [_jpeg_ls(out, header) for out in pictures] if fit else []
