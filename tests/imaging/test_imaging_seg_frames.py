@@ -256,7 +256,11 @@ def test_a_file_whose_pixels_are_cut_short_gives_the_frames_that_are_whole(tmp_p
     found = read(path, volume)
     mask[5] = False
     assert np.array_equal(full(found, volume), mask)
-    assert any("cut short" in note for note in found.notes)
+    assert any("1 frame without pixels that can be read" in note for note in found.notes)
+    del dataset.PixelData
+    dataset.save_as(path)
+    with pytest.raises(StructureFileError, match="holds no pixels"):
+        read(path, volume)
 
 
 def ball(volume: Volume, radius: float, centre=None) -> np.ndarray:

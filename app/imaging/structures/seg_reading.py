@@ -146,10 +146,12 @@ def _sort_pixels(segmentation: Segmentation, left_out: Counter[str]) -> set[int]
     described = {int(item.SegmentNumber) for item in segmentation.dataset.SegmentSequence}
     least = SHARE * float(segmentation.dataset.get("MaximumFractionalValue", 255) or 255)
     undescribed: set[int] = set()
+    whole = 0
     for frame in segmentation.frames:
         values = _values(segmentation, frame.index)
+        whole += values is not None
         if values is None:
-            left_out["without their pixels (the file is cut short)"] += 1
+            left_out["without pixels that can be read (cut short or damaged)"] += 1
         elif frame.segment is not None:
             inside = values >= least if segmentation.kind == "FRACTIONAL" else values != 0
             _add(segmentation, frame.segment, frame, inside)
@@ -158,6 +160,8 @@ def _sort_pixels(segmentation: Segmentation, left_out: Counter[str]) -> set[int]
             undescribed |= numbers - described
             for number in numbers & described:
                 _add(segmentation, number, frame, values == number)
+    if not whole:
+        raise StructureFileError("holds no pixels that can be read: it is cut short or damaged")
     return undescribed
 
 
@@ -167,14 +171,20 @@ def _add(segmentation: Segmentation, number: int, frame: Frame, inside: NDArray[
 
 
 def _values(segmentation: Segmentation, index: int) -> NDArray[Any] | None:
-    """Return the values of a frame, shape (rows, columns); None if the file ends before it."""
+    """Return the values of a frame, shape (rows, columns); None if they cannot be read."""
     dataset, shape = segmentation.dataset, (segmentation.rows, segmentation.columns)
     syntax = UID(dataset.file_meta.TransferSyntaxUID)
     if syntax.is_compressed and not syntax.is_deflated:
-        decoded = get_decoder(syntax).as_array(dataset, index=index, raw=True)[0]
-        values: NDArray[Any] = np.asarray(decoded).reshape(shape)
+        try:
+            decoded = get_decoder(syntax).as_array(dataset, index=index, raw=True)[0]
+            values: NDArray[Any] = np.asarray(decoded).reshape(shape)
+        except MemoryError:
+            raise
+        except Exception:  # decoders raise whatever the bytes lead them to
+            return None
         return values
-    data, bits, count = dataset.PixelData, int(dataset.BitsAllocated), shape[0] * shape[1]
+    data = dataset.get("PixelData") or b""
+    bits, count = int(dataset.BitsAllocated), shape[0] * shape[1]
     if len(data) * 8 < (index + 1) * count * bits:
         return None
     if bits > 1:
