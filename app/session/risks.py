@@ -32,14 +32,14 @@ if TYPE_CHECKING:
 KIND: Final = "risk"
 """Kind of the event."""
 
-VERSION: Final = 1
-"""Of the event's data."""
+VERSION: Final = 2
+"""Of the event's data; 1 told the time inside by samples of a grid of distances."""
 
 STEP_MM: Final = 1.0
 """The shaft is looked at in steps of this."""
 
 SAME_MM: Final = 0.1
-"""Needles whose ends are all this near are looked at once."""
+"""Of needles whose ends are all this near, the distance is measured once."""
 
 CLOSEST: Final = 24
 """So many needles, the nearest by the grid of distances, are measured exactly."""
@@ -72,15 +72,21 @@ def risk_marks_of(
     rows, lines, spans = _needles(samples, placed)
     if not len(rows):
         return ()
+    kept = _different(lines)
     found = []
     for risk in wanted:
-        rough = _roughly(lines, risk.field)
-        order = np.argsort(rough, kind="stable")[:CLOSEST].tolist()
+        meets = risk.field.boundary.meets(lines)
+        looked_at = kept
+        if meets.any():  # then the deepest is one of these
+            inside = np.flatnonzero(meets)
+            looked_at = inside[_different(lines[inside])]
+        rough = _roughly(lines[looked_at], risk.field)
+        order = looked_at[np.argsort(rough, kind="stable")[:CLOSEST]].tolist()
         closest, n = _closest(lines, order, risk.field)
         row = rows[n]
         depth = float(samples.depth[row]) / MILLIMETRE
-        at, inside = float(samples.time[row]), float(spans[rough <= 0.0].sum())
-        found.append(RiskMark(risk.name, risk.limit_mm, closest, at, depth, inside))
+        at, inside_s = float(samples.time[row]), float(spans[meets].sum())
+        found.append(RiskMark(risk.name, risk.limit_mm, closest, at, depth, inside_s))
     return tuple(found)
 
 
@@ -128,7 +134,7 @@ def sentence(mark: RiskMark) -> str:
 
 
 def _needles(samples: Samples, placed: PlacedPlan) -> tuple[Any, FloatArray, FloatArray]:
-    """Find the needles that differ: number of their sample, corners in LPS [mm], for how long [s].
+    """Find the needles in the body: number of their sample, corners in LPS [mm], how long [s].
 
     Two corners each, entry and tip; as many as a bent needle has where one of them is bent.
     """
@@ -146,12 +152,13 @@ def _needles(samples: Samples, placed: PlacedPlan) -> tuple[Any, FloatArray, Flo
         lines = _bent(lines, samples.axis[rows], samples.depth[rows], samples.bend[rows])
     corners = placed.T_world_patient.inverse() @ lines.reshape(-1, 3) / MILLIMETRE
     lines = corners.reshape(lines.shape)
-    alike = np.rint(lines.reshape(len(rows), -1) / SAME_MM)
-    _, kept, which = np.unique(alike, axis=0, return_index=True, return_inverse=True)
-    spans = np.diff(samples.time, append=samples.time[-1])[rows]
-    lasting: FloatArray = np.bincount(which.ravel(), spans, len(kept)).astype(np.float64)
-    order = np.argsort(kept)
-    return rows[kept[order]], lines[kept[order]], lasting[order]
+    return rows, lines, np.diff(samples.time, append=samples.time[-1])[rows]
+
+
+def _different(lines: FloatArray) -> Any:
+    """Numbers of needles that differ, ascending."""
+    alike = np.rint(lines.reshape(len(lines), -1) / SAME_MM)
+    return np.sort(np.unique(alike, axis=0, return_index=True)[1])
 
 
 def _bent(lines: FloatArray, axes: FloatArray, depths: FloatArray, bends: FloatArray) -> FloatArray:

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 from app.core.progress import Cancelled, Progress
 from app.imaging.series import Series
+from app.imaging.structures.contours import even_odd
 from app.imaging.structures.distance import SignedDistance
 from app.imaging.structures.edit import brushed
 from app.imaging.structures.errors import FrameOfReferenceError, StructureError
-from app.imaging.structures.parsing import even_odd
 from app.imaging.structures.placing import Found, Labelled, guessed_kind, place
 from app.imaging.structures.structure import (
     MOST_POINTS,

@@ -130,3 +130,32 @@ def test_a_mark_that_is_none_is_refused() -> None:
     with pytest.raises(TrajectoryError, match="finite"):
         RiskMark("x", -1.0, 0.0)
     assert issubclass(TrajectoryError, AcusError)
+
+
+def plate(depth_mm: float) -> SignedDistance:
+    """Return the distances of one layer of 0.7 mm voxels across the path, its middle at a depth."""
+    size = (60, 110, 60)
+    affine = np.diag([0.7, 0.7, 0.7, 1.0])
+    affine[:3, 3] = ENTRY + [-20.65, depth_mm - 70.0 * 0.7, -20.65]
+    series = Series("2.25.1", "CT", "", size, None, None, None, True, "", (), "p", "", ())
+    volume = Volume(np.zeros(size[::-1], np.int16), affine, series)
+    mask = np.zeros(volume.hu.shape, bool)
+    mask[:, 70] = True
+    return SignedDistance.of(Structure.of("plate", mask, volume))
+
+
+@pytest.mark.parametrize("depth_mm", [20.0, 24.3, 30.15, 33.33])
+def test_the_time_inside_a_plate_of_one_voxel_is_that_since_the_tip_reached_it(
+    bench: Bench, depth_mm: float
+) -> None:
+    result = attempt(bench, Risk("plate", 1.0, plate(depth_mm)))
+    assert result.record is not None
+    recording = read_recording(result.record)
+    samples = recording.samples
+    within = samples.valid & (1000.0 * samples.depth >= depth_mm - 0.35)
+    spans = np.diff(samples.time, append=samples.time[-1])
+    (mark,) = risk_marks(recording.events)
+    assert spans[within].sum() > 0.1
+    period = float(np.median(spans))
+    assert mark.inside_s == pytest.approx(float(spans[within].sum()), abs=1.5 * period)
+    assert mark.closest_mm < 0.0

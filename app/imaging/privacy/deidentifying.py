@@ -1,6 +1,6 @@
 """A series de-identified into a folder, in the worker process: the originals are foreign files.
 
-One file in, one de-identified file out; the pixels bit for bit unless somebody drew on them. A head
+One file in, one de-identified file out; every pixel as it was unless somebody drew on it. A head
 scan can be rendered to a likeness of the face: that is said, never quietly dealt with. In a second
 pass what was written is read again and searched for what must not be there.
 """
@@ -33,6 +33,7 @@ from app.imaging.privacy.burned_in import MaskBox, check_numbers, of_picture
 from app.imaging.privacy.errors import BurnedInError, NotCleanError, PrivacyError
 from app.imaging.privacy.forms import values
 from app.imaging.privacy.key import installation_key
+from app.imaging.privacy.pixels import take_pixels
 from app.imaging.privacy.profile import Profile, profile
 from app.imaging.privacy.pseudonyms import patient_pseudonym, pseudonym
 from app.imaging.privacy.report import LOCK, Deidentified, Tally, file_name
@@ -321,38 +322,28 @@ def convert(
         tally.warn(text)
     result = deidentified(original, rules, tally)
     secrets.scrub(result, tally)
-    syntax = UID(header.pixels.syntax)
-    if boxes or _drawn_over(original):
-        _redraw(header, original, result, boxes)
+    if boxes:
+        _redraw(header, result, boxes)
         syntax = ExplicitVRLittleEndian
         tally.masked += 1
+    else:
+        syntax, stripped = take_pixels(header, original, result)
+        tally.stripped += stripped
     _write(result, to, syntax)
     tally.files += 1
     return pixel_digest(result)
 
 
-def _drawn_over(original: Dataset) -> bool:
-    """Whether an overlay lies in the unused bits of the pixels (PS3.5 8.1.2, retired)."""
-    return any(
-        tag.group & 0xFF00 == 0x6000 and tag.element == 0x0102 and int(original[tag].value or 0) > 0
-        for tag in list(original.keys())
-    )
-
-
-def _redraw(
-    header: SliceHeader, original: Dataset, result: Dataset, boxes: Sequence[MaskBox]
-) -> None:
-    """Write the pixels anew: what was drawn in unused bits is gone, boxes are black."""
+def _redraw(header: SliceHeader, result: Dataset, boxes: Sequence[MaskBox]) -> None:
+    """Write the pixels anew, boxes black."""
     form = header.format
     if form.frames != 1:
         raise BurnedInError("boxes can be drawn on files of one picture only")
     stored = np.empty((form.rows, form.columns), stored_type(form))
     read_stored(header, stored)
     slope = header.rescale.slope if header.rescale else 1.0
-    if boxes:
-        inverted = form.photometric == "MONOCHROME1"
-        stored = burned_in.blackened(stored, boxes, slope, inverted)
-        result.BurnedInAnnotation = "NO"
+    stored = burned_in.blackened(stored, boxes, slope, form.photometric == "MONOCHROME1")
+    result.BurnedInAnnotation = "NO"
     wide = stored.dtype.itemsize == 2
     raw = stored.astype(stored.dtype.newbyteorder("<")).tobytes()
     result.add_new("PixelData", "OW" if wide else "OB", raw + b"\0" * (len(raw) % 2))

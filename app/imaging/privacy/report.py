@@ -23,6 +23,7 @@ class Tally:
     unfit: Counter[str] = field(default_factory=Counter)
     private: int = 0
     masked: int = 0
+    stripped: int = 0
     files: int = 0
     warnings: dict[str, None] = field(default_factory=dict)
 
@@ -44,6 +45,7 @@ class Tally:
             unfit=dict(sorted(self.unfit.items())),
             private=self.private,
             masked=self.masked,
+            stripped=self.stripped,
             files=self.files,
             warnings=tuple(self.warnings),
         )
@@ -61,6 +63,7 @@ class RemovalReport:
         unfit: attributes that would be kept but whose value had another form: taken out.
         private: how many private attributes were taken out.
         masked: files whose pixels were blackened where an instructor drew.
+        stripped: files whose pixel data held more than pixels, which was left out.
         files: how many were written.
         warnings: what a person must look at.
     """
@@ -72,6 +75,7 @@ class RemovalReport:
     unfit: Mapping[str, int]
     private: int
     masked: int
+    stripped: int
     files: int
     warnings: tuple[str, ...]
 
@@ -88,6 +92,11 @@ class RemovalReport:
         lines.append(f"private attributes removed: {self.private}")
         if self.masked:
             lines.append(f"pixels blackened in {self.masked} files")
+        if self.stripped:
+            lines.append(
+                f"left out of the pixel data of {self.stripped} files: what is not pixels "
+                "(comments, unused bits, bytes behind the last one)"
+            )
         return (*lines, *(f"look at this: {warning}" for warning in self.warnings))
 
     def document(self) -> dict[str, Any]:
@@ -101,6 +110,7 @@ class RemovalReport:
             "unfit": dict(self.unfit),
             "private": self.private,
             "masked": self.masked,
+            "stripped": self.stripped,
             "warnings": list(self.warnings),
         }
 

@@ -1,4 +1,4 @@
-"""DICOM Segmentation (PS3.3 A.51), read and written by highdicom in the worker process.
+"""DICOM Segmentation (PS3.3 A.51), written by highdicom in the worker process.
 
 One that is written repeats what the files of its CT say, so those are read; and they are foreign
 files. Segments carry codes of SNOMED CT (PS3.16 CID 7150, 7159 and below) and colours in CIELab.
@@ -7,8 +7,6 @@ files. Segments carry codes of SNOMED CT (PS3.16 CID 7150, 7159 and below) and c
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +18,6 @@ from app.core.progress import Progress
 from app.imaging.errors import brief
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.extras import extra
-from app.imaging.structures.placing import Found, Labelled, guessed_kind
 from app.imaging.structures.structure import Colour, PlacedStructure, StructureKind
 
 CODES = {
@@ -166,73 +163,3 @@ def _uid(*parts: object) -> str:
     """UID under 2.25 (PS3.5 B.2) of what it stands for."""
     digest = hashlib.sha256(repr(parts).encode()).digest()[:16]
     return f"2.25.{int.from_bytes(digest, 'big')}"
-
-
-SHARE = 0.5
-"""A voxel of a fractional segment belongs to it from this value."""
-
-_KINDS = {codes[1][0]: kind for kind, codes in CODES.items() if kind is not StructureKind.OTHER}
-
-
-def read_seg(dataset: Any, path: Path) -> Found:
-    """Read the segments of a DICOM Segmentation: binary, fractional (from one half) or label map.
-
-    Raises:
-        StructureFileError: if the file is damaged, or its frames make no volume.
-        ExtraMissingError: without the extra `structures`.
-    """
-    highdicom = extra("highdicom", "DICOM SEG files")
-    if dataset.original_encoding[1] is False:
-        raise StructureFileError(
-            f"{path.name} is big endian; DICOM segmentations are read in little endian only"
-        )
-    with _named(path):
-        segmentation = highdicom.seg.Segmentation.from_dataset(dataset, copy=False)
-        numbers = [int(number) for number in segmentation.segment_numbers]
-        frame = str(dataset.get("FrameOfReferenceUID", ""))
-        kind = str(segmentation.segmentation_type.value)
-    notes: tuple[str, ...] = ()
-    if kind == "FRACTIONAL":
-        notes = ("fractional segments: a voxel belongs to one from 50 %",)
-    return Found(_segments(segmentation, numbers, path), len(numbers), frame, notes)
-
-
-def _segments(segmentation: Any, numbers: list[int], path: Path) -> Iterator[Labelled]:
-    """Yield the segments one after the other: each has the size of a whole CT."""
-    for number in numbers:
-        with _named(path):
-            found = _segment(segmentation, number)
-        yield found
-
-
-@contextmanager
-def _named(path: Path) -> Iterator[None]:
-    try:
-        yield
-    except MemoryError:
-        raise
-    except Exception as error:  # highdicom and pydicom raise whatever the file leads them to
-        raise StructureFileError(
-            f"{path.name} cannot be read as a DICOM segmentation ({brief(error)})"
-        ) from error
-
-
-def _segment(segmentation: Any, number: int) -> Labelled:
-    volume = segmentation.get_volume(segment_numbers=[number], combine_segments=False)
-    values = volume.array[..., 0]
-    affine = np.array(volume.affine, np.float64)[:, [2, 1, 0, 3]]  # (k, j, i) -> (i, j, k)
-    description = segmentation.get_segment_description(number)
-    name = str(description.segment_label) or f"segment {number}"
-    kind = _KINDS.get(str(description.segmented_property_type.value)) or guessed_kind(name)
-    return Labelled(name, values >= SHARE, affine, kind, _colour(description))
-
-
-def _colour(description: Any) -> Colour | None:
-    value = description.get("RecommendedDisplayCIELabValue")
-    if value is None:
-        return None
-    lightness, a, b = (int(v) for v in value)
-    lab = np.array(
-        [lightness * 100.0 / 65535.0, a * 255.0 / 65535.0 - 128.0, b * 255.0 / 65535.0 - 128.0]
-    )
-    return rgb_of(lab)

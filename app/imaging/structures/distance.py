@@ -27,6 +27,7 @@ from scipy.spatial import cKDTree
 
 from app.core.arrays import FloatArray, crosses, read_only
 from app.core.progress import Progress
+from app.imaging.structures.inside import meeting, spans_inside
 from app.imaging.structures.structure import Structure
 
 Indices = NDArray[np.intp]
@@ -95,12 +96,26 @@ class Boundary:
 
     def inside(self, points_mm: FloatArray) -> NDArray[np.bool_]:
         """Whether the structure's share at points, linear between voxel centres, is one half."""
-        inverse = np.linalg.inv(self._structure.grid_mm)
-        at = points_mm @ inverse[:3, :3].T + inverse[:3, 3]
+        at = self._in_voxels(points_mm)
         share = ndimage.map_coordinates(
             self._structure.mask, at[:, ::-1].T, np.float32, order=1, mode="grid-constant"
         )
         result: NDArray[np.bool_] = share >= 0.5
+        return result
+
+    def spans(self, start_mm: FloatArray, end_mm: FloatArray) -> FloatArray:
+        """Find the parts of a straight line inside: shares of it, ascending, shape (n, 2)."""
+        start, end = self._in_voxels(np.stack([start_mm, end_mm]))
+        return spans_inside(self._structure.mask, start, end)
+
+    def meets(self, lines_mm: FloatArray) -> NDArray[np.bool_]:
+        """Tell which lines of straight pieces are inside anywhere, (n, corners, 3) -> (n,)."""
+        lines = self._in_voxels(lines_mm.reshape(-1, 3)).reshape(lines_mm.shape)
+        return meeting(self._structure.mask, lines)
+
+    def _in_voxels(self, points_mm: FloatArray) -> FloatArray:
+        inverse = np.linalg.inv(self._structure.grid_mm)
+        result: FloatArray = points_mm @ inverse[:3, :3].T + inverse[:3, 3]
         return result
 
     def _of_cells(self, cells: list[int]) -> FloatArray:
@@ -206,7 +221,7 @@ class Nearest:
         distance_mm: there; negative where the line runs through it.
         at_mm: the point of the line, LPS [mm], shape (3,).
         depth_mm: its distance from the line's start [mm].
-        through_mm: length of the line inside the structure [mm].
+        through_mm: length of the line inside the structure [mm], exact to its boundary.
     """
 
     distance_mm: float
@@ -291,9 +306,10 @@ class SignedDistance:
         length = float(np.linalg.norm(end - start))
         shares = np.linspace(0.0, 1.0, max(2, int(np.ceil(length / SAMPLE_MM)) + 1))
         points = start + shares[:, None] * (end - start)
-        through = float(self.boundary.inside(points).mean()) * length
+        spans = self.boundary.spans(start, end)
+        through = float((spans[:, 1] - spans[:, 0]).sum()) * length
         least, most = self.boundary.bounds_mm(points)
-        if least.min() > within_mm:
+        if least.min() > within_mm and not len(spans):
             best = int(np.argmin(most))
             return Nearest(
                 float(self.at(points[best])[0]), points[best], float(shares[best]) * length, through
@@ -302,6 +318,7 @@ class SignedDistance:
         rough = shares[candidates[np.argmin(self.boundary.at(points[candidates]))]]
         step = shares[1] - shares[0]
         fine = np.clip(rough + step * np.linspace(-1.0, 1.0, 2 * REFINED + 1), 0.0, 1.0)
+        fine = np.concatenate([fine, spans.mean(axis=1)])  # thinner than a step too
         distances = self.boundary.at(start + fine[:, None] * (end - start))
         nearest = int(np.argmin(distances))
         share = float(fine[nearest])

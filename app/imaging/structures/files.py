@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 from uuid import uuid4
 
+from app.core import paths
 from app.core.errors import AcusError
 from app.core.files import sync
 from app.core.progress import Progress
@@ -43,7 +44,10 @@ def read_structures(path: Path, volume: Volume, progress: Progress | None = None
     progress = progress or Progress()
     progress.report(0.0, f"reading {path.name}")
     numbers = tuple(float(number) for number in volume.affine_mm.ravel())
-    arguments = (path.absolute(), volume.size, numbers, volume.series.frame_of_reference)
+    series = volume.series
+    uids = (series.uid, *dict.fromkeys(header.identity.sop_uid for header in series.slices))
+    frame = series.frame_of_reference
+    arguments = (path.absolute(), volume.size, numbers, frame, uids, paths.settings())
     try:
         parsed = shared_worker().call(STRUCTURES, arguments, _allowed(volume), progress)
         structures = tuple(_structure(one, volume) for one in parsed.structures)

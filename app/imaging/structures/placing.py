@@ -28,6 +28,10 @@ SAME_MM = 0.02
 """Grids whose voxels lie this near to each other are the same."""
 
 
+_OFF_TIES = 1e-3
+"""Voxels of the file by which grids are moved against each other."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Labelled:
     """What a file holds of one structure, on the file's own grid.
@@ -36,6 +40,7 @@ class Labelled:
         name, kind, colour, warn_mm: as the file says; `colour` None where it says nothing.
         mask: shape (K, J, I).
         affine_mm: voxel (i, j, k) -> LPS [mm], shape (4, 4).
+        others: further parts of it on grids of their own, (mask, affine) each.
     """
 
     name: str
@@ -44,6 +49,7 @@ class Labelled:
     kind: StructureKind | None = None
     colour: Colour | None = None
     warn_mm: float | None = None
+    others: tuple[tuple[Mask, FloatArray], ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -55,43 +61,41 @@ class Found:
         count: how many there are.
         frame_of_reference: FrameOfReferenceUID of the file; empty where it carries none.
         notes: what the reader has to say.
+        drawn_on: UIDs of the series and images that the file names as those it was drawn on.
     """
 
     structures: Iterable[Labelled]
     count: int
     frame_of_reference: str = ""
     notes: tuple[str, ...] = ()
+    drawn_on: frozenset[str] = frozenset()
 
 
-def place(found: Found, volume: Volume, progress: Progress) -> StructureSet:
+def place(
+    found: Found, volume: Volume, progress: Progress, uids: frozenset[str] = frozenset()
+) -> StructureSet:
     """Put structures of a file onto a CT.
 
     Args:
         found: what its reader found.
         volume: the CT; its grid is enough.
         progress: told of each structure.
+        uids: of the CT's series and images.
 
     Raises:
-        FrameOfReferenceError: if file and CT name different ones.
+        FrameOfReferenceError: if file and CT name different ones, and the file does not name this
+            very series or an image of it.
         StructureError: if none of the structures has a voxel in the CT.
     """
-    own, frame_of_reference = volume.series.frame_of_reference, found.frame_of_reference
-    if frame_of_reference and own and frame_of_reference != own:
-        raise FrameOfReferenceError(
-            "the structures were drawn on another frame of reference "
-            f"(…{frame_of_reference[-12:]}) than that of this CT (…{own[-12:]}): "
-            "open the CT that they belong to"
-        )
-    said = list(found.notes)
-    if not frame_of_reference:
-        said.append("the file names no frame of reference: placed by its coordinates alone")
-    placed = StructureSet()
+    said = [*found.notes, *_same_frame(found, volume.series.frame_of_reference, uids)]
+    placed, empty = StructureSet(), 0
     for number, labelled in enumerate(found.structures):
         progress.report(number / found.count, f"structure {number + 1} of {found.count}")
         mask, note = _onto(labelled, volume)
         if note:
             said.append(note)
-        if mask is None or not mask.any():
+        if mask is None:
+            empty += not any(part.any() for part, _ in _parts(labelled))
             continue
         name = free_name(_clean(labelled.name, number), [one.name for one in placed])
         kind = labelled.kind or guessed_kind(name)
@@ -99,11 +103,33 @@ def place(found: Found, volume: Volume, progress: Progress) -> StructureSet:
         structure = Structure.of(name, mask, volume, kind, colour, labelled.warn_mm)
         placed = placed.with_one(structure)
     if found.count and not len(placed):
+        if empty == found.count:
+            raise StructureError("the structures in the file are empty: nothing is drawn in them")
         raise StructureError(
             "none of the structures in the file lies in this CT: they belong to another patient "
             "or another scan"
         )
     return StructureSet(placed.structures, tuple(said))
+
+
+def _same_frame(found: Found, own: str, uids: frozenset[str]) -> list[str]:
+    """Check that file and CT share a frame of reference; return what has to be said of it."""
+    named = found.frame_of_reference
+    if not named:
+        return ["the file names no frame of reference: placed by its coordinates alone"]
+    if not own or named == own:
+        return []
+    if found.drawn_on & uids:
+        return [
+            f"the file names another frame of reference (…{named[-12:]}) than this CT "
+            f"(…{own[-12:]}), but also this very series as the one that it was drawn on: placed "
+            "by its coordinates; check that the outlines fit the picture"
+        ]
+    raise FrameOfReferenceError(
+        "the structures were drawn on another frame of reference "
+        f"(…{named[-12:]}) than that of this CT (…{own[-12:]}), and the file does not name this "
+        "series: open the CT that they belong to"
+    )
 
 
 def _clean(name: str, number: int) -> str:
@@ -112,30 +138,53 @@ def _clean(name: str, number: int) -> str:
     )
 
 
+def _parts(labelled: Labelled) -> tuple[tuple[Mask, FloatArray], ...]:
+    return ((labelled.mask, labelled.affine_mm), *labelled.others)
+
+
 def _onto(labelled: Labelled, volume: Volume) -> tuple[Mask | None, str]:
     """Mask on the grid of the CT, None where nothing of it lies there, and what was lost."""
-    if not labelled.mask.any():
+    whole: Mask | None = None
+    there, outside, all_exact = 0.0, 0.0, True
+    for part, to_patient in _parts(labelled):
+        if not part.any():
+            continue
+        box, corner = cropped(part)
+        affine = np.array(to_patient, np.float64)
+        affine[:3, 3] += affine[:3, :3] @ np.asarray(corner, np.float64)
+        to_volume = volume.inverse_mm @ affine  # voxel of the box -> voxel of the CT
+        exact = _exact(box, to_volume, volume)
+        mask = exact if exact is not None else _resampled(box, to_volume, volume)
+        size = float(abs(np.linalg.det(affine[:3, :3])) * box.sum())
+        there, all_exact = there + size, all_exact and exact is not None
+        outside += size * _outside(box, to_volume, volume)
+        if mask is not None:
+            whole = mask if whole is None else whole | mask
+    if not there:
         return None, f"{labelled.name} is empty in the file and was left out"
-    box, corner = cropped(labelled.mask)
-    affine = np.array(labelled.affine_mm, np.float64)
-    affine[:3, 3] += affine[:3, :3] @ np.asarray(corner, np.float64)
-    to_volume = volume.inverse_mm @ affine  # voxel of the box -> voxel of the CT
-    exact = _exact(box, to_volume, volume)
-    mask = exact if exact is not None else _resampled(box, to_volume, volume)
-    if mask is None or not mask.any():
+    if whole is None or not whole.any():
         return None, f"{labelled.name} lies outside this CT and was left out"
-    there = abs(np.linalg.det(affine[:3, :3])) * box.sum()
-    here = abs(np.linalg.det(volume.affine_mm[:3, :3])) * mask.sum()
+    return whole, _lost(labelled.name, whole, (there, outside / there, all_exact), volume)
+
+
+def _outside(box: Mask, to_volume: FloatArray, volume: Volume) -> float:
+    """Share of a mask's voxels whose centres lie outside a CT."""
     at = np.argwhere(box)[:, ::-1] @ to_volume[:3, :3].T + to_volume[:3, 3]
-    outside = ((at < -0.5) | (at > np.array(volume.size) - 0.5)).any(axis=1).mean()
+    return float(((at < -0.5) | (at > np.array(volume.size) - 0.5)).any(axis=1).mean())
+
+
+def _lost(name: str, mask: Mask, before: tuple[float, float, bool], volume: Volume) -> str:
+    """Say what became of a structure whose size [mm³], share outside and exactness were so."""
+    there, outside, exact = before
+    here = abs(np.linalg.det(volume.affine_mm[:3, :3])) * mask.sum()
     if outside > 0.005:
-        return mask, f"{100.0 * outside:.0f} % of {labelled.name} lie outside this CT"
-    if exact is None and abs(here / there - 1.0) > 0.1:
-        return mask, (
-            f"{labelled.name} has {here / 1000.0:.2f} ml on the grid of this CT, "
+        return f"{100.0 * outside:.0f} % of {name} lie outside this CT"
+    if not exact and abs(here / there - 1.0) > 0.1:
+        return (
+            f"{name} has {here / 1000.0:.2f} ml on the grid of this CT, "
             f"{there / 1000.0:.2f} ml in the file"
         )
-    return mask, ""
+    return ""
 
 
 def _exact(box: Mask, to_volume: FloatArray, volume: Volume) -> Mask | None:
@@ -175,7 +224,8 @@ def _resampled(box: Mask, to_volume: FloatArray, volume: Volume) -> Mask | None:
         tuple(int(2 * h + 1) for h in half),
         mode="constant",
     )
-    offset = (back[:3, :3] @ low + back[:3, 3])[::-1] + 1.0 + half
+    # a voxel just on a boundary belongs to one side of it: half-open, or both ends would grow
+    offset = (back[:3, :3] @ low + back[:3, 3])[::-1] + 1.0 + half + _OFF_TIES
     share = ndimage.affine_transform(
         values, flip @ back[:3, :3] @ flip, offset, output_shape=tuple((high - low)[::-1]), order=1
     )
