@@ -23,8 +23,9 @@ from app.core.configuration import Strict, load
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
 from app.tracking.errors import RigError
-from app.tracking.optics.calibration import StereoCalibration
+from app.tracking.optics.calibration import StereoCalibration, require_coefficients
 from app.tracking.optics.camera_model import CameraModel
+from app.tracking.optics.lens import LensModel
 
 Triple = tuple[float, float, float]
 
@@ -35,7 +36,8 @@ class CameraProfile(Strict):
     Attributes:
         focal_px: fx, fy.
         centre_px: cx, cy; pixel (0, 0) is the centre of the upper left pixel.
-        distortion: k1, k2, p1, p2, k3 in OpenCV's order.
+        distortion: coefficients of `lens` in OpenCV's order: k1, k2, p1, p2, k3 of the usual one.
+        lens: model of the distortion.
         position_mm: centre of projection in world.
         looks_at_mm: any point on the optical axis, in world.
         roll_deg: turn of the picture about the optical axis; at 0 the world's z points up in it.
@@ -45,10 +47,16 @@ class CameraProfile(Strict):
     image_size: tuple[int, int]
     focal_px: tuple[float, float]
     centre_px: tuple[float, float]
-    distortion: tuple[float, float, float, float, float]
+    distortion: tuple[float, ...]
+    lens: LensModel = LensModel.BROWN
     position_mm: Triple
     looks_at_mm: Triple
     roll_deg: float = 0.0
+
+    @model_validator(mode="after")
+    def _counted(self) -> Self:
+        require_coefficients(self.lens, self.distortion)
+        return self
 
     def model(self) -> CameraModel:
         """Build the camera.
@@ -62,6 +70,7 @@ class CameraProfile(Strict):
             np.array(self.distortion),
             self.image_size,
             self._pose(),
+            self.lens,
         )
 
     def _pose(self) -> RigidTransform:

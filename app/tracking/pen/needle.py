@@ -132,7 +132,7 @@ def solve_needle(
         base: pose of the sheet.
         T_world_base: place of the sheet.
         tip: of the pen.
-        parameter_covariance: of the camera's parameters, shape (9, 9).
+        parameter_covariance: of the camera's parameters, shape (m, m).
     """
     T_world_camera = T_world_base @ base.T_camera_board.inverse()
     T_world_body = T_world_camera @ body.T_camera_board
