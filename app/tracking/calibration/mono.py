@@ -42,7 +42,7 @@ class MonoResult:
         chosen: every view given, in that order, with the corners that fit better: refined, or as
             the finder gave them.
         residuals: of every view given, in that order.
-        dropped: coefficients that the data do not support.
+        dropped: coefficients that the views do not tell.
         usual_rms_px: what OpenCV's plain recipe leaves on the same corners: all views, all five
             coefficients; None if it finds nothing.
         held_back_rms_px: of views that took no part; None if there were none.
@@ -119,7 +119,7 @@ _Model = tuple[Adjusted, tuple[str, ...], tuple[Dropped, ...]]
 def _estimated(
     views: list[BoardView], name: str, progress: Progress
 ) -> tuple[list[BoardView], list[BoardView], _Model]:
-    """Return views used, views left out, and the smallest model of the camera."""
+    """Return views used, views left out, and the model of the camera."""
     used, out = _without_outliers(views, progress.part(0.2, 0.6))
     progress.report(0.6, f"{name}: which coefficients the views support")
     start, choosing = first_estimate(used), progress.part(0.7, 0.9)

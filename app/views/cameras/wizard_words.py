@@ -140,7 +140,7 @@ def baseline_sd(calibration: StereoCalibration) -> float:
 
 
 def parameter_rows(mono: MonoResult, camera: CameraCalibration) -> list[tuple[str, str]]:
-    """Each parameter with its standard deviation; in brackets what the views do not support.
+    """Each parameter with its standard deviation; in brackets what the views do not tell.
 
     Args:
         mono: the camera by itself, which decided on the distortion's coefficients.
@@ -166,9 +166,9 @@ def parameter_rows(mono: MonoResult, camera: CameraCalibration) -> list[tuple[st
 
 def other_notes(calibration: StereoCalibration) -> list[str]:
     """Return notes that neither the table of parameters nor that of pairs tells."""
-    told = ("is not significant", "does not fit")
+    told = ("the views do not tell", "does not fit")
     notes = [note for note in calibration.notes if not any(words in note for words in told)]
-    return [tr("In brackets: not significant, so dropped (0 is used)."), *notes]
+    return [tr("In brackets: the views do not tell it; 0 is used."), *notes]
 
 
 def view_rows(result: StereoResult) -> list[tuple[str, float, Verdict, str]]:
