@@ -143,16 +143,16 @@ def stereo_document(
 
 def camera_document(camera: "CameraCalibration") -> dict[str, Any]:
     """Parameters of one camera as JSON."""
-    from app.tracking.optics.calibration import PARAMETERS
-
+    names = camera.lens.parameters
     values = [*camera.focal_px, *camera.centre_px, *camera.distortion]
     return {
         "name": camera.name,
         "image_size": list(camera.image_size),
+        "lens": camera.lens.value,
         "views": camera.views,
         "rms_px": camera.rms_px,
-        "parameters": dict(zip(PARAMETERS, values, strict=True)),
-        "sd": dict(zip(PARAMETERS, _sd(camera.covariance), strict=True)),
+        "parameters": dict(zip(names, values, strict=True)),
+        "sd": dict(zip(names, _sd(camera.covariance), strict=True)),
         "estimated": list(camera.estimated),
         "covariance": [list(row) for row in camera.covariance],
     }

@@ -13,7 +13,7 @@ from app.tracking.calibration.run import StereoResult
 from app.tracking.calibration.verdict import Grade, Why, judge
 from app.tracking.calibration.views import Rejection
 from app.tracking.calibration.world import WorldFrame
-from app.tracking.optics.calibration import PARAMETERS, CameraCalibration, StereoCalibration
+from app.tracking.optics.calibration import CameraCalibration, StereoCalibration
 from app.views.kit.text import tr
 from app.views.kit.verdict import Verdict
 
@@ -149,7 +149,7 @@ def parameter_rows(mono: MonoResult, camera: CameraCalibration) -> list[tuple[st
     values = (*camera.focal_px, *camera.centre_px, *camera.distortion)
     dropped = {one.name: one for one in mono.dropped}
     rows = []
-    for i, (name, value) in enumerate(zip(PARAMETERS, values, strict=True)):
+    for i, (name, value) in enumerate(zip(camera.lens.parameters, values, strict=True)):
         sd = max(0.0, camera.covariance[i][i]) ** 0.5
         if name in camera.estimated:
             digits = 2 if i < 4 else 4
