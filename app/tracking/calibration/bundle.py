@@ -194,7 +194,9 @@ class _Problem:
             > 3.0
         ):
             return None  # beyond half a turn a twist means something else
-        parameters = state.parameters + full[: state.parameters.size].reshape(state.parameters.shape)
+        parameters = state.parameters + full[: state.parameters.size].reshape(
+            state.parameters.shape
+        )
         if parameters[:, :2].min() <= 0.0:
             return None
         pose = state.T_right_left
@@ -236,9 +238,7 @@ def _inverse(matrix: FloatArray) -> tuple[FloatArray, float]:
     return inverse, float(values.min())
 
 
-def with_free(
-    names: Sequence[str], cameras: int = 1, lens: LensModel = LensModel.BROWN
-) -> Flags:
+def with_free(names: Sequence[str], cameras: int = 1, lens: LensModel = LensModel.BROWN) -> Flags:
     """Mark the parameters named as free, for every camera alike, shape (cameras, m)."""
     row = np.array([name in names for name in lens.parameters])
     return np.tile(row, (cameras, 1))

@@ -10,6 +10,7 @@ from app.core.progress import Progress
 from app.tracking.calibration.bundle import Adjusted, adjust, rms, with_free
 from app.tracking.calibration.lens_choice import BOTH, BROWN, FISHEYE, LensChoice, choose_lens
 from app.tracking.calibration.poses import better_corners, board_pose, first_estimate, usual_rms
+from app.tracking.calibration.ray_error import ray_sds, with_usual_k3
 from app.tracking.calibration.remarks import (
     ViewResidual,
     lens_remarks,
@@ -51,6 +52,7 @@ class MonoResult:
         residuals: of every view given, in that order.
         five_px: residual with five coefficients where the lens asks for another model; else None.
         dropped: coefficients that the views do not tell.
+        wide_covariance: of the camera's parameters with what is dropped as uncertain as it is.
         usual_rms_px: what OpenCV's plain recipe leaves on the same corners: all views, all five
             coefficients; None if it finds nothing.
         held_back_rms_px: of views that took no part; None if there were none.
@@ -64,6 +66,7 @@ class MonoResult:
     residuals: tuple[ViewResidual, ...]
     five_px: float | None
     dropped: tuple[Dropped, ...]
+    wide_covariance: FloatArray
     usual_rms_px: float | None
     held_back_rms_px: float | None
     notes: tuple[str, ...]
@@ -110,13 +113,14 @@ def calibrate_mono(
     residuals = _residuals(views, used, out, adjusted)
     apart = [r.rms_px for r in residuals if r.role == "held_back"]
     return MonoResult(
-        _calibration(name, views[0].image_size, adjusted, model.choice),
+        _calibration(name, views[0].image_size, adjusted, model),
         adjusted,
         tuple(used),
         tuple(views),
         residuals,
         model.five_px,
         model.dropped,
+        adjusted.covariance if model.wide_covariance is None else model.wide_covariance,
         usual_rms(views),
         float(np.sqrt(np.mean(np.square(apart)))) if apart else None,
         (
@@ -137,6 +141,7 @@ class _Model:
     adjusted: Adjusted
     five_px: float | None = None
     dropped: tuple[Dropped, ...] = ()
+    wide_covariance: FloatArray | None = None
 
 
 def _estimated(
@@ -155,7 +160,8 @@ def _estimated(
             used, (earlier or usual).state, LensChoice(BROWN.lens, free), choosing
         )
     )
-    return _Model(used, out, LensChoice(BROWN.lens, names), adjusted, None, dropped)
+    wide = with_usual_k3(usual.covariance) if dropped else None
+    return _Model(used, out, LensChoice(BROWN.lens, names), adjusted, None, dropped, wide)
 
 
 def _longer(
@@ -239,7 +245,9 @@ def _fit(
     parameters = np.where(free | (np.arange(count) < 4), parameters, 0.0)
     seen = [SeenBoard(i, 0, view.points, view.pixels) for i, view in enumerate(views)]
     progress.report(0.0, "adjusting")
-    return adjust(seen, AdjustedState(parameters, start.T_right_left, start.poses), free, None, steps)
+    return adjust(
+        seen, AdjustedState(parameters, start.T_right_left, start.poses), free, None, steps
+    )
 
 
 def _without_outliers(
@@ -299,17 +307,18 @@ def _residuals(
 
 
 def _calibration(
-    name: str, size: tuple[int, int], adjusted: Adjusted, choice: LensChoice
+    name: str, size: tuple[int, int], adjusted: Adjusted, model: _Model
 ) -> CameraCalibration:
-    count = len(choice.lens.parameters)
+    own = adjusted.covariance
     return camera_of(
         name,
         size,
         adjusted.state.parameters[0],
-        choice,
-        adjusted.covariance[:count, :count],
+        model.choice,
+        own,
         adjusted.rms_px,
         len(adjusted.residuals),
+        own if model.wide_covariance is None else model.wide_covariance,
     )
 
 
@@ -321,6 +330,7 @@ def camera_of(
     covariance: np.ndarray,
     rms_px: float,
     views: int,
+    wide_covariance: np.ndarray,
 ) -> CameraCalibration:
     """Return a camera as the value that files hold."""
     p = [float(value) for value in parameters]
@@ -335,4 +345,5 @@ def camera_of(
         covariance=tuple(tuple(float(value) for value in row) for row in covariance),
         rms_px=rms_px,
         views=views,
+        ray_sd_px=tuple(map(tuple, ray_sds(parameters, wide_covariance, size).tolist())),
     )

@@ -144,6 +144,7 @@ def _value(estimate: StereoEstimate, names: tuple[str, str], now: datetime) -> S
                 covariance[blocks[side], blocks[side]],
                 rms(estimate.residuals_of(side)),
                 len(estimate.pairs),
+                mono.wide_covariance if mono.dropped else covariance[blocks[side], blocks[side]],
             )
         )
     return StereoCalibration(
@@ -168,8 +169,6 @@ def _own_blocks(estimate: StereoEstimate) -> tuple[FloatArray, tuple[slice, slic
     left, right = (
         len(mono.calibration.lens.parameters) for mono in (estimate.left, estimate.right)
     )
-    keep = np.concatenate(
-        [np.arange(left), count + np.arange(right), 2 * count + np.arange(6)]
-    )
+    keep = np.concatenate([np.arange(left), count + np.arange(right), 2 * count + np.arange(6)])
     covariance = estimate.adjusted.covariance[np.ix_(keep, keep)]
     return covariance, (slice(0, left), slice(left, left + right))

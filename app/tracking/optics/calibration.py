@@ -21,6 +21,10 @@ from app.tracking.optics.lens import LensModel
 PARAMETERS = LensModel.BROWN.parameters
 """Order of the parameters of a camera with the usual lens in its covariance."""
 
+RAY_GRID = (7, 9)
+"""Rows and columns of the places at which the rays' deviation is kept: the first and last lie on
+the picture's edge."""
+
 FORMAT = "acus-stereo-calibration"
 
 Row3 = tuple[float, float, float]
@@ -41,6 +45,8 @@ class CameraCalibration(Strict):
         covariance: of the lens' parameters, as many rows as there are; zero rows for fixed ones.
         rms_px: root mean square of the reprojection error, 2D.
         views: number of pictures used.
+        ray_sd_px: standard deviation of its rays over the picture, rows of
+            `RAY_GRID` [px]; None in older and imported files.
     """
 
     name: Annotated[str, Field(min_length=1)]
@@ -53,6 +59,7 @@ class CameraCalibration(Strict):
     covariance: tuple[tuple[float, ...], ...] = ((0.0,) * 9,) * 9
     rms_px: Annotated[float, Field(ge=0.0)] = 0.0
     views: Annotated[int, Field(ge=0)] = 0
+    ray_sd_px: tuple[tuple[Annotated[float, Field(ge=0.0)], ...], ...] | None = None
 
     @model_validator(mode="before")
     @classmethod
@@ -71,6 +78,8 @@ class CameraCalibration(Strict):
             raise ValueError(
                 f"covariance needs {len(names)} rows of {len(names)} numbers, in the order {names}"
             )
+        if self.ray_sd_px is not None and np.shape(self.ray_sd_px) != RAY_GRID:
+            raise ValueError(f"ray_sd_px needs {RAY_GRID[0]} rows of {RAY_GRID[1]} numbers")
         if unknown := set(self.estimated) - set(names):
             raise ValueError(f"estimated names {sorted(unknown)}; there are {names}")
         return self

@@ -97,9 +97,7 @@ def _radial(r2: float, c: Any) -> Any:
     angle = np.arctan(r)
     a2 = angle * angle
     g = angle * (1.0 + a2 * (c[0] + a2 * (c[1] + a2 * (c[2] + a2 * c[3])))) / r
-    growth = 1.0 + a2 * (
-        3.0 * c[0] + a2 * (5.0 * c[1] + a2 * (7.0 * c[2] + a2 * 9.0 * c[3]))
-    )
+    growth = 1.0 + a2 * (3.0 * c[0] + a2 * (5.0 * c[1] + a2 * (7.0 * c[2] + a2 * 9.0 * c[3])))
     return g, (growth / (1.0 + r2) - g) / (2.0 * r2)
 
 

@@ -68,6 +68,11 @@ def verdict_of(calibration: StereoCalibration) -> Line:
             "the two pictures. What is stated is wider for it; hold the board still and take them "
             "again."
         )
+    if found.why is Why.RAYS:
+        return verdict, tr(
+            "Usable, but only where the board was seen: elsewhere in the pictures the rays are "
+            "hardly known. Take more pairs with the board near the edges and corners."
+        )
     if found.grade is Grade.USABLE:
         return verdict, tr("Usable, but worse than usual: more and sharper views will do better.")
     return verdict, tr("Good: pairs that took no part come out right.")

@@ -162,6 +162,7 @@ def _order(path: Path) -> tuple[int, str]:
 _PAIR: Final = ("M1", "D1", "M2", "D2", "R", "T")
 _LENS: Final = "camera_matrix"
 
+
 def read_opencv(
     files: Sequence[Path],
     *,
@@ -209,9 +210,7 @@ def read_opencv(
         where_d = f"{found[f'D{i}'][0]}: D{i}"
         model, distortion = lens_coefficients(where_d, values[f"D{i}"].ravel().tolist(), lens)
         cameras.append(
-            ImportedCamera(
-                source, image_size, focal, centre, distortion, T_camera_left, lens=model
-            )
+            ImportedCamera(source, image_size, focal, centre, distortion, T_camera_left, lens=model)
         )
     return stereo_of(cameras[0], cameras[1], "OpenCV FileStorage", names=names)
 
