@@ -229,10 +229,11 @@ def calibration_lines(calibration: "StereoCalibration") -> list[str]:
     for camera in calibration.cameras:
         width, height = camera.image_size
         (fx, fy), (cx, cy) = camera.focal_px, camera.centre_px
+        names = " ".join(camera.lens.coefficients)
         bends = " ".join(f"{value:.4g}" for value in camera.distortion)
         lines.append(
             f"{camera.name:13} {width}x{height}  f {fx:.2f} {fy:.2f}  c {cx:.2f} {cy:.2f}  "
-            f"{' '.join(camera.lens.coefficients)} {bends}  {camera.rms_px:.3f} px, {camera.views} views"
+            f"{names} {bends}  {camera.rms_px:.3f} px, {camera.views} views"
         )
     lines.append(
         f"pair          {calibration.rms_px:.3f} px, baseline {calibration.baseline * 1e3:.2f} mm"

@@ -15,8 +15,8 @@ from app.tracking.calibration.stereo import LEAST_PAIRS, StereoEstimate
 from app.tracking.calibration.validation import ViewPair
 from app.tracking.calibration.views import BoardView, Rejection
 from app.tracking.errors import CalibrationError
-from app.tracking.optics.lens import LensModel
 from app.tracking.optics.calibration import StereoCalibration
+from app.tracking.optics.lens import LensModel
 
 Seen = BoardView | Rejection
 

@@ -129,10 +129,11 @@ def _of_rays(calibration: StereoCalibration, region: Region | None) -> Judgement
         return None
     share, sd, name = worst
     where = "where the marker comes" if region is not None else "in a quarter of its picture"
+    mm, good = (part * USUAL_DISTANCE_MM for part in (share, GOOD_SHARE))
     text = (
-        f"{name}: {where} its rays are known to ± {sd:.2g} px only, {share * USUAL_DISTANCE_MM:.2g} "
-        f"mm at {USUAL_DISTANCE_MM:.0f} mm ({GOOD_SHARE * USUAL_DISTANCE_MM:.2g} mm is good): the "
-        "board was not seen there; show it there too, up to the edges"
+        f"{name}: {where} its rays are known to ± {sd:.2g} px only, {mm:.2g} mm at "
+        f"{USUAL_DISTANCE_MM:.0f} mm ({good:.2g} mm is good): the board was not seen there; show "
+        "it there too, up to the edges"
     )
     if share > WORST_SHARE and region is not None:
         return Judgement(Grade.NOT_GOOD_ENOUGH, Why.RAYS_BAD, text)

@@ -214,8 +214,9 @@ class StereoCalibration(Strict):
         validation: on views held back; None if there were none.
         together: how well the pairs fit together; None in older and imported files.
         joint_covariance: of both cameras' parameters and the twist of `pose`, estimated together,
-            24 rows of 24 for two usual lenses; None where only each one's own is known (imported files). Lenses and pose
-            make up for each other: taken as independent they promise less than is true.
+            24 rows of 24 for two usual lenses; None where only each one's own is known (imported
+            files). Lenses and pose make up for each other: taken as independent they promise less
+            than is true.
         notes: lines for people: coefficients dropped, views left out, corner orders mended.
     """
 

@@ -63,7 +63,7 @@ def fold_radius(coefficients: FloatArray) -> float:
     below = np.polynomial.Polynomial([1.0, c[5], c[6], c[7]])
     s = np.polynomial.Polynomial([0.0, 1.0])
     growth = above * below + 2.0 * s * (above.deriv() * below - above * below.deriv())
-    return min(_first_root(growth.coef), _first_root(below.coef))
+    return min(_first_root(np.asarray(p.coef, dtype=np.float64)) for p in (growth, below))
 
 
 def _first_root(rising: FloatArray) -> float:

@@ -6,9 +6,10 @@ so by the implicit function theorem (residuals are small: Gauss–Newton's Hessi
     ∂p/∂θ = H⁻¹ Jᵀ W ∂r/∂θ,   H = Jᵀ W J (+ the prior's information),   Σ = ∂p/∂θ Σ_θ ∂p/∂θᵀ
 
 with r = observed minus predicted normalised coordinates, and the parameters θ: intrinsics and lens
-of either camera (9 of the usual lens: 30 in all), the pose of the right camera in the left one's frame, and that of the left one in
-world. Cameras and relative pose have the covariance of their common estimate, where the calibration
-keeps it (lenses and pose make up for each other); otherwise, and the world always, each its own.
+of either camera (9 of the usual lens: 30 in all), the pose of the right camera in the left one's
+frame, and that of the left one in world. Cameras and relative pose have the covariance of their
+common estimate, where the calibration keeps it (lenses and pose make up for each other); otherwise,
+and the world always, each its own.
 
 This error is the same in every picture of a place: a bias, not noise. It must not be averaged away.
 """

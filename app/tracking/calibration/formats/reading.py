@@ -7,7 +7,7 @@ What a file leaves out (unit of lengths, size of pictures) is asked for.
   points of the first camera (or of the board, for `world_to_...`) to the camera, and its
   translation is in centimetres. "mean squared" errors are root mean squares.
 - OpenCV's FileStorage, as the sample `stereo_calib` writes it: `intrinsics.yml` holds M1, D1, M2,
-  D2 (camera matrices and distortion of left and right, 4 to 14 coefficients), `extrinsics.yml` R, T (x_right = R·x_left +
+  D2 (camera matrices and distortion of left and right), `extrinsics.yml` R, T (x_right = R·x_left +
   T) beside what follows from them. One file may hold all six. T is in the unit of the board's
   square; neither the unit nor the pictures' size is in them. XML and JSON are read as well. The
   files are parsed by `storage`, not OpenCV.
