@@ -7,6 +7,7 @@ from datetime import UTC, datetime
 from app.core.progress import Progress
 from app.tracking.calibration.bundle import rms
 from app.tracking.calibration.identity import new_id
+from app.tracking.calibration.misfit import misfit_px
 from app.tracking.calibration.mono import camera_of
 from app.tracking.calibration.pair_fit import matched, matched_residual
 from app.tracking.calibration.poses import better_corners
@@ -120,6 +121,13 @@ def _held_row(pair: ViewPair, estimate: StereoEstimate) -> ViewResidual:
     return ViewResidual(name, matched_residual(pair, estimate.adjusted), "held_back")
 
 
+def _misfit(estimate: StereoEstimate) -> float:
+    monos = (estimate.left, estimate.right)
+    lenses = sum(len(mono.calibration.estimated) for mono in monos)
+    unknowns = lenses + 6 + 6 * len(estimate.adjusted.state.poses)
+    return misfit_px([v for pair in estimate.pairs for v in pair], estimate.adjusted, unknowns)
+
+
 def _value(estimate: StereoEstimate, names: tuple[str, str], now: datetime) -> StereoCalibration:
     adjusted, board = estimate.adjusted, estimate.pairs[0][0].board
     covariance = adjusted.covariance
@@ -144,6 +152,7 @@ def _value(estimate: StereoEstimate, names: tuple[str, str], now: datetime) -> S
         cameras=(cameras[0], cameras[1]),
         pose=PoseCalibration.of(adjusted.state.T_right_left, covariance[18:, 18:]),
         rms_px=estimate.rms_px,
+        misfit_px=_misfit(estimate),
         together=estimate.together,
         joint_covariance=tuple(tuple(float(value) for value in row) for row in covariance),
         notes=estimate.notes,

@@ -8,7 +8,8 @@ so by the implicit function theorem (residuals are small: Gauss–Newton's Hessi
 with r = observed minus predicted normalised coordinates, and 30 parameters θ: 9 intrinsics of
 either camera, the pose of the right camera in the left one's frame, and that of the left one in
 world. Cameras and relative pose have the covariance of their common estimate, where the calibration
-keeps it (lenses and pose make up for each other); otherwise, and the world always, each its own.
+keeps it (lenses and pose make up for each other), and so has the world frame, which these cameras
+found: near the board that gave it their errors hardly count. Otherwise each has its own.
 
 This error is the same in every picture of a place: a bias, not noise. It must not be averaged away.
 """
@@ -36,10 +37,7 @@ class CalibrationUncertainty:
 
     def __init__(self, calibration: StereoCalibration) -> None:
         self._models = calibration.models()
-        self._spread = np.zeros((PARAMETER_COUNT, PARAMETER_COUNT))
-        self._spread[: _WORLD.start, : _WORLD.start] = calibration.covariance
-        if calibration.world is not None:
-            self._spread[_WORLD, _WORLD] = calibration.world.pose_covariance
+        self._spread = calibration.covariance_with_world
         self._last: dict[tuple[int, ...], tuple[FloatArray, FloatArray, FloatArray]] = {}
 
     def covariance(
