@@ -3,9 +3,9 @@
 Unknown are the free ones of each camera's parameters (nine of the usual lens), the pose of the
 second camera (T_right_left) and one pose per board (T_left_board). Poses change by twists
 (translation, rotation vector) on the left: T = exp(twist) @ T_estimated. Gauss-Newton damped by
-Levenberg and Marquardt; the boards' poses are eliminated first (Schur complement), so that the system that is solved is no
-larger than 9, or 24 for two such cameras. Its inverse, times the residual's variance, is the
-covariance: that of the estimate with the boards' poses unknown as well.
+Levenberg and Marquardt; the boards' poses are eliminated first (Schur complement), so that the
+system that is solved is no larger than 9, or 24 for two such cameras. Its inverse, times the
+residual's variance, is the covariance: that of the estimate with the boards' poses unknown as well.
 """
 
 from collections.abc import Sequence

@@ -11,6 +11,7 @@ from app.core.progress import Progress
 from app.tracking.calibration.bundle import rms
 from app.tracking.calibration.identity import new_id
 from app.tracking.calibration.lens_choice import LensChoice
+from app.tracking.calibration.misfit import misfit_px
 from app.tracking.calibration.mono import camera_of
 from app.tracking.calibration.pair_fit import matched, matched_residual
 from app.tracking.calibration.poses import better_corners
@@ -129,6 +130,13 @@ def _held_row(pair: ViewPair, estimate: StereoEstimate) -> ViewResidual:
     return ViewResidual(name, matched_residual(pair, estimate.adjusted), "held_back")
 
 
+def _misfit(estimate: StereoEstimate) -> float:
+    monos = (estimate.left, estimate.right)
+    lenses = sum(len(mono.calibration.estimated) for mono in monos)
+    unknowns = lenses + 6 + 6 * len(estimate.adjusted.state.poses)
+    return misfit_px([v for pair in estimate.pairs for v in pair], estimate.adjusted, unknowns)
+
+
 def _value(estimate: StereoEstimate, names: tuple[str, str], now: datetime) -> StereoCalibration:
     adjusted, board = estimate.adjusted, estimate.pairs[0][0].board
     covariance, blocks = _own_blocks(estimate)
@@ -154,6 +162,7 @@ def _value(estimate: StereoEstimate, names: tuple[str, str], now: datetime) -> S
         cameras=(cameras[0], cameras[1]),
         pose=PoseCalibration.of(adjusted.state.T_right_left, covariance[-6:, -6:]),
         rms_px=estimate.rms_px,
+        misfit_px=_misfit(estimate),
         together=estimate.together,
         joint_covariance=tuple(tuple(float(value) for value in row) for row in covariance),
         notes=estimate.notes,

@@ -210,7 +210,12 @@ class StereoCalibration(Strict):
         cameras: left, right.
         pose: T_right_left: takes points of the left camera's frame to the right one's.
         rms_px: root mean square reprojection error over both pictures.
-        world: T_world_left; None until a board at a known place was seen.
+        misfit_px: what the lens models leave besides the corners' noise, standard deviation per
+            axis; None in older and imported files.
+        world: T_world_left; None until a board at a known place was seen. Its covariance is that
+            of the board's place and corners, were the cameras known exactly.
+        world_by_cameras: change of the twist of `world` with what `covariance` is of, 6 rows: the
+            same cameras saw that board, and their errors move it. None in files that do not say.
         validation: on views held back; None if there were none.
         together: how well the pairs fit together; None in older and imported files.
         joint_covariance: of both cameras' parameters and the twist of `pose`, estimated together,
@@ -228,7 +233,9 @@ class StereoCalibration(Strict):
     cameras: tuple[CameraCalibration, CameraCalibration]
     pose: PoseCalibration
     rms_px: Annotated[float, Field(ge=0.0)] = 0.0
+    misfit_px: Annotated[float, Field(ge=0.0)] | None = None
     world: PoseCalibration | None = None
+    world_by_cameras: tuple[tuple[float, ...], ...] | None = None
     validation: Validation | None = None
     together: FitTogether | None = None
     joint_covariance: tuple[tuple[float, ...], ...] | None = None
@@ -243,6 +250,8 @@ class StereoCalibration(Strict):
             raise ValueError(
                 f"joint_covariance needs {size} rows of {size} numbers: left, right, pose"
             )
+        if self.world_by_cameras is not None and np.shape(self.world_by_cameras) != (6, size):
+            raise ValueError(f"world_by_cameras needs 6 rows of {size} numbers: left, right, pose")
         return self
 
     @property
@@ -262,6 +271,18 @@ class StereoCalibration(Strict):
         result[left:right, left:right] = self.cameras[1].parameter_covariance
         result[right:, right:] = self.pose.pose_covariance
         return frozen(result, (size, size), "covariance")
+
+    @property
+    def covariance_with_world(self) -> FloatArray:
+        """Covariance of what `covariance` is of and then the twist of `world`, shape (30, 30)."""
+        cameras = self.covariance
+        n = len(cameras)
+        change = np.zeros((6, n)) if self.world_by_cameras is None else self.world_by_cameras
+        whole = np.vstack([np.eye(n), change])
+        result = whole @ cameras @ whole.T
+        if self.world is not None:
+            result[n:, n:] += self.world.pose_covariance
+        return frozen(result, (n + 6, n + 6), "covariance with the world frame")
 
     @property
     def uncertainty_known(self) -> bool:

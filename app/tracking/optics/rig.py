@@ -29,6 +29,10 @@ from app.tracking.optics.lens import LensModel
 
 Triple = tuple[float, float, float]
 
+OFFSET_SD_MM: Final = 0.1
+"""How exactly a band's place on a needle is measured, standard deviation [mm]: an estimate for
+callipers and a band whose edges are put on by hand."""
+
 
 class CameraProfile(Strict):
     """One camera as YAML gives it.
@@ -96,6 +100,9 @@ class NeedleProfile(Strict):
         length_mm: hub to tip.
         point_length_mm: over which the shaft tapers to the tip.
         marker_offset_mm: centre of the band behind the tip.
+        marker_offset_sd_mm: standard deviation of that. Where it is not given it is `OFFSET_SD_MM`
+            before cameras that were calibrated, and 0 before those of the profile: pictures that
+            are rendered by a profile hold the needle of that profile.
         hidden_mm: from where to where the band's centre stands beyond the fulcrum while the tube
             hides it; None for a rig that sees it everywhere.
         second_marker_offset_mm: centre of a second band, like the first, behind the tip; further
@@ -106,6 +113,7 @@ class NeedleProfile(Strict):
     shaft_diameter_mm: float = Field(gt=0.0)
     point_length_mm: float = Field(gt=0.0)
     marker_offset_mm: float = Field(ge=0.0)
+    marker_offset_sd_mm: float | None = Field(default=None, ge=0.0, le=10.0)
     marker_length_mm: float = Field(gt=0.0)
     marker_diameter_mm: float = Field(gt=0.0)
     hidden_mm: tuple[float, float] | None = None
@@ -216,6 +224,13 @@ class RigProfile(Strict):
             return self.calibration.models()
         first, second = (camera.model() for camera in self.cameras)
         return first, second
+
+    @property
+    def marker_offset_variance(self) -> float:
+        """Variance of the distance from the band's centre to the tip [m²]."""
+        stated = self.needle.marker_offset_sd_mm
+        usual = OFFSET_SD_MM if self.calibration is not None else 0.0
+        return ((usual if stated is None else stated) * MILLIMETRE) ** 2
 
     def of_second_band(self) -> RigProfile | None:
         """Return this rig with the second band as its only one; None if there is none."""

@@ -8,8 +8,9 @@ so by the implicit function theorem (residuals are small: Gauss–Newton's Hessi
 with r = observed minus predicted normalised coordinates, and the parameters θ: intrinsics and lens
 of either camera (9 of the usual lens: 30 in all), the pose of the right camera in the left one's
 frame, and that of the left one in world. Cameras and relative pose have the covariance of their
-common estimate, where the calibration keeps it (lenses and pose make up for each other); otherwise,
-and the world always, each its own.
+common estimate, where the calibration keeps it (lenses and pose make up for each other), and so has
+the world frame, which these cameras found: near the board that gave it their errors hardly count.
+Otherwise each has its own.
 
 This error is the same in every picture of a place: a bias, not noise. It must not be averaged away.
 """
@@ -39,10 +40,7 @@ class CalibrationUncertainty:
         self._lenses = slice(0, left), slice(left, left + right)
         self._pose = slice(left + right, left + right + 6)
         self._world = slice(self._pose.stop, self._pose.stop + 6)
-        self._spread = np.zeros((self._world.stop, self._world.stop))
-        self._spread[: self._pose.stop, : self._pose.stop] = calibration.covariance
-        if calibration.world is not None:
-            self._spread[self._world, self._world] = calibration.world.pose_covariance
+        self._spread = calibration.covariance_with_world
         self._last: dict[tuple[int, ...], tuple[FloatArray, FloatArray, FloatArray]] = {}
 
     def covariance(
