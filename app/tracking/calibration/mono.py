@@ -17,6 +17,7 @@ from app.tracking.calibration.remarks import (
     mono_remarks,
     unrefined_remarks,
 )
+from app.tracking.calibration.rolling_shutter import moved_px, rolling_remark
 from app.tracking.calibration.selection import (
     Dropped,
     belongs,
@@ -111,9 +112,11 @@ def calibrate_mono(
     _require_determined(adjusted, name)
     progress.report(0.9, f"{name}: views held back")
     residuals = _residuals(views, used, out, adjusted)
+    camera = _calibration(name, views[0].image_size, adjusted, model)
+    moved = moved_px(used, adjusted)
     apart = [r.rms_px for r in residuals if r.role == "held_back"]
     return MonoResult(
-        _calibration(name, views[0].image_size, adjusted, model),
+        camera.model_copy(update={"rolling_px": moved}),
         adjusted,
         tuple(used),
         tuple(views),
@@ -126,6 +129,7 @@ def calibrate_mono(
         (
             *unrefined_remarks(name, given, views),
             *lens_remarks(name, model.choice.lens, adjusted, used, model.five_px),
+            *([] if moved is None else [rolling_remark(name, moved)]),
             *mono_remarks(name, used, adjusted, model.dropped, residuals),
         ),
     )

@@ -143,18 +143,18 @@ def _value(estimate: StereoEstimate, names: tuple[str, str], now: datetime) -> S
     cameras = []
     for side, mono in enumerate((estimate.left, estimate.right)):
         lens = mono.calibration.lens
-        cameras.append(
-            camera_of(
-                names[side],
-                mono.calibration.image_size,
-                adjusted.state.parameters[side, : len(lens.parameters)],
-                LensChoice(lens, mono.calibration.estimated),
-                covariance[blocks[side], blocks[side]],
-                rms(estimate.residuals_of(side)),
-                len(estimate.pairs),
-                mono.wide_covariance if mono.dropped else covariance[blocks[side], blocks[side]],
-            )
+        camera = camera_of(
+            names[side],
+            mono.calibration.image_size,
+            adjusted.state.parameters[side, : len(lens.parameters)],
+            LensChoice(lens, mono.calibration.estimated),
+            covariance[blocks[side], blocks[side]],
+            rms(estimate.residuals_of(side)),
+            len(estimate.pairs),
+            mono.wide_covariance if mono.dropped else covariance[blocks[side], blocks[side]],
         )
+        update = {"rolling_px": mono.calibration.rolling_px}
+        cameras.append(camera.model_copy(update=update))
     return StereoCalibration(
         id=new_id(now),
         created=now,

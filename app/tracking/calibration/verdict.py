@@ -60,6 +60,7 @@ class Why(StrEnum):
     ERROR_BAD = "error_bad"
     RAYS_BAD = "rays_bad"
     APART = "apart"
+    ROLLING = "rolling"
     UNCHECKED = "unchecked"
     RESIDUAL = "residual"
     ERROR = "error"
@@ -172,6 +173,15 @@ def _of_fit(calibration: StereoCalibration) -> Judgement:
             "the cameras, and take them again"
         )
         return Judgement(Grade.USABLE, Why.APART, text)
+    rolling = [c for c in calibration.cameras if c.rolling_px is not None]
+    if rolling:
+        named = " and ".join(f"{camera.name} ({camera.rolling_px:.2g} px)" for camera in rolling)
+        text = (
+            f"rolling shutter: the board moved while the pictures of {named} were read row by row, "
+            "which makes focal length and distances wrong and hardly shows in the residual: hold "
+            "the board against something still, and take them again"
+        )
+        return Judgement(Grade.USABLE, Why.ROLLING, text)
     if checked is None:
         text = "it fits, but no pair was held back to check it: take at least eight pairs"
         return Judgement(Grade.USABLE, Why.UNCHECKED, text)

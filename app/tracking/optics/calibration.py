@@ -47,6 +47,8 @@ class CameraCalibration(Strict):
         views: number of pictures used.
         ray_sd_px: standard deviation of its rays over the picture, rows of
             `RAY_GRID` [px]; None in older and imported files.
+        rolling_px: by how much the board moved while its pictures were read row by row, root mean
+            square [px]; None if nothing speaks for a rolling shutter.
     """
 
     name: Annotated[str, Field(min_length=1)]
@@ -60,6 +62,8 @@ class CameraCalibration(Strict):
     rms_px: Annotated[float, Field(ge=0.0)] = 0.0
     views: Annotated[int, Field(ge=0)] = 0
     ray_sd_px: tuple[tuple[Annotated[float, Field(ge=0.0)], ...], ...] | None = None
+
+    rolling_px: Annotated[float, Field(ge=0.0)] | None = None
 
     @model_validator(mode="before")
     @classmethod

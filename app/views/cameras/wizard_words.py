@@ -68,6 +68,11 @@ def verdict_of(calibration: StereoCalibration) -> Line:
             "the two pictures. What is stated is wider for it; hold the board still and take them "
             "again."
         )
+    if found.why is Why.ROLLING:
+        return verdict, tr(
+            "Usable, but the board moved while its pictures were read row by row (rolling shutter): "
+            "distances come out wrong. Hold the board against something still and take them again."
+        )
     if found.why is Why.RAYS:
         return verdict, tr(
             "Usable, but only where the board was seen: elsewhere in the pictures the rays are "
