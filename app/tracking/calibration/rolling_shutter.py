@@ -6,9 +6,10 @@ with the board's pose and s the row, in parts of the picture's height about the 
 lens and no pose follows that, and the focal length comes out wrong while the residual looks usual.
 
 Freeing ξ in every picture takes away six unknowns each; the F test tells whether that is beyond
-chance. It would be as well for a board that is not flat or misprinted, and for a lens that the model
-does not follow. Such a board is bent in every picture alike: corners that may be off on the board
-then explain more. Such a lens leaves what neighbouring corners share (`misfit`); motion takes it.
+chance. It would be as well for a board that is not flat or misprinted, and for a lens that its
+model does not follow. Such a board is bent in every picture alike: corners that may be off on the
+board then explain more. Such a lens leaves what neighbouring corners share (`misfit`); motion takes
+it.
 """
 
 from collections.abc import Sequence
