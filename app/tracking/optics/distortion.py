@@ -220,23 +220,28 @@ def _start(x_d: float, y_d: float, c: Any, fold: float) -> Any:
     """Point from which to invert the distortion: (x, y).
 
     For five coefficients the distorted point itself, drawn inside the fold. Wider lenses bend too
-    much for that: there the radial map alone is inverted by bisection of the angle, in which it
-    grows up to the fold.
+    much for that: there the radial map alone is inverted by bisection, of the angle for a fisheye
+    lens: it grows up to the fold.
     """
     radius = np.sqrt(x_d * x_d + y_d * y_d)
     if c.size == BROWN:
         start = 1.0 if radius < 0.9 * fold else 0.9 * fold / radius
         return start * x_d, start * y_d
-    low, high = 0.0, np.arctan(0.999999 * min(fold, FARTHEST))
+    limit = 0.999999 * min(fold, FARTHEST)
+    low, high = 0.0, np.arctan(limit) if c.size == FISHEYE else limit
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)
-        r = np.tan(middle)
-        g, _ = _radial(r * r, c)
-        if r * g < radius:
+        m2 = middle * middle
+        if c.size == FISHEYE:
+            bent = middle * (1.0 + m2 * (c[0] + m2 * (c[1] + m2 * (c[2] + m2 * c[3]))))
+        else:
+            bent = middle * _radial(m2, c)[0]
+        if bent < radius:
             low = middle
         else:
             high = middle
-    start = np.tan(low) / radius if radius > 0.0 else 1.0
+    r = np.tan(low) if c.size == FISHEYE else low
+    start = r / radius if radius > 0.0 else 1.0
     return start * x_d, start * y_d
 
 

@@ -70,8 +70,9 @@ def verdict_of(calibration: StereoCalibration) -> Line:
         )
     if found.why is Why.ROLLING:
         return verdict, tr(
-            "Usable, but the board moved while its pictures were read row by row (rolling shutter), "
-            "so distances come out wrong. Hold the board against something still and take them again."
+            "Usable, but the board moved while its pictures were read row by row (rolling "
+            "shutter): distances come out wrong. Hold the board against something still and take "
+            "them again."
         )
     if found.why is Why.RAYS:
         return verdict, tr(
