@@ -62,10 +62,10 @@ class Why(StrEnum):
     APART = "apart"
     ROLLING = "rolling"
     UNCHECKED = "unchecked"
+    RAYS = "rays"
     RESIDUAL = "residual"
     ERROR = "error"
     LENGTHS = "lengths"
-    RAYS = "rays"
     RIGHT = "right"
 
 
