@@ -78,9 +78,8 @@ def _picture(
     about[:, 2] += bowl * (1.0 - (part**2).sum(axis=1))
     late = np.zeros(len(about))
     for _ in range(1 if not moved.any() else 6):
-        at = np.array(
-            [rotation_exp(t * turned) @ turn @ p for t, p in zip(late, about, strict=True)]
-        )
+        turns = [rotation_exp(t * turned) @ turn for t in late]
+        at = np.array([R @ p for R, p in zip(turns, about, strict=True)])
         at += place + late[:, None] * moved
         if at[:, 2].min() < 0.02:
             return None
