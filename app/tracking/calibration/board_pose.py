@@ -6,7 +6,8 @@ where both cameras see the board, over the factor s by which it is larger than i
     p = R·(s·X) + t,   ∂p/∂ξ = [I, -[p]×],   ∂p/∂s = R·X,   x = p_xy / p_z.
 
 Where the cameras are taken a little wrongly the board is found a little elsewhere: with r the
-residual and J = ∂x/∂ξ, ∂ξ/∂θ = (Jᵀ J)⁻¹ Jᵀ ∂r/∂θ. What is measured later errs with the same cameras.
+residual and J = ∂x/∂ξ, ∂ξ/∂θ = (Jᵀ J)⁻¹ Jᵀ ∂r/∂θ. What is measured later errs with the same
+cameras.
 """
 
 from collections.abc import Sequence
@@ -138,8 +139,8 @@ def _by_cameras(
         rays = np.column_stack([one.rays, np.ones(len(one.rays))])
         _, by_ray, by_parameter = project_with_derivatives(rays, parameters)
         change = np.zeros((len(rays), 2, len(calibration.covariance)))
-        own = slice(one.camera * len(parameters), (one.camera + 1) * len(parameters))
-        change[:, :, own] = -np.linalg.solve(by_ray[:, :, :2], by_parameter)
+        first = one.camera * len(calibration.cameras[0].covariance)
+        change[:, :, first : first + len(parameters)] = -np.linalg.solve(by_ray[:, :, :2], by_parameter)
         if one.camera == 1:
             p_right = T_right_left @ (pose @ one.points)
             moved = np.concatenate(

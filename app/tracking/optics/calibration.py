@@ -202,8 +202,9 @@ class StereoCalibration(Strict):
             raise ValueError(f"format {self.format} {self.version} is not {FORMAT} 1")
         if self.joint_covariance is not None and np.shape(self.joint_covariance) != (24, 24):
             raise ValueError("joint_covariance needs 24 rows of 24 numbers: left, right, pose")
-        if self.world_by_cameras is not None and np.shape(self.world_by_cameras) != (6, 24):
-            raise ValueError("world_by_cameras needs 6 rows of 24 numbers: left, right, pose")
+        wanted = (6, len(self.covariance))
+        if self.world_by_cameras is not None and np.shape(self.world_by_cameras) != wanted:
+            raise ValueError(f"world_by_cameras needs 6 rows of {wanted[1]} numbers: left, right, pose")
         return self
 
     @property
