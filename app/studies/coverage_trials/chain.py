@@ -4,7 +4,6 @@ Estimated by what `acus calibrate` estimates with, but for its search for views 
 all belong here. It starts from another calibration of the same rig, never from the truth.
 """
 
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import cache
 from typing import Final
@@ -12,20 +11,25 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.core.confidence import chi_square_quantile, covariance_radius
 from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
-from app.studies.coverage_trials.scene import SIZE, Scene, TrueCamera, scene
+from app.studies.coverage_trials.deviation import Deviation
+from app.studies.coverage_trials.scene import LENSES, RIGS, SIZE, Scene, TrueCamera, scene
 from app.tracking.calibration.bundle import Adjusted, adjust
-from app.tracking.calibration.mono import calibrate_mono, camera_of
+from app.tracking.calibration.mono import calibrate_mono
 from app.tracking.calibration.placed_board import PlacedBoard
 from app.tracking.calibration.selection import smallest_model
 from app.tracking.calibration.sightings import AdjustedState, SeenBoard
 from app.tracking.calibration.views import BoardView
 from app.tracking.calibration.world import WorldFrame, find_world, with_world
 from app.tracking.markers.extractor import Centre
-from app.tracking.optics.calibration import PARAMETERS, PoseCalibration, StereoCalibration
+from app.tracking.optics.calibration import (
+    PARAMETERS,
+    CameraCalibration,
+    PoseCalibration,
+    StereoCalibration,
+)
 from app.tracking.optics.rig import OFFSET_SD_MM
 from app.tracking.solver import FixSolver, SeenMarker, systematic_px
 
@@ -42,41 +46,10 @@ POSE: Final = ("tx", "ty", "tz", "rx", "ry", "rz")
 TIP: Final = ("x", "y", "z")
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Deviation:
-    """How far an estimate is off, in its own measure.
-
-    Attributes:
-        square: Mahalanobis distance squared.
-        freedom: number of parameters in it.
-        ratios: error over standard deviation, by the parameter's name.
-        within: whether the 95 % sphere holds it; None for what is no point.
-    """
-
-    square: float
-    freedom: int
-    ratios: dict[str, float]
-    within: bool | None = None
-
-    @classmethod
-    def of(
-        cls, error: FloatArray, covariance: FloatArray, names: tuple[str, ...], point: bool = False
-    ) -> "Deviation":
-        """Weigh an error by the covariance that is stated."""
-        square = float(error @ np.linalg.solve(covariance, error))
-        ratios = dict(zip(names, (error / np.sqrt(np.diag(covariance))).tolist(), strict=True))
-        within = float(np.linalg.norm(error)) <= covariance_radius(covariance) if point else None
-        return cls(square, len(error), ratios, within)
-
-    @property
-    def held(self) -> bool:
-        """Whether the 95 % ellipsoid holds it."""
-        return self.square <= chi_square_quantile(0.95, self.freedom)
-
-
 def chain(rig: str, lens: str, seed: int) -> dict[str, Deviation]:
     """Calibrate once, see the tip once; deviations by `QUANTITIES`."""
-    before, rng = scene(rig, lens), np.random.default_rng([seed, 1])
+    own = (RIGS.index(rig), LENSES.index(lens))
+    before, rng = scene(rig, lens), np.random.default_rng([seed, *own])
     start, poses = _start(rig, lens, seed % SETS)
     views = [[before.view(side, T, rng) for T in poses] for side in (0, 1)]
     adjusted, names = _estimated(views, start)
@@ -93,6 +66,9 @@ def chain(rig: str, lens: str, seed: int) -> dict[str, Deviation]:
     found["tip"] = _tip(before, calibration, rng)
     return found
 
+
+_ROUNDS: Final = 5
+"""Of one camera alone, which only says which coefficients the views tell."""
 
 SETS: Final = 10
 """Sets of places at which the board is shown."""
@@ -134,7 +110,8 @@ def _estimated(
             alone: list[SeenBoard] = alone,
             first: AdjustedState = first,
         ) -> Adjusted:
-            return adjust(alone, _without(earlier.state if earlier else first, (wanted,)), _free((wanted,)))
+            state = _without(earlier.state if earlier else first, (wanted,))
+            return adjust(alone, state, _free((wanted,)), rounds=_ROUNDS)
 
         names.append(smallest_model(fit)[1])
     both = (names[0], names[1])
@@ -165,22 +142,26 @@ def _lens(
 def _calibration(
     before: Scene, adjusted: Adjusted, names: tuple[tuple[str, ...], tuple[str, ...]]
 ) -> StereoCalibration:
-    left, right = (
-        camera_of(
-            before.profile.cameras[i].name,
-            SIZE,
-            adjusted.state.parameters[i],
-            names[i],
-            adjusted.covariance[9 * i : 9 * i + 9, 9 * i : 9 * i + 9],
-            adjusted.rms_px,
-            VIEWS,
+    cameras = []
+    for i, p in enumerate(adjusted.state.parameters.tolist()):
+        covariance = adjusted.covariance[9 * i : 9 * i + 9, 9 * i : 9 * i + 9]
+        cameras.append(
+            CameraCalibration(
+                name=before.profile.cameras[i].name,
+                image_size=SIZE,
+                focal_px=(p[0], p[1]),
+                centre_px=(p[2], p[3]),
+                distortion=(p[4], p[5], p[6], p[7], p[8]),
+                estimated=names[i],
+                covariance=tuple(map(tuple, covariance.tolist())),
+                rms_px=adjusted.rms_px,
+                views=VIEWS,
+            )
         )
-        for i in (0, 1)
-    )
     return StereoCalibration(
         id="coverage",
         created=datetime(2026, 1, 1, tzinfo=UTC),
-        cameras=(left, right),
+        cameras=(cameras[0], cameras[1]),
         pose=PoseCalibration.of(adjusted.state.T_right_left, adjusted.covariance[18:, 18:]),
         rms_px=adjusted.rms_px,
         misfit_px=0.0,

@@ -75,9 +75,7 @@ class Scene:
     down: FloatArray
     placed: RigidTransform
 
-    def view(
-        self, side: int, T_world_board: RigidTransform, rng: np.random.Generator
-    ) -> BoardView:
+    def view(self, side: int, T_world_board: RigidTransform, rng: np.random.Generator) -> BoardView:
         """Return the board in one camera, corners with noise."""
         uv = self.cameras[side].pixels(T_world_board @ self.board.points)
         noisy = uv + rng.normal(0.0, CORNER_PX, uv.shape)
@@ -123,12 +121,18 @@ def scene(rig: str, lens: str) -> Scene:
         for side, model in enumerate(profile.models)
     )
     board = parse_board(
-        "checkerboard:7x5:5mm" if rig == "thesis" else "charuco:8x6:12mm:9mm:DICT_5X5_100"
+        f"charuco:8x6:{'5mm:3.5mm' if rig == 'thesis' else '12mm:9mm'}:DICT_5X5_100"
     )
     down, far = np.array([0.0, 0.0, -1.0]), profile.models[0].T_camera_world @ _FULCRUM
     distance = float(np.linalg.norm(far))
     unplaced = Scene(
-        profile, (cameras[0], cameras[1]), board, distance, _FULCRUM, down, cameras[0].T_camera_world
+        profile,
+        (cameras[0], cameras[1]),
+        board,
+        distance,
+        _FULCRUM,
+        down,
+        cameras[0].T_camera_world,
     )
     return _placed(unplaced)
 
@@ -145,7 +149,7 @@ def _usual(lens: str) -> Scene:
     unplaced = Scene(
         load_rig("wide"),
         (cameras[0], cameras[1]),
-        parse_board("checkerboard:9x6:25mm"),
+        parse_board("charuco:10x7:25mm:18mm:DICT_5X5_100"),
         0.4,
         np.array([0.04, 0.05, 0.1]),
         np.array([0.0, -1.0, 0.0]),

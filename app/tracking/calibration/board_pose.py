@@ -18,7 +18,6 @@ import cv2
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.core.rotation import skew
 from app.core.transform import RigidTransform
 from app.tracking.calibration.applies import require_size
 from app.tracking.calibration.sightings import project_with_derivatives
@@ -140,16 +139,23 @@ def _by_cameras(
         _, by_ray, by_parameter = project_with_derivatives(rays, parameters)
         change = np.zeros((len(rays), 2, len(calibration.covariance)))
         first = one.camera * len(calibration.cameras[0].covariance)
-        change[:, :, first : first + len(parameters)] = -np.linalg.solve(by_ray[:, :, :2], by_parameter)
+        change[:, :, first : first + len(parameters)] = -np.linalg.solve(
+            by_ray[:, :, :2], by_parameter
+        )
         if one.camera == 1:
             p_right = T_right_left @ (pose @ one.points)
             moved = np.concatenate(
-                [np.tile(np.eye(3), (len(p_right), 1, 1)), -np.array([skew(p) for p in p_right])],
+                [np.tile(np.eye(3), (len(p_right), 1, 1)), -_skews(p_right)],
                 axis=2,
             )
             change[:, :, -6:] = -_by_ray(p_right, moved)
         parts.append((change * one.focal[:, None]).reshape(2 * len(rays), -1))
     return np.concatenate(parts)
+
+
+def _skews(points: FloatArray) -> FloatArray:
+    """Matrices [p]x of points, (n, 3) -> (n, 3, 3)."""
+    return np.asarray(np.cross(np.eye(3), points[:, None, :]).swapaxes(1, 2) * -1.0)
 
 
 def _by_ray(points: FloatArray, by: FloatArray) -> FloatArray:
@@ -217,7 +223,7 @@ def _system(
         p_left = scale * turned + pose.translation
         by_left = np.zeros((len(p_left), 3, 7))
         by_left[:, :, :3] = np.eye(3)
-        by_left[:, :, 3:6] = -np.array([skew(p) for p in p_left])
+        by_left[:, :, 3:6] = -_skews(p_left)
         by_left[:, :, 6] = turned
         p, by = p_left, by_left
         if one.camera == 1:

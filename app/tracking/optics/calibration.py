@@ -204,7 +204,9 @@ class StereoCalibration(Strict):
             raise ValueError("joint_covariance needs 24 rows of 24 numbers: left, right, pose")
         wanted = (6, len(self.covariance))
         if self.world_by_cameras is not None and np.shape(self.world_by_cameras) != wanted:
-            raise ValueError(f"world_by_cameras needs 6 rows of {wanted[1]} numbers: left, right, pose")
+            raise ValueError(
+                f"world_by_cameras needs 6 rows of {wanted[1]} numbers: left, right, pose"
+            )
         return self
 
     @property
