@@ -6,7 +6,8 @@ where both cameras see the board, over the factor s by which it is larger than i
     p = R·(s·X) + t,   ∂p/∂ξ = [I, -[p]×],   ∂p/∂s = R·X,   x = p_xy / p_z.
 
 Where the cameras are taken a little wrongly the board is found a little elsewhere: with r the
-residual and J = ∂x/∂ξ, ∂ξ/∂θ = (Jᵀ J)⁻¹ Jᵀ ∂r/∂θ. What is measured later errs with the same cameras.
+residual and J = ∂x/∂ξ, ∂ξ/∂θ = (Jᵀ J)⁻¹ Jᵀ ∂r/∂θ. What is measured later errs with the same
+cameras.
 """
 
 from collections.abc import Sequence
@@ -17,7 +18,6 @@ import cv2
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.core.rotation import skew
 from app.core.transform import RigidTransform
 from app.tracking.calibration.applies import require_size
 from app.tracking.calibration.sightings import project_with_derivatives
@@ -144,12 +144,17 @@ def _by_cameras(
         if one.camera == 1:
             p_right = T_right_left @ (pose @ one.points)
             moved = np.concatenate(
-                [np.tile(np.eye(3), (len(p_right), 1, 1)), -np.array([skew(p) for p in p_right])],
+                [np.tile(np.eye(3), (len(p_right), 1, 1)), -_skews(p_right)],
                 axis=2,
             )
             change[:, :, -6:] = -_by_ray(p_right, moved)
         parts.append((change * one.focal[:, None]).reshape(2 * len(rays), -1))
     return np.concatenate(parts)
+
+
+def _skews(points: FloatArray) -> FloatArray:
+    """Matrices [p]x of points, (n, 3) -> (n, 3, 3)."""
+    return np.asarray(np.cross(np.eye(3), points[:, None, :]).swapaxes(1, 2) * -1.0)
 
 
 def _by_ray(points: FloatArray, by: FloatArray) -> FloatArray:
@@ -217,7 +222,7 @@ def _system(
         p_left = scale * turned + pose.translation
         by_left = np.zeros((len(p_left), 3, 7))
         by_left[:, :, :3] = np.eye(3)
-        by_left[:, :, 3:6] = -np.array([skew(p) for p in p_left])
+        by_left[:, :, 3:6] = -_skews(p_left)
         by_left[:, :, 6] = turned
         p, by = p_left, by_left
         if one.camera == 1:
