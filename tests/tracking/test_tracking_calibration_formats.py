@@ -363,7 +363,8 @@ def test_a_fisheye_pair_of_opencv_is_read_where_its_model_is_named(
         ([*[0.0] * 12, 0.01, 0.02], None, "tilted sensor"),
         ([0.1] * 6, None, "4, 5, 8, 12, 14 coefficients are possible, got 6"),
         ([0.1] * 5, LensModel.FISHEYE, "4 coefficients of the model equidistant"),
-        ([0.1] * 4, LensModel.RATIONAL, "8, 12, 14 coefficients of the model rational"),
+        ([0.1] * 6, LensModel.RATIONAL, "8, 12, 14 coefficients of the model rational"),
+        ([0.1] * 8, LensModel.BROWN, "4, 5 coefficients of the model plumb_bob"),
         ([1e9] * 8, None, "no lens has a coefficient beyond"),
     ],
 )

@@ -13,10 +13,10 @@ from app.tracking.optics.lens import LensModel
 
 COUNTS: Final = {
     LensModel.BROWN: (4, 5),
-    LensModel.RATIONAL: (8, 12, 14),
+    LensModel.RATIONAL: (4, 5, 8, 12, 14),
     LensModel.FISHEYE: (4,),
 }
-"""How many numbers files give for a model."""
+"""How many numbers files give for a model; some drivers call five numbers rational."""
 
 _PINHOLE: Final = (4, 5, 8, 12, 14)
 
@@ -50,6 +50,6 @@ def lens_coefficients(
             "calibrate without CALIB_TILTED_MODEL, or the pictures with `acus calibrate stereo`"
         )
     full = (*given, *(0.0,) * 12)[:12]
-    if any(full[5:]) or lens is LensModel.RATIONAL:
+    if any(full[5:]) or (lens is LensModel.RATIONAL and len(given) > 5):
         return LensModel.RATIONAL, full
     return LensModel.BROWN, full[:5]
