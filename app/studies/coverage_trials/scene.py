@@ -123,8 +123,8 @@ def scene(rig: str, lens: str) -> Scene:
     board = parse_board(
         f"charuco:8x6:{'5mm:3.5mm' if rig == 'thesis' else '12mm:9mm'}:DICT_5X5_100"
     )
-    down, far = np.array([0.0, 0.0, -1.0]), profile.models[0].T_camera_world @ _FULCRUM
-    distance = float(np.linalg.norm(far))
+    down, pose = np.array([0.0, 0.0, -1.0]), cameras[0].T_camera_world
+    distance = float(np.linalg.norm(pose @ _FULCRUM))
     unplaced = Scene(
         profile,
         (cameras[0], cameras[1]),
@@ -170,7 +170,7 @@ def _matrix(intrinsics: FloatArray) -> FloatArray:
 
 
 def _coefficients(rig: str, lens: str, side: int) -> FloatArray:
-    """k1, k2, p1, p2, k3, k4, k5, k6 in OpenCV's order; the rational lens is much like the other."""
+    """k1, k2, p1, p2, k3 to k6 in OpenCV's order; the rational lens bends much like the other."""
     k1, k2 = (-0.29, 0.11) if rig == "usual" else (-0.11, 0.14)
     p = 4e-4 if lens == "p = 4e-4" else 0.0
     p1, p2 = (p, -0.75 * p) if side == 0 else (-0.75 * p, p)
