@@ -8,8 +8,8 @@ criterion decides, n·ln(SS / n) + k·ln(n) (Schwarz 1978).
 
 The longer models are rational (k1 to k6, p1, p2), rational with thin prism (s1 to s4 as well), five
 coefficients with thin prism, and fisheye. All of a model's coefficients are estimated. The fisheye
-model has no decentring; it is taken where the pictures reach beyond `FISHEYE_ANGLE`, where
-polynomials of the tangent run off.
+model has no decentring: it is taken where the pictures reach beyond `FISHEYE_ANGLE`, where
+polynomials of the tangent run off, and where it fits as the rational one does but for `AS_WELL`.
 """
 
 from collections.abc import Callable, Sequence
@@ -39,8 +39,12 @@ _FIRST_STEPS: Final = 3
 SURE: Final = 1.0
 """Standard errors by which other views must be better predicted."""
 
-FISHEYE_ANGLE: Final = np.deg2rad(55.0)
+FISHEYE_ANGLE: Final = np.deg2rad(60.0)
 """Angle off the axis up to which the rational model is preferred [rad]."""
+
+AS_WELL: Final = 9.5
+"""Likelihood ratio by which the rational model, of four parameters more, may fit better by chance:
+χ² of four degrees of freedom at 95 %. Beyond it the lens has a decentring that fisheye lacks."""
 
 _EXACT_PX: Final = 1e-6
 """Residual of exact corners, whose differences are no evidence."""
@@ -148,7 +152,10 @@ def _best(longer: dict[LensChoice, Adjusted], views: Sequence[BoardView]) -> Len
     if best is FISHEYE or FISHEYE not in longer:
         return best
     angle = reach(longer[FISHEYE].state.parameters[0], views)
-    return FISHEYE if angle > FISHEYE_ANGLE and score[FISHEYE] < score[best] else best
+    measured = sum(r.size for r in longer[best].residuals)
+    squares = [sum(float((r**2).sum()) for r in longer[c].residuals) for c in (FISHEYE, best)]
+    ratio = measured * np.log(max(squares[0], 1e-300) / max(squares[1], 1e-300))
+    return FISHEYE if angle > FISHEYE_ANGLE and ratio < AS_WELL else best
 
 
 def _fitted(
