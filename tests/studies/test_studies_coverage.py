@@ -38,10 +38,10 @@ def test_the_sphere_round_the_tip_holds_it_as_often_as_it_says(pooled):
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_error_at_the_target_holds_whatever_the_touches_errors_look_like(kind):
     cell = Cell("touches", lambda seed: touched(kind, seed))
-    cell.run(150)
+    cell.run(300)
     tally = cell.tallies["target"]
-    assert tally.held / tally.trials >= 0.91
-    assert tally.within / tally.points >= 0.91
+    assert tally.held / tally.trials >= 0.915
+    assert tally.within / tally.points >= 0.915
 
 
 def test_a_run_that_was_broken_off_goes_on_where_it_was(tmp_path):
