@@ -27,32 +27,24 @@ def f_quantile(probability: float, first: int, second: int) -> float:
     return float(fdtri(first, second, probability))
 
 
-def covariance_radius(covariance: FloatArray, probability: float = 0.95, freedom: int = 0) -> float:
+def covariance_radius(covariance: FloatArray, probability: float = 0.95) -> float:
     """Radius [m] of the sphere that holds the true point with a probability, no more and no less.
 
     A normal error of covariance V is s·√(wᵀ V w) long, w a direction of which all are as likely and
     s² chi-square with three degrees of freedom, so that P(r) is the mean over all directions of
-    P(s² < r² / wᵀ V w). The mean is taken by Gauss and Legendre over an eighth of the sphere, in V's
-    own axes; the radius is found by regula falsi (the Illinois way).
+    P(s² < r² / wᵀ V w). The mean is taken by Gauss and Legendre over an eighth of the sphere, in
+    V's own axes; the radius is found by regula falsi (the Illinois way).
 
     Args:
         covariance: of the point [m²], shape (3, 3).
         probability: between 0 and 1.
-        freedom: degrees of freedom behind the covariance's scale, where that is an estimate; s² / 3
-            is then F(3, freedom). 0 where it is known.
     """
     values = np.linalg.eigvalsh(covariance)
     largest = float(values[-1])
     if not largest > 0.0:
         return 0.0
-    limits = chi_square_quantile(probability, 3), chi_square_quantile(probability, 1)
-    if freedom:
-        limits = tuple(n * f_quantile(probability, n, freedom) for n in (3, 1))
     shares = np.maximum(values[:2], 0.0) / largest
-    if shares[0] > 1.0 - 1e-9:
-        return float(np.sqrt(limits[0] * largest))
-    ratio = _sphere(float(shares[0]), float(shares[1]), probability, freedom, limits)
-    return float(np.sqrt(ratio * largest))
+    return float(np.sqrt(_sphere(float(shares[0]), float(shares[1]), probability) * largest))
 
 
 _NODES: Final = 16
@@ -70,24 +62,21 @@ def _directions() -> tuple[FloatArray, FloatArray]:
 
 
 @lru_cache(4096)
-def _sphere(
-    least: float, middle: float, probability: float, freedom: int, limits: tuple[float, float]
-) -> float:
+def _sphere(least: float, middle: float, probability: float) -> float:
     """Squared radius over the largest variance; the others are `least` and `middle` of it."""
-    from scipy.special import erf, fdtr
+    from scipy.special import erf
 
     squares, weights = _directions()
     spread = squares @ np.array([least, middle, 1.0])
 
     def beyond(square: float) -> float:
         reach = square / spread
-        if freedom:
-            return float(weights @ fdtr(3, freedom, reach / 3.0)) - probability
         held = erf(np.sqrt(0.5 * reach)) - np.sqrt(2.0 / np.pi * reach) * np.exp(-0.5 * reach)
         return float(weights @ held) - probability
 
     # One axis alone holds the point in less, three as large as the largest need more.
-    return _root(beyond, 0.999 * limits[1], 1.001 * limits[0])
+    low, high = chi_square_quantile(probability, 1), chi_square_quantile(probability, 3)
+    return _root(beyond, 0.999 * low, 1.001 * high)
 
 
 def _root(function: Callable[[float], float], low: float, high: float) -> float:

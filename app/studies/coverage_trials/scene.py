@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from functools import cache
 from typing import Final
 
-import cv2
 import numpy as np
 
 from app.core.arrays import FloatArray
@@ -17,6 +16,7 @@ from app.core.units import DEGREE, MILLIMETRE
 from app.tracking.calibration.boards import Board, parse_board
 from app.tracking.calibration.views import BoardView
 from app.tracking.optics.rig import RigProfile, load_rig
+from app.tracking.simulated.opencv import opencv_pixels
 
 SIZE: Final = (640, 480)
 RIGS: Final = ("usual", "thesis", "wide")
@@ -39,11 +39,7 @@ class TrueCamera:
 
     def pixels(self, points: FloatArray) -> FloatArray:
         """Project points of the world [m], (n, 3), by OpenCV, (n, 2)."""
-        turn, _ = cv2.Rodrigues(self.T_camera_world.rotation)
-        found, _ = cv2.projectPoints(
-            points, turn, self.T_camera_world.translation, self.matrix, self.distortion
-        )
-        return np.asarray(found[:, 0], dtype=np.float64)
+        return opencv_pixels(points, self.T_camera_world, self.matrix, self.distortion)
 
     def sees(self, points: FloatArray) -> bool:
         """Whether all points lie well inside the picture."""

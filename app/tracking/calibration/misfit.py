@@ -38,9 +38,9 @@ def misfit_px(views: Sequence[BoardView], adjusted: Adjusted, unknowns: int) -> 
 def _of_neighbours(view: BoardView, residual: FloatArray) -> tuple[float, int]:
     """Sum of the products of neighbouring corners' residuals, and how many pairs there are."""
     board = view.board
-    grid = np.full((board.count, 2), np.nan)
-    grid[view.ids] = residual
-    grid = grid.reshape(board.rows, board.columns, 2)
+    known_at = np.full((board.count, 2), np.nan)
+    known_at[view.ids] = residual
+    grid = known_at.reshape(board.rows, board.columns, 2)
     total, pairs = 0.0, 0
     for one, other in ((grid[1:], grid[:-1]), (grid[:, 1:], grid[:, :-1])):
         product = (one * other).sum(axis=2)

@@ -77,7 +77,7 @@ class PenNeedle:
         return self.covariance[:3, :3]
 
     def tip_radius(self, probability: float = 0.95) -> float:
-        """Radius [m] round the tip that holds the true one with at least `probability`."""
+        """Radius [m] round the tip that holds the true one with `probability`."""
         return covariance_radius(self.tip_covariance, probability)
 
     def axis_cone(self, probability: float = 0.95) -> float:
