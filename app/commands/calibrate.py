@@ -10,9 +10,12 @@ import typer
 from app.commands.answer import Answer
 from app.commands.calibrate_parts import (
     BoardSpec,
+    LensName,
     app,
+    lens_named,
     mono_document,
     mono_lines,
+    region_of,
     stereo_document,
     stereo_lines,
     view_document,
@@ -217,6 +220,7 @@ def mono(
     hold_back: HoldBack = None,
     window: Window = None,
     out: Out = None,
+    lens: LensName = None,
 ) -> Answer:
     """Calibrate one camera, or each of two by itself.
 
@@ -231,14 +235,20 @@ def mono(
     from app.tracking.calibration.pictures import list_pictures
     from app.tracking.calibration.sets import mono_set
 
-    known = parse_board(board)
+    known, model = parse_board(board), lens_named(lens)
     groups, strays = cameras_of(list_pictures(_folder(images)))
 
     def work(progress: "Progress") -> "list[MonoSet]":
         share = 1.0 / len(groups)
         return [
             mono_set(
-                name, paths, known, hold_back, window, progress.part(i * share, (i + 1) * share)
+                name,
+                paths,
+                known,
+                hold_back,
+                window,
+                progress.part(i * share, (i + 1) * share),
+                model,
             )
             for i, (name, paths) in enumerate(groups.items())
         ]
@@ -295,6 +305,11 @@ def stereo(
     force: Annotated[
         bool, typer.Option("--force", help="Write and keep it even if it is not good enough.")
     ] = False,
+    rig: Annotated[
+        str | None,
+        typer.Option(help="Rig they are for: the verdict asks where its marker comes."),
+    ] = None,
+    lens: LensName = None,
 ) -> Answer:
     """Calibrate two cameras from pairs of pictures. Validated on pairs held back.
 
@@ -306,18 +321,19 @@ def stereo(
     from app.tracking.calibration.sets import stereo_set
     from app.tracking.calibration.verdict import Grade, judge
 
-    known = parse_board(board)
+    known, model = parse_board(board), lens_named(lens)
     second = _second(check_images, check_board)
     paired = _paired(images, left, right)
     both = _names(names)
     alone = _alone(paired, left_alone, right_alone)
     found = with_progress(
         lambda progress: stereo_set(
-            paired.pairs, known, both, hold_back, window, progress, alone=alone
+            paired.pairs, known, both, hold_back, window, progress, alone=alone, lens=model
         )
     )
     checks = _checks(found, baseline_mm, second)
-    verdict = judge(found.calibration, checks)
+    region = None if rig is None else region_of(rig, found.calibration)
+    verdict = judge(found.calibration, checks, region)
     facts = stereo_document(found, checks, verdict) | {"remarks": paired.remarks}
     lines = [*stereo_lines(found, checks, verdict), *(f"  {line}" for line in paired.remarks)]
     if verdict.grade is Grade.NOT_GOOD_ENOUGH and not force:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from app.commands.answer import Answer
-from app.commands.calibrate_parts import app
+from app.commands.calibrate_parts import app, lens_named
 from app.core.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -131,6 +131,10 @@ def import_(
         str | None,
         typer.Option("--size", help="Picture size of TemugeB's and OpenCV's files: e.g. 1280x720."),
     ] = None,
+    lens: Annotated[
+        str | None,
+        typer.Option(help="equidistant for OpenCV's files of fisheye lenses: they look alike."),
+    ] = None,
 ) -> Answer:
     """Read another program's calibration and use it from now on."""
     from app.tracking.calibration.formats.reading import length, picture_size, read_calibration
@@ -139,6 +143,7 @@ def import_(
         files,
         unit=length(unit) if unit is not None else None,
         image_size=picture_size(size) if size is not None else None,
+        lens=lens_named(lens),
     )
     path = _history().keep(calibration)
     return Answer(
@@ -224,10 +229,11 @@ def calibration_lines(calibration: "StereoCalibration") -> list[str]:
     for camera in calibration.cameras:
         width, height = camera.image_size
         (fx, fy), (cx, cy) = camera.focal_px, camera.centre_px
+        names = " ".join(camera.lens.coefficients)
         bends = " ".join(f"{value:.4g}" for value in camera.distortion)
         lines.append(
             f"{camera.name:13} {width}x{height}  f {fx:.2f} {fy:.2f}  c {cx:.2f} {cy:.2f}  "
-            f"k1 k2 p1 p2 k3 {bends}  {camera.rms_px:.3f} px, {camera.views} views"
+            f"{names} {bends}  {camera.rms_px:.3f} px, {camera.views} views"
         )
     lines.append(
         f"pair          {calibration.rms_px:.3f} px, baseline {calibration.baseline * 1e3:.2f} mm"

@@ -16,9 +16,10 @@ if TYPE_CHECKING:
     from app.tracking.calibration.mono import MonoResult
     from app.tracking.calibration.remarks import ViewResidual
     from app.tracking.calibration.sets import MonoSet, Seen, StereoSet
-    from app.tracking.calibration.verdict import Judgement
+    from app.tracking.calibration.verdict import Judgement, Region
     from app.tracking.calibration.views import BoardView, Rejection
-    from app.tracking.optics.calibration import CameraCalibration
+    from app.tracking.optics.calibration import CameraCalibration, StereoCalibration
+    from app.tracking.optics.lens import LensModel
 
 T = TypeVar("T")
 
@@ -50,6 +51,53 @@ def with_progress(work: "Callable[[Progress], T]") -> T:
             bar.update(task, completed=fraction, description=printable(text))
 
         return work(Progress(show))
+
+
+LensName = Annotated[
+    str | None,
+    typer.Option(
+        "--lens",
+        metavar="MODEL",
+        help="plumb_bob, rational_polynomial or equidistant (fisheye); else as the pictures ask.",
+    ),
+]
+
+
+def lens_named(text: str | None) -> "LensModel | None":
+    """Return the model of a lens by its name; None for none.
+
+    Raises:
+        ConfigurationError: for another name.
+    """
+    from app.core.errors import ConfigurationError
+    from app.tracking.optics.lens import LensModel
+
+    if text is None:
+        return None
+    if text not in set(LensModel):
+        raise ConfigurationError(
+            f"--lens {text!r}: there are {', '.join(LensModel)}; equidistant is the fisheye model"
+        )
+    return LensModel(text)
+
+
+def region_of(rig: str, calibration: "StereoCalibration") -> "Region | None":
+    """Outline where a rig's marker comes in both pictures, by the calibration's place if known.
+
+    Raises:
+        CalibrationError: if the pictures are of another size than the rig's.
+        RigError: if there is no such rig.
+    """
+    from app.mechanisms.profile import load_profile
+    from app.tracking.calibration.applies import require_size
+    from app.tracking.optics.rig import load_rig, view_cone
+
+    profile = load_rig(rig)
+    for camera, model in zip(calibration.cameras, profile.models, strict=True):
+        require_size(camera, model.image_size, f"the picture of rig {profile.name}")
+    models = profile.models if calibration.world is None else calibration.models()
+    fulcrum = load_profile("icube").fulcrum
+    return view_cone(models, profile.needle, profile.range, fulcrum).outlines
 
 
 def view_document(view: "BoardView | Rejection") -> dict[str, Any]:
@@ -143,16 +191,16 @@ def stereo_document(
 
 def camera_document(camera: "CameraCalibration") -> dict[str, Any]:
     """Parameters of one camera as JSON."""
-    from app.tracking.optics.calibration import PARAMETERS
-
+    names = camera.lens.parameters
     values = [*camera.focal_px, *camera.centre_px, *camera.distortion]
     return {
         "name": camera.name,
         "image_size": list(camera.image_size),
+        "lens": camera.lens.value,
         "views": camera.views,
         "rms_px": camera.rms_px,
-        "parameters": dict(zip(PARAMETERS, values, strict=True)),
-        "sd": dict(zip(PARAMETERS, _sd(camera.covariance), strict=True)),
+        "parameters": dict(zip(names, values, strict=True)),
+        "sd": dict(zip(names, _sd(camera.covariance), strict=True)),
         "estimated": list(camera.estimated),
         "covariance": [list(row) for row in camera.covariance],
     }

@@ -67,6 +67,7 @@ def simulated_lens() -> Webcam:
             image_size=camera.image_size,
             focal_px=camera.focal_px,
             centre_px=camera.centre_px,
+            lens=camera.lens,
             distortion=camera.distortion,
         )
     )

@@ -201,14 +201,14 @@ def _slant(pose: RigidTransform, marker: Marker) -> float:
 
 def _lens(model: CameraModel) -> Webcam:
     fx, fy, cx, cy = model.intrinsics.tolist()
-    k = model.distortion.tolist()
     return Webcam(
         CameraCalibration(
             name=model.name,
             image_size=model.image_size,
             focal_px=(fx, fy),
             centre_px=(cx, cy),
-            distortion=(k[0], k[1], k[2], k[3], k[4]),
+            lens=model.lens,
+            distortion=tuple(model.distortion.tolist()),
         )
     )
 

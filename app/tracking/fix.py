@@ -115,7 +115,7 @@ class NeedleFix:
         )
 
     def radius(self, probability: float = 0.95) -> float:
-        """Radius [m] round the tip that holds the true one with at least `probability`."""
+        """Radius [m] round the tip that holds the true one with `probability`."""
         return covariance_radius(self.covariance, probability)
 
 

@@ -228,6 +228,7 @@ class FixSolver:
             CalibrationUncertainty(rig.calibration) if rig.calibration is not None else None
         )
         self._line_variance = (rig.line_sd_mm * MILLIMETRE) ** 2
+        self._offset_variance = rig.marker_offset_variance
 
     def solve(
         self,
@@ -305,6 +306,7 @@ class FixSolver:
         residual, epipolar, off_line = (float(value) for value in summary)
         reason = _contradiction(found.chi_square, residual, beside, off_line)
         tip = found.p_world + self._rig.needle.marker_offset * axis
+        covariance = self._of_tip(covariance, axis)
         return NeedleFix(
             tip,
             covariance,
@@ -361,6 +363,10 @@ class FixSolver:
             return found.covariance
         return found.covariance + self._error.covariance(found.p_world, found.covariances)
 
+    def _of_tip(self, band: FloatArray, axis: FloatArray) -> FloatArray:
+        """Covariance of the tip from that of the band [m²]: its place along the shaft is added."""
+        return band + self._offset_variance * np.outer(axis, axis)
+
     def residual_px(self, found: Triangulation) -> float:
         """Root mean square of the reprojection error of a point [px]."""
         return float(np.sqrt(np.mean((found.residual * self._focal) ** 2)))
@@ -384,7 +390,8 @@ class FixSolver:
         found = self._single.solve(camera, sighting.uv, sighting.covariance, axis, outline)
         if found.point is None:
             return without_point(FixStatus.ONE_CAMERA, pixels, time, missing, found.reason)
-        covariance = found.point.covariance if found.covariance is None else found.covariance
+        band = found.point.covariance if found.covariance is None else found.covariance
+        covariance = self._of_tip(band, axis)
         tip = found.point.p_world + self._rig.needle.marker_offset * axis
         residual = found.point.residual * self._models[camera].intrinsics[:2]
         return NeedleFix(
@@ -407,9 +414,13 @@ class FixSolver:
 def systematic_px(rig: RigProfile) -> float:
     """Error of a pixel that no picture's noise explains, standard deviation per axis [px].
 
-    The rig's own figure, and what the calibration's residual says that its model leaves.
+    The rig's own figure, and what the calibration's lens models leave besides the noise of its
+    corners; the whole residual where a file does not tell the two apart.
     """
-    left = rig.calibration.rms_px / np.sqrt(2.0) if rig.calibration is not None else 0.0
+    known = rig.calibration
+    left = 0.0
+    if known is not None:
+        left = known.rms_px / np.sqrt(2.0) if known.misfit_px is None else known.misfit_px
     return float(np.hypot(rig.systematic_px, left))
 
 

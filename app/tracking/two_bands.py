@@ -54,13 +54,16 @@ class ShaftAxis:
     tip_covariance: FloatArray
 
 
-def shaft_axis(points: FloatArray, covariance: FloatArray, offset: float) -> ShaftAxis | None:
+def shaft_axis(
+    points: FloatArray, covariance: FloatArray, offset: float, offset_variance: float = 0.0
+) -> ShaftAxis | None:
     """Axis and tip from both bands; None if the points are one.
 
     Args:
         points: centres of the first and the second band [m], shape (2, 3).
         covariance: of both together [m²], shape (6, 6).
         offset: from the first band to the tip [m].
+        offset_variance: of it [m²].
     """
     between = points[0] - points[1]
     length = float(np.linalg.norm(between))
@@ -74,7 +77,7 @@ def shaft_axis(points: FloatArray, covariance: FloatArray, offset: float) -> Sha
         read_only(axis),
         read_only(turns @ covariance @ turns.T),
         read_only(points[0] + offset * axis),
-        read_only(moves @ covariance @ moves.T),
+        read_only(moves @ covariance @ moves.T + offset_variance * np.outer(axis, axis)),
     )
 
 
@@ -146,6 +149,7 @@ class TwoBands:
         self._error = (
             CalibrationUncertainty(rig.calibration) if rig.calibration is not None else None
         )
+        self._offset_variance = rig.marker_offset_variance
         self._tracks = tuple((PixelTrack(), PixelTrack()) for _ in range(2))
         self._towards = _DOWN
         self.use(RED)
@@ -252,7 +256,7 @@ class TwoBands:
             return None
         if not all(self._solvers[0].agrees(found) for found in (first, second)):
             return None
-        return shaft_axis(points, joint, self._needle.marker_offset)
+        return shaft_axis(points, joint, self._needle.marker_offset, self._offset_variance)
 
     def _fix(
         self,

@@ -16,6 +16,7 @@ from app.tracking.calibration.formats.ros import documents, ros_paths, write_ros
 from app.tracking.calibration.formats.storage import read_matrices
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import StereoCalibration
+from app.tracking.optics.lens import LensModel
 from app.tracking.optics.rig import load_rig
 from tests.tracking.calibration_samples import sample
 
@@ -206,7 +207,11 @@ def test_text_files_without_a_unit_or_a_size_are_refused(temuge: Path) -> None:
         ("camera1_rot_trans.dat", SECOND_POSE.replace("-30.1", "far"), "T: numbers are needed"),
         ("camera1_rot_trans.dat", SECOND_POSE.replace("0.92", "1.92"), "no rotation"),
         ("camera0_intrinsics.dat", INTRINSICS.replace("distortion:", "d:"), "'distortion:'"),
-        ("camera0_intrinsics.dat", INTRINSICS.replace("-0.33213", "1 2 3 4"), "4 or 5 numbers"),
+        (
+            "camera0_intrinsics.dat",
+            INTRINSICS.replace("-0.33213", "1 2 3"),
+            "coefficients are possible",
+        ),
         ("camera0_intrinsics.dat", INTRINSICS.replace("638.48", "nan 638.48"), "finite"),
     ],
 )
@@ -308,25 +313,118 @@ def test_the_pair_of_opencvs_stereo_sample_is_read_in_its_unit_in_either_order(
     assert calibration.uncertainty_known
 
 
-def test_a_longer_model_is_replaced_by_five_coefficients_that_say_the_same(
+MATRIX = np.array([[600.0, 0.0, 320.0], [0.0, 600.0, 240.0], [0.0, 0.0, 1.0]])
+LONGER = {
+    8: [0.3, -0.07, 1e-3, -5e-4, -0.003, 0.66, -0.05, -0.017],
+    12: [-0.2, 0.05, 1e-3, -1e-3, 0.0, 0.0, 0.0, 0.0, 3e-3, -1e-3, 2e-3, 1e-3],
+    14: [0.9, 0.12, 2e-4, -1e-4, 0.004, 1.25, 0.35, 0.02, 1e-3, 0.0, 1e-3, 0.0, 0.0, 0.0],
+}
+
+
+def points_ahead() -> np.ndarray:
+    return np.random.default_rng(1).uniform([-0.5, -0.38, 1.0], [0.5, 0.38, 1.0], (200, 3))
+
+
+@pytest.mark.parametrize("count", LONGER)
+def test_opencvs_longer_models_are_read_as_they_are(
+    tmp_path: Path, opencv: tuple[Path, Path], count: int
+) -> None:
+    given = LONGER[count]
+    files = storage(tmp_path / "both.yml", M1=MATRIX, M2=MATRIX, D1=[given], D2=[[0.0] * 14])
+    found = read_calibration([files, opencv[1]], unit=0.01, image_size=(640, 480))
+    assert [c.lens for c in found.cameras] == [LensModel.RATIONAL, LensModel.BROWN]
+    assert found.covariance.shape == (31, 31)
+    nothing = np.zeros(3)
+    theirs = cv2.projectPoints(points_ahead(), nothing, nothing, MATRIX, np.array(given))[0][:, 0]
+    ours, ok = found.models()[0].project(points_ahead())
+    assert ok.all()
+    assert np.abs(ours - theirs).max() < 1e-9
+
+
+def test_a_fisheye_pair_of_opencv_is_read_where_its_model_is_named(
     tmp_path: Path, opencv: tuple[Path, Path]
 ) -> None:
-    matrix = np.array([[600.0, 0.0, 320.0], [0.0, 600.0, 240.0], [0.0, 0.0, 1.0]])
-    rational = [0.05, -0.02, 1e-3, -5e-4, 0.0, 0.08, 0.0, 0.001]
-    files = storage(tmp_path / "both.yml", M1=matrix, M2=matrix, D1=[rational], D2=[[0.0] * 14])
-    found = read_calibration([files, opencv[1]], unit=0.01, image_size=(640, 480))
-    assert any("8 coefficients replaced by five" in note for note in found.notes)
-    assert found.cameras[1].distortion == (0.0,) * 5
-    points = np.random.default_rng(1).uniform([-0.5, -0.38, 1.0], [0.5, 0.38, 1.0], (200, 3))
+    four = np.array([[-0.02], [0.004], [-0.003], [0.0005]])
+    files = storage(tmp_path / "both.yml", M1=MATRIX, M2=MATRIX, D1=four, D2=four)
+    found = read_calibration(
+        [files, opencv[1]], unit=0.01, image_size=(640, 480), lens=LensModel.FISHEYE
+    )
     nothing = np.zeros(3)
-    theirs = cv2.projectPoints(points, nothing, nothing, matrix, np.array(rational))[0]
-    five = np.array(found.cameras[0].distortion)
-    ours = cv2.projectPoints(points, nothing, nothing, matrix, five)[0]
-    assert np.abs(ours - theirs).max() < 0.2
-    wild = [0.5, -3.0, 0.0, 0.0, 0.0, 0.9, -8.0, 30.0]
-    storage(tmp_path / "both.yml", M1=matrix, M2=matrix, D1=[wild], D2=[[0.0] * 5])
-    with pytest.raises(CalibrationError, match="that five cannot stand for"):
-        read_calibration([files, opencv[1]], unit=0.01, image_size=(640, 480))
+    theirs = cv2.fisheye.projectPoints(points_ahead()[:, None], nothing, nothing, MATRIX, four)[0]
+    assert np.abs(found.models()[0].project(points_ahead())[0] - theirs[:, 0]).max() < 1e-9
+    assert read_calibration([files, opencv[1]], unit=0.01, image_size=(640, 480)).cameras[
+        0
+    ].distortion == (-0.02, 0.004, -0.003, 0.0005, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("given", "lens", "words"),
+    [
+        ([*[0.0] * 12, 0.01, 0.02], None, "tilted sensor"),
+        ([0.1] * 6, None, "4, 5, 8, 12, 14 coefficients are possible, got 6"),
+        ([0.1] * 5, LensModel.FISHEYE, "4 coefficients of the model equidistant"),
+        ([0.1] * 6, LensModel.RATIONAL, "8, 12, 14 coefficients of the model rational"),
+        ([0.1] * 8, LensModel.BROWN, "4, 5 coefficients of the model plumb_bob"),
+        ([1e9] * 8, None, "no lens has a coefficient beyond"),
+    ],
+)
+def test_a_lens_that_cannot_be_is_refused_with_the_reason(
+    tmp_path: Path,
+    opencv: tuple[Path, Path],
+    given: list[float],
+    lens: LensModel | None,
+    words: str,
+) -> None:
+    files = storage(tmp_path / "both.yml", M1=MATRIX, M2=MATRIX, D1=[given], D2=[given])
+    with pytest.raises(CalibrationError, match=words) as caught:
+        read_calibration([files, opencv[1]], unit=0.01, image_size=(640, 480), lens=lens)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("lens", [LensModel.RATIONAL, LensModel.FISHEYE])
+@pytest.mark.parametrize("mixed", [False, True])
+def test_other_lenses_go_through_the_own_file_and_that_of_ros(
+    tmp_path: Path, calibration: StereoCalibration, lens: LensModel, mixed: bool
+) -> None:
+    given = tuple(LONGER[12]) if lens is LensModel.RATIONAL else (-0.02, 0.004, -0.003, 0.0005)
+    size = len(lens.parameters)
+    other = calibration.cameras[0].model_dump() | {
+        "lens": lens,
+        "distortion": given,
+        "estimated": lens.parameters,
+        "covariance": (1e-6 * np.eye(size)).tolist(),
+    }
+    right = calibration.cameras[1].model_dump() if mixed else other | {"name": "right"}
+    document = calibration.model_dump() | {"cameras": (other, right)}
+    changed = StereoCalibration.model_validate(document)
+    save_calibration(tmp_path / "one.yaml", changed)
+    assert load_calibration(tmp_path / "one.yaml") == changed
+    assert len(changed.covariance) == size + len(changed.cameras[1].lens.parameters) + 6
+    files = ros_paths(tmp_path / "ros", changed)
+    write_ros(*files, changed)
+    found = read_calibration(files)
+    assert [c.lens for c in found.cameras] == [c.lens for c in changed.cameras]
+    assert found.cameras[0].distortion == given
+    files[0].write_text(files[0].read_text().replace(lens.value, "fish_eye"))
+    with pytest.raises(CalibrationError, match="plumb_bob, rational_polynomial, equidistant"):
+        read_calibration(files)
+
+
+def test_the_own_file_with_coefficients_of_another_lens_is_refused(
+    tmp_path: Path, calibration: StereoCalibration
+) -> None:
+    save_calibration(tmp_path / "one.yaml", calibration)
+    text = (tmp_path / "one.yaml").read_text()
+    for old, new, words in (
+        ("lens: plumb_bob", "lens: equidistant", "lens equidistant has 4"),
+        ("lens: plumb_bob", "lens: wide", "lens"),
+    ):
+        (tmp_path / "two.yaml").write_text(text.replace(old, new, 1))
+        with pytest.raises(CalibrationError, match=words):
+            load_calibration(tmp_path / "two.yaml")
+    kept = [line for line in text.splitlines() if "lens:" not in line]
+    (tmp_path / "old.yaml").write_text("\n".join(kept))
+    assert load_calibration(tmp_path / "old.yaml") == calibration
 
 
 def test_a_lens_of_opencv_and_half_a_pair_are_told_in_one_line(

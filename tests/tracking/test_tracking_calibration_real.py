@@ -11,6 +11,7 @@ from app.tracking.calibration.pictures import read_views
 from app.tracking.calibration.poses import usual_rms, usual_stereo_rms
 from app.tracking.calibration.run import StereoResult, calibrate_pairs
 from app.tracking.calibration.views import BoardView
+from app.tracking.optics.lens import LensModel
 
 BOARD = parse_board("checkerboard:9x6:25mm")
 PUBLISHED_FX, PUBLISHED_CENTRE = 535.916, (342.283, 235.571)  # left_intrinsics.yml
@@ -61,16 +62,16 @@ def test_the_left_camera_is_the_published_one(result: StereoResult) -> None:
     assert camera.distortion[0] == pytest.approx(-0.28, abs=0.02)
 
 
-def test_coefficients_that_the_pictures_do_not_support_are_dropped_and_said(
+def test_real_pictures_ask_for_five_coefficients_and_say_how_sure_each_is(
     result: StereoResult,
 ) -> None:
-    camera = result.calibration.cameras[0]
-    assert "k3" not in camera.estimated
-    assert camera.distortion[4] == 0.0
-    assert any("k3" in note and "dropped" in note for note in result.calibration.notes)
-    sd = np.sqrt(np.diag(camera.parameter_covariance))
-    estimated = [name in camera.estimated for name in ("k1", "k2", "p1", "p2", "k3")]
-    assert ((sd[4:] > 0.0) == estimated).all()
+    for camera in result.calibration.cameras:
+        assert camera.lens is LensModel.BROWN
+        assert {"k1", "k2", "p1", "p2"} <= set(camera.estimated)
+        sd = np.sqrt(np.diag(camera.parameter_covariance))
+        estimated = [name in camera.estimated for name in camera.lens.coefficients]
+        assert ((sd[4:] > 0.0) == estimated).all()
+        assert camera.rolling_px is None
 
 
 def test_boards_held_back_come_out_true(result: StereoResult) -> None:

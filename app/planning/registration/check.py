@@ -31,6 +31,9 @@ from app.planning.registration.uncertainty import (
     FiducialError,
     TargetError,
     fiducial_error,
+    inflation,
+    scatter_beyond,
+    shaped_target_error,
     stated_target_error,
     target_error,
 )
@@ -92,8 +95,12 @@ class PointCheck:
         names: of the fiducials used.
         fit: plate to that frame.
         fiducial: localisation error from the residuals.
-        target: expected error by the residuals.
-        stated: expected error by the covariances that came with the points; None without.
+        target: expected error by the residuals, errors as large in every direction.
+        shaped: the same, the shape of the errors by the residuals, too; None for fewer than five.
+        stated: expected error by the covariances that came with the points, larger by what the
+            residuals contradict them; None without.
+        contradicted: whether the residuals are larger than those covariances allow.
+        shared: variance per axis [m²] of what all points share, by the plate.
         reordering: an order that fits far better; None if the given one is right.
         outlier: one point that does not belong; None.
         tolerance: of a single residual [m].
@@ -105,7 +112,10 @@ class PointCheck:
     fit: RigidFit
     fiducial: FiducialError
     target: TargetError
+    shaped: TargetError | None
     stated: TargetError | None
+    contradicted: bool
+    shared: float
     reordering: Reordering | None
     outlier: Outlier | None
     tolerance: float
@@ -123,23 +133,46 @@ class PointCheck:
     def bounded(self, point: ArrayLike) -> FloatArray:
         """Covariance [m²] at a point whose 95 % ellipsoid, by chi-square, holds the error.
 
-        The larger of what the residuals and what the stated covariances say: three lucky touches
-        must not promise more than the cameras can.
+        By the covariances that came with the points, as long as the residuals bear them out; else
+        by the larger of these, made larger, and of what the residuals say. What all points share
+        shows in no residual: that is the plate's.
         """
-        by_residuals = self.target.bounded(point)
-        if self.stated is None:
-            return by_residuals
-        by_statement = self.stated.at(point)
-        return max(by_residuals, by_statement, key=lambda spread: float(np.trace(spread)))
+        by_residuals = (self.shaped or self.target).bounded(point)
+        spread = by_residuals
+        if self.stated is not None:
+            spread = self.stated.at(point)
+            if self.contradicted:
+                spread = max(spread, by_residuals, key=lambda one: float(np.trace(one)))
+        return spread + self.shared * np.eye(3)
+
+    @property
+    def condition(self) -> str:
+        """What the figure at the target rests on, for people."""
+        shift = (
+            f"a shift that all share: {np.sqrt(self.shared) / MILLIMETRE:.2f} mm by the plate"
+            if self.shared
+            else "a shift that all share is not in it"
+        )
+        if self.stated is not None:
+            shape = "errors of each point as stated"
+            shape += ", which the residuals exceed" if self.contradicted else ""
+        elif self.shaped is not None:
+            shape = "shape of the errors by the residuals"
+        else:
+            shape = "holds for errors that are as large in every direction"
+        return f"{shape}; {shift}"
 
 
-def check_points(plate: FiducialPlate, reference: FloatArray, found: NamedPoints) -> PointCheck:
+def check_points(
+    plate: FiducialPlate, reference: FloatArray, found: NamedPoints, shared: float = 0.0
+) -> PointCheck:
     """Check points that were found against the plate's.
 
     Args:
         plate: gives names, tolerance and the error to expect.
         reference: `plate.touch` or `plate.beads`.
         found: the same fiducials in another frame; some may be left out.
+        shared: variance per axis of what all of them share [m²].
 
     Raises:
         RegistrationError: if a name is not on the plate, or the points fix no rotation.
@@ -148,18 +181,34 @@ def check_points(plate: FiducialPlate, reference: FloatArray, found: NamedPoints
     tolerance = plate.tolerance_mm * MILLIMETRE
     variance = (plate.localisation_mm * MILLIMETRE) ** 2 / 3.0
     limit = chi_square_quantile(LARGEST_SCATTER, fit.freedom) * variance
+    stated, contradicted = _stated(fit, found)
     return PointCheck(
         found.names,
         fit,
         fiducial_error(fit),
         target_error(fit),
-        stated_target_error(fit, found.covariances) if found.stated else None,
+        shaped_target_error(fit),
+        stated,
+        contradicted,
+        shared,
         better_order(fit, tolerance),
         outlier(fit, tolerance),
         tolerance,
         fit.sum_of_squares > limit,
         scale_of(fit, variance),
     )
+
+
+def _stated(fit: RigidFit, found: NamedPoints) -> tuple[TargetError | None, bool]:
+    """Error by the points' own covariances, scaled where residuals contradict; and whether so."""
+    if not found.stated:
+        return None, False
+    error = stated_target_error(fit, found.covariances)
+    factor, by_chance = scatter_beyond(fit, found.covariances)
+    if factor <= by_chance:
+        return error, False
+    scaled = frozen(error.covariance * factor * inflation(fit.freedom))
+    return TargetError(error.centroid, scaled), True
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -176,7 +225,7 @@ class RegistrationAgreement:
 
     @property
     def radius(self) -> float:
-        """Distance that holds with 95 % [m]: the offset found and the radius round it."""
+        """Distance that holds with 95 % at least [m]: the offset found and the sphere round it."""
         return float(np.linalg.norm(self.offset)) + covariance_radius(self.covariance)
 
 
@@ -203,7 +252,7 @@ class RegistrationCheck:
         Raises:
             RegistrationError: if a name is not on the plate, or points fix no rotation.
         """
-        world = check_points(plate, plate.touch, touched)
+        world = check_points(plate, plate.touch, touched, (plate.shared_sd_mm * MILLIMETRE) ** 2)
         patient = check_points(plate, plate.beads, picked) if picked is not None else None
         return cls(plate, world, patient)
 
@@ -229,7 +278,7 @@ class RegistrationCheck:
 
     def expected(self, p_world: ArrayLike) -> FloatArray:
         """Covariance of the error that the residuals let expect at a point [m²], shape (3, 3)."""
-        return self._summed(p_world, lambda part, point: part.target.at(point))
+        return self._summed(p_world, lambda part, point: (part.shaped or part.target).at(point))
 
     def _summed(
         self, p_world: ArrayLike, of: Callable[[PointCheck, FloatArray], FloatArray]

@@ -56,6 +56,8 @@ class FiducialPlate(Strict):
         bead_diameter_mm: of the beads in the CT.
         place: T_world_plate when it is mounted on the robot; None for one that is laid anywhere.
         place_sd_mm: how well it comes back there, standard deviation per axis.
+        shared_sd_mm: what all touches share and no residual shows, standard deviation per axis: the
+            tip's distance from the marker, how deep it sits in a pit, a bent needle.
         localisation_mm: error of a careful touch, root mean square in 3D.
         tolerance_mm: a residual beyond this is a mistake, not an error of measurement.
     """
@@ -66,6 +68,7 @@ class FiducialPlate(Strict):
     bead_diameter_mm: float = Field(default=3.0, gt=0.0, le=20.0)
     place: PlatePlacement | None = None
     place_sd_mm: float = Field(default=0.0, ge=0.0, le=10.0)
+    shared_sd_mm: float = Field(default=0.0, ge=0.0, le=10.0)
     localisation_mm: float = Field(default=0.5, gt=0.0, le=10.0)
     tolerance_mm: float = Field(default=2.0, gt=0.0, le=50.0)
 

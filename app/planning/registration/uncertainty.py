@@ -11,6 +11,10 @@ d = p - c. Its trace for equal weights is Fitzpatrick, West and Maurer's (IEEE T
 from principal axis k of the fiducials and f_k the fiducials' root mean square distance from it. The
 residuals are independent of the twist and have 3 N - 6 degrees of freedom, so that
 ⟨FRE²⟩ = (1 - 2 / N) ⟨FLE²⟩ (Sibson 1979).
+
+All of this is for errors that are as large in every direction. Those of touches are not: cameras
+see badly along their view, a needle slides along its shaft. Where covariances come with the points
+they tell the shape; otherwise residuals of five points or more do, roughly (`shaped_target_error`).
 """
 
 from dataclasses import dataclass
@@ -104,6 +108,82 @@ def target_error(fit: RigidFit) -> TargetError:
     return TargetError(
         centroid, frozen(variance * np.linalg.inv(_information(levers, fit))), fit.freedom
     )
+
+
+FEWEST_FOR_SHAPE = 5
+"""Points from which on residuals say in which directions the errors are larger."""
+
+
+def shaped_target_error(fit: RigidFit) -> TargetError | None:
+    """Return the error to expect, scale and shape taken from the residuals.
+
+    All points err by one covariance S, of any shape. The residuals' products are linear in it,
+
+        Σ r rᵀ = Σ (S - S Jᵢ A Jᵢᵀ - Jᵢ A Jᵢᵀ S + Jᵢ A (Σ Jₖᵀ S Jₖ) A Jᵢᵀ),  A = (Σ Jᵢᵀ Jᵢ)⁻¹,
+
+    which is solved for S. There are N - 2 residuals for each direction and they count as so many
+    degrees of freedom; one more, as large in every direction, keeps S from being flat by chance.
+
+    Returns:
+        None for fewer than five points: two or one residual for a direction tell no shape.
+    """
+    if fit.count < FEWEST_FOR_SHAPE:
+        return None
+    levers, _ = _levers(fit)
+    jacobians = [_point_jacobian(lever) for lever in levers]
+    inverse = np.linalg.inv(_information(levers, fit))
+
+    def products(spread: FloatArray) -> FloatArray:
+        twist = inverse @ sum(J.T @ spread @ J for J in jacobians) @ inverse
+        total = np.zeros((3, 3))
+        for J in jacobians:
+            followed = spread @ J @ inverse @ J.T
+            total += spread - followed - followed.T + J @ twist @ J.T
+        return total
+
+    upper = np.triu_indices(3)
+    bases = []
+    for i, j in zip(*upper, strict=True):
+        basis = np.zeros((3, 3))
+        basis[i, j] = basis[j, i] = 1.0
+        bases.append(basis)
+    matrix = np.column_stack([products(basis)[upper] for basis in bases])
+    seen = (fit.residuals.T @ fit.residuals)[upper]
+    spread = sum(c * basis for c, basis in zip(np.linalg.solve(matrix, seen), bases, strict=True))
+    values, vectors = np.linalg.eigh(spread)
+    known = fit.count - 2
+    even = fit.sum_of_squares / fit.freedom * np.eye(3)
+    shape = (known * (vectors * np.maximum(values, 0.0)) @ vectors.T + even) / (known + 1)
+    error = stated_target_error(fit, np.tile(shape, (fit.count, 1, 1)))
+    return TargetError(error.centroid, error.covariance, known)
+
+
+def scatter_beyond(fit: RigidFit, covariances: FloatArray) -> tuple[float, float]:
+    """Return by what factor residuals scatter more than stated covariances say, and by chance.
+
+    The residuals are (I - J A Jᵀ W) times the points' errors; weighed by the covariance that this
+    gives them their square is chi-square with 3 N - 6 degrees of freedom.
+
+    Args:
+        fit: of the points.
+        covariances: stated, shape (n, 3, 3) [m²].
+
+    Returns:
+        Mean square over what it should be, and what it stays below in 95 of 100 fits.
+    """
+    levers, _ = _levers(fit)
+    jacobian = np.vstack([_point_jacobian(lever) for lever in levers])
+    weights = np.repeat(fit.weights, 3)
+    keep = np.eye(len(weights)) - jacobian @ np.linalg.inv(_information(levers, fit)) @ (
+        jacobian.T * weights
+    )
+    stated = np.zeros_like(keep)
+    for i, spread in enumerate(covariances):
+        stated[3 * i : 3 * i + 3, 3 * i : 3 * i + 3] = spread
+    values, vectors = np.linalg.eigh(keep @ stated @ keep.T)
+    residual = vectors[:, -fit.freedom :].T @ fit.residuals.ravel()
+    square = float(np.sum(residual**2 / values[-fit.freedom :]))
+    return square / fit.freedom, chi_square_quantile(0.95, fit.freedom) / fit.freedom
 
 
 def stated_target_error(fit: RigidFit, covariances: ArrayLike) -> TargetError:

@@ -57,7 +57,10 @@ def target_line(check: RegistrationCheck, p_world: FloatArray) -> str:
     """Say the error to expect at a point of the world [m], shape (3,), for technicians."""
     radius = covariance_radius(check.spread(p_world))
     rms = float(np.sqrt(np.trace(check.expected(p_world))))
-    return f"TRE at the target: {_mm(rms)} mm RMS expected, 95 % within {_mm(radius)} mm"
+    return (
+        f"TRE at the target: {_mm(rms)} mm RMS expected, at least 95 % within {_mm(radius)} mm "
+        f"({check.world.condition})"
+    )
 
 
 def _figures(title: str, part: PointCheck) -> list[str]:

@@ -4,6 +4,10 @@ Least squares of the reprojection error by Gauss-Newton over the pose T_left_boa
 where both cameras see the board, over the factor s by which it is larger than it should be:
 
     p = R·(s·X) + t,   ∂p/∂ξ = [I, -[p]×],   ∂p/∂s = R·X,   x = p_xy / p_z.
+
+Where the cameras are taken a little wrongly the board is found a little elsewhere: with r the
+residual and J = ∂x/∂ξ, ∂ξ/∂θ = (Jᵀ J)⁻¹ Jᵀ ∂r/∂θ. What is measured later errs with the same
+cameras.
 """
 
 from collections.abc import Sequence
@@ -14,9 +18,9 @@ import cv2
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.core.rotation import skew
 from app.core.transform import RigidTransform
 from app.tracking.calibration.applies import require_size
+from app.tracking.calibration.sightings import project_with_derivatives
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import StereoCalibration
@@ -54,7 +58,8 @@ class FittedBoardPose:
 
     Attributes:
         T_left_board: pose of the board in the left camera.
-        covariance: of its twist on the left, (6, 6), from the scatter of the corners.
+        covariance: of its twist on the left, (6, 6), from the scatter of the corners alone.
+        by_cameras: change of that twist with what `StereoCalibration.covariance` is of, (6, 24).
         rms_px: root mean square distance of the corners to their prediction (2D).
         by_picture: the same, picture by picture: (name, rms).
         scale: size of the board over its true size; None if only one camera saw it.
@@ -63,6 +68,7 @@ class FittedBoardPose:
 
     T_left_board: RigidTransform
     covariance: FloatArray
+    by_cameras: FloatArray
     rms_px: float
     by_picture: tuple[tuple[str, float], ...]
     scale: float | None
@@ -112,11 +118,50 @@ def fit_pose(calibration: StereoCalibration, seen: Sequence[BoardRays]) -> Fitte
         )
     pose, _, residual, jacobian = min(fits, key=lambda fit: float(fit[2] @ fit[2]))
     freedom = max(1, residual.size - 6)
-    covariance = np.linalg.inv(jacobian.T @ jacobian) * float(residual @ residual) / freedom
+    inverse = np.linalg.inv(jacobian.T @ jacobian)
+    covariance = inverse * float(residual @ residual) / freedom
+    by_cameras = inverse @ jacobian.T @ _by_cameras(calibration, seen, pose)
     scale, scale_sd = _scale(seen, T_right_left, pose)
     return FittedBoardPose(
-        pose, covariance, _rms(residual), _by_picture(seen, residual), scale, scale_sd
+        pose, covariance, by_cameras, _rms(residual), _by_picture(seen, residual), scale, scale_sd
     )
+
+
+def _by_cameras(
+    calibration: StereoCalibration, seen: Sequence[BoardRays], pose: RigidTransform
+) -> FloatArray:
+    """Change of the residual with both cameras' parameters and T_right_left's twist, (2n, 24)."""
+    T_right_left, parts = calibration.pose.transform, []
+    for one in seen:
+        camera = calibration.cameras[one.camera]
+        parameters = np.concatenate([camera.intrinsics, camera.distortion])
+        rays = np.column_stack([one.rays, np.ones(len(one.rays))])
+        _, by_ray, by_parameter = project_with_derivatives(rays, parameters)
+        change = np.zeros((len(rays), 2, len(calibration.covariance)))
+        first = one.camera * len(calibration.cameras[0].lens.parameters)
+        own = slice(first, first + len(parameters))
+        change[:, :, own] = -np.linalg.solve(by_ray[:, :, :2], by_parameter)
+        if one.camera == 1:
+            p_right = T_right_left @ (pose @ one.points)
+            moved = np.concatenate(
+                [np.tile(np.eye(3), (len(p_right), 1, 1)), -_skews(p_right)],
+                axis=2,
+            )
+            change[:, :, -6:] = -_by_ray(p_right, moved)
+        parts.append((change * one.focal[:, None]).reshape(2 * len(rays), -1))
+    return np.concatenate(parts)
+
+
+def _skews(points: FloatArray) -> FloatArray:
+    """Matrices [p]x of points, (n, 3) -> (n, 3, 3)."""
+    return np.asarray(np.cross(np.eye(3), points[:, None, :]).swapaxes(1, 2) * -1.0)
+
+
+def _by_ray(points: FloatArray, by: FloatArray) -> FloatArray:
+    """Change of p_xy / p_z where that of p, (n, 3, k), is known, (n, 2, k)."""
+    z = points[:, 2]
+    xy = points[:, :2] / z[:, None]
+    return np.asarray((by[:, :2] - xy[:, :, None] * by[:, 2:]) / z[:, None, None])
 
 
 def _starts(seen: Sequence[BoardRays], T_right_left: RigidTransform) -> list[RigidTransform]:
@@ -177,7 +222,7 @@ def _system(
         p_left = scale * turned + pose.translation
         by_left = np.zeros((len(p_left), 3, 7))
         by_left[:, :, :3] = np.eye(3)
-        by_left[:, :, 3:6] = -np.array([skew(p) for p in p_left])
+        by_left[:, :, 3:6] = -_skews(p_left)
         by_left[:, :, 6] = turned
         p, by = p_left, by_left
         if one.camera == 1:
@@ -186,9 +231,8 @@ def _system(
         if z.min() < _NEAREST or not np.isfinite(p).all():
             return None
         xy = p[:, :2] / z[:, None]
-        slope = (by[:, :2] - xy[:, :, None] * by[:, 2:]) / z[:, None, None]
         residuals.append(((one.rays - xy) * one.focal).ravel())
-        jacobians.append((slope * one.focal[:, None]).reshape(-1, 7))
+        jacobians.append((_by_ray(p, by) * one.focal[:, None]).reshape(-1, 7))
     return np.concatenate(residuals), np.concatenate(jacobians)
 
 

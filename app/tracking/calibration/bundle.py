@@ -1,11 +1,11 @@
 """Bundle adjustment of one or two cameras and the boards they saw: least squares on the pixels.
 
-Unknown are the free ones of each camera's nine parameters, the pose of the second camera
-(T_right_left) and one pose per board (T_left_board). Poses change by twists (translation, rotation
-vector) on the left: T = exp(twist) @ T_estimated. Gauss-Newton damped by Levenberg and Marquardt;
-the boards' poses are eliminated first (Schur complement), so that the system that is solved is no
-larger than 9, or 24 for two cameras. Its inverse, times the residual's variance, is the covariance:
-that of the estimate with the boards' poses unknown as well.
+Unknown are the free ones of each camera's parameters (nine of the usual lens), the pose of the
+second camera (T_right_left) and one pose per board (T_left_board). Poses change by twists
+(translation, rotation vector) on the left: T = exp(twist) @ T_estimated. Gauss-Newton damped by
+Levenberg and Marquardt; the boards' poses are eliminated first (Schur complement), so that the
+system that is solved is no larger than 9, or 24 for two such cameras. Its inverse, times the
+residual's variance, is the covariance: that of the estimate with the boards' poses unknown as well.
 """
 
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ from app.core.progress import Progress
 from app.core.transform import RigidTransform
 from app.tracking.calibration.sightings import AdjustedState, SeenBoard, rows
 from app.tracking.errors import CalibrationError
-from app.tracking.optics.calibration import PARAMETERS
+from app.tracking.optics.lens import LensModel
 
 _ROUNDS = 60
 _GAIN = 1e-10
@@ -35,7 +35,7 @@ class Adjusted:
     Attributes:
         state: the estimate.
         covariance: of the cameras' parameters in a row and, for two, the twist of T_right_left,
-            shape (9, 9) or (24, 24); zero rows for what was fixed.
+            shape (m, m) or (2 m + 6, 2 m + 6); zero rows for what was fixed.
         residuals: measured minus predicted pixels of each sighting, (n, 2) each.
         sigma_px: standard deviation of one pixel coordinate, from the residuals.
         condition: smallest eigenvalue of the eliminated system, scaled to a unit diagonal; near 0
@@ -54,8 +54,9 @@ class Adjusted:
         return rms(np.concatenate(self.residuals))
 
     def sd(self, camera: int = 0) -> FloatArray:
-        """Return the standard deviations of a camera's parameters, shape (9,)."""
-        block = slice(9 * camera, 9 * camera + 9)
+        """Return the standard deviations of a camera's parameters, shape (m,)."""
+        count = self.state.parameters.shape[1]
+        block = slice(camera * count, (camera + 1) * count)
         result: FloatArray = np.sqrt(np.maximum(np.diag(self.covariance)[block], 0.0))
         return result
 
@@ -78,7 +79,7 @@ def adjust(
     Args:
         sightings: at least one for every pose.
         start: first estimate.
-        free: which parameters are estimated, shape (cameras, 9).
+        free: which parameters are estimated, shape (cameras, m).
         progress: asked every round; may cancel.
         rounds: at most so many steps.
         pose_free: whether T_right_left is estimated, too.
@@ -188,17 +189,19 @@ class _Problem:
         if (
             max(
                 np.abs(boards[:, 3:]).max(initial=0.0),
-                np.abs(full[9 * self.cameras :]).max(initial=0.0),
+                np.abs(full[state.parameters.size :]).max(initial=0.0),
             )
             > 3.0
         ):
             return None  # beyond half a turn a twist means something else
-        parameters = state.parameters + full[: 9 * self.cameras].reshape(-1, 9)
+        parameters = state.parameters + full[: state.parameters.size].reshape(
+            state.parameters.shape
+        )
         if parameters[:, :2].min() <= 0.0:
             return None
         pose = state.T_right_left
         if self.cameras == 2:
-            pose = RigidTransform.exp(full[18:]) @ pose
+            pose = RigidTransform.exp(full[state.parameters.size :]) @ pose
         poses = tuple(
             RigidTransform.exp(twist) @ T for twist, T in zip(boards, state.poses, strict=True)
         )
@@ -235,7 +238,7 @@ def _inverse(matrix: FloatArray) -> tuple[FloatArray, float]:
     return inverse, float(values.min())
 
 
-def with_free(names: Sequence[str], cameras: int = 1) -> Flags:
-    """Mark the parameters named as free, for every camera alike, shape (cameras, 9)."""
-    row = np.array([name in names for name in PARAMETERS])
+def with_free(names: Sequence[str], cameras: int = 1, lens: LensModel = LensModel.BROWN) -> Flags:
+    """Mark the parameters named as free, for every camera alike, shape (cameras, m)."""
+    row = np.array([name in names for name in lens.parameters])
     return np.tile(row, (cameras, 1))

@@ -1,7 +1,7 @@
 """A board's corners in one picture, to a fraction of a pixel, or why the picture is of no use."""
 
 from dataclasses import replace
-from typing import Any
+from typing import Any, Final
 
 import cv2
 import numpy as np
@@ -200,7 +200,7 @@ def _measured(grey: Grey, board: Board, found: Found, window: int | None) -> Boa
             f"a square is only {square_px:.1f} px across; {SMALLEST_SQUARE:g} px are needed: "
             "bring the board nearer",
         )
-    if not _lies_flat(ids, pixels, homography, board, square_px):
+    if not _lies_flat(ids, pixels, board, square_px, (grey.shape[1], grey.shape[0])):
         return Rejection(
             RejectionReason.OTHER_BOARD,
             "the corners found do not lie on a grid; check the board's counts",
@@ -264,13 +264,29 @@ def refined(grey: Grey, pixels: FloatArray, half: int) -> FloatArray:
     return result
 
 
+STRAIGHTENED: Final = (0.0, -0.2, -0.4, -0.6, -0.8)
+"""λ·R² of the division model r / (1 + λ·r²) (Fitzgibbon 2001), R half the picture's diagonal, by
+which corners are straightened that a wide lens has bent."""
+
+
 def _lies_flat(
     ids: NDArray[np.int64],
     pixels: FloatArray,
-    homography: FloatArray,
     board: Board,
     square_px: float,
+    size: tuple[int, int],
 ) -> bool:
-    """Whether corners lie on a plane grid within what lens distortion bends (half a square)."""
-    away = np.linalg.norm(mapped(homography, board.points[ids, :2] / board.square) - pixels, axis=1)
-    return bool(np.isfinite(away).all() and away.max() < 0.5 * square_px + 2.0)
+    """Whether corners lie on a plane grid, by half a square, as they are or seen by a wide lens."""
+    seen = board.points[ids, :2] / board.square
+    middle = 0.5 * (np.array(size) - 1.0)
+    out = (pixels - middle) / np.linalg.norm(middle)
+    for bend in STRAIGHTENED:
+        factor = 1.0 / (1.0 + bend * (out**2).sum(axis=1, keepdims=True))
+        straight = middle + (pixels - middle) * factor
+        homography = plane_map(board, ids, straight)
+        if homography is None:
+            continue
+        away = np.linalg.norm((mapped(homography, seen) - straight) / factor, axis=1)
+        if np.isfinite(away).all() and away.max() < 0.5 * square_px + 2.0:
+            return True
+    return False

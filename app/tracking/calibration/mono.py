@@ -8,8 +8,16 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.progress import Progress
 from app.tracking.calibration.bundle import Adjusted, adjust, rms, with_free
+from app.tracking.calibration.lens_choice import BOTH, BROWN, FISHEYE, LensChoice, choose_lens
 from app.tracking.calibration.poses import better_corners, board_pose, first_estimate, usual_rms
-from app.tracking.calibration.remarks import ViewResidual, mono_remarks, unrefined_remarks
+from app.tracking.calibration.ray_error import ray_sds, with_usual_k3
+from app.tracking.calibration.remarks import (
+    ViewResidual,
+    lens_remarks,
+    mono_remarks,
+    unrefined_remarks,
+)
+from app.tracking.calibration.rolling_shutter import moved_px, rolling_remark
 from app.tracking.calibration.selection import (
     Dropped,
     belongs,
@@ -21,7 +29,8 @@ from app.tracking.calibration.selection import (
 from app.tracking.calibration.sightings import AdjustedState, SeenBoard
 from app.tracking.calibration.views import BoardView, named
 from app.tracking.errors import CalibrationError
-from app.tracking.optics.calibration import PARAMETERS, CameraCalibration
+from app.tracking.optics.calibration import CameraCalibration
+from app.tracking.optics.lens import LensModel
 
 LEAST_VIEWS = 3
 LEAST_CONDITION = 1e-12
@@ -42,7 +51,9 @@ class MonoResult:
         chosen: every view given, in that order, with the corners that fit better: refined, or as
             the finder gave them.
         residuals: of every view given, in that order.
-        dropped: coefficients that the data do not support.
+        five_px: residual with five coefficients where the lens asks for another model; else None.
+        dropped: coefficients that the views do not tell.
+        wide_covariance: of the camera's parameters with what is dropped as uncertain as it is.
         usual_rms_px: what OpenCV's plain recipe leaves on the same corners: all views, all five
             coefficients; None if it finds nothing.
         held_back_rms_px: of views that took no part; None if there were none.
@@ -54,7 +65,9 @@ class MonoResult:
     views: tuple[BoardView, ...]
     chosen: tuple[BoardView, ...]
     residuals: tuple[ViewResidual, ...]
+    five_px: float | None
     dropped: tuple[Dropped, ...]
+    wide_covariance: FloatArray
     usual_rms_px: float | None
     held_back_rms_px: float | None
     notes: tuple[str, ...]
@@ -65,6 +78,7 @@ def calibrate_mono(
     name: str = "camera",
     hold_back: int | None = None,
     progress: Progress | None = None,
+    lens: LensModel | None = None,
 ) -> MonoResult:
     """Calibrate one camera.
 
@@ -73,6 +87,7 @@ def calibrate_mono(
         name: of the camera.
         hold_back: how many views take no part and are fitted afterwards; one in five if None.
         progress: reports, and may cancel.
+        lens: model of the lens; by what the views ask for if None.
 
     Raises:
         CalibrationError: if the views are too few, of different sizes, or do not determine the
@@ -88,7 +103,8 @@ def calibrate_mono(
     views = better_corners(views, _first(views, held, progress.part(0.1, 0.2)))
     while True:
         kept = [view for i, view in enumerate(views) if i not in held]
-        used, out, (adjusted, names, dropped) = _estimated(kept, name, progress)
+        model = _estimated(kept, name, lens, progress)
+        used, out, adjusted = model.used, model.out, model.adjusted
         better = better_corners(views, adjusted.state.parameters[0])
         if better == views:  # the very same: every round takes more of them unrefined, or none
             break
@@ -96,41 +112,95 @@ def calibrate_mono(
     _require_determined(adjusted, name)
     progress.report(0.9, f"{name}: views held back")
     residuals = _residuals(views, used, out, adjusted)
+    camera = _calibration(name, views[0].image_size, adjusted, model)
+    moved = moved_px(used, adjusted)
     apart = [r.rms_px for r in residuals if r.role == "held_back"]
     return MonoResult(
-        _calibration(name, views[0].image_size, adjusted, names),
+        camera.model_copy(update={"rolling_px": moved}),
         adjusted,
         tuple(used),
         tuple(views),
         residuals,
-        dropped,
+        model.five_px,
+        model.dropped,
+        adjusted.covariance if model.wide_covariance is None else model.wide_covariance,
         usual_rms(views),
         float(np.sqrt(np.mean(np.square(apart)))) if apart else None,
         (
             *unrefined_remarks(name, given, views),
-            *mono_remarks(name, used, adjusted, dropped, residuals),
+            *lens_remarks(name, model.choice.lens, adjusted, used, model.five_px),
+            *([] if moved is None else [rolling_remark(name, moved)]),
+            *mono_remarks(name, used, adjusted, model.dropped, residuals),
         ),
     )
 
 
-_Model = tuple[Adjusted, tuple[str, ...], tuple[Dropped, ...]]
+@dataclass(frozen=True, eq=False)
+class _Model:
+    """A camera estimated: views used and left out, the model of its lens, and the estimate."""
+
+    used: list[BoardView]
+    out: list[BoardView]
+    choice: LensChoice
+    adjusted: Adjusted
+    five_px: float | None = None
+    dropped: tuple[Dropped, ...] = ()
+    wide_covariance: FloatArray | None = None
 
 
 def _estimated(
-    views: list[BoardView], name: str, progress: Progress
-) -> tuple[list[BoardView], list[BoardView], _Model]:
-    """Return views used, views left out, and the smallest model of the camera."""
-    used, out = _without_outliers(views, progress.part(0.2, 0.6))
-    progress.report(0.6, f"{name}: which coefficients the views support")
-    start, choosing = first_estimate(used), progress.part(0.7, 0.9)
-    model = smallest_model(
-        lambda free, earlier: _fit(used, earlier.state if earlier else start, free, choosing)
+    views: list[BoardView], name: str, lens: LensModel | None, progress: Progress
+) -> _Model:
+    """Choose views and the model of the lens, and estimate the camera."""
+    used, out, usual = _without_outliers(views, BROWN, progress.part(0.2, 0.5))
+    progress.report(0.5, f"{name}: which coefficients the views support")
+    choosing = progress.part(0.5, 0.9)
+    if lens is not LensModel.BROWN:
+        longer = _longer(views, used, out, usual, lens, choosing)
+        if longer is not None:
+            return longer
+    adjusted, names, dropped = smallest_model(
+        lambda free, earlier: _fit(
+            used, (earlier or usual).state, LensChoice(BROWN.lens, free), choosing
+        )
     )
-    return used, out, model
+    wide = with_usual_k3(usual.covariance) if dropped else None
+    return _Model(used, out, LensChoice(BROWN.lens, names), adjusted, None, dropped, wide)
+
+
+def _longer(
+    views: list[BoardView],
+    used: list[BoardView],
+    out: list[BoardView],
+    usual: Adjusted,
+    lens: LensModel | None,
+    progress: Progress,
+) -> _Model | None:
+    """Estimate a camera by a longer model; None where the views do not ask for one.
+
+    Views at the edges of a wide lens' picture do not fit five coefficients and look like outliers:
+    the choice is made on the views that fit the richest model.
+    """
+
+    def fit(
+        some: Sequence[BoardView], state: AdjustedState, choice: LensChoice, steps: int
+    ) -> Adjusted:
+        return _fit(some, state, choice, progress, steps)
+
+    if out:
+        tried = FISHEYE if lens is LensModel.FISHEYE else BOTH
+        used, out, _ = _without_outliers(views, tried, progress)
+        usual = _fit(used, first_estimate(used), BROWN, progress)
+    choice = choose_lens(used, usual, fit, lens)
+    if choice is BROWN:
+        return None
+    used, out, adjusted = _without_outliers(views, choice, progress)
+    five_px = _fit(used, first_estimate(used), BROWN, progress).rms_px
+    return _Model(used, out, choice, adjusted, five_px)
 
 
 def _first(views: Sequence[BoardView], held: set[int], progress: Progress) -> FloatArray:
-    """Parameters of a camera from all views that are not held back, (9,)."""
+    """Parameters of a camera from all views that are not held back, shape (9,)."""
     progress.report(0.0, "first estimate")
     kept = [view for i, view in enumerate(views) if i not in held]
     return first_estimate(kept).parameters[0]
@@ -162,23 +232,39 @@ def _require_one_size(views: Sequence[BoardView], name: str) -> None:
 
 
 def _fit(
-    views: Sequence[BoardView], start: AdjustedState, names: tuple[str, ...], progress: Progress
+    views: Sequence[BoardView],
+    start: AdjustedState,
+    choice: LensChoice,
+    progress: Progress,
+    steps: int = 60,
 ) -> Adjusted:
-    """Estimate the parameters named; the coefficients that are not are zero."""
-    free = with_free(names)
-    parameters = np.where(free | (np.arange(9) < 4), start.parameters, 0.0)
+    """Estimate the parameters of a choice; the coefficients that are not in it are zero."""
+    free = with_free(choice.names, 1, choice.lens)
+    count = free.shape[1]
+    parameters = np.zeros((1, count))
+    shared = min(count, start.parameters.shape[1])
+    if choice.lens is LensModel.FISHEYE and shared != count:
+        shared = 4
+    parameters[:, :shared] = start.parameters[:, :shared]
+    parameters = np.where(free | (np.arange(count) < 4), parameters, 0.0)
     seen = [SeenBoard(i, 0, view.points, view.pixels) for i, view in enumerate(views)]
     progress.report(0.0, "adjusting")
-    return adjust(seen, AdjustedState(parameters, start.T_right_left, start.poses), free)
+    return adjust(
+        seen, AdjustedState(parameters, start.T_right_left, start.poses), free, None, steps
+    )
 
 
 def _without_outliers(
-    views: list[BoardView], progress: Progress
-) -> tuple[list[BoardView], list[BoardView]]:
-    """Leave out views that do not belong, worst first; what fits again later comes back, once."""
+    views: list[BoardView], choice: LensChoice, progress: Progress
+) -> tuple[list[BoardView], list[BoardView], Adjusted]:
+    """Leave out views that do not belong, worst first; what fits again later comes back, once.
+
+    Returns:
+        Views used, views left out, and the estimate from those used.
+    """
     used, out, came_back = list(views), list[BoardView](), set[int]()
     while True:
-        adjusted = _fit(used, first_estimate(used), PARAMETERS, progress)
+        adjusted = _fit(used, first_estimate(used), choice, progress)
         each = [rms(r) for r in adjusted.residuals]
         worst = int(np.argmax(each))
         if each[worst] > limit_px(each) and len(used) > LEAST_VIEWS:
@@ -191,7 +277,7 @@ def _without_outliers(
             if id(view) not in came_back and belongs(board_pose(view, parameters)[1], each)
         ]
         if not again:
-            return used, out
+            return used, out, adjusted
         came_back |= {id(view) for view in again}
         out = [view for view in out if not any(view is other for other in again)]
         used += again
@@ -225,16 +311,18 @@ def _residuals(
 
 
 def _calibration(
-    name: str, size: tuple[int, int], adjusted: Adjusted, names: tuple[str, ...]
+    name: str, size: tuple[int, int], adjusted: Adjusted, model: _Model
 ) -> CameraCalibration:
+    own = adjusted.covariance
     return camera_of(
         name,
         size,
         adjusted.state.parameters[0],
-        names,
-        adjusted.covariance[:9, :9],
+        model.choice,
+        own,
         adjusted.rms_px,
         len(adjusted.residuals),
+        own if model.wide_covariance is None else model.wide_covariance,
     )
 
 
@@ -242,10 +330,11 @@ def camera_of(
     name: str,
     size: tuple[int, int],
     parameters: np.ndarray,
-    names: tuple[str, ...],
+    choice: LensChoice,
     covariance: np.ndarray,
     rms_px: float,
     views: int,
+    wide_covariance: np.ndarray,
 ) -> CameraCalibration:
     """Return a camera as the value that files hold."""
     p = [float(value) for value in parameters]
@@ -254,9 +343,11 @@ def camera_of(
         image_size=size,
         focal_px=(p[0], p[1]),
         centre_px=(p[2], p[3]),
-        distortion=(p[4], p[5], p[6], p[7], p[8]),
-        estimated=names,
+        lens=choice.lens,
+        distortion=tuple(p[4:]),
+        estimated=choice.names,
         covariance=tuple(tuple(float(value) for value in row) for row in covariance),
         rms_px=rms_px,
         views=views,
+        ray_sd_px=tuple(map(tuple, ray_sds(parameters, wide_covariance, size).tolist())),
     )

@@ -37,7 +37,7 @@ def _pair_error(
 ) -> float:
     """Root mean square residual of a pair whose board pose alone is fitted [px]."""
     start = replace(adjusted.state, poses=(T_left_board,))
-    none = np.zeros((2, 9), dtype=bool)
+    none = np.zeros(adjusted.state.parameters.shape, dtype=bool)
     try:
         found = adjust(pair_sightings([(left, right)]), start, none, rounds=20, pose_free=False)
     except CalibrationError:

@@ -6,13 +6,13 @@ from os import cpu_count
 from pathlib import Path
 
 import cv2
-import numpy as np
 
 from app.core.progress import Progress
 from app.tracking.calibration.boards import Board
 from app.tracking.calibration.corners import find_corners
 from app.tracking.calibration.views import BoardView, Rejection, RejectionReason
 from app.tracking.errors import CalibrationError
+from app.tracking.picture_file import decoded
 
 SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".webp")
 
@@ -66,8 +66,7 @@ def read_view(
 ) -> BoardView | Rejection:
     """Read a picture and find the board; a file that is no picture is a rejection."""
     try:
-        data = np.frombuffer(path.read_bytes(), dtype=np.uint8)
-        image = cv2.imdecode(data, cv2.IMREAD_COLOR) if data.size else None
+        image = decoded(path.read_bytes())
     except (OSError, cv2.error) as error:
         return Rejection(RejectionReason.UNREADABLE, f"cannot be read: {_short(error)}", path.name)
     if image is None:

@@ -16,6 +16,7 @@ from app.tracking.calibration.bundle import adjust, rms
 from app.tracking.calibration.sightings import AdjustedState, SeenBoard
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
+from app.tracking.optics.distortion import fold_radius, undistort_grid
 
 _NO_DISTORTION = (
     cv2.CALIB_FIX_K1 | cv2.CALIB_FIX_K2 | cv2.CALIB_FIX_K3 | cv2.CALIB_ZERO_TANGENT_DIST
@@ -103,9 +104,6 @@ def rigid_fit(source: FloatArray, target: FloatArray) -> RigidTransform:
     return RigidTransform(rotation, middle_target - rotation @ middle_source)
 
 
-_NONE_FREE = np.zeros((1, 9), dtype=bool)
-
-
 def board_pose(view: BoardView, parameters: FloatArray) -> tuple[RigidTransform, float]:
     """T_camera_board and the root mean square distance of its corners from the picture [px].
 
@@ -113,7 +111,7 @@ def board_pose(view: BoardView, parameters: FloatArray) -> tuple[RigidTransform,
 
     Args:
         view: corners in the picture.
-        parameters: of the camera, in the order of `PARAMETERS`, shape (9,).
+        parameters: fx, fy, cx, cy and the lens' coefficients, shape (m,).
 
     Raises:
         CalibrationError: if no pose puts the board before the camera.
@@ -134,7 +132,7 @@ def better_corners(views: Sequence[BoardView], parameters: FloatArray) -> list[B
     Args:
         views: with `unrefined` corners where they are known; a view that needs no change comes
             back as it is.
-        parameters: of the camera, in the order of `PARAMETERS`, shape (9,).
+        parameters: fx, fy, cx, cy and the lens' coefficients, shape (m,).
     """
     return [_better(view, parameters) for view in views]
 
@@ -150,10 +148,10 @@ def _better(view: BoardView, parameters: FloatArray) -> BoardView:
 
 
 def _two_poses(view: BoardView, p: FloatArray) -> list[RigidTransform]:
-    matrix = np.array([[p[0], 0.0, p[2]], [0.0, p[1], p[3]], [0.0, 0.0, 1.0]])
+    rays, exist = undistort_grid(view.pixels, p[:4], p[4:], fold_radius(p[4:]))
     try:
         _, turns, shifts, _ = cv2.solvePnPGeneric(
-            view.points, view.pixels.reshape(-1, 1, 2), matrix, p[4:], flags=cv2.SOLVEPNP_IPPE
+            view.points[exist], rays[exist, None], np.eye(3), None, flags=cv2.SOLVEPNP_IPPE
         )
     except cv2.error as error:
         raise CalibrationError(f"view {view.name!r}: no pose of the board can be found") from error
@@ -170,7 +168,7 @@ def _refined(
     seen = SeenBoard(0, 0, view.points, view.pixels)
     start = AdjustedState(parameters[None], RigidTransform.identity(), (T,))
     try:
-        found = adjust([seen], start, _NONE_FREE, rounds=20)
+        found = adjust([seen], start, np.zeros((1, parameters.size), dtype=bool), rounds=20)
     except CalibrationError:
         return None
     return found.state.poses[0], rms(found.residuals[0])

@@ -6,8 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.tracking.calibration.bundle import Adjusted
+from app.tracking.calibration.lens_choice import reach
 from app.tracking.calibration.selection import Dropped
 from app.tracking.calibration.views import BoardView
+from app.tracking.optics.lens import LensModel
 
 
 @dataclass(frozen=True)
@@ -49,6 +51,24 @@ def mono_remarks(
             "print in both directions"
         )
     return notes
+
+
+def lens_remarks(
+    name: str,
+    lens: LensModel,
+    adjusted: Adjusted,
+    used: Sequence[BoardView],
+    five_px: float | None,
+) -> list[str]:
+    """Say that the lens is none for five coefficients, and which model it got."""
+    if lens is LensModel.BROWN or five_px is None:
+        return []
+    angle = np.degrees(reach(adjusted.state.parameters[0], used))
+    return [
+        f"{name}: this lens is wider than the five-coefficient model, or bends otherwise: seen up "
+        f"to {angle:.0f}° off its axis, {five_px:.3f} px remain with five coefficients, "
+        f"{adjusted.rms_px:.3f} px with the {lens.words}: calibrated with that"
+    ]
 
 
 def unrefined_remarks(

@@ -4,9 +4,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
+import numpy as np
+
+from app.core.arrays import FloatArray
 from app.core.progress import Progress
 from app.tracking.calibration.bundle import rms
 from app.tracking.calibration.identity import new_id
+from app.tracking.calibration.lens_choice import LensChoice
+from app.tracking.calibration.misfit import misfit_px
 from app.tracking.calibration.mono import camera_of
 from app.tracking.calibration.pair_fit import matched, matched_residual
 from app.tracking.calibration.poses import better_corners
@@ -17,6 +22,7 @@ from app.tracking.calibration.validation import ViewPair, validate
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import PoseCalibration, StereoCalibration
+from app.tracking.optics.lens import LensModel
 
 MaybeView = BoardView | None
 
@@ -43,9 +49,11 @@ def calibrate_stereo(
     hold_back: int | None = None,
     progress: Progress | None = None,
     now: datetime | None = None,
+    lens: LensModel | None = None,
 ) -> StereoCalibration:
     """Calibrate two cameras; see `calibrate_pairs`, of which this is the calibration alone."""
-    return calibrate_pairs(views_left, views_right, names, hold_back, progress, now).calibration
+    found = calibrate_pairs(views_left, views_right, names, hold_back, progress, now, lens)
+    return found.calibration
 
 
 def calibrate_pairs(
@@ -55,6 +63,7 @@ def calibrate_pairs(
     hold_back: int | None = None,
     progress: Progress | None = None,
     now: datetime | None = None,
+    lens: LensModel | None = None,
 ) -> StereoResult:
     """Calibrate two cameras from views taken together, and validate on some held back.
 
@@ -68,6 +77,7 @@ def calibrate_pairs(
         hold_back: pairs that take no part; one in five from eight pairs on if None.
         progress: reports, and may cancel.
         now: when the calibration was made; the present if None.
+        lens: model of both lenses; by what the views ask for if None.
 
     Raises:
         CalibrationError: see `stereo.estimate_stereo`.
@@ -90,7 +100,7 @@ def calibrate_pairs(
     )
     held = set(_held(pairs, hold_back))
     kept = [pair for i, pair in enumerate(pairs) if i not in held]
-    estimate = estimate_stereo(kept, alone, names, progress.part(0.0, 0.9))
+    estimate = estimate_stereo(kept, alone, names, progress.part(0.0, 0.9), lens)
     progress.report(0.9, "pairs held back")
     cameras = estimate.adjusted.state.parameters
     better = [
@@ -120,31 +130,54 @@ def _held_row(pair: ViewPair, estimate: StereoEstimate) -> ViewResidual:
     return ViewResidual(name, matched_residual(pair, estimate.adjusted), "held_back")
 
 
+def _misfit(estimate: StereoEstimate) -> float:
+    monos = (estimate.left, estimate.right)
+    lenses = sum(len(mono.calibration.estimated) for mono in monos)
+    unknowns = lenses + 6 + 6 * len(estimate.adjusted.state.poses)
+    return misfit_px([v for pair in estimate.pairs for v in pair], estimate.adjusted, unknowns)
+
+
 def _value(estimate: StereoEstimate, names: tuple[str, str], now: datetime) -> StereoCalibration:
     adjusted, board = estimate.adjusted, estimate.pairs[0][0].board
-    covariance = adjusted.covariance
+    covariance, blocks = _own_blocks(estimate)
     cameras = []
     for side, mono in enumerate((estimate.left, estimate.right)):
-        block = slice(9 * side, 9 * side + 9)
-        cameras.append(
-            camera_of(
-                names[side],
-                mono.calibration.image_size,
-                adjusted.state.parameters[side],
-                mono.calibration.estimated,
-                covariance[block, block],
-                rms(estimate.residuals_of(side)),
-                len(estimate.pairs),
-            )
+        lens = mono.calibration.lens
+        camera = camera_of(
+            names[side],
+            mono.calibration.image_size,
+            adjusted.state.parameters[side, : len(lens.parameters)],
+            LensChoice(lens, mono.calibration.estimated),
+            covariance[blocks[side], blocks[side]],
+            rms(estimate.residuals_of(side)),
+            len(estimate.pairs),
+            mono.wide_covariance if mono.dropped else covariance[blocks[side], blocks[side]],
         )
+        update = {"rolling_px": mono.calibration.rolling_px}
+        cameras.append(camera.model_copy(update=update))
     return StereoCalibration(
         id=new_id(now),
         created=now,
         board=board.spec,
         cameras=(cameras[0], cameras[1]),
-        pose=PoseCalibration.of(adjusted.state.T_right_left, covariance[18:, 18:]),
+        pose=PoseCalibration.of(adjusted.state.T_right_left, covariance[-6:, -6:]),
         rms_px=estimate.rms_px,
+        misfit_px=_misfit(estimate),
         together=estimate.together,
         joint_covariance=tuple(tuple(float(value) for value in row) for row in covariance),
         notes=estimate.notes,
     )
+
+
+def _own_blocks(estimate: StereoEstimate) -> tuple[FloatArray, tuple[slice, slice]]:
+    """Return the covariance without parameters that a camera's lens lacks, and where each stands.
+
+    Both cameras are estimated with the parameters of the longer model.
+    """
+    count = estimate.adjusted.state.parameters.shape[1]
+    left, right = (
+        len(mono.calibration.lens.parameters) for mono in (estimate.left, estimate.right)
+    )
+    keep = np.concatenate([np.arange(left), count + np.arange(right), 2 * count + np.arange(6)])
+    covariance = estimate.adjusted.covariance[np.ix_(keep, keep)]
+    return covariance, (slice(0, left), slice(left, left + right))

@@ -1,11 +1,15 @@
 """Which coefficients and which views an adjustment uses.
 
-The smallest distortion model that the data support: all five coefficients are estimated first.
-Coefficients are correlated, so one is dropped at a time and everything is estimated anew: of those
-that may go (p1, p2, and the highest radial one left) the one least different from 0, if its |value|
-is under `LIMIT` standard deviations, or if keeping it is not worth its place by the Bayesian
-information criterion (value² < ln(n) · variance, Schwarz 1978; for a linear parameter that is the
-criterion's likelihood ratio).
+k1, k2, p1 and p2 are estimated always. A coefficient that is left out because its estimate lies
+near 0 is then taken as known, and what it really is shows up in all others: with tangential
+distortion of 4e-4 their stated ellipsoid of 95 % held 27 % (`acus study coverage`). Where a
+coefficient is chosen by its value, standard deviations hold for the choice that was made and not
+for having made it (Leeb and Poetscher, Econometric Theory 21, 21, 2005).
+
+k3 alone may go, by what the views can tell and not by what it is: where its standard deviation is
+beyond `K3_UNKNOWN`, several times what k3 of lenses is, an estimate says nothing of the lens, and
+continues wildly where no corner was. Leaving it out then moves any other estimate by at most
+|k3| / sd of what estimating it would add. An estimate that is beyond doubt stays.
 
 Views that do not belong are left out by a robust rule on the residual of each. Held back for
 validation are those whose absence leaves the coverage as it was.
@@ -98,16 +102,16 @@ def belongs(residual: float, used: Sequence[float]) -> bool:
     return residual <= max(FACTOR * float(np.median(used)), FLOOR)
 
 
-LIMIT = 3.0
-"""Standard deviations from 0 below which a coefficient is not significant."""
+K3_UNKNOWN = 0.5
+"""Standard deviation of k3 beyond which views do not tell it: lenses have up to 0.2."""
 
-RADIAL = ("k3", "k2", "k1")
-"""In the order in which they may be dropped."""
+BEYOND_DOUBT = 3.0
+"""Standard deviations from 0 from which k3 is kept all the same."""
 
 
 @dataclass(frozen=True)
 class Dropped:
-    """A coefficient that the data do not support.
+    """A coefficient that the views do not tell.
 
     Attributes:
         name: of `PARAMETERS`.
@@ -121,7 +125,7 @@ class Dropped:
     @property
     def text(self) -> str:
         """One line for people."""
-        return f"{self.name} = {self.value:.3g} ± {self.sd:.2g} is not significant: dropped"
+        return f"{self.name} = {self.value:.3g} ± {self.sd:.2g}: the views do not tell; taken as 0"
 
 
 Fit = Callable[[tuple[str, ...], Adjusted | None], Adjusted]
@@ -131,32 +135,17 @@ Fit = Callable[[tuple[str, ...], Adjusted | None], Adjusted]
 def smallest_model(
     fit: Fit, rich: tuple[str, ...] = PARAMETERS
 ) -> tuple[Adjusted, tuple[str, ...], tuple[Dropped, ...]]:
-    """Drop coefficients that are not significant.
+    """Estimate a camera, without k3 where the views do not tell it.
 
     Returns:
-        The estimate, the names of its free parameters, and what was dropped in order.
+        The estimate, the names of its free parameters, and what was dropped.
     """
-    names, dropped = rich, list[Dropped]()
-    result = fit(names, None)
-    while (worst := _least(result, names)) is not None:
-        dropped.append(worst)
-        names = tuple(name for name in names if name != worst.name)
-        result = fit(names, result)
-    return result, names, tuple(dropped)
-
-
-def _least(result: Adjusted, names: tuple[str, ...]) -> Dropped | None:
-    """Find the coefficient to drop next, or None if all are significant."""
-    radial = next((name for name in RADIAL if name in names), None)
-    measured = 2 * sum(len(r) for r in result.residuals)
-    limit = max(LIMIT, float(np.sqrt(np.log(measured))))
-    worst, least = None, limit
-    for name in ("p1", "p2", radial):
-        if name is None or name not in names:
-            continue
-        place = PARAMETERS.index(name)
-        value, sd = float(result.state.parameters[0, place]), float(result.sd()[place])
-        ratio = abs(value) / max(sd, 1e-300)
-        if ratio < least:
-            worst, least = Dropped(name, value, sd), ratio
-    return worst
+    result = fit(rich, None)
+    if "k3" not in rich:
+        return result, rich, ()
+    place = PARAMETERS.index("k3")
+    value, sd = float(result.state.parameters[0, place]), float(result.sd()[place])
+    if sd <= K3_UNKNOWN or abs(value) > BEYOND_DOUBT * sd:
+        return result, rich, ()
+    names = tuple(name for name in rich if name != "k3")
+    return fit(names, result), names, (Dropped("k3", value, sd),)

@@ -16,6 +16,7 @@ from app.tracking.calibration.validation import ViewPair
 from app.tracking.calibration.views import BoardView, Rejection
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import StereoCalibration
+from app.tracking.optics.lens import LensModel
 
 Seen = BoardView | Rejection
 
@@ -58,8 +59,9 @@ def mono_set(
     hold_back: int | None = None,
     window: int | None = None,
     progress: Progress | None = None,
+    lens: LensModel | None = None,
 ) -> MonoSet:
-    """Calibrate one camera from its pictures.
+    """Calibrate one camera from its pictures; see `calibrate_mono`.
 
     Raises:
         CalibrationError: if too few pictures show the board, with the commonest reason; see
@@ -71,7 +73,7 @@ def mono_set(
     views = [view for view in read if isinstance(view, BoardView)]
     if not views:
         raise CalibrationError(none_seen(read))
-    result = calibrate_mono(views, name, hold_back, progress.part(0.6, 1.0))
+    result = calibrate_mono(views, name, hold_back, progress.part(0.6, 1.0), lens)
     return MonoSet(tuple(read), result)
 
 
@@ -83,6 +85,7 @@ def stereo_set(
     window: int | None = None,
     progress: Progress | None = None,
     alone: tuple[Sequence[Path], Sequence[Path]] = ((), ()),
+    lens: LensModel | None = None,
 ) -> StereoSet:
     """Calibrate two cameras from pairs of pictures.
 
@@ -94,6 +97,7 @@ def stereo_set(
         window: half the sub-pixel window [px]; chosen if None.
         progress: reports, and may cancel.
         alone: pictures of the left and of the right camera by themselves; they help its own lens.
+        lens: model of both lenses; by what the views ask for if None.
 
     Raises:
         CalibrationError: see `mono_set` and `calibrate_pairs`.
@@ -123,6 +127,7 @@ def stereo_set(
         names,
         hold_back,
         progress.part(0.6, 1.0),
+        lens=lens,
     )
     return StereoSet(tuple(read), result)
 

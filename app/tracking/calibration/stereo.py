@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
 from app.core.progress import Progress
@@ -32,6 +33,7 @@ from app.tracking.calibration.validation import ViewPair
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import FitTogether
+from app.tracking.optics.lens import LensModel, lens_of
 
 
 def mirrored_view(view: BoardView) -> BoardView:
@@ -44,10 +46,12 @@ def mirrored_view(view: BoardView) -> BoardView:
 
 
 def mirrored_camera(parameters: FloatArray, width: int) -> FloatArray:
-    """Return the camera that mirrored pictures seem to come from: cx and p2 change their side."""
+    """Return the camera that mirrored pictures seem to come from: cx, p2, s1, s2 change side."""
     result = parameters.copy()
     result[2] = width - 1.0 - parameters[2]
-    result[7] = -parameters[7]
+    names = lens_of(parameters.size - 4).parameters
+    for name in {"p2", "s1", "s2"} & set(names):
+        result[names.index(name)] *= -1.0
     return result
 
 
@@ -116,6 +120,7 @@ def estimate_stereo(
     alone: tuple[Sequence[BoardView], Sequence[BoardView]] = ((), ()),
     names: tuple[str, str] = ("left", "right"),
     progress: Progress | None = None,
+    lens: LensModel | None = None,
 ) -> StereoEstimate:
     """Estimate both cameras and their relative pose.
 
@@ -124,6 +129,7 @@ def estimate_stereo(
         alone: views that only one of the cameras had; they help its own parameters.
         names: of the cameras.
         progress: reports, and may cancel.
+        lens: model of both lenses; by what the views ask for if None.
 
     Raises:
         CalibrationError: see `calibrate_mono`; or the pairs do not agree on where the cameras
@@ -137,14 +143,11 @@ def estimate_stereo(
             "needed, 15 to 30 are good"
         )
     _require_two_cameras(pairs)
-    left, right = (
-        calibrate_mono(
-            [*(pair[side] for pair in pairs), *alone[side]],
-            names[side],
-            0,
-            progress.part(0.3 * side, 0.3 * side + 0.3),
-        )
-        for side in (0, 1)
+    left, right = _cameras(
+        [[*(pair[side] for pair in pairs), *alone[side]] for side in (0, 1)],
+        names,
+        progress.part(0.0, 0.6),
+        lens,
     )
     count = len(pairs)
     pairs = list(zip(left.chosen[:count], right.chosen[:count], strict=True))
@@ -174,6 +177,25 @@ def estimate_stereo(
         together,
         (*left.notes, *right.notes, *size_remarks(names, pairs[0]), *remarks),
     )
+
+
+def _cameras(
+    views: list[list[BoardView]],
+    names: tuple[str, str],
+    progress: Progress,
+    lens: LensModel | None,
+) -> tuple[MonoResult, MonoResult]:
+    """Calibrate each camera by itself; where one needs the fisheye model, both get it."""
+    left, right = (
+        calibrate_mono(views[i], names[i], 0, progress.part(0.4 * i, 0.4 * i + 0.4), lens)
+        for i in (0, 1)
+    )
+    lenses = {left.calibration.lens, right.calibration.lens}
+    if LensModel.FISHEYE in lenses and len(lenses) > 1:
+        left, right = (
+            calibrate_mono(views[i], names[i], 0, progress, LensModel.FISHEYE) for i in (0, 1)
+        )
+    return left, right
 
 
 def _require_two_cameras(pairs: Sequence[ViewPair]) -> None:
@@ -250,10 +272,7 @@ def _adjusted(
     What was left out is tried again after each adjustment, the first, rough stage's pairs too: it
     comes back, once, if it fits as the others do; `pairs` then has it in the order that fits.
     """
-    free = np.vstack(
-        [with_free(left.calibration.estimated), with_free(right.calibration.estimated)]
-    )
-    cameras = np.vstack([left.adjusted.state.parameters, right.adjusted.state.parameters])
+    cameras, free = _stacked(left, right)
     lone = _lone(posed, left, right, agreement.T_right_left)
     used = [i for i in range(len(pairs)) if agreement.agreeing[i]]
     T_right_left, came_back = agreement.T_right_left, set[int]()
@@ -282,6 +301,21 @@ def _adjusted(
         came_back |= set(again)
         used = sorted([*used, *again])
         T_right_left = adjusted.state.T_right_left
+
+
+def _stacked(left: MonoResult, right: MonoResult) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Parameters of both cameras and which are free, shape (2, m): in the longer lens' order.
+
+    The rational model begins as the five-coefficient one does.
+    """
+    lenses = [mono.calibration.lens for mono in (left, right)]
+    longer = max(lenses, key=lambda lens: len(lens.parameters))
+    cameras = np.zeros((2, len(longer.parameters)))
+    for row, mono in zip(cameras, (left, right), strict=True):
+        own = mono.adjusted.state.parameters[0]
+        row[: own.size] = own
+    free = [with_free(mono.calibration.estimated, 1, longer) for mono in (left, right)]
+    return cameras, np.vstack(free)
 
 
 def _lone(

@@ -1,7 +1,8 @@
 """Whether a calibration of two cameras is good enough: one rule for window and command line.
 
 Limits grow with the rig: errors of the boards held back count against their distance from the
-cameras, residuals against the pictures' width.
+cameras, residuals against the pictures' width. Boards held back lie where the others lay: what they
+say holds there. So the rays are asked, too, where in the pictures the marker comes.
 """
 
 from collections.abc import Sequence
@@ -9,8 +10,12 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Final
 
+import numpy as np
+
+from app.core.arrays import FloatArray
 from app.tracking.calibration.checks import Check
 from app.tracking.calibration.fit_together import apart
+from app.tracking.calibration.ray_error import at_pixels
 from app.tracking.optics.calibration import StereoCalibration
 
 GOOD_SHARE: Final = 1e-3
@@ -31,6 +36,14 @@ GOOD_SCALE: Final = 0.003
 """Relative error of lengths on pairs held back."""
 
 
+REGION_QUANTILE: Final = 0.95
+ANYWHERE_QUANTILE: Final = 0.75
+"""Share of the places at which rays must be known so well: where the marker comes, or of all of the
+picture where that is not known."""
+
+_PLACES: Final = 33
+
+
 class Grade(StrEnum):
     """How good a calibration is."""
 
@@ -45,8 +58,11 @@ class Why(StrEnum):
     CONTRADICTED = "contradicted"
     RESIDUAL_BAD = "residual_bad"
     ERROR_BAD = "error_bad"
+    RAYS_BAD = "rays_bad"
     APART = "apart"
+    ROLLING = "rolling"
     UNCHECKED = "unchecked"
+    RAYS = "rays"
     RESIDUAL = "residual"
     ERROR = "error"
     LENGTHS = "lengths"
@@ -68,12 +84,19 @@ class Judgement:
     text: str
 
 
-def judge(calibration: StereoCalibration, checks: Sequence[Check] = ()) -> Judgement:
+Region = tuple[FloatArray, FloatArray]
+"""Outlines in the left and the right picture, (n, 2) each [px]; may reach beyond them."""
+
+
+def judge(
+    calibration: StereoCalibration, checks: Sequence[Check] = (), region: Region | None = None
+) -> Judgement:
     """Say whether a calibration is good enough to use, and why.
 
     Args:
         calibration: two cameras.
         checks: lengths known otherwise, if any were given.
+        region: where in the pictures the marker comes; anywhere if None.
     """
     against = next((check for check in checks if not check.passed), None)
     if against is not None:
@@ -82,7 +105,52 @@ def judge(calibration: StereoCalibration, checks: Sequence[Check] = ()) -> Judge
             Why.CONTRADICTED,
             f"a length that is known contradicts it: {against.text}",
         )
-    return _of_fit(calibration)
+    fit = _of_fit(calibration)
+    rays = _of_rays(calibration, region)
+    if rays is None or list(Why).index(fit.why) < list(Why).index(rays.why):
+        return fit
+    return rays
+
+
+def _of_rays(calibration: StereoCalibration, region: Region | None) -> Judgement | None:
+    """Judge how sure the rays are where they are needed; None if sure enough, or not known."""
+    worst: tuple[float, float, str] | None = None
+    for side, camera in enumerate(calibration.cameras):
+        if camera.ray_sd_px is None:
+            continue
+        pixels = _inside(camera.image_size, None if region is None else region[side])
+        if not len(pixels):
+            continue
+        sds = at_pixels(camera.ray_sd_px, camera.image_size, pixels)
+        sd = float(np.quantile(sds, ANYWHERE_QUANTILE if region is None else REGION_QUANTILE))
+        share = float(np.sqrt(2.0) * sd / np.mean(camera.focal_px))
+        if worst is None or share > worst[0]:
+            worst = (share, sd, camera.name)
+    if worst is None or worst[0] <= GOOD_SHARE:
+        return None
+    share, sd, name = worst
+    where = "where the marker comes" if region is not None else "in a quarter of its picture"
+    mm, good = (part * USUAL_DISTANCE_MM for part in (share, GOOD_SHARE))
+    text = (
+        f"{name}: {where} its rays are known to ± {sd:.2g} px only, {mm:.2g} mm at "
+        f"{USUAL_DISTANCE_MM:.0f} mm ({good:.2g} mm is good): the board was not seen there; show "
+        "it there too, up to the edges"
+    )
+    if share > WORST_SHARE and region is not None:
+        return Judgement(Grade.NOT_GOOD_ENOUGH, Why.RAYS_BAD, text)
+    return Judgement(Grade.USABLE, Why.RAYS, text)
+
+
+def _inside(size: tuple[int, int], outline: FloatArray | None) -> FloatArray:
+    """Pixels on a grid inside the picture, and inside the outline if there is one, (n, 2)."""
+    u, v = (np.linspace(0.0, side - 1.0, _PLACES) for side in size)
+    pixels = np.stack(np.meshgrid(u, v), axis=-1).reshape(-1, 2)
+    if outline is None or len(outline) < 3:
+        return pixels if outline is None else pixels[:0]
+    ends = np.roll(outline, -1, axis=0)
+    edge, way = ends - outline, pixels[:, None] - outline[None]
+    turn = edge[None, :, 0] * way[:, :, 1] - edge[None, :, 1] * way[:, :, 0]
+    return np.asarray(pixels[(turn >= 0.0).all(axis=1) | (turn <= 0.0).all(axis=1)])
 
 
 def _of_fit(calibration: StereoCalibration) -> Judgement:
@@ -105,6 +173,15 @@ def _of_fit(calibration: StereoCalibration) -> Judgement:
             "the cameras, and take them again"
         )
         return Judgement(Grade.USABLE, Why.APART, text)
+    rolling = [c for c in calibration.cameras if c.rolling_px is not None]
+    if rolling:
+        named = " and ".join(f"{camera.name} ({camera.rolling_px:.2g} px)" for camera in rolling)
+        text = (
+            f"rolling shutter: the board moved while the pictures of {named} were read row by row, "
+            "which makes focal length and distances wrong and hardly shows in the residual: hold "
+            "the board against something still, and take them again"
+        )
+        return Judgement(Grade.USABLE, Why.ROLLING, text)
     if checked is None:
         text = "it fits, but no pair was held back to check it: take at least eight pairs"
         return Judgement(Grade.USABLE, Why.UNCHECKED, text)

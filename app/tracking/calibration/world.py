@@ -3,6 +3,11 @@
 T_world_left = T_world_board · T_left_board⁻¹. Each place gives one estimate; its covariance is
 what the corners' scatter leaves and how exactly the board was laid down. Several places are
 joined by their information (inverse covariance).
+
+The board was seen by the very cameras whose frame it gives. Where they are taken a little wrongly
+the board is found wrongly, and the tip is, and near the board the one makes up for the other: both
+together are known far better than their errors, taken as independent, would say. So the frame's
+change with the cameras' parameters is kept beside its own covariance.
 """
 
 from collections.abc import Sequence
@@ -37,7 +42,8 @@ class WorldFrame:
     """Where the cameras stand.
 
     Attributes:
-        pose: T_world_left with its covariance.
+        pose: T_world_left with its covariance, were the cameras known exactly.
+        by_cameras: change of its twist with what `StereoCalibration.covariance` is of, (6, 24).
         rms_px: of the corners, over all places.
         by_picture: the same, picture by picture.
         scale: measured size of the board over its true size; None with one camera.
@@ -51,6 +57,7 @@ class WorldFrame:
     """
 
     pose: PoseCalibration
+    by_cameras: FloatArray
     rms_px: float
     by_picture: tuple[tuple[str, float], ...]
     scale: float | None
@@ -92,21 +99,26 @@ def find_world(
     chosen = [_fit(calibration, board, expected) for board in boards]
     for fit, board in zip(chosen, boards, strict=True):
         check_fit(calibration, fit, board)
-    poses, spreads = [], []
+    poses, spreads, changes = [], [], []
     for fit, board in zip(chosen, boards, strict=True):
-        poses.append(board.T_world_board @ fit.T_left_board.inverse())
-        spreads.append(_spread(fit, board.T_world_board, poses[-1], place_sd_mm, place_sd_deg))
+        pose = board.T_world_board @ fit.T_left_board.inverse()
+        poses.append(pose)
+        spreads.append(_spread(fit, board.T_world_board, pose, place_sd_mm, place_sd_deg))
+        changes.append(-_adjoint(pose) @ fit.by_cameras)
     joined, covariance = _joined(poses, spreads)
+    weighed = zip(spreads, changes, strict=True)
+    by_cameras = covariance @ sum(np.linalg.solve(spread, change) for spread, change in weighed)
     apart = [float(np.linalg.norm(p.translation - joined.translation)) for p in poses]
     away = max(apart) if len(boards) > 1 else 0.0
-    pose = PoseCalibration.of(joined, covariance)
-    placed = calibration.model_copy(update={"world": pose})
+    world = PoseCalibration.of(joined, covariance)
+    placed = calibration.model_copy(update={"world": world})
     centres = np.array([model.centre for model in placed.models()])
     total = np.sqrt(np.mean([fit.rms_px**2 for fit in chosen]))
     scaled = [fit for fit in chosen if fit.scale is not None]
     best = min(scaled, key=lambda fit: fit.scale_sd, default=None)
     return WorldFrame(
-        pose,
+        world,
+        np.asarray(by_cameras),
         float(total),
         tuple(line for fit in chosen for line in fit.by_picture),
         best.scale if best is not None else None,
@@ -128,6 +140,7 @@ def with_world(calibration: StereoCalibration, world: WorldFrame, board: str) ->
             "id": new_id(created),
             "created": created,
             "world": world.pose,
+            "world_by_cameras": tuple(map(tuple, world.by_cameras.tolist())),
             "notes": (*kept, note),
         }
     )
@@ -177,13 +190,18 @@ def _spread(
     sd_deg: float,
 ) -> FloatArray:
     """Covariance of T_world_left's twist on the left, (6, 6)."""
-    R, t = T_world_left.rotation, T_world_left.translation
-    adjoint = np.block([[R, skew(t) @ R], [np.zeros((3, 3)), R]])
+    adjoint = _adjoint(T_world_left)
     about_board = np.eye(6)
     about_board[:3, 3:] = skew(T_world_board.translation)
     sd = np.repeat([sd_mm * MILLIMETRE, sd_deg * DEGREE], 3)
     laid = about_board @ np.diag(sd**2) @ about_board.T
     return np.asarray(adjoint @ fit.covariance @ adjoint.T + laid)
+
+
+def _adjoint(T: RigidTransform) -> FloatArray:
+    """Return what takes a twist on the right of T to that on its left, (6, 6)."""
+    R = T.rotation
+    return np.block([[R, skew(T.translation) @ R], [np.zeros((3, 3)), R]])
 
 
 def _sd_at(p_world: FloatArray, covariance: FloatArray) -> float:

@@ -13,6 +13,7 @@ from app.core.clock import Clock, SystemClock
 from app.core.units import MILLISECOND
 from app.tracking.cameras.camera import Camera, CameraFrame, Image
 from app.tracking.errors import CameraError
+from app.tracking.picture_file import decoded
 
 ENDINGS: Final = frozenset({".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp"})
 
@@ -118,22 +119,22 @@ def pictures_in(folder: Path) -> list[Path]:
 
 
 def read_picture(path: Path) -> Image:
-    """Read a picture in colour.
+    """Read a picture in colour, its pixels as they are stored.
 
     Raises:
         CameraError: if the file is none, or is cut off; names it.
     """
     try:
-        raw = np.frombuffer(path.read_bytes(), np.uint8)
+        data = path.read_bytes()
     except OSError as error:
         raise CameraError(f"cannot read {path}: {error.strerror or error}") from error
     try:
-        image = cv2.imdecode(raw, cv2.IMREAD_COLOR) if raw.size else None
+        image = decoded(data)
     except cv2.error as error:
         raise CameraError(f"{path} is no picture: {error.err}") from error
     if image is None:
         raise CameraError(f"{path} is no picture or is damaged; take it out of the folder")
-    return np.asarray(image, dtype=np.uint8)
+    return image
 
 
 class VideoCamera(Camera):
@@ -167,6 +168,7 @@ class VideoCamera(Camera):
         capture = cv2.VideoCapture(str(self.path))
         if not capture.isOpened():
             raise CameraError(f"{self.path} is no video that can be read")
+        capture.set(cv2.CAP_PROP_ORIENTATION_AUTO, 0.0)  # as stored; see `picture_file`
         rate = capture.get(cv2.CAP_PROP_FPS)
         self._period = 1.0 / rate if isfinite(rate) and rate > 0.0 else 1.0 / 30.0
         self._capture, self._start = capture, self._clock.now()

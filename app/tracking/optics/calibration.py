@@ -4,8 +4,9 @@ Lengths are millimetres and angles radians in the file; what this module hands o
 routines that make one live in `tracking.calibration`.
 """
 
+from collections.abc import Mapping
 from datetime import datetime
-from typing import Annotated, Self
+from typing import Annotated, Any, Self
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -15,9 +16,14 @@ from app.core.configuration import Strict
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.tracking.optics.camera_model import CameraModel
+from app.tracking.optics.lens import LensModel
 
-PARAMETERS = ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3")
-"""Order of a camera's parameters in its covariance."""
+PARAMETERS = LensModel.BROWN.parameters
+"""Order of the parameters of a camera with the usual lens in its covariance."""
+
+RAY_GRID = (7, 9)
+"""Rows and columns of the places at which the rays' deviation is kept: the first and last lie on
+the picture's edge."""
 
 FORMAT = "acus-stereo-calibration"
 
@@ -33,31 +39,53 @@ class CameraCalibration(Strict):
         image_size: width, height [px]; a picture of another size is refused.
         focal_px: fx, fy.
         centre_px: cx, cy; pixel (0, 0) is the centre of the upper left pixel.
-        distortion: k1, k2, p1, p2, k3 in OpenCV's order; those that the data did not support are 0.
-        estimated: which of `PARAMETERS` were estimated; the others are fixed.
-        covariance: of `PARAMETERS`, 9 rows of 9; zero rows for fixed ones.
+        lens: model of the distortion.
+        distortion: its coefficients in OpenCV's order; those that the data did not support are 0.
+        estimated: which of the lens' parameters were estimated; the others are fixed.
+        covariance: of the lens' parameters, as many rows as there are; zero rows for fixed ones.
         rms_px: root mean square of the reprojection error, 2D.
         views: number of pictures used.
+        ray_sd_px: standard deviation of its rays over the picture, rows of
+            `RAY_GRID` [px]; None in older and imported files.
+        rolling_px: by how much the board moved while its pictures were read row by row, root mean
+            square [px]; None if nothing speaks for a rolling shutter.
     """
 
     name: Annotated[str, Field(min_length=1)]
     image_size: tuple[int, int]
     focal_px: tuple[float, float]
     centre_px: tuple[float, float]
-    distortion: tuple[float, float, float, float, float]
+    lens: LensModel = LensModel.BROWN
+    distortion: tuple[float, ...]
     estimated: tuple[str, ...] = PARAMETERS
     covariance: tuple[tuple[float, ...], ...] = ((0.0,) * 9,) * 9
     rms_px: Annotated[float, Field(ge=0.0)] = 0.0
     views: Annotated[int, Field(ge=0)] = 0
+    ray_sd_px: tuple[tuple[Annotated[float, Field(ge=0.0)], ...], ...] | None = None
+
+    rolling_px: Annotated[float, Field(ge=0.0)] | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _by_lens(cls, values: Any) -> Any:
+        """Fill in what the defaults of another lens than the usual one are."""
+        if not isinstance(values, Mapping) or values.get("lens") not in set(LensModel):
+            return values
+        names = LensModel(values["lens"]).parameters
+        return {"estimated": names, "covariance": ((0.0,) * len(names),) * len(names), **values}
 
     @model_validator(mode="after")
     def _shapes(self) -> Self:
-        if np.shape(self.covariance) != (9, 9):
+        names = self.lens.parameters
+        require_coefficients(self.lens, self.distortion)
+        if np.shape(self.covariance) != (len(names), len(names)):
             raise ValueError(
-                "covariance needs 9 rows of 9 numbers, in the order " + str(PARAMETERS)
+                f"covariance needs {len(names)} rows of {len(names)} numbers, in the order {names}"
             )
-        if unknown := set(self.estimated) - set(PARAMETERS):
-            raise ValueError(f"estimated names {sorted(unknown)}; there are {PARAMETERS}")
+        if self.ray_sd_px is not None and np.shape(self.ray_sd_px) != RAY_GRID:
+            raise ValueError(f"ray_sd_px needs {RAY_GRID[0]} rows of {RAY_GRID[1]} numbers")
+        if unknown := set(self.estimated) - set(names):
+            raise ValueError(f"estimated names {sorted(unknown)}; there are {names}")
         return self
 
     @property
@@ -67,13 +95,33 @@ class CameraCalibration(Strict):
 
     @property
     def parameter_covariance(self) -> FloatArray:
-        """Covariance of `PARAMETERS`, shape (9, 9)."""
-        return frozen(self.covariance, (9, 9), "covariance")
+        """Covariance of the lens' parameters, shape (n, n)."""
+        count = len(self.lens.parameters)
+        return frozen(self.covariance, (count, count), "covariance")
 
     def model(self, T_world_camera: RigidTransform) -> CameraModel:
         """Return the camera at a pose."""
         return CameraModel(
-            self.name, self.intrinsics, np.array(self.distortion), self.image_size, T_world_camera
+            self.name,
+            self.intrinsics,
+            np.array(self.distortion),
+            self.image_size,
+            T_world_camera,
+            self.lens,
+        )
+
+
+def require_coefficients(lens: LensModel, given: tuple[float, ...]) -> None:
+    """Refuse another number of coefficients than the lens has.
+
+    Raises:
+        ValueError: naming both.
+    """
+    names = lens.coefficients
+    if len(given) != len(names):
+        raise ValueError(
+            f"distortion: {len(given)} numbers; lens {lens.value} has {len(names)}: "
+            + ", ".join(names)
         )
 
 
@@ -166,12 +214,18 @@ class StereoCalibration(Strict):
         cameras: left, right.
         pose: T_right_left: takes points of the left camera's frame to the right one's.
         rms_px: root mean square reprojection error over both pictures.
-        world: T_world_left; None until a board at a known place was seen.
+        misfit_px: what the lens models leave besides the corners' noise, standard deviation per
+            axis; None in older and imported files.
+        world: T_world_left; None until a board at a known place was seen. Its covariance is that
+            of the board's place and corners, were the cameras known exactly.
+        world_by_cameras: change of the twist of `world` with what `covariance` is of, 6 rows: the
+            same cameras saw that board, and their errors move it. None in files that do not say.
         validation: on views held back; None if there were none.
         together: how well the pairs fit together; None in older and imported files.
-        joint_covariance: of both cameras' `PARAMETERS` and the twist of `pose`, estimated together,
-            24 rows of 24; None where only each one's own is known (imported files). Lenses and pose
-            make up for each other: taken as independent they promise less than is true.
+        joint_covariance: of both cameras' parameters and the twist of `pose`, estimated together,
+            24 rows of 24 for two usual lenses; None where only each one's own is known (imported
+            files). Lenses and pose make up for each other: taken as independent they promise less
+            than is true.
         notes: lines for people: coefficients dropped, views left out, corner orders mended.
     """
 
@@ -183,7 +237,9 @@ class StereoCalibration(Strict):
     cameras: tuple[CameraCalibration, CameraCalibration]
     pose: PoseCalibration
     rms_px: Annotated[float, Field(ge=0.0)] = 0.0
+    misfit_px: Annotated[float, Field(ge=0.0)] | None = None
     world: PoseCalibration | None = None
+    world_by_cameras: tuple[tuple[float, ...], ...] | None = None
     validation: Validation | None = None
     together: FitTogether | None = None
     joint_covariance: tuple[tuple[float, ...], ...] | None = None
@@ -193,20 +249,44 @@ class StereoCalibration(Strict):
     def _known(self) -> Self:
         if self.format != FORMAT or self.version != 1:
             raise ValueError(f"format {self.format} {self.version} is not {FORMAT} 1")
-        if self.joint_covariance is not None and np.shape(self.joint_covariance) != (24, 24):
-            raise ValueError("joint_covariance needs 24 rows of 24 numbers: left, right, pose")
+        size = self._sizes[-1]
+        if self.joint_covariance is not None and np.shape(self.joint_covariance) != (size, size):
+            raise ValueError(
+                f"joint_covariance needs {size} rows of {size} numbers: left, right, pose"
+            )
+        if self.world_by_cameras is not None and np.shape(self.world_by_cameras) != (6, size):
+            raise ValueError(f"world_by_cameras needs 6 rows of {size} numbers: left, right, pose")
         return self
 
     @property
+    def _sizes(self) -> tuple[int, int, int]:
+        """Where the left camera's parameters, the right one's and the pose's twist end."""
+        left, right = (len(camera.lens.parameters) for camera in self.cameras)
+        return left, left + right, left + right + 6
+
+    @property
     def covariance(self) -> FloatArray:
-        """Covariance of left and right `PARAMETERS` and the twist of `pose`, shape (24, 24)."""
+        """Covariance of left and right parameters and the twist of `pose`, shape (n, n)."""
+        left, right, size = self._sizes
         if self.joint_covariance is not None:
-            return frozen(self.joint_covariance, (24, 24), "joint covariance")
-        result = np.zeros((24, 24))
-        result[:9, :9] = self.cameras[0].parameter_covariance
-        result[9:18, 9:18] = self.cameras[1].parameter_covariance
-        result[18:, 18:] = self.pose.pose_covariance
-        return frozen(result, (24, 24), "covariance")
+            return frozen(self.joint_covariance, (size, size), "joint covariance")
+        result = np.zeros((size, size))
+        result[:left, :left] = self.cameras[0].parameter_covariance
+        result[left:right, left:right] = self.cameras[1].parameter_covariance
+        result[right:, right:] = self.pose.pose_covariance
+        return frozen(result, (size, size), "covariance")
+
+    @property
+    def covariance_with_world(self) -> FloatArray:
+        """Covariance of what `covariance` is of and then the twist of `world`, shape (30, 30)."""
+        cameras = self.covariance
+        n = len(cameras)
+        change = np.zeros((6, n)) if self.world_by_cameras is None else self.world_by_cameras
+        whole = np.vstack([np.eye(n), change])
+        result = whole @ cameras @ whole.T
+        if self.world is not None:
+            result[n:, n:] += self.world.pose_covariance
+        return frozen(result, (n + 6, n + 6), "covariance with the world frame")
 
     @property
     def uncertainty_known(self) -> bool:

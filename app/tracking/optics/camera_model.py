@@ -9,11 +9,14 @@ from app.core.arrays import FloatArray, frozen
 from app.core.transform import RigidTransform
 from app.tracking.errors import RigError
 from app.tracking.optics.distortion import (
+    distort_grid,
+    distort_with_derivatives,
     distortion_jacobian,
     fold_radius,
     undistort_grid,
     undistort_point,
 )
+from app.tracking.optics.lens import LensModel
 
 _NEAREST = 1e-6
 """Depth [m] in front of the camera below which a point counts as not in front of it."""
@@ -32,9 +35,11 @@ class CameraModel:
     Attributes:
         name: as the rig profile calls it.
         intrinsics: fx, fy, cx, cy [px], shape (4,).
-        distortion: k1, k2, p1, p2, k3, shape (5,).
+        distortion: coefficients of `lens` in OpenCV's order, shape (5,), (12,) or (4,).
         image_size: width, height [px].
         T_world_camera: pose of the camera.
+        lens: model of the distortion.
+        fold: see `distortion.fold_radius`.
     """
 
     name: str
@@ -42,12 +47,14 @@ class CameraModel:
     distortion: FloatArray
     image_size: tuple[int, int]
     T_world_camera: RigidTransform
+    lens: LensModel = LensModel.BROWN
     fold: float = field(init=False)
     T_camera_world: RigidTransform = field(init=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "intrinsics", frozen(self.intrinsics, (4,), "intrinsics"))
-        object.__setattr__(self, "distortion", frozen(self.distortion, (5,), "distortion"))
+        count = len(self.lens.coefficients)
+        object.__setattr__(self, "distortion", frozen(self.distortion, (count,), "distortion"))
         if np.abs(self.distortion).max() > WILDEST:
             raise RigError(
                 f"camera {self.name}: distortion {self.distortion.tolist()}: no lens has a "
@@ -86,15 +93,9 @@ class CameraModel:
         z = p_camera[:, 2]
         ok = np.isfinite(p_camera).all(axis=1) & (z > _NEAREST)
         xy = np.where(ok[:, None], p_camera[:, :2], 0.0) / np.where(ok, z, 1.0)[:, None]
-        ok &= np.hypot(xy[:, 0], xy[:, 1]) < min(self.fold, 1e3)
-        x, y = xy[:, 0], xy[:, 1]
-        r2 = x * x + y * y
-        k1, k2, p1, p2, k3 = self.distortion
-        g = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3))
-        uv = np.empty_like(xy)
-        fx, fy, cx, cy = self.intrinsics
-        uv[:, 0] = fx * (x * g + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x)) + cx
-        uv[:, 1] = fy * (y * g + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y) + cy
+        bent, seen = distort_grid(xy, self.distortion, self.fold)
+        ok &= seen
+        uv: FloatArray = bent * self.intrinsics[:2] + self.intrinsics[2:]
         uv[~ok] = 0.0
         return uv, ok
 
@@ -126,12 +127,13 @@ class CameraModel:
     def ray_jacobian(self, ray: ArrayLike) -> FloatArray:
         """Change of the normalised coordinates with the pixel [1/px] at `ray`, shape (2, 2)."""
         x, y = np.asarray(ray, dtype=np.float64)
-        xx, xy, yy = distortion_jacobian(x, y, self.distortion)
+        xx, xy, yx, yy = distortion_jacobian(x, y, self.distortion)
         fx, fy = self.intrinsics[:2]
-        determinant = (xx * yy - xy * xy) * fx * fy
-        return np.array([[fy * yy, -fx * xy], [-fy * xy, fx * xx]]) / determinant
+        determinant = (xx * yy - xy * yx) * fx * fy
+        return np.array([[fy * yy, -fx * xy], [-fy * yx, fx * xx]]) / determinant
 
     def pixel_areas(self, rays: FloatArray) -> FloatArray:
         """Area of a pixel in normalised coordinates at `rays`, (n, 2) -> (n,)."""
-        xx, xy, yy = distortion_jacobian(rays[:, 0], rays[:, 1], self.distortion)
-        return np.asarray(1.0 / ((xx * yy - xy * xy) * np.prod(self.intrinsics[:2])))
+        j = distort_with_derivatives(np.ascontiguousarray(rays), self.distortion)[1]
+        determinants = j[:, 0, 0] * j[:, 1, 1] - j[:, 0, 1] * j[:, 1, 0]
+        return np.asarray(1.0 / (determinants * np.prod(self.intrinsics[:2])))

@@ -7,29 +7,42 @@ import numpy as np
 from app.core.arrays import FloatArray, read_only
 from app.core.compiled import njit
 from app.tracking.optics.camera_model import CameraModel
-from app.tracking.optics.distortion import distort_point, distortion_jacobian, undistort_point
+from app.tracking.optics.distortion import (
+    distort_point,
+    distortion_jacobian,
+    inside_fold,
+    undistort_point,
+)
 
-CAMERA: Final = 22
-"""Rotation (9) and translation (3) of T_camera_world, fx, fy, cx, cy, five of the lens, fold."""
+CAMERA: Final = 30
+"""Rotation (9) and translation (3) of T_camera_world, fx, fy, cx, cy, fold, number of the lens'
+coefficients, and they in up to `distortion.RATIONAL` places."""
 
 _NEAREST: Final = 1e-6
 """As in `camera_model`."""
-
-_FARTHEST: Final = 1e3
 
 
 def packed(model: CameraModel) -> FloatArray:
     """Row of a camera, shape (CAMERA,), read-only."""
     pose = model.T_camera_world
-    row = [*pose.rotation.ravel(), *pose.translation, *model.intrinsics, *model.distortion]
-    return read_only(np.array([*row, model.fold]))
+    row = np.zeros(CAMERA)
+    row[:9], row[9:12], row[12:16] = pose.rotation.ravel(), pose.translation, model.intrinsics
+    row[16], row[17] = model.fold, model.distortion.size
+    row[18 : 18 + model.distortion.size] = model.distortion
+    return read_only(row)
 
 
 @njit
 def unpack(camera: Any) -> Any:
     """Return rotation (3, 3), translation, intrinsics, distortion and fold of a row."""
     rotation = camera[:9].reshape((3, 3))
-    return rotation, camera[9:12], camera[12:16], camera[16:21], camera[21]
+    return rotation, camera[9:12], camera[12:16], lens_row(camera), camera[16]
+
+
+@njit
+def lens_row(camera: Any) -> Any:
+    """Coefficients of a row's lens."""
+    return camera[18 : 18 + int(camera[17])]
 
 
 @njit
@@ -47,9 +60,10 @@ def project_point(camera: Any, x: float, y: float, z: float) -> Any:
     if not (np.isfinite(x) and np.isfinite(y) and np.isfinite(z) and z > _NEAREST):
         return 0.0, 0.0, False
     x, y = x / z, y / z
-    if not np.hypot(x, y) < min(camera[21], _FARTHEST):
+    lens = lens_row(camera)
+    if not inside_fold(x, y, lens, camera[16]):
         return 0.0, 0.0, False
-    x_d, y_d = distort_point(x, y, camera[16:21])
+    x_d, y_d = distort_point(x, y, lens)
     return camera[12] * x_d + camera[14], camera[13] * y_d + camera[15], True
 
 
@@ -68,15 +82,15 @@ def normalise(camera: Any, u: float, v: float, spread: Any, ray: Any, out: Any) 
     Returns:
         False if the pixel belongs to no direction.
     """
-    fx, fy, lens = camera[12], camera[13], camera[16:21]
-    x, y, found = undistort_point((u - camera[14]) / fx, (v - camera[15]) / fy, lens, camera[21])
+    fx, fy, lens = camera[12], camera[13], lens_row(camera)
+    x, y, found = undistort_point((u - camera[14]) / fx, (v - camera[15]) / fy, lens, camera[16])
     if not found:
         return False
     ray[0], ray[1] = x, y
-    xx, xy, yy = distortion_jacobian(x, y, lens)
-    determinant = xx * yy - xy * xy
+    xx, xy, yx, yy = distortion_jacobian(x, y, lens)
+    determinant = xx * yy - xy * yx
     a, b = yy / (determinant * fx), -xy / (determinant * fy)
-    c, d = -xy / (determinant * fx), xx / (determinant * fy)
+    c, d = -yx / (determinant * fx), xx / (determinant * fy)
     s00, s01, s10, s11 = spread[0, 0], spread[0, 1], spread[1, 0], spread[1, 1]
     out[0, 0] = a * (a * s00 + b * s10) + b * (a * s01 + b * s11)
     out[0, 1] = c * (a * s00 + b * s10) + d * (a * s01 + b * s11)

@@ -23,10 +23,15 @@ from app.core.configuration import Strict, load
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
 from app.tracking.errors import RigError
-from app.tracking.optics.calibration import StereoCalibration
+from app.tracking.optics.calibration import StereoCalibration, require_coefficients
 from app.tracking.optics.camera_model import CameraModel
+from app.tracking.optics.lens import LensModel
 
 Triple = tuple[float, float, float]
+
+OFFSET_SD_MM: Final = 0.1
+"""How exactly a band's place on a needle is measured, standard deviation [mm]: an estimate for
+callipers and a band whose edges are put on by hand."""
 
 
 class CameraProfile(Strict):
@@ -35,7 +40,8 @@ class CameraProfile(Strict):
     Attributes:
         focal_px: fx, fy.
         centre_px: cx, cy; pixel (0, 0) is the centre of the upper left pixel.
-        distortion: k1, k2, p1, p2, k3 in OpenCV's order.
+        distortion: coefficients of `lens` in OpenCV's order: k1, k2, p1, p2, k3 of the usual one.
+        lens: model of the distortion.
         position_mm: centre of projection in world.
         looks_at_mm: any point on the optical axis, in world.
         roll_deg: turn of the picture about the optical axis; at 0 the world's z points up in it.
@@ -45,10 +51,16 @@ class CameraProfile(Strict):
     image_size: tuple[int, int]
     focal_px: tuple[float, float]
     centre_px: tuple[float, float]
-    distortion: tuple[float, float, float, float, float]
+    distortion: tuple[float, ...]
+    lens: LensModel = LensModel.BROWN
     position_mm: Triple
     looks_at_mm: Triple
     roll_deg: float = 0.0
+
+    @model_validator(mode="after")
+    def _counted(self) -> Self:
+        require_coefficients(self.lens, self.distortion)
+        return self
 
     def model(self) -> CameraModel:
         """Build the camera.
@@ -62,6 +74,7 @@ class CameraProfile(Strict):
             np.array(self.distortion),
             self.image_size,
             self._pose(),
+            self.lens,
         )
 
     def _pose(self) -> RigidTransform:
@@ -87,6 +100,9 @@ class NeedleProfile(Strict):
         length_mm: hub to tip.
         point_length_mm: over which the shaft tapers to the tip.
         marker_offset_mm: centre of the band behind the tip.
+        marker_offset_sd_mm: standard deviation of that. Where it is not given it is `OFFSET_SD_MM`
+            before cameras that were calibrated, and 0 before those of the profile: pictures that
+            are rendered by a profile hold the needle of that profile.
         hidden_mm: from where to where the band's centre stands beyond the fulcrum while the tube
             hides it; None for a rig that sees it everywhere.
         second_marker_offset_mm: centre of a second band, like the first, behind the tip; further
@@ -97,6 +113,7 @@ class NeedleProfile(Strict):
     shaft_diameter_mm: float = Field(gt=0.0)
     point_length_mm: float = Field(gt=0.0)
     marker_offset_mm: float = Field(ge=0.0)
+    marker_offset_sd_mm: float | None = Field(default=None, ge=0.0, le=10.0)
     marker_length_mm: float = Field(gt=0.0)
     marker_diameter_mm: float = Field(gt=0.0)
     hidden_mm: tuple[float, float] | None = None
@@ -207,6 +224,13 @@ class RigProfile(Strict):
             return self.calibration.models()
         first, second = (camera.model() for camera in self.cameras)
         return first, second
+
+    @property
+    def marker_offset_variance(self) -> float:
+        """Variance of the distance from the band's centre to the tip [m²]."""
+        stated = self.needle.marker_offset_sd_mm
+        usual = OFFSET_SD_MM if self.calibration is not None else 0.0
+        return ((usual if stated is None else stated) * MILLIMETRE) ** 2
 
     def of_second_band(self) -> RigProfile | None:
         """Return this rig with the second band as its only one; None if there is none."""

@@ -77,7 +77,7 @@ class PenNeedle:
         return self.covariance[:3, :3]
 
     def tip_radius(self, probability: float = 0.95) -> float:
-        """Radius [m] round the tip that holds the true one with at least `probability`."""
+        """Radius [m] round the tip that holds the true one with `probability`."""
         return covariance_radius(self.tip_covariance, probability)
 
     def axis_cone(self, probability: float = 0.95) -> float:
@@ -132,7 +132,7 @@ def solve_needle(
         base: pose of the sheet.
         T_world_base: place of the sheet.
         tip: of the pen.
-        parameter_covariance: of the camera's parameters, shape (9, 9).
+        parameter_covariance: of the camera's parameters, shape (m, m).
     """
     T_world_camera = T_world_base @ base.T_camera_board.inverse()
     T_world_body = T_world_camera @ body.T_camera_board

@@ -8,7 +8,7 @@ import numpy as np
 from app.core.arrays import FloatArray, read_only
 from app.core.transform import RigidTransform
 from app.tracking.optics.camera_model import CameraModel
-from app.tracking.optics.distortion import distortion_jacobian
+from app.tracking.optics.distortion import distort_with_derivatives
 
 
 def skews(points: FloatArray) -> FloatArray:
@@ -22,32 +22,24 @@ def skews(points: FloatArray) -> FloatArray:
 
 def projection_jacobians(model: CameraModel, p_camera: FloatArray) -> FloatArray:
     """Return how pixels change with points in the camera's frame [px/m], shape (n, 2, 3)."""
-    fx, fy = model.intrinsics[:2]
     inverse = 1.0 / p_camera[:, 2]
-    x, y = p_camera[:, 0] * inverse, p_camera[:, 1] * inverse
-    xx, xy, yy = distortion_jacobian(x, y, model.distortion)
+    xy = p_camera[:, :2] * inverse[:, None]
+    by_xy = model.intrinsics[:2, None] * distort_with_derivatives(xy, model.distortion)[1]
     result = np.empty((len(p_camera), 2, 3))
-    result[:, 0, 0], result[:, 0, 1] = fx * xx, fx * xy
-    result[:, 1, 0], result[:, 1, 1] = fy * xy, fy * yy
-    result[:, 0, 2] = -fx * (xx * x + xy * y)
-    result[:, 1, 2] = -fy * (xy * x + yy * y)
+    result[:, :, :2] = by_xy
+    result[:, :, 2] = -(by_xy * xy[:, None]).sum(axis=2)
     result *= inverse[:, None, None]
     return result
 
 
 def parameter_jacobians(model: CameraModel, p_camera: FloatArray) -> FloatArray:
-    """Return how pixels change with fx, fy, cx, cy, k1, k2, p1, p2, k3, shape (n, 2, 9)."""
-    fx, fy, cx, cy = model.intrinsics
-    x, y = p_camera[:, 0] / p_camera[:, 2], p_camera[:, 1] / p_camera[:, 2]
-    r2 = x * x + y * y
-    uv, _ = model.project_camera(p_camera)
-    result = np.zeros((len(p_camera), 2, 9))
-    result[:, 0, 0], result[:, 1, 1] = (uv[:, 0] - cx) / fx, (uv[:, 1] - cy) / fy
+    """Return how pixels change with fx, fy, cx, cy and the lens' coefficients, shape (n, 2, m)."""
+    xy = p_camera[:, :2] / p_camera[:, 2:]
+    bent, _, by_lens = distort_with_derivatives(xy, model.distortion)
+    result = np.zeros((len(p_camera), 2, 4 + model.distortion.size))
+    result[:, 0, 0], result[:, 1, 1] = bent[:, 0], bent[:, 1]
     result[:, 0, 2] = result[:, 1, 3] = 1.0
-    for column, power in ((4, r2), (5, r2**2), (8, r2**3)):
-        result[:, 0, column], result[:, 1, column] = fx * x * power, fy * y * power
-    result[:, 0, 6], result[:, 1, 6] = fx * 2.0 * x * y, fy * (r2 + 2.0 * y * y)
-    result[:, 0, 7], result[:, 1, 7] = fx * (r2 + 2.0 * x * x), fy * 2.0 * x * y
+    result[:, :, 4:] = model.intrinsics[:2, None] * by_lens
     return result
 
 
@@ -70,8 +62,8 @@ class BoardPose:
         covariance: of the twist (translation [m], rotation vector [rad]) on the left,
             T = exp(twist) @ T_camera_board; shape (6, 6). Widened by chi-square over its freedom
             where the residual is too large to be noise, as with a lens that is not calibrated.
-        sensitivity: change of that twist with the camera's parameters, in the order
-            `optics.calibration.PARAMETERS`, shape (6, 9).
+        sensitivity: change of that twist with the parameters of the camera's lens, shape (6, m);
+            (6, 0) without a pose.
         chi_square: of the residual, with `freedom` degrees of freedom.
         residual_px: root mean square of the reprojection error per axis.
         ids: of the markers that were used.
@@ -100,6 +92,6 @@ class BoardPose:
         cls, status: PoseStatus, reason: str, ids: tuple[int, ...] = (), tilt_apart: float = 0.0
     ) -> "BoardPose":
         """Return that there is no pose, and why."""
-        zero, by = read_only(np.zeros((6, 6))), read_only(np.zeros((6, 9)))
+        zero, by = read_only(np.zeros((6, 6))), read_only(np.zeros((6, 0)))
         identity = RigidTransform.identity()
         return cls(status, identity, zero, by, ids=ids, tilt_apart=tilt_apart, reason=reason)

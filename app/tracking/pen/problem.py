@@ -76,8 +76,10 @@ class BoardProblem:
         """Whitened derivative of the pixels with the camera's parameters, (2n, 9)."""
         p_camera = T @ self.points
         by_point = projection_jacobians(self.model, p_camera)
-        slopes = parameter_jacobians(self.model, p_camera).reshape(-1, 8, 9)
-        return np.einsum("mij,mjk->mik", self._whitening(by_point), slopes).reshape(-1, 9)
+        slopes = parameter_jacobians(self.model, p_camera)
+        count = slopes.shape[2]
+        slopes = slopes.reshape(-1, 8, count)
+        return np.einsum("mij,mjk->mik", self._whitening(by_point), slopes).reshape(-1, count)
 
     def _whitening(self, by_point: FloatArray) -> FloatArray:
         """Inverse Cholesky factors of the corners' covariance with what the print adds."""

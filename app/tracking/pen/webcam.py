@@ -47,7 +47,7 @@ class Webcam:
 
     @property
     def parameter_covariance(self) -> FloatArray:
-        """Covariance of `optics.calibration.PARAMETERS`, shape (9, 9)."""
+        """Covariance of the lens' parameters, shape (m, m)."""
         return self.calibration.parameter_covariance
 
     def require_size(self, size: tuple[int, int]) -> None:

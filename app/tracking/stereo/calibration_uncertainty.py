@@ -5,10 +5,12 @@ so by the implicit function theorem (residuals are small: Gauss–Newton's Hessi
 
     ∂p/∂θ = H⁻¹ Jᵀ W ∂r/∂θ,   H = Jᵀ W J (+ the prior's information),   Σ = ∂p/∂θ Σ_θ ∂p/∂θᵀ
 
-with r = observed minus predicted normalised coordinates, and 30 parameters θ: 9 intrinsics of
-either camera, the pose of the right camera in the left one's frame, and that of the left one in
-world. Cameras and relative pose have the covariance of their common estimate, where the calibration
-keeps it (lenses and pose make up for each other); otherwise, and the world always, each its own.
+with r = observed minus predicted normalised coordinates, and the parameters θ: intrinsics and lens
+of either camera (9 of the usual lens: 30 in all), the pose of the right camera in the left one's
+frame, and that of the left one in world. Cameras and relative pose have the covariance of their
+common estimate, where the calibration keeps it (lenses and pose make up for each other), and so has
+the world frame, which these cameras found: near the board that gave it their errors hardly count.
+Otherwise each has its own.
 
 This error is the same in every picture of a place: a bias, not noise. It must not be averaged away.
 """
@@ -18,10 +20,8 @@ import numpy as np
 from app.core.arrays import FloatArray, read_only
 from app.core.rotation import skew
 from app.tracking.optics.calibration import StereoCalibration
+from app.tracking.optics.distortion import distort_with_derivatives
 from app.tracking.stereo.reprojection import inverse, reprojection
-
-PARAMETER_COUNT = 30
-_LEFT, _RIGHT, _POSE, _WORLD = slice(0, 9), slice(9, 18), slice(18, 24), slice(24, 30)
 
 _REUSED = 2e-3
 """How far [m] a point may move before its sensitivities are computed anew: they change by 1 %."""
@@ -36,10 +36,11 @@ class CalibrationUncertainty:
 
     def __init__(self, calibration: StereoCalibration) -> None:
         self._models = calibration.models()
-        self._spread = np.zeros((PARAMETER_COUNT, PARAMETER_COUNT))
-        self._spread[: _WORLD.start, : _WORLD.start] = calibration.covariance
-        if calibration.world is not None:
-            self._spread[_WORLD, _WORLD] = calibration.world.pose_covariance
+        left, right = (len(camera.lens.parameters) for camera in calibration.cameras)
+        self._lenses = slice(0, left), slice(left, left + right)
+        self._pose = slice(left + right, left + right + 6)
+        self._world = slice(self._pose.stop, self._pose.stop + 6)
+        self._spread = calibration.covariance_with_world
         self._last: dict[tuple[int, ...], tuple[FloatArray, FloatArray, FloatArray]] = {}
 
     def covariance(
@@ -85,7 +86,7 @@ class CalibrationUncertainty:
         cameras: tuple[int, ...],
         prior: FloatArray | None,
     ) -> FloatArray:
-        """∂p/∂θ, shape (3, 30); zero where the point is not determined at all."""
+        """∂p/∂θ, shape (3, parameters); zero where the point is not determined at all."""
         models = [self._models[i] for i in cameras]
         poses = tuple(model.T_camera_world for model in models)
         n = len(cameras)
@@ -96,25 +97,24 @@ class CalibrationUncertainty:
         information = jacobian.T @ weights @ jacobian
         spread = inverse(information if prior is None else information + prior)
         if spread is None:
-            return np.zeros((3, PARAMETER_COUNT))
+            return np.zeros((3, len(self._spread)))
         change = np.vstack([self._change(i, p_world) for i in cameras])
         return np.asarray(spread @ jacobian.T @ weights @ change)
 
     def _change(self, camera: int, p_world: FloatArray) -> FloatArray:
-        """∂r/∂θ of one camera, shape (2, 30)."""
+        """∂r/∂θ of one camera, shape (2, parameters)."""
         model = self._models[camera]
         p_camera = model.T_camera_world @ p_world
         x, y, z = p_camera
         projection = np.array([[1.0, 0.0, -x / z], [0.0, 1.0, -y / z]]) / z
         ray = p_camera[:2] / z
-        change = np.zeros((2, PARAMETER_COUNT))
-        intrinsics = _RIGHT if camera else _LEFT
+        change = np.zeros((2, len(self._spread)))
         by_parameters = pixel_by_parameters(model.intrinsics, model.distortion, ray)
-        change[:, intrinsics] = -model.ray_jacobian(ray) @ by_parameters
+        change[:, self._lenses[camera]] = -model.ray_jacobian(ray) @ by_parameters
         if camera:
-            change[:, _POSE] = -projection @ _moved(p_camera)
+            change[:, self._pose] = -projection @ _moved(p_camera)
         # World: p_left = T̂⁻¹ exp(-ξ) p_world, carried on into this camera.
-        change[:, _WORLD] = projection @ model.T_camera_world.rotation @ _moved(p_world)
+        change[:, self._world] = projection @ model.T_camera_world.rotation @ _moved(p_world)
         return change
 
 
@@ -129,17 +129,11 @@ def _alike(known: FloatArray, covariances: FloatArray) -> bool:
 def pixel_by_parameters(
     intrinsics: FloatArray, distortion: FloatArray, ray: FloatArray
 ) -> FloatArray:
-    """Change of a pixel with `optics.calibration.PARAMETERS` at a fixed ray, shape (2, 9)."""
+    """Change of a pixel with the lens' parameters at a fixed ray, shape (2, parameters)."""
     fx, fy = intrinsics[:2]
-    k1, k2, p1, p2, k3 = distortion
-    x, y = ray
-    r2 = float(x * x + y * y)
-    g = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3))
-    x_d = x * g + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x)
-    y_d = y * g + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y
-    along = fx * np.array([r2 * x, r2**2 * x, 2.0 * x * y, r2 + 2.0 * x * x, r2**3 * x])
-    down = fy * np.array([r2 * y, r2**2 * y, r2 + 2.0 * y * y, 2.0 * x * y, r2**3 * y])
-    return np.array([[x_d, 0.0, 1.0, 0.0, *along], [0.0, y_d, 0.0, 1.0, *down]])
+    bent, _, by_lens = distort_with_derivatives(np.array([ray]), distortion)
+    (x_d, y_d), (along, down) = bent[0], by_lens[0]
+    return np.array([[x_d, 0.0, 1.0, 0.0, *(fx * along)], [0.0, y_d, 0.0, 1.0, *(fy * down)]])
 
 
 def _moved(point: FloatArray) -> FloatArray:

@@ -13,7 +13,7 @@ from app.tracking.calibration.run import StereoResult
 from app.tracking.calibration.verdict import Grade, Why, judge
 from app.tracking.calibration.views import Rejection
 from app.tracking.calibration.world import WorldFrame
-from app.tracking.optics.calibration import PARAMETERS, CameraCalibration, StereoCalibration
+from app.tracking.optics.calibration import CameraCalibration, StereoCalibration
 from app.views.kit.text import tr
 from app.views.kit.verdict import Verdict
 
@@ -67,6 +67,17 @@ def verdict_of(calibration: StereoCalibration) -> Line:
             "Usable, but the pairs do not belong together: the board or a camera moved between "
             "the two pictures. What is stated is wider for it; hold the board still and take them "
             "again."
+        )
+    if found.why is Why.ROLLING:
+        return verdict, tr(
+            "Usable, but the board moved while its pictures were read row by row (rolling "
+            "shutter): distances come out wrong. Hold the board against something still and take "
+            "them again."
+        )
+    if found.why is Why.RAYS:
+        return verdict, tr(
+            "Usable, but only where the board was seen: elsewhere in the pictures the rays are "
+            "hardly known. Take more pairs with the board near the edges and corners."
         )
     if found.grade is Grade.USABLE:
         return verdict, tr("Usable, but worse than usual: more and sharper views will do better.")
@@ -140,7 +151,7 @@ def baseline_sd(calibration: StereoCalibration) -> float:
 
 
 def parameter_rows(mono: MonoResult, camera: CameraCalibration) -> list[tuple[str, str]]:
-    """Each parameter with its standard deviation; in brackets what the views do not support.
+    """Each parameter with its standard deviation; in brackets what the views do not tell.
 
     Args:
         mono: the camera by itself, which decided on the distortion's coefficients.
@@ -149,7 +160,7 @@ def parameter_rows(mono: MonoResult, camera: CameraCalibration) -> list[tuple[st
     values = (*camera.focal_px, *camera.centre_px, *camera.distortion)
     dropped = {one.name: one for one in mono.dropped}
     rows = []
-    for i, (name, value) in enumerate(zip(PARAMETERS, values, strict=True)):
+    for i, (name, value) in enumerate(zip(camera.lens.parameters, values, strict=True)):
         sd = max(0.0, camera.covariance[i][i]) ** 0.5
         if name in camera.estimated:
             digits = 2 if i < 4 else 4
@@ -166,9 +177,9 @@ def parameter_rows(mono: MonoResult, camera: CameraCalibration) -> list[tuple[st
 
 def other_notes(calibration: StereoCalibration) -> list[str]:
     """Return notes that neither the table of parameters nor that of pairs tells."""
-    told = ("is not significant", "does not fit")
+    told = ("the views do not tell", "does not fit")
     notes = [note for note in calibration.notes if not any(words in note for words in told)]
-    return [tr("In brackets: not significant, so dropped (0 is used)."), *notes]
+    return [tr("In brackets: the views do not tell it; 0 is used."), *notes]
 
 
 def view_rows(result: StereoResult) -> list[tuple[str, float, Verdict, str]]:

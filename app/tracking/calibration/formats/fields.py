@@ -87,6 +87,12 @@ class Fields:
                 raise self.wrong(f"{key}.data", number, "a finite number")
         return np.array(data, dtype=np.float64).reshape(rows, columns)
 
+    def row(self, key: str) -> list[float]:
+        """Return the numbers of a matrix of one row, as many as there are."""
+        value = self._value(key)
+        data = value.get("data") if isinstance(value, Mapping) else None
+        return self.matrix(key, 1, len(data) if isinstance(data, list) else 0)[0].tolist()
+
     def wrong(self, key: str, value: object, wanted: str) -> CalibrationError:
         """Return the error that names file, field, value and what is valid."""
         return CalibrationError(f"{self.path}: {key}: {wanted} is needed, got {shown(value)}")

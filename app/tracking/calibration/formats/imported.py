@@ -12,6 +12,7 @@ from app.tracking.optics.calibration import (
     PoseCalibration,
     StereoCalibration,
 )
+from app.tracking.optics.lens import LensModel
 
 NAMES = ("left", "right")
 """What the cameras of every shipped rig are called."""
@@ -26,18 +27,20 @@ class ImportedCamera:
         image_size: width, height [px].
         focal_px: fx, fy.
         centre_px: cx, cy.
-        distortion: k1, k2, p1, p2, k3.
+        distortion: coefficients of `lens` in OpenCV's order.
         T_camera_reference: takes points of the file's common frame to the camera's.
         rms_px: of its own reprojection; 0 if the file does not say.
+        lens: model of the distortion.
     """
 
     source: Path
     image_size: tuple[int, int]
     focal_px: tuple[float, float]
     centre_px: tuple[float, float]
-    distortion: tuple[float, float, float, float, float]
+    distortion: tuple[float, ...]
     T_camera_reference: RigidTransform
     rms_px: float = 0.0
+    lens: LensModel = LensModel.BROWN
 
 
 def stereo_of(
@@ -86,6 +89,7 @@ def _camera(camera: ImportedCamera, name: str) -> CameraCalibration:
         image_size=camera.image_size,
         focal_px=camera.focal_px,
         centre_px=camera.centre_px,
+        lens=camera.lens,
         distortion=camera.distortion,
         rms_px=camera.rms_px,
     )

@@ -20,7 +20,7 @@ _HEAD = """\
 
 _HEAD_OF_ONE = """\
 # Calibration of one camera. Pictures in px (pixel 0, 0 is the centre of the upper left pixel);
-# covariance of fx, fy, cx, cy, k1, k2, p1, p2, k3.
+# covariance of fx, fy, cx, cy and the lens' coefficients: of plumb_bob k1, k2, p1, p2, k3.
 """
 
 

@@ -30,13 +30,13 @@ from app.core.transform import RigidTransform
 from app.tracking.calibration.boards import UNITS
 from app.tracking.calibration.formats.fields import Fields, intrinsics, pose
 from app.tracking.calibration.formats.imported import NAMES, ImportedCamera, stereo_of
+from app.tracking.calibration.formats.lenses import lens_coefficients
 from app.tracking.calibration.formats.own import load_calibration
 from app.tracking.calibration.formats.ros import read_ros
 from app.tracking.calibration.formats.storage import is_storage, read_matrices
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import StereoCalibration
-
-_COEFFICIENTS: Final = (4, 5)
+from app.tracking.optics.lens import LensModel
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,17 +96,14 @@ def _temuge_camera(files: TemugeFiles, unit: float, image_size: tuple[int, int])
     matrix = _section(files.intrinsics, lines, "intrinsic:", (3, 3))
     focal, centre = intrinsics(matrix, f"{files.intrinsics}: intrinsic")
     coefficients = _section(files.intrinsics, lines, "distortion:", (1, 0))[0].tolist()
-    if len(coefficients) not in _COEFFICIENTS:
-        raise CalibrationError(
-            f"{files.intrinsics}: distortion: 4 or 5 numbers (k1 k2 p1 p2 k3) are needed, "
-            f"got {len(coefficients)}"
-        )
-    k1, k2, p1, p2, k3 = (*coefficients, 0.0)[:5]
+    lens, distortion = lens_coefficients(f"{files.intrinsics}: distortion", coefficients)
     lines = _lines(files.rot_trans)
     rotation = _section(files.rot_trans, lines, "R:", (3, 3))
     translation = _section(files.rot_trans, lines, "T:", (3, 1))
     placed = pose(np.hstack([rotation, translation]), unit, f"{files.rot_trans}: R")
-    return ImportedCamera(files.intrinsics, image_size, focal, centre, (k1, k2, p1, p2, k3), placed)
+    return ImportedCamera(
+        files.intrinsics, image_size, focal, centre, distortion, placed, lens=lens
+    )
 
 
 def _lines(path: Path) -> list[str]:
@@ -164,11 +161,6 @@ def _order(path: Path) -> tuple[int, str]:
 
 _PAIR: Final = ("M1", "D1", "M2", "D2", "R", "T")
 _LENS: Final = "camera_matrix"
-_COUNTS: Final = (4, 5, 8, 12, 14)
-_GRID: Final = 21
-
-WORST_PX: Final = 0.2
-"""Five coefficients stand for more of them if no pixel is moved by more than this."""
 
 
 def read_opencv(
@@ -177,6 +169,7 @@ def read_opencv(
     unit: float | None,
     image_size: tuple[int, int] | None,
     names: tuple[str, str] = NAMES,
+    lens: LensModel | None = None,
 ) -> StereoCalibration:
     """Read a pair of cameras from one or two files, in any order.
 
@@ -185,6 +178,8 @@ def read_opencv(
         unit: metres in the unit of the board's square.
         image_size: width, height [px] of the pictures.
         names: of the cameras in the rig.
+        lens: model of both lenses; None for OpenCV's pinhole ones, told by the number of
+            coefficients.
 
     Raises:
         CalibrationError: if something is missing or cannot be; says what.
@@ -207,18 +202,17 @@ def read_opencv(
         [_shaped(where, "R", values["R"], (3, 3)), _shaped(where, "T", values["T"], (3, 1))]
     )
     poses = (RigidTransform.identity(), pose(placed, unit, f"{where}: R"))
-    notes: list[str] = []
     cameras = []
     for i, T_camera_left in enumerate(poses, start=1):
         source = found[f"M{i}"][0]
         matrix = _shaped(source, f"M{i}", values[f"M{i}"], (3, 3))
         focal, centre = intrinsics(matrix, f"{source}: M{i}")
         where_d = f"{found[f'D{i}'][0]}: D{i}"
-        k1, k2, p1, p2, k3 = _five(where_d, values[f"D{i}"], matrix, image_size, notes)
-        lens = (k1, k2, p1, p2, k3)
-        cameras.append(ImportedCamera(source, image_size, focal, centre, lens, T_camera_left))
-    made = stereo_of(cameras[0], cameras[1], "OpenCV FileStorage", names=names)
-    return made.model_copy(update={"notes": (*made.notes, *notes)})
+        model, distortion = lens_coefficients(where_d, values[f"D{i}"].ravel().tolist(), lens)
+        cameras.append(
+            ImportedCamera(source, image_size, focal, centre, distortion, T_camera_left, lens=model)
+        )
+    return stereo_of(cameras[0], cameras[1], "OpenCV FileStorage", names=names)
 
 
 def _require(named: str, found: dict[str, tuple[Path, FloatArray]]) -> None:
@@ -243,53 +237,6 @@ def _shaped(path: Path, key: str, value: FloatArray, shape: tuple[int, int]) -> 
             f"{path}: {key}: {shape[0]} x {shape[1]} numbers are needed, got {value.shape}"
         )
     return value.reshape(shape)
-
-
-def _five(
-    where: str,
-    given: FloatArray,
-    matrix: FloatArray,
-    image_size: tuple[int, int],
-    notes: list[str],
-) -> list[float]:
-    """Return k1, k2, p1, p2, k3; of a longer model those that come nearest over the picture.
-
-    The distortion is linear in the five, so that least squares over a grid of pixels finds them.
-    """
-    values = given.ravel()
-    if values.size not in _COUNTS:
-        raise CalibrationError(f"{where}: {_COUNTS} coefficients are possible, got {values.size}")
-    five = np.zeros(5)
-    five[: min(5, values.size)] = values[:5]
-    if not values[5:].any():
-        return list(five)
-    u, v = (np.linspace(0.0, side - 1.0, _GRID) for side in image_size)
-    pixels = np.stack(np.meshgrid(u, v), axis=-1).reshape(-1, 1, 2)
-    x, y = np.asarray(cv2.undistortPoints(pixels, matrix, values))[:, 0].T  # nearly: a start
-    ahead = np.column_stack([x, y, np.ones_like(x)])
-    bent = cv2.projectPoints(ahead, np.zeros(3), np.zeros(3), np.eye(3), values)[0][:, 0]
-    r2 = x * x + y * y
-    rows = np.array(
-        [
-            [x * r2, x * r2**2, 2 * x * y, r2 + 2 * x * x, x * r2**3],
-            [y * r2, y * r2**2, r2 + 2 * y * y, 2 * x * y, y * r2**3],
-        ]
-    )
-    design = np.concatenate([rows[0], rows[1]], axis=1).T
-    to_pixels = np.diag(matrix)[:2].repeat(x.size)
-    wanted = np.concatenate([bent[:, 0] - x, bent[:, 1] - y])
-    if not (np.isfinite(design).all() and np.isfinite(wanted).all()):
-        raise CalibrationError(f"{where}: coefficients that bend the picture beyond any number")
-    five = np.linalg.lstsq(design, wanted, rcond=None)[0]
-    worst = float(np.abs((design @ five - wanted) * to_pixels).max())
-    if not worst <= WORST_PX:
-        raise CalibrationError(
-            f"{where}: a model of {values.size} coefficients that five cannot stand for (pixels "
-            f"would move by up to {worst:.2g} px, {WORST_PX:g} px are allowed): calibrate the "
-            "pictures with `acus calibrate stereo`"
-        )
-    notes.append(f"{where}: {values.size} coefficients replaced by five, within {worst:.2g} px")
-    return list(five)
 
 
 _CENTIMETRE: Final = 1e-2
@@ -372,6 +319,7 @@ def read_calibration(
     unit: float | None = None,
     image_size: tuple[int, int] | None = None,
     names: tuple[str, str] = NAMES,
+    lens: LensModel | None = None,
 ) -> StereoCalibration:
     """Read one calibration.
 
@@ -380,6 +328,8 @@ def read_calibration(
         unit: metres in the board's unit; only TemugeB's and OpenCV's files need it.
         image_size: width, height [px]; only TemugeB's and OpenCV's files need it.
         names: of the cameras in the rig, for files of other programs.
+        lens: model of both lenses; only OpenCV's files of fisheye cameras need it: they look like
+            others.
 
     Raises:
         CalibrationError: if the files are not of a known format, or one is wrong: named.
@@ -389,7 +339,7 @@ def read_calibration(
     if len(files) not in (1, 2):
         raise CalibrationError(f"{len(files)} files were given; {_EXPECTED}")
     if any(is_storage(path) for path in files):
-        return read_opencv(files, unit=unit, image_size=image_size, names=names)
+        return read_opencv(files, unit=unit, image_size=image_size, names=names, lens=lens)
     if len(files) == 1:
         return load_calibration(files[0])
     left, right = files

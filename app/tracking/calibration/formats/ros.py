@@ -19,10 +19,16 @@ from app.core.files import write_atomically
 from app.core.transform import RigidTransform
 from app.tracking.calibration.formats.fields import Fields, intrinsics, pose
 from app.tracking.calibration.formats.imported import NAMES, ImportedCamera, stereo_of
+from app.tracking.calibration.formats.lenses import lens_coefficients
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import CameraCalibration, StereoCalibration
+from app.tracking.optics.lens import LensModel
 
-MODEL: Final = "plumb_bob"
+_NAMES: Final = {lens.value: lens for lens in LensModel} | {"fisheye": LensModel.FISHEYE}
+"""Models by their name in files; newer drivers write `fisheye`."""
+
+_SHORT: Final = 8
+"""Coefficients of `rational_polynomial` in ROS' own files, which have no thin prism."""
 
 
 def ros_paths(folder: Path, calibration: StereoCalibration) -> tuple[Path, Path]:
@@ -99,11 +105,17 @@ def _document(
         "image_height": camera.image_size[1],
         "camera_name": camera.name,
         "camera_matrix": _matrix(matrix),
-        "distortion_model": MODEL,
-        "distortion_coefficients": _matrix(np.array([camera.distortion])),
+        "distortion_model": camera.lens.value,
+        "distortion_coefficients": _matrix(np.array([_coefficients(camera)])),
         "rectification_matrix": _matrix(rectification),
         "projection_matrix": _matrix(projection),
     }
+
+
+def _coefficients(camera: CameraCalibration) -> tuple[float, ...]:
+    if camera.lens is LensModel.RATIONAL and not any(camera.distortion[_SHORT:]):
+        return camera.distortion[:_SHORT]
+    return camera.distortion
 
 
 def _matrix(values: FloatArray) -> dict[str, Any]:
@@ -111,10 +123,11 @@ def _matrix(values: FloatArray) -> dict[str, Any]:
 
 
 def _camera(fields: Fields) -> ImportedCamera:
-    fields.text("distortion_model", (MODEL,))
+    lens = _NAMES[fields.text("distortion_model", tuple(_NAMES))]
     where = f"{fields.path}: camera_matrix"
     focal, centre = intrinsics(fields.matrix("camera_matrix", 3, 3), where)
-    k1, k2, p1, p2, k3 = fields.matrix("distortion_coefficients", 1, 5)[0].tolist()
+    given = fields.row("distortion_coefficients")
+    lens, distortion = lens_coefficients(f"{fields.path}: distortion_coefficients", given, lens)
     rectification = fields.matrix("rectification_matrix", 3, 3)
     rectified = pose(
         np.hstack([rectification, np.zeros((3, 1))]), 1.0, f"{fields.path}: rectification_matrix"
@@ -128,6 +141,7 @@ def _camera(fields: Fields) -> ImportedCamera:
         fields.size(),
         focal,
         centre,
-        (k1, k2, p1, p2, k3),
+        distortion,
         rectified.inverse() @ RigidTransform.from_translation(shift),
+        lens=lens,
     )

@@ -1,0 +1,1 @@
+"""What the study `coverage` tries: chains of calibrations, and registrations."""

@@ -1,0 +1,104 @@
+"""Sums over many trials, kept as files so that a run that is broken off goes on."""
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+
+from app import __version__
+from app.core.files import write_atomically
+from app.studies.coverage_trials.deviation import Deviation
+
+
+@dataclass(slots=True)
+class Tally:
+    """Sums of one quantity's deviations.
+
+    Attributes:
+        trials: how many.
+        squares, freedom: sums of squared Mahalanobis distances and of their degrees of freedom.
+        held: 95 % ellipsoids that hold the truth.
+        points, within: how many are points, and 95 % spheres that hold the truth.
+        ratios: sum of squared errors over variances, and how many, by parameter.
+    """
+
+    trials: int = 0
+    squares: float = 0.0
+    freedom: int = 0
+    held: int = 0
+    points: int = 0
+    within: int = 0
+    ratios: dict[str, list[float]] = field(default_factory=dict)
+
+    def add(self, found: Deviation) -> None:
+        """Take in one trial."""
+        self.trials += 1
+        self.squares += found.square
+        self.freedom += found.freedom
+        self.held += found.held
+        self.points += found.within is not None
+        self.within += bool(found.within)
+        for name, ratio in found.ratios.items():
+            total = self.ratios.setdefault(name, [0.0, 0])
+            total[0] += ratio**2
+            total[1] += 1
+
+    @property
+    def spread(self) -> dict[str, float]:
+        """Root mean square of error over standard deviation, by parameter."""
+        return {name: float(np.sqrt(total / count)) for name, (total, count) in self.ratios.items()}
+
+
+@dataclass(slots=True)
+class Cell:
+    """All quantities of one kind of trial.
+
+    Attributes:
+        name: of the kind; of the file as well.
+        trial: seed -> deviations by quantity.
+        done: trials so far; the next one's seed.
+        tallies: by quantity.
+    """
+
+    name: str
+    trial: Callable[[int], dict[str, Deviation]]
+    done: int = 0
+    tallies: dict[str, Tally] = field(default_factory=dict)
+
+    def run(self, count: int) -> None:
+        """Try some more."""
+        for seed in range(self.done, self.done + count):
+            for quantity, found in self.trial(seed).items():
+                self.tallies.setdefault(quantity, Tally()).add(found)
+        self.done += count
+
+    def keep(self, folder: Path) -> None:
+        """Write what there is so far.
+
+        Raises:
+            OSError: if the file cannot be written.
+        """
+        tallies = {name: _fields(tally) for name, tally in self.tallies.items()}
+        data = {"version": __version__, "done": self.done, "tallies": tallies}
+        write_atomically(self._file(folder), json.dumps(data) + "\n")
+
+    def go_on(self, folder: Path) -> Self:
+        """Take in what an earlier run of this version kept; nothing where there is none."""
+        try:
+            data = json.loads(self._file(folder).read_text(encoding="utf-8"))
+            if data["version"] == __version__:
+                tallies = {name: Tally(**known) for name, known in data["tallies"].items()}
+                self.done, self.tallies = int(data["done"]), tallies
+        except (OSError, ValueError, KeyError, TypeError):
+            pass  # begins anew
+        return self
+
+    def _file(self, folder: Path) -> Path:
+        return folder / f"{self.name.replace(' ', '').replace('=', '')}.json"
+
+
+def _fields(tally: Tally) -> dict[str, Any]:
+    return {name: getattr(tally, name) for name in Tally.__slots__}
