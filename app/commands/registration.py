@@ -144,6 +144,7 @@ def _document(found: "RegistrationCheck", point: "FloatArray") -> dict[str, Any]
         "target_world_mm": (point / MILLIMETRE).tolist(),
         "tre_rms_mm": float(np.sqrt(np.trace(found.expected(point)))) / MILLIMETRE,
         "tre_95_mm": covariance_radius(spread) / MILLIMETRE,
+        "tre_condition": found.world.condition,
         "tre_covariance_mm2": (spread / MILLIMETRE**2).tolist(),
         "agreement_95_mm": None if isinstance(agreement, str) else agreement.radius / MILLIMETRE,
         "agreement_reason": agreement if said else "",

@@ -169,3 +169,20 @@ def test_what_is_remembered_of_a_place_serves_no_other_weights(wide):
         fresh = CalibrationUncertainty(calibration).covariance(p_world, seen)
         kept = error.covariance(p_world + 1e-3, seen)
         assert np.linalg.norm(kept - fresh) < 0.05 * np.linalg.norm(fresh)
+
+
+def test_the_markers_place_on_the_shaft_is_uncertain_along_it_and_nowhere_else(wide):
+    axis = np.array([0.2, 0.1, -np.sqrt(1.0 - 0.05)])
+    seen = _sightings(wide, FULCRUM + 0.06 * axis, axis)
+    needle = wide.needle.model_copy(update={"marker_offset_sd_mm": 0.5})
+    stated = type(wide).model_validate(wide.model_dump() | {"needle": needle.model_dump()})
+    before, after = (FixSolver(rig, FULCRUM).solve(seen, axis, 0.0) for rig in (wide, stated))
+    added = after.covariance - before.covariance
+    np.testing.assert_allclose(added, 0.5e-3**2 * np.outer(axis, axis), atol=1e-15)
+    np.testing.assert_allclose(after.noise_covariance, before.noise_covariance)
+    assert after.depth_variance == pytest.approx(before.depth_variance + 0.5e-3**2)
+
+
+def test_only_calibrated_cameras_take_the_markers_place_for_measured(wide):
+    assert wide.marker_offset_variance == 0.0
+    assert wide.calibrated(_calibration(wide)).marker_offset_variance == pytest.approx(1e-8)

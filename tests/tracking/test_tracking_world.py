@@ -16,6 +16,7 @@ from app.tracking.calibration.world import find_world, with_world
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import StereoCalibration
 from app.tracking.optics.rig import RigProfile, load_rig
+from app.tracking.stereo.calibration_uncertainty import CalibrationUncertainty
 
 BOARD = parse_board("charuco:7x5:15mm:11mm:DICT_5X5_100")
 FULCRUM = np.array([[0.0, 0.16056, 0.09]])
@@ -254,3 +255,50 @@ def test_the_calibration_with_a_world_is_a_new_one(
     points = np.array([[0.0, 0.16, 0.03]])
     for ours, theirs in zip(rig.calibrated(placed).models, rig.models, strict=True):
         np.testing.assert_allclose(ours.project(points)[0], theirs.project(points)[0], atol=1e-4)
+
+
+def test_the_frame_moves_with_the_cameras_as_finite_differences_say(
+    rig: RigProfile, calibration: StereoCalibration
+) -> None:
+    boards = [
+        PlacedBoard(T, (seen(rig, T, 0.1, seed),)) for seed, T in enumerate((laid(), laid(rz=8.0)))
+    ]
+    told = find_world(calibration, boards).by_cameras
+    right = calibration.cameras[1]
+    for column, changed in (
+        (9, {"focal_px": (right.focal_px[0] + 0.5, right.focal_px[1])}),
+        (12, {"centre_px": (right.centre_px[0], right.centre_px[1] + 0.5)}),
+        (13, {"distortion": (right.distortion[0] + 0.5, *right.distortion[1:])}),
+    ):
+        cameras = (calibration.cameras[0], right.model_copy(update=changed))
+        before = find_world(calibration, boards).pose.transform
+        after = find_world(calibration.model_copy(update={"cameras": cameras}), boards)
+        twist = (after.pose.transform @ before.inverse()).log() / 0.5
+        np.testing.assert_allclose(twist, told[:, column], rtol=0.1, atol=2e-6)
+    for axis in range(6):
+        step = np.zeros(6)
+        step[axis] = 1e-4
+        pose = RigidTransform.exp(step) @ calibration.pose.transform
+        moved = calibration.model_copy(update={"pose": type(calibration.pose).of(pose)})
+        after = find_world(moved, boards).pose.transform
+        twist = (after @ find_world(calibration, boards).pose.transform.inverse()).log() / 1e-4
+        np.testing.assert_allclose(twist, told[:, 18 + axis], rtol=0.05, atol=2e-3)
+
+
+def test_frame_and_cameras_together_say_less_than_taken_as_independent(
+    rig: RigProfile, calibration: StereoCalibration
+) -> None:
+    T_world_board = laid()
+    world = find_world(
+        calibration,
+        [PlacedBoard(T_world_board, (seen(rig, T_world_board),))],
+        place_sd_mm=0.01,
+        place_sd_deg=0.01,
+    )
+    placed = with_world(calibration, world, "board")
+    middle = T_world_board @ BOARD.points.mean(axis=0)
+    spreads = np.array([1e-9 * np.eye(2)] * 2)
+    known = CalibrationUncertainty(placed).covariance(middle, spreads)
+    apart = placed.model_copy(update={"world_by_cameras": None})
+    independent = CalibrationUncertainty(apart).covariance(middle, spreads)
+    assert np.trace(known) < 0.25 * np.trace(independent)
