@@ -35,7 +35,7 @@ def test_every_effect_on_pictures_that_is_declared_is_made_here():
         if declared.pictures:
             defaults = [row.default for row in declared.parameters.values()]
             asked[name] = np.array([1.0, *defaults])
-    assert len(picture_effects(asked)) == 3
+    assert len(picture_effects(asked)) == 5
     with pytest.raises(TrackingError, match="no effect on pictures is called 'fog'"):
         picture_effects({"fog": np.zeros(1)})
 
