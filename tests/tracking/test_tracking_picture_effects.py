@@ -162,7 +162,8 @@ def test_where_no_pictures_are_made_a_lost_one_hides_and_worse_ones_are_noisier(
 
 def test_a_rigs_own_delivery_changes_nothing_where_no_pictures_are_made():
     asked = {"camera_tone": np.array([0.0, 4000.0, 8.0]), "camera_jpeg": np.array([0.0, 90.0])}
-    assert Spoiled.by(asked, 0.7) == Spoiled()
+    spoiled = Spoiled.by(asked, 0.7)
+    assert (spoiled.losses, spoiled.found, spoiled.noise) == (None, 1.0, 1.0)
 
 
 def test_the_tables_of_what_was_measured_are_in_order():
