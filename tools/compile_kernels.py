@@ -60,6 +60,7 @@ def find_first(name: str) -> None:
     from app.tracking.markers.choice import ExtractorName, extractors
     from app.tracking.optics.rig import load_rig
     from app.tracking.simulated.cameras import NeedleRenderer
+    from app.tracking.simulated.delivery import Tone, develop
     from app.tracking.simulated.scene import MarkerScene
     from app.tracking.solver import FixSolver
     from app.tracking.tracker import rehearse
@@ -68,7 +69,9 @@ def find_first(name: str) -> None:
     fulcrum, axis = np.array([0.0, 0.16, 0.09]), np.array([0.0, 0.0, -1.0])
     scene = MarkerScene.from_tip(fulcrum + 0.05 * axis, axis, rig.needle.marker_offset)
     pair = extractors(rig, ExtractorName(name))
-    picture = NeedleRenderer(rig.models[0], rig.needle, rig.blur_px, 0).render(scene)
+    sensor = Tone.of(np.array([0.0, 4000.0, 8.0]))
+    light = NeedleRenderer(rig.models[0], rig.needle, rig.blur_px, 0, light=True).render(scene)
+    picture = develop(light, sensor, np.random.default_rng(0))
     pair[0].search(picture)
     rehearse(rig, fulcrum, pair, FixSolver(rig, fulcrum))
 

@@ -269,7 +269,7 @@ def report_lines(report: CameraReport) -> list[str]:
         f"{report.name}: {report.size[0]}x{report.size[1]}, {figures.rate:.1f} pictures/s, "
         f"jitter {1e3 * figures.jitter:.1f} ms, {100.0 * figures.repeated_share:.1f} % repeated",
         f"  brightness {report.brightness:.0f} of 255, "
-        f"{100.0 * report.saturated:.1f} % overexposed",
+        f"{100.0 * report.saturated:.1f} % overexposed, noise {report.noise:.1f} grey values",
     ]
     if report.driver_time is not None:
         lines.append(
@@ -304,6 +304,7 @@ def report_document(report: CameraReport) -> dict[str, Any]:
         "repeated_share": figures.repeated_share,
         "brightness": report.brightness,
         "saturated_share": report.saturated,
+        "noise_grey": report.noise,
         "driver_time": report.driver_time,
         "settings": list(report.settings),
         "advice": list(report.advice()),

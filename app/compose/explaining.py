@@ -189,22 +189,28 @@ def _costs(plan: SimulationPlan) -> dict[str, dict[str, float]]:
 
 
 def _picture_costs(plan: SimulationPlan, exercise: Exercise) -> dict[str, float]:
-    """Measured time of each effect on pictures, for one picture of the rig's first camera [ns]."""
+    """Measured time of each effect on pictures, for one picture of the rig's first camera [ns].
+
+    Each acts on what those before it leave of the housing.
+    """
     if not (asked := plan.pictures()):
         return {}
     from app.tracking.optics.rig import load_rig
-    from app.tracking.simulated.picture_effects import picture_effects
+    from app.tracking.simulated.cameras import NeedleRenderer
+    from app.tracking.simulated.picture_effects import draws_light, in_order, picture_effects
 
-    width, height = load_rig(exercise.rig).models[0].image_size
-    image = np.full((height, width, 3), 90, dtype=np.uint8)
+    rig, chain = load_rig(exercise.rig), picture_effects(asked)
+    model, light = rig.models[0], draws_light(chain)
+    image = NeedleRenderer(model, rig.needle, rig.blur_px, light=light).background
     random, found = np.random.default_rng(1), {}
-    for name, (effect, memory) in zip(asked, picture_effects(asked), strict=True):
-        times = []
+    for name, (effect, memory) in zip(in_order(asked), chain, strict=True):
+        times, made = [], effect(image.copy(), memory, random)  # compiled, and its noise drawn
         for _ in range(_PICTURES):
             fresh = image.copy()
             start = perf_counter()
             effect(fresh, memory, random)
             times.append(perf_counter() - start)
+        image = made
         found[name] = round(1e9 * float(np.median(times)), 1)
     return found
 

@@ -441,7 +441,8 @@ def loop_table(
         )
         link = Link.of([trainee, *link.read], link.write)
     requests = law_requests(exercise)
-    plan = compile_exercise(exercise, profile, declared_views(), simulated)
+    # Of pictures nothing is computed in a tick: a replay needs no rig.
+    plan = compile_exercise(exercise, profile, declared_views(), simulated, pictures=False)
     bound = laws.energy_bound(requests, profile) + plan.energy_bound()
     forces = laws.stages_of(requests, profile)
     return machine_stages(profile, forces, plan.stages(), link, energy_bound=bound)

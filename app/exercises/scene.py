@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -101,6 +102,26 @@ def scene_of(exercise: Exercise, profile: DeviceProfile) -> Scene:
     )
 
 
+def delivered_scene_of(exercise: Exercise, profile: DeviceProfile) -> Scene:
+    """Return the same where cameras are simulated: with what the rig's own do to their pictures.
+
+    An effect that the exercise asks for itself is as it asks for it.
+
+    Raises:
+        RigError: if there is no such rig.
+    """
+    from app.tracking.optics.rig import load_rig  # only for the cameras: it takes OpenCV along
+
+    scene = scene_of(exercise, profile)
+    usual = load_rig(exercise.rig).pictures
+    more = (
+        EffectRequest(name, part.parameters, part.model)
+        for name, part in usual.items()
+        if name not in exercise.effects
+    )
+    return replace(scene, effects=(*scene.effects, *more))
+
+
 def metric_consumers(exercise: Exercise) -> tuple[Consumer, ...]:
     """Return the metrics that the exercise scores, with the slots that they read."""
     found = [metrics.find(name) for name in exercise.tolerances]
@@ -125,12 +146,14 @@ def compile_exercise(
 
     Raises:
         SimulationError: for an unknown effect, model or parameter; names what is valid.
+        RigError: if cameras are simulated and there is no such rig.
         ExerciseError: if the exercise shows a view that `views` does not have.
     """
     renders = frozenset(axis.value for axis in profile.renders)
+    port = DevicePort(profile.name, renders, simulated, pictures)
     return compile_scene(
-        scene_of(exercise, profile),
-        DevicePort(profile.name, renders, simulated, pictures),
+        (delivered_scene_of if port.takes_pictures else scene_of)(exercise, profile),
+        port,
         _watching(exercise, views),
         metric_consumers(exercise),
     )

@@ -21,9 +21,9 @@ def scene(*more: str) -> Scene:
     return Scene(effects=tuple(EffectRequest(name) for name in (*NAMES, *more)))
 
 
-def test_there_are_three_with_two_models_each() -> None:
-    assert NAMES == ("camera_blur", "camera_dropout", "camera_light")
-    assert all(len(declaration(name).models) == 2 for name in NAMES)
+def test_there_are_five_with_a_choice_of_models_each() -> None:
+    assert NAMES == ("camera_blur", "camera_dropout", "camera_jpeg", "camera_light", "camera_tone")
+    assert all(len(declaration(name).models) >= 2 for name in NAMES)
 
 
 def test_the_tracker_in_simulated_pictures_consumes_them_and_nothing_is_in_the_tick() -> None:

@@ -35,7 +35,7 @@ def test_every_effect_on_pictures_that_is_declared_is_made_here():
         if declared.pictures:
             defaults = [row.default for row in declared.parameters.values()]
             asked[name] = np.array([1.0, *defaults])
-    assert len(picture_effects(asked)) == 3
+    assert len(picture_effects(asked)) == 5
     with pytest.raises(TrackingError, match="no effect on pictures is called 'fog'"):
         picture_effects({"fog": np.zeros(1)})
 
@@ -158,6 +158,12 @@ def test_where_no_pictures_are_made_a_lost_one_hides_and_worse_ones_are_noisier(
     both = spoiled(camera_light=(1, 0.6, 0, 0), camera_blur=(0, 0.5, 0, 0))
     assert both.noise == pytest.approx(dim.noise * soft.noise)
     assert spoiled(camera_blur=(0, 3.0, 0, 0)).found == 0.0
+
+
+def test_a_rigs_own_delivery_changes_nothing_where_no_pictures_are_made():
+    asked = {"camera_tone": np.array([0.0, 4000.0, 8.0]), "camera_jpeg": np.array([0.0, 90.0])}
+    spoiled = Spoiled.by(asked, 0.7)
+    assert (spoiled.losses, spoiled.found, spoiled.noise) == (None, 1.0, 1.0)
 
 
 def test_the_tables_of_what_was_measured_are_in_order():

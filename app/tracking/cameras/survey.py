@@ -26,6 +26,7 @@ from app.tracking.cameras.source import SourceKind, parse_source
 from app.tracking.cameras.usb import UsbCamera
 from app.tracking.cameras.watch import CameraHealth, CameraReader
 from app.tracking.errors import CameraError
+from app.tracking.picture_quality import noise_level
 
 _OUTLINE = (80, 220, 80)
 
@@ -83,6 +84,7 @@ SATURATED: Final = 250
 _LOOK: Final = 0.05
 _TOO_BRIGHT: Final = 0.05
 _TOO_DARK: Final = 30.0
+_TOO_NOISY: Final = 4.5
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -98,6 +100,7 @@ class CameraReport:
         driver_time: whether those are the driver's; None where that is no question.
         brightness: mean grey value of the newest picture.
         saturated: share of its pixels that are overexposed, 0 to 1.
+        noise: standard deviation of its noise as it is delivered [grey values].
         settings: what became of what was asked of the driver, a line each.
         image: newest picture, or None.
         faults: pictures of a folder that cannot be used, a line each.
@@ -111,6 +114,7 @@ class CameraReport:
     driver_time: bool | None
     brightness: float
     saturated: float
+    noise: float
     settings: tuple[str, ...]
     image: Image | None
     faults: tuple[str, ...] = ()
@@ -124,6 +128,11 @@ class CameraReport:
             lines.append(f"{self.saturated:.0%} of the picture is overexposed: lower the exposure")
         elif self.brightness < _TOO_DARK:
             lines.append(f"the picture is dark (mean {self.brightness:.0f} of 255): more light")
+        elif self.noise > _TOO_NOISY:
+            lines.append(
+                f"the picture is noisy ({self.noise:.0f} grey values where it is even): more "
+                "light, so that the camera amplifies less, or a longer exposure"
+            )
         if self.figures.repeated_share > 0.02:
             lines.append(
                 f"{self.figures.repeated_share:.0%} of the pictures repeat: lower the rate, or "
@@ -214,6 +223,7 @@ def _report(reader: CameraReader, camera: Camera, now: float, ages: list[float])
         None if usb is None else usb.driver_time,
         0.0 if image is None else float(image.mean()),
         0.0 if image is None else float((image.max(axis=2) >= SATURATED).mean()),
+        0.0 if image is None else noise_level(image),
         () if usb is None else tuple(setting.text for setting in usb.settings),
         image,
         () if folder is None else folder.faults(),

@@ -185,6 +185,13 @@ class RangeProfile(Strict):
     tilt_max_deg: float = Field(gt=0.0, lt=90.0)
 
 
+class PicturePart(Strict):
+    """How an effect acts on pictures: which of its models, and what replaces its defaults."""
+
+    model: str = ""
+    parameters: dict[str, float] = Field(default_factory=dict)
+
+
 class RigProfile(Strict):
     """Two cameras and what is known about their pictures.
 
@@ -199,6 +206,8 @@ class RigProfile(Strict):
         line_sd_mm: agreement of the needle line (by the robot) with the camera frame, per axis.
         extractor: how the marker is found in a picture: the name of a way in `tracking.markers` or
             of a file in the user's own folder.
+        pictures: effects on the pictures of its simulated cameras, by their names, unless an
+            exercise asks for one of them otherwise: what real ones do by themselves.
         calibration: measured intrinsics and poses; they replace those of `cameras`.
     """
 
@@ -215,6 +224,7 @@ class RigProfile(Strict):
     systematic_px: float = Field(ge=0.0)
     line_sd_mm: float = Field(gt=0.0)
     extractor: str = "model_fit"
+    pictures: dict[str, PicturePart] = Field(default_factory=dict)
     calibration: StereoCalibration | None = None
 
     @cached_property

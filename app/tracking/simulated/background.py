@@ -9,7 +9,7 @@ import hashlib
 import io
 import logging
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final
 
@@ -22,8 +22,8 @@ from app.core import paths
 from app.core.arrays import FloatArray, unit
 from app.core.compiled import njit
 from app.core.files import write_atomically
-from app.tracking.cameras.camera import Image
 from app.tracking.optics.camera_model import CameraModel
+from app.tracking.simulated.delivery import WHITE, from_srgb, light_of, srgb
 
 FINE = 55
 COARSE = 13
@@ -197,9 +197,15 @@ def paint_background(
     blur_px: float,
     seed: int,
     boxes: tuple[HousingBox, ...] = HOUSING,
-) -> Image:
-    """Picture of the housing, or of other `boxes`, with nothing before it: uint8 (H, W, 3)."""
+    light: bool = False,
+) -> NDArray[Any]:
+    """Picture of the housing, or of other `boxes`, with nothing before it: uint8 (H, W, 3).
+
+    With `light` it is the light of the same things, uint16: sRGB makes their colours of it.
+    """
     width, height = model.image_size
+    if light:
+        boxes = tuple(replace(box, colour=_triple(light_of(box.colour))) for box in boxes)
     pattern = sample_pattern(blur_px, COARSE)
     pose = model.T_world_camera
     known = rays, pattern, pose.rotation, pose.translation
@@ -209,8 +215,16 @@ def paint_background(
     traced = kept_or_traced(
         parts, (height, width, 3), lambda: _traced(model, rays, pattern, boxes).astype(np.float32)
     )
-    image = traced + _mottling(width, height, seed)[..., None]
-    return np.clip(image + 0.5, 0.0, 255.0).astype(np.uint8)
+    mottling = _mottling(width, height, seed)[..., None]
+    if light:
+        uneven = from_srgb(np.clip(srgb(traced / 255.0) + mottling / 255.0, 0.0, 1.0))
+        return np.rint(WHITE * uneven).astype(np.uint16)
+    return np.clip(traced + mottling + 0.5, 0.0, 255.0).astype(np.uint8)
+
+
+def _triple(colour: FloatArray) -> tuple[float, float, float]:
+    blue, green, red = colour.tolist()
+    return blue, green, red
 
 
 def _traced(

@@ -4,8 +4,9 @@ The needle is ray traced (compiled). Every pixel is the mean over rays spread as
 point (see `sampling`), so edges are sub-pixel exact, and the distortion is that of the camera,
 since the rays come from its inverse.
 
-Conventions: camera frame; colours blue, green, red in 0..255; `light` holds the unit vector towards
-the light (3), the ambient and the diffuse share.
+Conventions: camera frame; colours blue, green, red, white 255, or 65535 where what is drawn is
+linear light; `light` holds the unit vector towards the light (3), the ambient and the diffuse
+share, and white.
 """
 
 from collections.abc import Callable, Sequence
@@ -13,6 +14,7 @@ from copy import copy
 from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
 from app.core.clock import Clock
@@ -30,7 +32,8 @@ from app.tracking.simulated.background import (
     paint_background,
     sample_pattern,
 )
-from app.tracking.simulated.picture_effects import NoiseTile, PictureEffect, noise
+from app.tracking.simulated.delivery import WHITE, light_of
+from app.tracking.simulated.picture_effects import PictureEffect, draws_light, with_noise
 from app.tracking.simulated.scene import MarkerScene, Scene
 
 _HIGHLIGHT = 0.35
@@ -136,11 +139,11 @@ def _needle_colour(
     shine = shine * shine
     shine = shine * shine
     shine = shine * shine
-    shine = 255.0 * _HIGHLIGHT * shine * shine  # cosine to the power of 32: polished steel
+    shine = light[5] * _HIGHLIGHT * shine * shine  # cosine to the power of 32: polished steel
     return (
-        min(255.0, colours[0, 0] * glow + shine),
-        min(255.0, colours[0, 1] * glow + shine),
-        min(255.0, colours[0, 2] * glow + shine),
+        min(light[5], colours[0, 0] * glow + shine),
+        min(light[5], colours[0, 1] * glow + shine),
+        min(light[5], colours[0, 2] * glow + shine),
         True,
     )
 
@@ -212,7 +215,7 @@ def draw_needle(
     """Draw the needle over the picture, in place.
 
     Args:
-        image: uint8 (H, W, 3).
+        image: uint8 or uint16 (H, W, 3).
         rays: normalised coordinates of the pixels, (H + 2, W + 2, 2): one pixel more on each side.
         spans: first column and last column + 1 of what may change in each row, (H, 2).
         fine: offsets of the rays of a pixel at the band [px], (n, 2).
@@ -225,7 +228,7 @@ def draw_needle(
         margin: half width of what one pixel sees, in normalised coordinates.
     """
     axis, centre = (a[0], a[1], a[2]), (c[0], c[1], c[2])
-    lamp = (light[0], light[1], light[2], light[3], light[4])
+    lamp = (light[0], light[1], light[2], light[3], light[4], light[5])
     for v in range(image.shape[0]):
         for u in range(spans[v, 0], spans[v, 1]):
             x, y = rays[v + 1, u + 1, 0], rays[v + 1, u + 1, 1]
@@ -255,9 +258,9 @@ def draw_needle(
                 blue, green, red = blue + b, green + g, red + r
             if hits:
                 rest = n - hits
-                image[v, u, 0] = np.uint8((blue + rest * image[v, u, 0]) / n + 0.5)
-                image[v, u, 1] = np.uint8((green + rest * image[v, u, 1]) / n + 0.5)
-                image[v, u, 2] = np.uint8((red + rest * image[v, u, 2]) / n + 0.5)
+                image[v, u, 0] = (blue + rest * image[v, u, 0]) / n + 0.5
+                image[v, u, 1] = (green + rest * image[v, u, 1]) / n + 0.5
+                image[v, u, 2] = (red + rest * image[v, u, 2]) / n + 0.5
 
 
 _COLOURS = np.array([[172.0, 170.0, 168.0], [44.0, 26.0, 205.0]])
@@ -267,7 +270,8 @@ _COLOURS = np.array([[172.0, 170.0, 168.0], [44.0, 26.0, 205.0]])
 class NeedleRenderer:
     """Draws the needle before the cached background of one camera; no noise, no time.
 
-    `boxes` are what stands behind it.
+    `boxes` are what stands behind it. With `light` it draws linear light, uint16, of which sRGB
+    makes the colours.
     """
 
     def __init__(
@@ -277,24 +281,28 @@ class NeedleRenderer:
         blur_px: float,
         seed: int = 0,
         boxes: tuple[HousingBox, ...] = HOUSING,
+        light: bool = False,
     ) -> None:
         self.model = model
         self._shape = needle.shape
+        self._colours = light_of(_COLOURS) * (WHITE / 255.0) if light else _COLOURS
         self._behind = needle.band_distance
         self._fine = sample_pattern(blur_px)
         self._coarse = sample_pattern(blur_px, COARSE)
         self._rays = pixel_rays(model)
         farthest = float(np.hypot(*self._fine.T).max())
         self._margin = float(1.2 * farthest / model.intrinsics[:2].min())
-        self._background = paint_background(model, self._rays, blur_px, seed, boxes)
-        light = model.T_world_camera.rotation.T @ LIGHT_WORLD[:3]
-        self._light = np.concatenate([light, LIGHT_WORLD[3:]])
+        self._background = paint_background(model, self._rays, blur_px, seed, boxes, light)
+        lamp = model.T_world_camera.rotation.T @ LIGHT_WORLD[:3]
+        white = float(WHITE) if light else 255.0
+        self._light = np.concatenate([lamp, LIGHT_WORLD[3:], [white]])
         self._compile()
 
     def even(self, grey: float) -> "NeedleRenderer":
-        """Return the same camera before a background of one grey."""
+        """Return the same camera before a background of one grey (0 to 255)."""
         other = copy(self)
-        other._background = np.full_like(self._background, round(grey))  # noqa: SLF001
+        seen = grey if self._background.dtype == np.uint8 else light_of(grey) * (WHITE / 255.0)
+        other._background = np.full_like(self._background, round(float(seen)))  # noqa: SLF001
         return other
 
     def band(self, scene: MarkerScene) -> Image:
@@ -302,12 +310,12 @@ class NeedleRenderer:
         pictures = []
         for green in (0.0, 255.0):
             image = np.zeros_like(self._background)
-            self.draw(image, scene, np.array([_COLOURS[0], [0.0, green, 0.0]]))
+            self.draw(image, scene, np.array([self._colours[0], [0.0, green, 0.0]]))
             pictures.append(image[..., 1])
         return np.asarray(pictures[0] != pictures[1], dtype=np.uint8)
 
-    def render(self, scene: MarkerScene) -> Image:
-        """Picture of a scene without noise, uint8 (height, width, 3), writable."""
+    def render(self, scene: MarkerScene) -> NDArray[Any]:
+        """Picture of a scene without noise, or its light, (height, width, 3), writable."""
         image = self._background.copy()
         if scene.visible:
             self.draw(image, scene)
@@ -315,7 +323,7 @@ class NeedleRenderer:
                 self._draw_second(image, scene, self._behind)
         return image
 
-    def _draw_second(self, image: Image, scene: MarkerScene, behind: float) -> None:
+    def _draw_second(self, image: NDArray[Any], scene: MarkerScene, behind: float) -> None:
         """Draw the piece of the needle round its second band anew, with the band there.
 
         Where both bands lie behind each other, seen along the needle, the second is in front.
@@ -338,7 +346,7 @@ class NeedleRenderer:
             axis,
             centre,
             moved,
-            _COLOURS,
+            self._colours,
             self._light,
             self._margin,
         )
@@ -349,23 +357,23 @@ class NeedleRenderer:
         self.render(MarkerScene(pose @ np.array([0.0, 0.0, 0.3]), pose.rotation[:, 1]))
 
     @property
-    def background(self) -> Image:
-        """What stands behind, uint8 (height, width, 3): a copy."""
+    def background(self) -> NDArray[Any]:
+        """What stands behind, (height, width, 3): a copy."""
         return self._background.copy()
 
     def draw(
         self,
-        image: Image,
+        image: NDArray[Any],
         scene: MarkerScene,
-        colours: FloatArray = _COLOURS,
+        colours: FloatArray | None = None,
         shape: NeedleShape | None = None,
     ) -> None:
         """Draw the needle over a picture of this camera, in place.
 
         Args:
-            image: uint8 (height, width, 3).
+            image: of the type that it renders, (height, width, 3).
             scene: where it is.
-            colours: of shaft and band, blue, green, red, (2, 3).
+            colours: of shaft and band, blue, green, red, (2, 3), if not its own.
             shape: of what is drawn, if not the whole needle.
         """
         shape = shape or self._shape
@@ -383,7 +391,7 @@ class NeedleRenderer:
             axis,
             centre,
             shape,
-            colours,
+            self._colours if colours is None else colours,
             self._light,
             self._margin,
         )
@@ -407,8 +415,8 @@ class Renderer(Protocol):
 
     model: CameraModel
 
-    def render(self, scene: Any) -> Image:
-        """Picture without noise, uint8 (height, width, 3), writable."""
+    def render(self, scene: Any) -> NDArray[Any]:
+        """Picture without noise, or its light, (height, width, 3), writable."""
         ...
 
 
@@ -477,17 +485,18 @@ def simulated_cameras(
     seed: int = 0,
     effects: Sequence[tuple[PictureEffect, Any]] = (),
 ) -> tuple[SimulatedCamera, SimulatedCamera]:
-    """Both cameras of a rig, with its noise, latency and skew; `effects` come before the noise.
+    """Both cameras of a rig, with its noise, latency and skew.
+
+    `effects` on the light come before the noise; a tone curve counts photons in its place, and
+    JPEG comes last.
 
     Tracing the backgrounds takes a moment: build them off the window's thread.
     """
     cameras = []
     for index, model in enumerate(rig.models):
-        renderer = NeedleRenderer(model, rig.needle, rig.blur_px, seed + index)
-        chain = list(effects)
-        if rig.noise_grey > 0.0:
-            tile = NoiseTile.make(model.image_size, rig.noise_grey, seed + 100 + index)
-            chain.append((noise, tile))
+        light = draws_light(effects)
+        renderer = NeedleRenderer(model, rig.needle, rig.blur_px, seed + index, light=light)
+        chain = with_noise(effects, model.image_size, rig.noise_grey, seed + 100 + index)
         latency, skew = rig.latency_ms * MILLISECOND, index * rig.skew_ms * MILLISECOND
         cameras.append(
             SimulatedCamera(

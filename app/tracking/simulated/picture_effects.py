@@ -1,10 +1,11 @@
 """Effects on simulated pictures: `(image, parameters, rng) -> image`, applied in order.
 
-An effect may change the image in place and hands back the one to go on with. Randomness comes from
-the generator it is given and from tiles made beforehand, so that a run repeats itself.
+A picture is uint8, or uint16 while it is light (`delivery`). An effect may change the image in
+place and hands back the one to go on with. Randomness comes from the generator it is given and from
+tiles made beforehand, so that a run repeats itself.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import sqrt
 from typing import Any, Final
@@ -16,8 +17,9 @@ from numpy.typing import NDArray
 from app.core.arrays import FloatArray
 from app.tracking.cameras.camera import Image
 from app.tracking.errors import TrackingError
+from app.tracking.simulated.delivery import Jpeg, Tone, compress, develop
 
-PictureEffect = Callable[[Image, Any, np.random.Generator], Image]
+PictureEffect = Callable[[Any, Any, np.random.Generator], Any]
 """Signature of an effect on a picture."""
 
 _SPARE = 64
@@ -46,14 +48,14 @@ def noise(image: Image, parameters: NoiseTile, rng: np.random.Generator) -> Imag
     return np.asarray(cv2.add(image, tile, dtype=cv2.CV_8U))
 
 
-def blur(image: Image, parameters: float, rng: np.random.Generator) -> Image:
+def blur(image: NDArray[Any], parameters: float, rng: np.random.Generator) -> NDArray[Any]:
     """Blur further by a Gaussian of standard deviation `parameters` [px] (out of focus)."""
     return np.asarray(cv2.GaussianBlur(image, (0, 0), parameters)) if parameters > 0.0 else image
 
 
-def lighting(image: Image, parameters: float, rng: np.random.Generator) -> Image:
-    """Scale the brightness by `parameters` (dimmer below 1), saturating at 255."""
-    return np.asarray(cv2.convertScaleAbs(image, alpha=parameters))
+def lighting(image: NDArray[Any], parameters: float, rng: np.random.Generator) -> NDArray[Any]:
+    """Scale the brightness by `parameters` (dimmer below 1), saturating at white."""
+    return np.asarray(cv2.addWeighted(image, parameters, image, 0.0, 0.0))
 
 
 # --- effects of a scene: declared in `simulation.effects`, found here by their names --------------
@@ -89,7 +91,7 @@ class Losses:
         return self.lost
 
 
-def drop(image: Image, parameters: Losses, rng: np.random.Generator) -> Image:
+def drop(image: NDArray[Any], parameters: Losses, rng: np.random.Generator) -> NDArray[Any]:
     """Hand on the picture, or a black one in its place."""
     return np.zeros_like(image) if parameters.next(rng.random()) else image
 
@@ -139,7 +141,7 @@ def line_kernel(length: float, direction: float) -> FloatArray:
     return np.asarray(kernel / kernel.sum())
 
 
-def unfocus(image: Image, parameters: Blur, rng: np.random.Generator) -> Image:
+def unfocus(image: NDArray[Any], parameters: Blur, rng: np.random.Generator) -> NDArray[Any]:
     """Blur a picture by defocus and motion."""
     image = blur(image, parameters.defocus, rng)
     if parameters.square > 1:
@@ -174,26 +176,34 @@ class Light:
         return self._gains
 
 
-def illuminate(image: Image, parameters: Light, rng: np.random.Generator) -> Image:
-    """Scale the brightness, saturating at 255."""
+def illuminate(image: NDArray[Any], parameters: Light, rng: np.random.Generator) -> NDArray[Any]:
+    """Scale the brightness, saturating at white."""
     level = parameters.level
     if parameters.flicker > 0.0:
         level *= 1.0 + parameters.flicker * float(np.clip(rng.standard_normal(), -2.0, 2.0))
     if parameters.gradient == 0.0:
         return lighting(image, level, rng)
     gains = parameters.gains(image.shape)
-    return np.asarray(cv2.multiply(image, gains, scale=level, dtype=cv2.CV_8U))
+    depth = cv2.CV_16U if image.dtype == np.uint16 else cv2.CV_8U
+    return np.asarray(cv2.multiply(image, gains, scale=level, dtype=depth))
 
 
 _BY_NAME: Final[dict[str, tuple[PictureEffect, Callable[[FloatArray], Any]]]] = {
     "camera_dropout": (drop, Losses.of),
     "camera_blur": (unfocus, Blur.of),
     "camera_light": (illuminate, Light.of),
+    "camera_tone": (develop, Tone.of),
+    "camera_jpeg": (compress, Jpeg.of),
 }
+_LAST: Final = ("camera_tone", "camera_jpeg")
+"""What acts on the finished light and on the finished picture, in this order."""
+
+Chain = Sequence[tuple[PictureEffect, Any]]
+"""Effects with their parameters, in the order in which they act."""
 
 
 def picture_effects(asked: Mapping[str, FloatArray]) -> tuple[tuple[PictureEffect, Any], ...]:
-    """Return what acts on a picture, with fresh memory, in the order in which it is asked for.
+    """Return what acts on a picture, with fresh memory, as `in_order` has it.
 
     Args:
         asked: name -> number of its model, then its parameters as they are declared
@@ -202,8 +212,41 @@ def picture_effects(asked: Mapping[str, FloatArray]) -> tuple[tuple[PictureEffec
     Raises:
         TrackingError: for a name that nothing here makes; names those that are known.
     """
-    if unknown := sorted(set(asked) - set(_BY_NAME)):
+    return tuple((_BY_NAME[n][0], _BY_NAME[n][1](asked[n])) for n in in_order(asked))
+
+
+def in_order(asked: Iterable[str]) -> list[str]:
+    """Return names of effects as they act: as asked for, but tone curve and JPEG at the end.
+
+    Raises:
+        TrackingError: for a name that nothing here makes; names those that are known.
+    """
+    names = list(asked)
+    if unknown := sorted(set(names) - set(_BY_NAME)):
         raise TrackingError(
             f"no effect on pictures is called {unknown[0]!r}; there are {', '.join(_BY_NAME)}"
         )
-    return tuple((_BY_NAME[name][0], _BY_NAME[name][1](asked[name])) for name in asked)
+    return [n for n in names if n not in _LAST] + [n for n in _LAST if n in names]
+
+
+def with_noise(
+    chain: Chain, size: tuple[int, int], sd_grey: float, seed: int
+) -> tuple[tuple[PictureEffect, Any], ...]:
+    """Return a chain with constant noise before JPEG; unchanged where photons are counted.
+
+    Args:
+        chain: as `picture_effects` returns it.
+        size: width and height of the pictures [px].
+        sd_grey: standard deviation of the noise [grey values]; 0 for none.
+        seed: of the noise.
+    """
+    if draws_light(chain) or sd_grey <= 0.0:
+        return tuple(chain)
+    coded = [one for one in chain if isinstance(one[1], Jpeg)]
+    before = [one for one in chain if not isinstance(one[1], Jpeg)]
+    return (*before, (noise, NoiseTile.make(size, sd_grey, seed)), *coded)
+
+
+def draws_light(chain: Chain) -> bool:
+    """Whether the first of these wants light, for one of them is a tone curve."""
+    return any(isinstance(parameters, Tone) for _, parameters in chain)
