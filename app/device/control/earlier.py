@@ -1,8 +1,10 @@
-"""Arrays of stages as records hold them from before machines had stages of their own.
+"""Arrays of stages as older records hold them.
 
-Kinematics, governor, plant and the laws that know the dynamics began with, or ended in, numbers of
-the pantograph, which was the only machine. Those numbers now stand in the machine's own stages,
-made from the profile that the record has attached; all else, memory included, goes over as it was.
+Before machines had stages of their own, kinematics, governor, plant and the laws that know the
+dynamics began with, or ended in, numbers of the pantograph, which was the only machine. Those
+numbers now stand in the machine's own stages, made from the profile that the record has attached;
+all else, memory included, goes over as it was. The cables' watch ended in the joint angles of the
+tick before, which `plausibility` now has.
 """
 
 from typing import Final
@@ -17,6 +19,9 @@ _MODEL: Final = 21
 _CENTRE, _WEIGHT, _COULOMB, _VISCOUS = (3, 4, 5), (15, 16, 17), 18, 19
 _NEEDLE_MASS, _NEEDLE_OFFSET = 12, 14
 """Places in it: remote centre, gravity, friction of the joints, the needle."""
+
+_WATCH: Final = 50
+"""Numbers of the cables' watch without the joint angles before, which it had to tell a jump."""
 
 _PLANT: Final = (
     *range(_MODEL, _MODEL + 17),
@@ -37,6 +42,7 @@ _BEFORE: Final[dict[tuple[str, int], tuple[int, ...]]] = {
     ("plant", _MODEL + 26): _PLANT,
     ("impedance", 15 + _MODEL): _IMPEDANCE,
     ("compensation", 7 + _MODEL): _COMPENSATION,
+    ("cables", _WATCH + 2): tuple(range(_WATCH)),
 }
 """Stage and length of its array then -> which of its numbers the array has now, in order."""
 

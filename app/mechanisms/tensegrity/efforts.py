@@ -17,8 +17,8 @@ held there against any hand, which then feels its own push.
 
 The *watch* compares the same three. A tension that is missing where the lengths say that the cable
 is stretched is a broken cable, where they say that it hangs a slack one; cables that agree with
-each other and not with an encoder tell that the encoder is lost, and so does one that jumps, is
-silent or no number. It is found within 20 ms of showing, and then nothing pulls until the forces
+each other and not with an encoder tell that the encoder is lost, and so does one that is silent or
+no number (one that jumps is judged before, as on every machine). It is found within 20 ms of showing, and then nothing pulls until the forces
 are disarmed. A motor's current cannot tell a torn cable from a taut one; its reel runs away.
 """
 
@@ -325,8 +325,6 @@ class WatchPlaces(NamedTuple):
     run3: int = 0
     run4: int = 0
     apart: int = 0
-    left: int = 0
-    right: int = 0
 
 
 W: Final = numbered(WatchPlaces, SIZE + FRAME_SIZE)
@@ -335,8 +333,6 @@ PATIENCE: Final = 0.010
 """Time for which something must show before it is a fault [s]."""
 RUNS: Final = 3e-3
 """Length that a reel must have taken in beyond any stretch to be called torn [m]."""
-JUMP: Final = 0.15
-"""Step of an encoder between two ticks that no joint makes [rad]."""
 SILENT: Final = 0.018
 """Age of an encoder's reading that a machine with cables does not go on with [s]."""
 CONTRADICTS: Final = 0.03
@@ -405,9 +401,6 @@ def watch_stage(state: FloatArray, p: FloatArray) -> None:
     else:
         if abs(state[sv.TIME] - state[sv.Q_TIME]) > SILENT and started:
             found = LOST
-        if started and max(abs(b1 - p[W.left]), abs(b2 - p[W.right])) > JUMP:
-            found = LOST
-        p[W.left], p[W.right] = b1, b2
         least = min(
             min(state[sv.TENSION_1], state[sv.TENSION_2]),
             min(state[sv.TENSION_3], state[sv.TENSION_4]),
