@@ -59,7 +59,7 @@ _MESSAGES: Final = {
     Fault.ENCODER_WRAPPED: "an encoder jumped by a power of two counts or by a whole turn, as where"
     " its counter overflows or loses a bit, so the force was cut; check the board's counters, then"
     " home the robot again",
-    Fault.ENCODER_JUMPED: "an encoder jumped further than a hand or a motor can turn a joint, so the"
+    Fault.ENCODER_JUMPED: "an encoder jumped further than a hand or a motor can turn it, so the"
     " force was cut; check its cable and plug, then home the robot again",
     Fault.BOARD_ERROR: "the robot's board reports an error; see the robot's health panel",
 }

@@ -61,7 +61,7 @@ _JUMPED = int(Fault.ENCODER_JUMPED)
 class _PlausibilityPlaces(NamedTuple):
     """Constants of `Plausibility`, and memory: joint angles as the link gave them [rad]."""
 
-    count: int
+    one_count: int
     fastest: int
     farthest: int
     patience: int
@@ -144,7 +144,7 @@ def _doubt(state: FloatArray, p: FloatArray, stamp: float, left: float, right: f
         since = stamp - p[_AT.stamp]
         first = left - p[_AT.left] - p[_AT.speed_left] * since
         second = right - p[_AT.right] - p[_AT.speed_right] * since
-        count = p[_AT.count]
+        count = p[_AT.one_count]
         jump = first if abs(first) > abs(second) else second
         p[_AT.kind] = _WRAPPED if is_wrap(jump, count) else _JUMPED
     p[_AT.doubts], p[_AT.doubt_stamp] = 1.0, stamp
@@ -184,7 +184,7 @@ def plausibility_stage(state: FloatArray, p: FloatArray) -> None:
         return
     since = max(stamp - p[_AT.stamp], _SHORTEST)
     # Either reading is true to half a count.
-    limit = min(p[_AT.fastest] * since, p[_AT.farthest]) + p[_AT.count]
+    limit = min(p[_AT.fastest] * since, p[_AT.farthest]) + p[_AT.one_count]
     near = abs(left - p[_AT.left]) <= limit and abs(right - p[_AT.right]) <= limit
     if p[_AT.agreed] < SETTLED:
         if near and p[_AT.agreed] > 0.0:
@@ -223,7 +223,7 @@ class Plausibility:
         """Return the stage for a loop's table, with memory of its own."""
         parameters = packed(
             _AT,
-            count=self.count,
+            one_count=self.count,
             fastest=self.fastest,
             farthest=self.farthest,
             patience=self.patience,
