@@ -84,8 +84,8 @@ class Recording:
             return None
         return streak if isinstance(streak, bool) else None
 
-    def trajectory(self, only_valid: bool = False) -> Trajectory:
-        """Return the attempt as scoring wants it; with `only_valid` as up to scoring version 4.
+    def trajectory(self, only_pointed: bool = False) -> Trajectory:
+        """Return the attempt as scoring wants it; with `only_pointed` as up to scoring version 4.
 
         Raises:
             BrokenRecordingError: if the record holds no usable plan.
@@ -104,7 +104,7 @@ class Recording:
             excused(self.events),
             agreement_of(self.metadata),
             touches_of(self.events),
-            only_valid,
+            only_pointed,
         )
 
     def placed_plan(self) -> PlacedPlan:

@@ -55,7 +55,7 @@ def trajectory(
     excused: float = 0.0,
     agreement: float = 0.0,
     touches: Touches | None = None,
-    only_valid: bool = False,
+    only_pointed: bool = False,
 ) -> Trajectory:
     """Turn samples into what scoring wants.
 
@@ -74,15 +74,17 @@ def trajectory(
         excused: time of pauses that cost nothing [s], see `pauses.excused`.
         agreement: see `agreement_of` [m].
         touches: targets that were to be touched; None where there were none.
-        only_valid: leave out what has no valid pose, as up to scoring version 4.
+        only_pointed: leave out what has no direction, as up to scoring version 4.
 
     Raises:
         SessionError: if no sample has a direction of the needle.
     """
     rising: NDArray[np.bool_] = np.diff(samples.time, prepend=-np.inf) > 0.0
-    placed_at: NDArray[np.bool_] = samples.valid & np.isfinite(samples.tip).all(axis=1) & np.isfinite(samples.depth)
+    placed_at: NDArray[np.bool_] = (
+        samples.valid & np.isfinite(samples.tip).all(axis=1) & np.isfinite(samples.depth)
+    )
     pointed: NDArray[np.bool_] = np.isfinite(samples.axis).all(axis=1)
-    keep = rising & (placed_at if only_valid else np.ones_like(rising))
+    keep = rising & (pointed if only_pointed else np.ones_like(rising))
     if not (keep & pointed).any():
         raise SessionError("no sample of this attempt has a direction of the needle")
     tip, depth = samples.tip, samples.depth

@@ -198,7 +198,7 @@ def _as_then(recording: Recording, written: Score, now: Score) -> Score:
     """Return what the rules that the score was written under give."""
     if written.version < FIRST_OVER_ATTEMPT:
         then = replace(
-            recording.trajectory(only_valid=True),
+            recording.trajectory(only_pointed=True),
             pauses_end_stays=written.version < FIRST_OVER_PAUSES,
             force_in_body=True,
         )

@@ -4,8 +4,8 @@ The needle's line goes through the fulcrum, so a band beyond it says the directi
 the encoders say another, a. Over some seconds both sweep; about their means a = M c. For encoders
 that count M is the unit matrix, however a camera was moved or a needle bent. An encoder that stands
 still leaves only one direction in which the robot can move: an eigenvalue of M is 0. One that
-counts backwards mirrors one: it is -1. Where the needle was swept along one line only, the answer to
-that line says which.
+counts backwards mirrors one: it is -1. Where the needle was swept along one line only, the answer
+to that line says which.
 """
 
 from enum import StrEnum
