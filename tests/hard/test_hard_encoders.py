@@ -1,4 +1,4 @@
-"""Any sequence of encoder readings: bounded torque, no NaN, zero after 20 ms of unbelievable ones."""
+"""Any encoder readings: bounded torque, no NaN, none after 20 ms of unbelievable ones."""
 
 from math import radians
 
