@@ -27,7 +27,7 @@ from app.device.control import Inbox, Loop
 from app.device.errors import LinkError
 from app.device.links import board, line, wire
 from app.device.links import board_layout as at
-from app.device.links.board import FAULTS, Faults
+from app.device.links.board import FAULTS, NUMBERED, Faults
 from app.device.links.board_layout import new_board
 from app.device.links.transport import fd_await, fd_send
 from app.mechanisms.profile import DeviceProfile
@@ -417,7 +417,7 @@ def _understood(order: str) -> tuple[str, float]:
     """Split an order into its name and value; only a switch may stand without its `on`."""
     words = order.replace("=", " ").split() or [""]
     name, text = words[0], words[1] if len(words) > 1 else "on"
-    if len(words) == 1 and name in ("drop", "garble", "delay", "version", "error"):
+    if len(words) == 1 and name in NUMBERED:
         raise LinkError(f"fault {name} needs a number, e.g. `{name} 1`")
     try:
         return name, float({"on": "1", "off": "0"}.get(text, text))

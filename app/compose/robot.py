@@ -13,7 +13,7 @@ from app.core.progress import Progress
 from app.device.commissioning.records import load_record
 from app.device.control.corrections import Corrections
 from app.device.errors import LinkError
-from app.device.links.link import DeviceLink, Link
+from app.device.links.link import DeviceLink
 from app.device.links.serial_link import SerialLink
 from app.device.readiness import ForceClearance, Readiness
 from app.mechanisms.profile import DeviceProfile
@@ -97,11 +97,6 @@ class Robot:
             raise
         corrections = Corrections(record.offsets(link.info().boot), record.gauge())
         return cls(link, profile, corrections, record.readiness())
-
-    def stages(self) -> Link:
-        """Return the link's stages, its readings corrected."""
-        link = self.link.stages()
-        return Link.of([*link.read, self.corrections.stage()], link.write)
 
     def clearance(self) -> ForceClearance:
         """How much force the robot is cleared for now; another power cycle takes it away."""

@@ -26,6 +26,7 @@ from app.core.build import BUILD, build
 from app.core.clock import Clock, SystemClock
 from app.core.configuration import parse
 from app.core.errors import AcusError
+from app.core.parameters import Stage
 from app.device.control import Loop, Table, laws, machine_stages
 from app.device.links.link import Link
 from app.device.links.simulated import simulated_link
@@ -427,11 +428,12 @@ def loop_table(
     plant: for a replay.
     """
     exercise = setup.exercise.placed_as(setup.placed.placement)
-    link = robot.stages() if robot is not None else Link.of([], [])
+    link = robot.link.stages() if robot is not None else Link.of([], [])
+    before: list[Stage] = []
     if simulated:
         link = simulated_link(profile, [plant_stage(profile, UPRIGHT, START_DEPTH)])
     else:  # a simulated hand may still move what simulated cameras see
-        link = Link.of([hand_stage(profile.needle_length), *link.read], link.write)
+        before = [hand_stage(profile.needle_length)]
     if (simulated or robot is not None) and setup.skill is not None:
         placed = setup.placed
         trainee = (
@@ -439,13 +441,21 @@ def loop_table(
             if setup.script is None
             else script_stage(setup.script, placed.axis)
         )
-        link = Link.of([trainee, *link.read], link.write)
+        before = [trainee, *before]
     requests = law_requests(exercise)
     # Of pictures nothing is computed in a tick: a replay needs no rig.
     plan = compile_exercise(exercise, profile, declared_views(), simulated, pictures=False)
     bound = laws.energy_bound(requests, profile) + plan.energy_bound()
     forces = laws.stages_of(requests, profile)
-    return machine_stages(profile, forces, plan.stages(), link, energy_bound=bound)
+    return machine_stages(
+        profile,
+        forces,
+        plan.stages(),
+        link,
+        energy_bound=bound,
+        before=before,
+        corrections=[robot.corrections.stage()] if robot is not None else [],
+    )
 
 
 def _context(

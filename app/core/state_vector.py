@@ -280,6 +280,8 @@ PLANT_REEL_1: Final = _machine()  # [m] reeled in by its winches
 PLANT_REEL_2: Final = _machine()
 PLANT_REEL_3: Final = _machine()
 PLANT_REEL_4: Final = _machine()
+ENCODER_FAULT: Final = _machine()  # [-] code of the fault of an encoder, kept until homing
+UNBELIEVED: Final = _machine()  # [-] readings of the encoders that were not believed so far
 
 SLOTS: Final = next(_next)
 """Length of the state vector."""

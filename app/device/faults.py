@@ -24,6 +24,8 @@ class Fault(IntEnum):
     CABLE_SLACK = 14
     CABLE_BROKEN = 15
     ENCODER_LOST = 16
+    ENCODER_WRAPPED = 17
+    ENCODER_JUMPED = 18
 
     @property
     def message(self) -> str:
@@ -52,7 +54,12 @@ _MESSAGES: Final = {
     " lies on its pulleys, then arm again",
     Fault.CABLE_BROKEN: "a cable of the robot runs without load, as if it were torn, so its force"
     " was cut; look at all four, then arm again",
-    Fault.ENCODER_LOST: "an encoder of the robot contradicts its cables, jumps or is silent, so the"
-    " force was cut; check its plug, then arm again",
+    Fault.ENCODER_LOST: "an encoder of the robot contradicts its cables or is silent, so the force"
+    " was cut; check its plug, then arm again",
+    Fault.ENCODER_WRAPPED: "an encoder jumped by a power of two counts or by a whole turn, as where"
+    " its counter overflows or loses a bit, so the force was cut; check the board's counters, then"
+    " home the robot again",
+    Fault.ENCODER_JUMPED: "an encoder jumped further than a hand or a motor can turn it, so the"
+    " force was cut; check its cable and plug, then home the robot again",
     Fault.BOARD_ERROR: "the robot's board reports an error; see the robot's health panel",
 }

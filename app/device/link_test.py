@@ -6,18 +6,23 @@ from typing import Any
 
 import numpy as np
 
+from app.core import staleness
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.device.control import Loop, Table
 from app.device.errors import LinkError
 from app.device.links.link import describe_error
-from app.device.links.serial_link import SerialLink
+from app.device.links.serial_link import SILENCE, SerialLink
 from app.mechanisms.profile import DeviceProfile
 
 WAIT_SHARE = 0.8
 """Share of a tick for which the test waits for the answer to the command it has just sent."""
 
+LOST_SHARE = 0.01
+"""A wire is not good if a larger share of the commands is never answered."""
+
 _SETTLE = 0.2
+_ARRIVES = 0.1  # [s] that a last answer is waited for
 _MINIMUM = 10
 
 
@@ -25,7 +30,9 @@ _MINIMUM = 10
 class LinkResult:
     """What a test of a wire has shown; times in milliseconds.
 
-    `round_trip_*` are those of answers that came within the tick; `late` counts the others.
+    `round_trip_*` are those of answers that came within the tick; `late` counts the others. Every
+    command was answered or is `lost`: replies + lost = commands. `most_lost` is how many may be;
+    `last_answer` is how long after the beginning the last answer came [s].
     """
 
     port: str
@@ -36,6 +43,8 @@ class LinkResult:
     commands: int
     replies: int
     lost: int
+    most_lost: int
+    last_answer: float
     errors: int
     late: int
     missed_deadlines: int
@@ -45,9 +54,30 @@ class LinkResult:
     round_trip_p99_ms: float
     round_trip_max_ms: float
 
+    @property
+    def good(self) -> bool:
+        """Whether no more commands were lost than may be."""
+        return self.lost <= self.most_lost
+
+    @property
+    def verdict(self) -> str:
+        """One sentence: whether the wire is good, else what was wrong and what to do."""
+        if self.good:
+            return "the wire is good"
+        unanswered = f"{self.lost} of {self.commands} commands were never answered"
+        if self.seconds - self.last_answer > SILENCE:
+            return (
+                f"the board fell silent {self.last_answer:.2f} s after the beginning: {unanswered};"
+                " check its power, its cable and its program, then test again"
+            )
+        return (
+            f"{unanswered}, at most {self.most_lost} may be: check the cable and its plugs, and"
+            " what else this computer has to do, then test again"
+        )
+
     def document(self) -> dict[str, Any]:
         """Return it JSON-ready."""
-        return asdict(self)
+        return asdict(self) | {"good": self.good, "verdict": self.verdict}
 
     def lines(self) -> list[tuple[str, str]]:
         """Return it for people: label and value."""
@@ -66,11 +96,14 @@ class LinkResult:
             ("answered a tick late", str(self.late)),
             ("own deadlines missed", str(self.missed_deadlines)),
             ("board's own error", self.board_error or "none"),
+            ("verdict", self.verdict),
         ]
 
 
 def measure_link(port: str, profile: DeviceProfile, seconds: float) -> LinkResult:
     """Send zero torques at the profile's rate and wait for each answer within the tick.
+
+    Commands and answers are counted from one moment without a command under way to another.
 
     Raises:
         LinkError: if the robot cannot be reached, or answers so rarely that nothing can be said.
@@ -81,17 +114,31 @@ def measure_link(port: str, profile: DeviceProfile, seconds: float) -> LinkResul
     loop = Loop(table, profile.rate_hz, link=link)
     with loop:
         time.sleep(_SETTLE)
-        before = loop.latest().row
-        rows = _watch(loop, seconds)
+        _rest(link)
+        before, sent = loop.latest().row, link.commands
+        link.rest(False)
+        rows = _watch(loop, seconds, link)
         board = link.info().profile or f"{profile.name} ({link.info().protocol})"
-    return _result(port, profile, board, seconds, before, rows, loop.rate_hz)
+        sent = link.commands - sent
+    return _result(port, profile, board, seconds, before, rows, sent, loop.rate_hz)
 
 
-def _watch(loop: Loop, seconds: float) -> FloatArray:
+def _rest(link: SerialLink) -> None:
+    """Send nothing, and let the last answer arrive."""
+    link.rest(True)
+    time.sleep(_ARRIVES)
+
+
+def _watch(loop: Loop, seconds: float, link: SerialLink) -> FloatArray:
+    """Return the ticks of a test, shape (n, `_KEPT`); no command is under way at its end."""
     kept, since = [], loop.latest().tick
     end = time.monotonic() + seconds
-    while time.monotonic() < end:
+    ended = False
+    while not ended:
         time.sleep(min(0.5, max(end - time.monotonic(), 0.0)))
+        ended = time.monotonic() >= end
+        if ended:
+            _rest(link)
         rows = loop.rows(since)
         if len(rows):
             since = int(rows[-1, sv.TICK])
@@ -100,9 +147,9 @@ def _watch(loop: Loop, seconds: float) -> FloatArray:
 
 
 _KEPT = (
+    sv.TIME,
     sv.LINK_REPLIES,
     sv.ROUND_TRIP,
-    sv.LINK_LOST,
     sv.LINK_ERRORS,
     sv.MISSED,
     sv.BOARD_ERROR,
@@ -116,16 +163,23 @@ def _result(
     seconds: float,
     before: FloatArray,
     rows: FloatArray,
+    commands: int,
     rate_hz: float,
 ) -> LinkResult:
-    replies, trip, lost, errors, missed, board_errors = rows.T
+    moments, replies, trip, errors, missed, board_errors = rows.T
     fresh = np.diff(replies, prepend=before[sv.LINK_REPLIES]) > 0
     trips = trip[fresh] * 1e3
     in_time = trips < 1e3 / rate_hz
-    if np.count_nonzero(in_time) < _MINIMUM:
+    answered = int(replies[-1] - before[sv.LINK_REPLIES])
+    most_lost = int(min(LOST_SHARE * commands, staleness.ENCODER_FADE * rate_hz))
+    if np.count_nonzero(in_time) < _MINIMUM and commands - answered <= most_lost:
         raise LinkError(
             f"only {np.count_nonzero(in_time)} answers of the robot on {port} came within a tick of"
             f" {1e3 / rate_hz:g} ms; lower loop.rate_hz in the profile or use a faster port"
+        )
+    if not len(trips):
+        raise LinkError(
+            f"the robot on {port} was greeted, but answers no command; see its firmware"
         )
     p50, p90, p99, largest = np.percentile(trips, (50, 90, 99, 100))
     return LinkResult(
@@ -134,9 +188,11 @@ def _result(
         board=board,
         rate_hz=rate_hz,
         seconds=seconds,
-        commands=len(rows),
-        replies=int(replies[-1] - before[sv.LINK_REPLIES]),
-        lost=int(lost[-1] - before[sv.LINK_LOST]),
+        commands=commands,
+        replies=answered,
+        lost=commands - answered,
+        most_lost=most_lost,
+        last_answer=float(moments[fresh][-1] - before[sv.TIME]),
         errors=int(errors[-1] - before[sv.LINK_ERRORS]),
         late=int(np.count_nonzero(~in_time)),
         missed_deadlines=int(missed[-1] - before[sv.MISSED]),

@@ -216,6 +216,8 @@ TRAJECTORY_COLUMNS: Final = (
     "remaining_mm",
     "angle_deg",
     "felt_n",
+    "felt_least_n",
+    "felt_most_n",
     "felt_measured_n",
     "felt_source",
     "note",
@@ -258,7 +260,7 @@ def score_table(summaries: Iterable[Summary]) -> str:
 
 
 def trajectory_table(recording: Recording) -> str:
-    """Table of one attempt over time; cells are empty where the pose was not valid.
+    """Table of one attempt over time; cells of the tip are empty where no camera vouches for it.
 
     Raises:
         BrokenRecordingError: if the record holds no usable plan.
@@ -272,11 +274,13 @@ def trajectory_table(recording: Recording) -> str:
         samples.depth_source,
         *(samples.tip * 1e3).T,
         figures.depth * 1e3,
-        _radii(samples) * 1e3,
+        _or_unknown(samples.radius, samples) * 1e3,
         figures.lateral * 1e3,
         figures.remaining * 1e3,
         np.degrees(figures.angle),
         figures.felt,
+        _or_unknown(samples.felt_least, samples),
+        _or_unknown(samples.felt_most, samples),
         samples.measured,
         _sources(samples),
     )
@@ -286,9 +290,9 @@ def trajectory_table(recording: Recording) -> str:
     return table_text(lines)
 
 
-def _radii(samples: Samples) -> NDArray[np.float64]:
-    """Radius round the tip that holds the true one with 95 % [m]; NaN where it is not known."""
-    return np.full(len(samples.time), np.nan) if samples.radius is None else samples.radius
+def _or_unknown(values: NDArray[np.float64] | None, samples: Samples) -> NDArray[np.float64]:
+    """Return values that records did not always keep, shape (n,); NaN where there are none."""
+    return np.full(len(samples.time), np.nan) if values is None else values
 
 
 def _sources(samples: Samples) -> NDArray[np.str_]:

@@ -17,17 +17,21 @@ from app.scoring.tolerance import Tolerance
 FORMAT = "acus-score/1"
 """Name and version of the stored form."""
 
-SCORING_VERSION = 4
+SCORING_VERSION = 5
 """Of the rules that make a score: it grows whenever a metric, the judging, or what makes an attempt
 void gives another answer to the same attempt. Scores of two versions are not comparable. Version 1
 did not say its number; up to version 2 a value counted as it was measured, since 3 as the best one
-within its standard deviation; up to 3 an insertion began anew after each pause."""
+within its standard deviation; up to 3 an insertion began anew after each pause; up to 4 a force
+counted in the body only, and only where the pose was valid."""
 
 FIRST_WITH_DOUBT = 3
 """Version from which on it does."""
 
 FIRST_OVER_PAUSES = 4
 """Version from which on an insertion goes on after a pause."""
+
+FIRST_OVER_ATTEMPT = 5
+"""Version from which on a force counts in the whole attempt, whether the depth was known or not."""
 
 TRACKING = "tracking_valid"
 """Metric that decides whether a score is void."""

@@ -69,6 +69,8 @@ class Trajectory:
             had to check.
         clamped: whether the force was at the robot's limit, shape (n,); None if not known.
         pauses_end_stays: whether a pause ends a stay in the body, as up to scoring version 3.
+        force_in_body: whether force counts with the needle in the body only, as up to scoring
+            version 4.
         touches: targets that were to be touched; None where there were none.
 
     Raises:
@@ -94,6 +96,7 @@ class Trajectory:
     agreement: float = 0.0
     clamped: NDArray[np.bool_] | None = None
     pauses_end_stays: bool = False
+    force_in_body: bool = False
     touches: Touches | None = None
 
     def __post_init__(self) -> None:
@@ -153,6 +156,17 @@ class Trajectory:
         if self.felt is None:
             raise MetricUnavailableError("no robot held the needle: there is no force")
         return self.felt
+
+    def pushed(self) -> NDArray[np.bool_]:
+        """Find the samples whose force counts: all of the attempt, pauses included, shape (n,).
+
+        Also where nobody knew how deep the needle was: the hand felt the force all the same.
+
+        Raises:
+            MetricUnavailableError: if the needle was never inserted.
+        """
+        self.insertions()
+        return self.inserted if self.force_in_body else self.running | self.paused
 
     def insertions(self) -> list[slice]:
         """Stretches with the needle in the body and the attempt running, in order.

@@ -63,9 +63,12 @@ LATER: Final = ("hold_breath", "needle_roll")
 CABLES: Final = (*slots.VECTORS["cable"], *slots.VECTORS["reel"])
 """What a robot with cables gives a tick beside them: later than all, and zeros of one without."""
 
+JUDGED: Final = ("encoder_fault", "unbelieved")
+"""What was made of a robot's readings when they came; later than all, and zeros before."""
+
 COLUMNS: Final = (
     *(n for n in INPUTS if n not in LATER),
-    *(*CLOCK, *WIRE, *OUTPUTS, *LATER, *CABLES),
+    *(*CLOCK, *WIRE, *OUTPUTS, *LATER, *CABLES, *JUDGED),
 )
 """Slot names of a block's columns."""
 

@@ -32,6 +32,7 @@ from app.core.staleness import TRACKER_HOLD
 from app.core.units import MILLIMETRE
 from app.session.fusion import fix_depth, is_usable
 from app.session.inputs import LoopInputs
+from app.tracking.discrepancy import ENCODERS
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.motion.depth_filter import ConstantVelocity, DepthMotion
 
@@ -178,6 +179,15 @@ class Fixes:
         if now - fix.time > SILENCE:
             return FixStatus.NO_PICTURE.value, 0.0
         return str(fix.status), float(fix.residual_px)
+
+    @property
+    def encoder(self) -> str:
+        """Why, by cameras that see the needle, an encoder cannot be right; empty if it may be."""
+        with self._lock:
+            fix = self._newest
+        if fix is None or not self._seen or fix.discrepancy.cause not in ENCODERS:
+            return ""
+        return fix.discrepancy.words
 
     def _weigh(self, fix: NeedleFix, fulcrum: FloatArray) -> None:
         """Believe a depth and tell the loop, or tell it that there is none."""

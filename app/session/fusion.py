@@ -279,6 +279,7 @@ def fuse(
         depth_least=least,
         depth_most=most,
         doubt=doubt,
+        trusted_depth=last.trusted_depth if last else None,
     )
 
 
@@ -309,6 +310,7 @@ def _measured(
         bend=bend,
         depth_least=least,
         depth_most=most,
+        trusted_depth=tip.depth,
     )
 
 
@@ -382,6 +384,7 @@ def _invalid(last: NeedlePose | None, now: float, reason: str, age: float) -> Ne
         covariance=last.covariance if last else read_only(MODEL_SIGMA**2 * np.eye(3)),
         reason=reason,
         bend=last.bend if last else None,
+        trusted_depth=last.trusted_depth if last else None,
     )
 
 

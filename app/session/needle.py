@@ -45,8 +45,7 @@ class NeedlePose:
         orientation_age: age of the encoder values [s].
         depth_age: age of the depth [s]; the state's own age where the model gives it.
         depth_source: where the depth comes from.
-        valid: whether direction and depth may be used; the depth is measured only if
-            `measured` says so too.
+        valid: whether the direction may be used; the depth may be only if `measured` says so.
         covariance: of the tip [m²], shape (3, 3), read-only.
         depth_least: least depth that the needle can have [m], see `device.control.depth_interval`;
             minus infinity where nothing is known.
@@ -61,6 +60,7 @@ class NeedlePose:
         deflection_sigma: standard deviation of `deflection` [m]; 0 where it is not known.
         reason: why the pose is not valid, one line; empty if it is.
         bend: how simulated tissue bends the needle; None for a straight one.
+        trusted_depth: depth that the cameras vouched for last [m]; None where they never did.
     """
 
     p_tip: FloatArray
@@ -82,6 +82,7 @@ class NeedlePose:
     deflection: float = 0.0
     deflection_sigma: float = 0.0
     bend: Bend | None = None
+    trusted_depth: float | None = None
 
     @property
     def p_straight(self) -> FloatArray:

@@ -63,6 +63,7 @@ class Observation:
         residual_px: its residual [px].
         shown: the pose predicted to the moment of display, for the views only.
         shown_offset: from its tip to the target.
+        encoder: why an encoder cannot be right, by the cameras; empty if it may be.
     """
 
     time: float
@@ -74,6 +75,7 @@ class Observation:
     residual_px: float
     shown: NeedlePose
     shown_offset: Offset
+    encoder: str = ""
 
     @property
     def device_fault(self) -> str:
@@ -115,6 +117,8 @@ class Observation:
             return f"the loop has stopped: its newest state is {age:.1f} s old"
         if self.device.time <= began + GRACE:
             return ""
+        if self.encoder:
+            return self.encoder
         if simulated and self.swings:
             return ""
         if held_arming and self._can_be_armed_again(self.device):
@@ -160,7 +164,9 @@ def observe(
     away = offset(pose, p_target, placed)
     seen = predicted(pose, fixes.motion(moment(pose)))
     seen_away = away if seen is pose else offset(seen, p_target, placed)
-    return Observation(now, pose, away, p_target, device, status, residual, seen, seen_away)
+    return Observation(
+        now, pose, away, p_target, device, status, residual, seen, seen_away, fixes.encoder
+    )
 
 
 def _target(placed: PlacedPlan, device: DeviceState | None) -> FloatArray:
@@ -184,6 +190,7 @@ def _no_device(placed: PlacedPlan, now: float, last: NeedlePose | None, missing:
         covariance=last.covariance if last else read_only(np.zeros((3, 3))),
         bend=last.bend if last else None,
         reason=missing,
+        trusted_depth=last.trusted_depth if last else None,
     )
 
 

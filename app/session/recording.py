@@ -19,7 +19,7 @@ from app.session.errors import BrokenRecordingError
 from app.session.facts import PLAN, placed_plan
 from app.session.risks import risk_marks
 from app.session.sample_columns import SAMPLES_FILE, same, unpack
-from app.session.samples import Samples, bends, flags, floats, spreads, vectors, words
+from app.session.samples import Samples, bends, flags, floats, known, spreads, vectors, words
 from app.session.scan import FileContents, scan, scan_by_index
 from app.session.schemas import CHANNELS, conforms
 from app.session.scored import agreement_of, renders_force, trajectory
@@ -84,8 +84,8 @@ class Recording:
             return None
         return streak if isinstance(streak, bool) else None
 
-    def trajectory(self) -> Trajectory:
-        """Return the attempt as scoring wants it.
+    def trajectory(self, only_pointed: bool = False) -> Trajectory:
+        """Return the attempt as scoring wants it; with `only_pointed` as up to scoring version 4.
 
         Raises:
             BrokenRecordingError: if the record holds no usable plan.
@@ -104,6 +104,7 @@ class Recording:
             excused(self.events),
             agreement_of(self.metadata),
             touches_of(self.events),
+            only_pointed,
         )
 
     def placed_plan(self) -> PlacedPlan:
@@ -288,6 +289,8 @@ def _samples(content: FileContents, problems: list[str]) -> Samples:
         assistance=floats([wrench.get("assistance") for wrench in wrenches]),
         spread=spreads([quality.get("spread") for quality in qualities]),
         clamped=flags([bool(wrench.get("clamped")) for wrench in wrenches]),
+        felt_least=known([wrench.get("felt_least") for wrench in wrenches]),
+        felt_most=known([wrench.get("felt_most") for wrench in wrenches]),
     )
 
 

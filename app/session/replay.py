@@ -21,7 +21,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.build import BUILD, build, changes
 from app.scoring.risks import RiskMark
-from app.session.blocks import CABLES, CLOCK, INPUTS, LATER, SLOT_NAMES, WIRE
+from app.session.blocks import CABLES, CLOCK, INPUTS, JUDGED, LATER, SLOT_NAMES, WIRE
 from app.session.control_scan import ControlScan
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.session.digest import MEASURED, digests
@@ -289,7 +289,7 @@ def is_simulated(recording: Recording) -> bool:
 
 def given_slots(recording: Recording) -> tuple[str, ...]:
     """Names of what a tick of this record is given; the rest is computed."""
-    return (*INPUTS, *CLOCK, *(() if is_simulated(recording) else (*WIRE, *CABLES)))
+    return (*INPUTS, *CLOCK, *(() if is_simulated(recording) else (*WIRE, *CABLES, *JUDGED)))
 
 
 def replay(

@@ -15,6 +15,7 @@ from app.core.events import Event
 from app.core.json_values import compact
 from app.core.transform import FrameName, RigidTransform, rotation_between
 from app.device.state import DeviceState
+from app.session.felt import felt_force
 from app.session.machine import State
 from app.session.needle import DOWN, NeedlePose
 from app.tracking.motion.depth_filter import HAND_SPEED
@@ -62,10 +63,15 @@ class Sample:
 
     @property
     def pose_valid(self) -> bool:
-        """Whether the pose is valid and all its numbers are finite."""
+        """Whether direction and depth are measured and finite; a depth of the model's never is."""
         pose = self.pose
-        numbers = (pose.depth, *pose.p_tip, *pose.axis)
-        return pose.valid and all(map(isfinite, numbers))
+        numbers = (pose.depth, *pose.p_tip)
+        return pose.measured and self.axis_valid and all(map(isfinite, numbers))
+
+    @property
+    def axis_valid(self) -> bool:
+        """Whether the direction is measured and finite."""
+        return self.pose.valid and all(map(isfinite, self.pose.axis))
 
 
 def encode(document: Any) -> bytes:
@@ -186,7 +192,7 @@ def _attempt(sample: Sample, stamp: dict[str, int]) -> dict[str, Any]:
         "depth_source": pose.depth_source.value,
         "depth": pose.depth if valid else None,
         "tip": _vector(pose.p_tip) if valid else None,
-        "axis": _vector(pose.axis) if valid else None,
+        "axis": _vector(pose.axis) if sample.axis_valid else None,
         "hub": _vector(sample.device.hub) if sample.device else None,
         "target": _vector(sample.p_target),
     } | bent
@@ -209,8 +215,7 @@ def _quality(sample: Sample, stamp: dict[str, int]) -> dict[str, Any]:
 
 def radius_95(sample: Sample) -> float | None:
     """Radius round the tip that holds the true one with 95 % [m], while cameras vouch for it."""
-    measured = sample.pose_valid and sample.pose.measured
-    return sample.pose.radius if measured else None
+    return sample.pose.radius if sample.pose_valid else None
 
 
 def spread(sample: Sample) -> tuple[float, float, float] | None:
@@ -221,7 +226,7 @@ def spread(sample: Sample) -> tuple[float, float, float] | None:
     None while no camera vouches for the tip.
     """
     pose = sample.pose
-    if not (sample.pose_valid and pose.measured):
+    if not sample.pose_valid:
         return None
     along = float(pose.axis @ pose.covariance @ pose.axis)
     across = max(0.0, 0.5 * (float(np.trace(pose.covariance)) - along))
@@ -241,11 +246,14 @@ def _joints(device: DeviceState, stamp: dict[str, int]) -> dict[str, Any]:
 
 
 def _wrench(sample: Sample, device: DeviceState, stamp: dict[str, int]) -> dict[str, Any]:
+    felt = felt_force(device, sample.pose)
     return {
         "timestamp": stamp,
         "wanted": _vector(device.force),
         "guide": _vector(device.guide),
-        "felt": _vector(device.felt),
+        "felt": _vector(felt.force),
+        "felt_least": felt.least,
+        "felt_most": felt.most,
         "felt_source": "measured" if device.force_measured else "estimated",
         "measured": float(device.measured_force) if device.force_measured else None,
         "clamped": bool(device.limit_scale < 1.0),

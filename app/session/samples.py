@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray, read_only
 from app.core.bend import SIZE
+from app.session.felt import felt_force
 from app.session.sample import Sample, radius_95, spread
 
 SAMPLE_PERIOD: Final = 0.01
@@ -20,8 +21,8 @@ SAMPLE_PERIOD: Final = 0.01
 class Samples:
     """The attempt over time at the recorder's rate; n samples, SI, world, read-only.
 
-    Where `valid` is False, tip, axis and depth are NaN; where the robot said nothing or nothing
-    finite, hub, guide and felt are.
+    Where `valid` is False, tip and depth are NaN; the axis is where the robot measured none. Where
+    the robot said nothing or nothing finite, hub, guide and felt are.
 
     Attributes:
         time: monotonic time [s], shape (n,).
@@ -46,6 +47,10 @@ class Samples:
             camera vouches for it. None in records of versions that did not keep it.
         clamped: whether the wanted force was at the robot's limit, shape (n,); None where it is not
             known.
+        felt_least, felt_most: sizes between which `felt` lies for every depth that the needle can
+            have [N], shape (n,); NaN where that is not known. None in records of versions that did
+            not keep them; those also said `felt` at the model's depth where no camera vouched for
+            one, and called that valid.
     """
 
     time: FloatArray
@@ -65,6 +70,8 @@ class Samples:
     assistance: FloatArray | None = None
     spread: FloatArray | None = None
     clamped: NDArray[np.bool_] | None = None
+    felt_least: FloatArray | None = None
+    felt_most: FloatArray | None = None
 
     def tip_radius(self) -> float | None:
         """Median radius round the tip that holds the true one with 95 % [m]; None if not known."""
@@ -91,6 +98,7 @@ class SampleHistory:
         """All samples so far."""
         kept = tuple(self._samples)
         poses = [s.pose if s.pose_valid else None for s in kept]
+        felt = [felt_force(s.device, s.pose) if s.device else None for s in kept]
         return Samples(
             time=floats([s.time for s in kept]),
             state=words([s.state.value for s in kept]),
@@ -98,17 +106,19 @@ class SampleHistory:
             depth_source=words([s.pose.depth_source.value for s in kept]),
             depth=floats([p.depth if p else None for p in poses]),
             tip=vectors([xyz(p.p_tip) if p else None for p in poses]),
-            axis=vectors([xyz(p.axis) if p else None for p in poses]),
+            axis=vectors([xyz(s.pose.axis) if s.axis_valid else None for s in kept]),
             target=vectors([xyz(s.p_target) for s in kept]),
             hub=vectors([xyz(s.device.hub) if s.device else None for s in kept]),
             guide=vectors([xyz(s.device.guide) if s.device else None for s in kept]),
-            felt=vectors([xyz(s.device.felt) if s.device else None for s in kept]),
+            felt=vectors([xyz(f.force) if f else None for f in felt]),
             measured=floats([_measured(s) for s in kept]),
             radius=floats([radius_95(s) for s in kept]),
             bend=bends([p.bend.numbers() if p and p.bend else None for p in poses]),
             assistance=floats([s.assistance if s.device else None for s in kept]),
             spread=spreads([spread(s) for s in kept]),
             clamped=flags([s.device is not None and s.device.limit_scale < 1.0 for s in kept]),
+            felt_least=known([f.least if f else None for f in felt]),
+            felt_most=known([f.most if f else None for f in felt]),
         )
 
 
@@ -126,6 +136,12 @@ def xyz(values: FloatArray) -> dict[str, float]:
 def floats(values: Sequence[float | None]) -> FloatArray:
     """Read-only array, shape (n,), NaN for None."""
     return read_only(np.array([np.nan if v is None else v for v in values], dtype=np.float64))
+
+
+def known(values: Sequence[float | None]) -> FloatArray | None:
+    """Read-only array, shape (n,), NaN for None; None if nothing is known."""
+    array = floats(values)
+    return array if np.isfinite(array).any() else None
 
 
 def flags(values: Sequence[bool]) -> NDArray[np.bool_]:

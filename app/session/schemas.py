@@ -99,6 +99,8 @@ WRENCH: Final = _object(
         "wanted": _VECTOR_OR_NULL,
         "guide": _VECTOR_OR_NULL,
         "felt": _VECTOR_OR_NULL,
+        "felt_least": _NUMBER_OR_NULL,
+        "felt_most": _NUMBER_OR_NULL,
         "felt_source": _TEXT,
         "measured": _NUMBER_OR_NULL,
         "clamped": _FLAG,
@@ -106,7 +108,7 @@ WRENCH: Final = _object(
         "assistance": _NUMBER_OR_NULL,
         "fault": _COUNT,
     },
-    optional=("felt_source", "measured"),
+    optional=("felt_source", "measured", "felt_least", "felt_most"),
 )
 QUALITY: Final = _object(
     "acus.TrackingQuality",

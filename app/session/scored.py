@@ -55,10 +55,13 @@ def trajectory(
     excused: float = 0.0,
     agreement: float = 0.0,
     touches: Touches | None = None,
+    only_pointed: bool = False,
 ) -> Trajectory:
-    """Turn samples into what scoring wants: those without a valid pose are left out.
+    """Turn samples into what scoring wants.
 
-    A force that the robot did not report counts as zero; hub point and fixture are given only if
+    Where no camera vouches for the depth, tip and depth stay as they were measured last, and
+    `depth_valid` says so: the force of such a moment counts, its place does not. A force that the
+    robot did not report counts as zero; hub point and fixture are given only if
     the robot reported them throughout.
 
     Args:
@@ -71,24 +74,33 @@ def trajectory(
         excused: time of pauses that cost nothing [s], see `pauses.excused`.
         agreement: see `agreement_of` [m].
         touches: targets that were to be touched; None where there were none.
+        only_pointed: leave out what has no direction, as up to scoring version 4.
 
     Raises:
-        SessionError: if no sample has a valid pose.
+        SessionError: if no sample has a direction of the needle.
     """
-    rising = np.diff(samples.time, prepend=-np.inf) > 0.0
-    keep = samples.valid & rising & np.isfinite(samples.tip).all(axis=1)
-    if not keep.any():
-        raise SessionError("no sample of this attempt has a valid pose of the needle")
+    rising: NDArray[np.bool_] = np.diff(samples.time, prepend=-np.inf) > 0.0
+    placed_at: NDArray[np.bool_] = (
+        samples.valid & np.isfinite(samples.tip).all(axis=1) & np.isfinite(samples.depth)
+    )
+    pointed: NDArray[np.bool_] = np.isfinite(samples.axis).all(axis=1)
+    keep = rising & (pointed if only_pointed else np.ones_like(rising))
+    if not (keep & pointed).any():
+        raise SessionError("no sample of this attempt has a direction of the needle")
+    tip, depth = samples.tip, samples.depth
+    if not placed_at.any():
+        tip, depth = np.broadcast_to(placed.p_entry, tip.shape), np.zeros(len(depth))
+    place, direction = _last(placed_at)[keep], _last(pointed)[keep]
     hub, guide, target = samples.hub[keep], samples.guide[keep], samples.target[keep]
     return Trajectory(
         placed=placed,
         time=samples.time[keep],
-        tip=samples.tip[keep],
-        axis=samples.axis[keep],
-        depth=samples.depth[keep],
+        tip=tip[place],
+        axis=samples.axis[direction],
+        depth=depth[place],
         felt=np.nan_to_num(samples.felt[keep], nan=0.0) if renders else None,
         phase=_phases(samples.state[keep]),  # type: ignore[arg-type]  # names are taken as well as codes
-        depth_valid=np.isin(samples.depth_source[keep], FROM_CAMERAS),
+        depth_valid=np.isin(samples.depth_source[keep], FROM_CAMERAS) & samples.valid[keep],
         hub=hub if np.isfinite(hub).all() else None,
         guide=guide if np.isfinite(guide).all() else None,
         target_shift=target - placed.p_target if np.isfinite(target).all() else None,
@@ -101,6 +113,13 @@ def trajectory(
         touches=touches,
         clamped=samples.clamped[keep] if renders and samples.clamped is not None else None,
     )
+
+
+def _last(known: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """Find the newest sample up to each where something is known, else the first such, (n,)."""
+    newest = np.maximum.accumulate(np.where(known, np.arange(len(known)), -1))
+    rows: NDArray[np.intp] = np.where(newest < 0, int(np.argmax(known)), newest)
+    return rows
 
 
 def _phases(states: NDArray[np.str_]) -> NDArray[np.str_]:

@@ -16,7 +16,7 @@ from app.core.errors import AcusError
 from app.scoring.conditions import Conditions
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import ScoreFormatError
-from app.scoring.result import FIRST_OVER_PAUSES, SCORING_VERSION, Score
+from app.scoring.result import FIRST_OVER_ATTEMPT, FIRST_OVER_PAUSES, SCORING_VERSION, Score
 from app.scoring.rows import ScoreRules
 from app.scoring.score import score
 from app.scoring.tolerance import Tolerance
@@ -201,8 +201,12 @@ def _recomputed(recording: Recording, written: Score | None) -> tuple[Score | No
 
 def _as_then(recording: Recording, written: Score, now: Score) -> Score:
     """Return what the rules that the score was written under give."""
-    if written.version < FIRST_OVER_PAUSES:
-        then = replace(recording.trajectory(), pauses_end_stays=True)
+    if written.version < FIRST_OVER_ATTEMPT:
+        then = replace(
+            recording.trajectory(only_pointed=True),
+            pauses_end_stays=written.version < FIRST_OVER_PAUSES,
+            force_in_body=True,
+        )
         now = score(then, *_judged_by(recording, written))
     return now.by_version(written.version)
 

@@ -10,6 +10,8 @@ other. A single one means little; over the last seconds each cause leaves its ow
   the harder the hand pushes sideways, along that force;
 - a robot or cameras turned: the axis by two bands on the shaft leans to the robot's by the same
   rotation all the time (only rigs with two bands tell that);
+- an encoder that stands still or counts backwards: the robot's direction does not follow the one
+  that the cameras see turn (`following`);
 - a slipped marker: all of that is in order, but the tip is not where it touches a known place.
 """
 
@@ -22,12 +24,25 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
+from app.tracking.following import Following, following
 
 BUMPED: Final = (
     "the two pictures, or pictures and robot, no longer fit each other: a camera was moved; run "
     "the daily check, then calibrate"
 )
 """Said of a camera that was moved."""
+
+STUCK: Final = (
+    "the cameras see the needle turn and an encoder stands still: check its cable and plug, then "
+    "home the robot again"
+)
+"""Said of an encoder that does not count."""
+
+REVERSED: Final = (
+    "the cameras see the needle turn one way and an encoder counts the other: check its plug and "
+    "channels, then home the robot and check its signs again"
+)
+"""Said of an encoder that counts backwards."""
 
 SWAPPED: Final = (
     "the pictures fit with left and right exchanged: the cameras are swapped; put both cables "
@@ -96,6 +111,9 @@ SLIP_LIMIT: Final = 0.5 * MILLIMETRE
 _NOWHERE: Final = 1000.0
 """What counts as the residual of pictures whose rays do not meet [standard deviations]."""
 
+_OFTEN: Final = 0.9
+"""Share of the fixes that are no further beside the line than what is looked at."""
+
 _FORCE: Final = 0.3
 """RMS sideways force [N] from which its direction is believed."""
 
@@ -108,6 +126,8 @@ class DiscrepancyCause(StrEnum):
     SLIPPED_MARKER = "slipped_marker"
     BUMPED_CAMERA = "bumped_camera"
     SWAPPED_CAMERAS = "swapped_cameras"
+    ENCODER_STUCK = "encoder_stuck"
+    ENCODER_REVERSED = "encoder_reversed"
     TURNED = "turned"  # the axis by two bands is not the robot's
     UNCLEAR = "unclear"  # they disagree, and no cause explains how
 
@@ -147,6 +167,7 @@ class Evidence:
         turn_sigma: standard deviation that this should have about either normal [rad].
         exchanged: whether the pictures fit with left and right exchanged only; nothing else of such
             a pair counts.
+        axis: needle's direction by the robot, shape (3,), world; None where it is not known.
     """
 
     depth: float
@@ -157,6 +178,7 @@ class Evidence:
     turn: FloatArray | None = None
     turn_sigma: float = 0.0
     exchanged: bool = False
+    axis: FloatArray | None = None
 
     @classmethod
     def of_exchanged(cls) -> "Evidence":
@@ -167,6 +189,10 @@ class Evidence:
     def of_rays_that_miss(cls) -> "Evidence":
         """Evidence of a pair whose rays meet nowhere before both cameras."""
         return cls(0.0, np.zeros(3), 1.0, _NOWHERE, np.zeros(3))
+
+
+ENCODERS: Final = (DiscrepancyCause.ENCODER_STUCK, DiscrepancyCause.ENCODER_REVERSED)
+"""Causes with which the robot does not know where the needle points: no force can be right."""
 
 
 class DiscrepancyMonitor:
@@ -229,11 +255,28 @@ class DiscrepancyMonitor:
         sigma = np.array([e.sigma for e in evidence])
         rms = float(np.sqrt(np.mean(np.sum(beside**2, axis=1))))
         epipolar = float(np.median([e.epipolar for e in evidence]))
+        far = float(np.quantile(np.linalg.norm(beside, axis=1), _OFTEN))
+        if far > LARGEST_BEND and (encoder := _encoder(evidence, rms)) is not None:
+            return encoder
         if abs(epipolar) > EPIPOLAR_LIMIT or rms > LARGEST_BEND:
             return Discrepancy(DiscrepancyCause.BUMPED_CAMERA, rms, rms, BUMPED)
         if np.mean(np.sum(beside**2, axis=1) / (2.0 * sigma**2)) < BESIDE_LIMIT**2:
             return Discrepancy(beside=rms)
         return _explained(evidence, beside, rms)
+
+
+def _encoder(evidence: list[Evidence], rms: float) -> Discrepancy | None:
+    """Blame an encoder if the robot's direction does not follow the cameras'; else None."""
+    known = [(e.axis, e.depth, e.beside) for e in evidence if e.axis is not None]
+    if len(known) < ENOUGH:
+        return None
+    axes, depths, beside = (np.array(values) for values in zip(*known, strict=True))
+    how = following(axes, depths, beside)
+    if how is Following.STANDS_STILL:
+        return Discrepancy(DiscrepancyCause.ENCODER_STUCK, rms, rms, STUCK)
+    if how is Following.BACKWARDS:
+        return Discrepancy(DiscrepancyCause.ENCODER_REVERSED, rms, rms, REVERSED)
+    return None
 
 
 def _explained(evidence: list[Evidence], beside: FloatArray, rms: float) -> Discrepancy:

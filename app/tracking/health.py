@@ -181,6 +181,7 @@ class FixHealth:
                 fix.epipolar,
                 sideways,
                 *_turn(fix, axis),
+                axis=axis,
             )
         )
 

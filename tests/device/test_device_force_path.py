@@ -117,6 +117,8 @@ def test_an_encoder_that_gives_no_number_holds_the_force_at_zero_and_is_named(ba
 
 def test_a_singular_pose_holds_the_force_at_zero_and_is_named(rig):
     rig.arm()
+    rig.loop.inbox.write(homed=0.0)  # a needle that is suddenly elsewhere is no motion
+    rig.step(1)
     meeting = np.arccos(GEOMETRY.base / (2.0 * GEOMETRY.proximal))
     rig.loop._state[[sv.PLANT_Q_LEFT, sv.PLANT_Q_RIGHT]] = meeting, np.pi - meeting
     rig.step(1)

@@ -221,8 +221,8 @@ def test_a_table_is_swapped_only_while_the_loop_is_closed():
 def test_the_table_runs_in_the_order_of_the_contract():
     rig = Rig()
     assert rig.loop.names == (
-        "encoders", "velocity", "depth", "machine", "kinematics", "keep", "fixture", "push",
-        "give back", "transmission", "governor", "safety", "motors",
+        "encoders", "plausibility", "velocity", "depth", "machine", "kinematics", "keep", "fixture",
+        "push", "give back", "transmission", "governor", "safety", "motors",
     )  # fmt: skip
 
 

@@ -228,5 +228,5 @@ def test_a_table_takes_the_estimator_by_name():
     default = machine_stages(PROFILE, [], [], link)
     thesis = machine_stages(PROFILE, [], [], link, velocity=VelocityMethod.BACKWARD_DIFFERENCE)
     assert [stage.name for stage in default] == [stage.name for stage in thesis]
-    assert default.compute[1].function is velocity_stage(PROFILE, DEFAULT_VELOCITY)[1]
-    assert thesis.compute[1].function is BackwardDifference().stage()[1]
+    assert default.compute[2].function is velocity_stage(PROFILE, DEFAULT_VELOCITY)[1]
+    assert thesis.compute[2].function is BackwardDifference().stage()[1]

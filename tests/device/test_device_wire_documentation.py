@@ -4,8 +4,10 @@ import re
 import struct
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from app.device.control.plausibility import FARTHEST, FASTEST, PATIENCE
 from app.device.links import acus_protocol as acus
 from app.device.links import cable_protocol as cables
 from app.device.links import framing
@@ -98,8 +100,9 @@ def test_the_haply_messages_on_the_page_have_their_lengths_and_values():
     "words",
     [
         "**0x29B1**",
-        f"{haply.LARGEST_JUMP_DEG:g}° per millisecond",
-        f"at most {haply.FARTHEST_JUMP_DEG:g}°",
+        f"{np.degrees(FASTEST) * 1e-3:g}° per millisecond",
+        f"at most {np.degrees(FARTHEST):g}°",
+        f"more than {PATIENCE * 1e3:g} ms",
         f"after {haply.ANSWER_WITHIN * 1e3:g} ms",
         f"1 to {framing.LARGEST_PAYLOAD} bytes",
         "errors: 1 torque not finite, 2 home refused, 3 encoder, 4 amplifier, 5 motor supply off,"

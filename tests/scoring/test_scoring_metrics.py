@@ -159,13 +159,26 @@ def test_the_smoothed_length_keeps_a_straight_path_at_any_sampling() -> None:
     assert raw_length(points) == pytest.approx(straight, rel=1e-12)
 
 
-def test_mean_and_peak_force_are_those_in_the_body() -> None:
+def test_mean_and_peak_force_are_those_of_the_whole_attempt() -> None:
     base = Attempt(aligning=10.0, inserting=10.0, holding=0.02).trajectory()
     felt = np.zeros((len(base), 3))
     felt[:, 0] = np.where(base.time < 10.0, 5.0, 0.1 * (base.time - 10.0))  # a ramp from 0 to 1 N
     trajectory = Attempt(aligning=10.0, inserting=10.0, holding=0.02).trajectory(felt=felt)
-    assert value("peak_force", trajectory) == pytest.approx(1.0, abs=0.01)
-    assert value("mean_force", trajectory) == pytest.approx(0.5, abs=0.01)
+    assert value("peak_force", trajectory) == pytest.approx(5.0, abs=0.01)
+    assert value("mean_force", trajectory) == pytest.approx(2.75, abs=0.02)
+    then = replace(trajectory, force_in_body=True)  # as up to scoring version 4
+    assert value("peak_force", then) == pytest.approx(1.0, abs=0.01)
+    assert value("mean_force", then) == pytest.approx(0.5, abs=0.01)
+
+
+def test_a_force_felt_where_nobody_knew_the_depth_counts() -> None:
+    base = Attempt(aligning=10.0, inserting=10.0, holding=0.02).trajectory()
+    lost = (base.time > 12.0) & (base.time < 13.0)
+    phase = np.where(lost, Phase.PAUSED, base.phase)
+    felt = np.where(lost[:, None], (0.0, 0.0, 4.0), 0.0)
+    trajectory = replace(base, felt=felt, phase=phase, depth_valid=~lost)
+    assert value("peak_force", trajectory) == 4.0
+    assert value("mean_force", trajectory) == pytest.approx(0.2, abs=0.01)
 
 
 def test_the_mean_force_does_not_depend_on_the_sampling() -> None:

@@ -135,7 +135,9 @@ def test_a_score_of_version_3_is_checked_by_its_own_rule_of_pauses(bench: Bench)
     bench.trainer.end()
     (file,) = bench.folder.glob("*.mcap")
     recording = read_recording(file)
-    then = replace(recording.trajectory(), pauses_end_stays=True)
+    then = replace(
+        recording.trajectory(only_pointed=True), pauses_end_stays=True, force_in_body=True
+    )
     judged = replace(score(then, EXERCISE.tolerances, EXERCISE.rules), version=3)
     files = {**recording.attachments, "score.json": judged.to_json().encode()}
     old = replace(recording, attachments=files)

@@ -31,7 +31,7 @@ from app.device.control.governor import SpeedGovernor
 from app.device.control.kinematics import Kinematics
 from app.device.control.loop import Loop
 from app.device.control.safety import Safety
-from app.device.control.table import Table
+from app.device.control.table import Table, judged
 from app.device.control.transmission import Transmission
 from app.device.control.vectors import shrink_kernel
 from app.device.control.velocity import VelocityFilter
@@ -122,8 +122,8 @@ class Service:
 def commissioning_table(
     profile: DeviceProfile, link: Link, corrections: Corrections | None = None
 ) -> Table:
-    """Table of a tick: link read, corrections, velocity, kinematics, service, transmission,
-    speed governor, safety, link write.
+    """Table of a tick: link read, plausibility, corrections, velocity, kinematics, service,
+    transmission, speed governor, safety, link write.
 
     Args:
         profile: the robot's numbers.
@@ -133,8 +133,7 @@ def commissioning_table(
     machine = profile.machine.stages()
     return Table.of(
         [
-            *link.read,
-            (corrections or Corrections()).stage(),
+            *judged(link, profile, [(corrections or Corrections()).stage()]),
             VelocityFilter().stage(),
             DepthInterval.of(profile).stage(),
             machine.pose,

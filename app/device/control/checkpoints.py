@@ -31,7 +31,7 @@ from app.device.control.kernel import (
     compiled,
     run_stages,
 )
-from app.device.control.table import SCRATCH, WITHOUT_MEMORY, Table
+from app.device.control.table import SCRATCH, SINCE, WITHOUT_MEMORY, Table
 from app.device.errors import LoopError, RerunError
 
 from numba import types  # isort: skip  (after core.compiled)
@@ -176,6 +176,8 @@ def _memories(table: Table, checkpoint: Checkpoint) -> list[tuple[Stage, FloatAr
     for stage in table:
         if stage.name in WITHOUT_MEMORY and stage.name not in checkpoint.names:
             pairs.append((stage, stage.parameters.copy()))  # from before machines had stages
+            continue
+        if stage.name in SINCE and stage.name not in checkpoint.names:
             continue
         while left and left[0][0] != stage.name:
             left.pop(0)

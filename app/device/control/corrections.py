@@ -103,7 +103,7 @@ class Corrections:
         )
 
     def stage(self) -> Stage:
-        """Return the stage for a loop's table; it belongs right after the link's read stages."""
+        """Return the stage for a loop's table; it belongs behind the judgement of what was read."""
         return Stage("corrections", corrections_stage, self._parameters)
 
 

@@ -176,6 +176,8 @@ def _latching_fault(state: FloatArray) -> int:
         return _LINK_LOST
     if state[sv.BOARD_ERROR] != 0.0:
         return _BOARD_ERROR
+    if state[sv.ENCODER_FAULT] != 0.0:
+        return int(state[sv.ENCODER_FAULT])
     if state[sv.MACHINE_FAULT] != 0.0:
         return int(state[sv.MACHINE_FAULT])
     return _LET_GO if state[sv.LET_GO] != 0.0 else 0
@@ -261,8 +263,9 @@ def safety_stage(state: FloatArray, p: FloatArray) -> None:
     """Let TORQUE_* pass, faded and limited, or hold it at zero and say why in FAULT.
 
     LET_GO, LINK_LOST, BOARD_ERROR and what the machine's watch finds stay until the forces are
-    disarmed: somebody looks, then arms again. Any other fault ends with its cause, and the force
-    comes back along the arming ramp.
+    disarmed: somebody looks, then arms again. ENCODER_WRAPPED and ENCODER_JUMPED stay until the
+    robot is homed. Any other fault ends with its cause, and the force comes back along the arming
+    ramp.
     """
     armed = state[sv.ENABLED] > 0.5
     freshness = fade(state[sv.TIME] - state[sv.Q_TIME], p[_AT.fade_from], p[_AT.fade_to])

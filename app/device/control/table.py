@@ -23,6 +23,7 @@ from app.device.control.governor import SpeedGovernor
 from app.device.control.kinematics import Kinematics
 from app.device.control.law import KIND
 from app.device.control.passivity import PassivityGuard
+from app.device.control.plausibility import Plausibility
 from app.device.control.safety import Safety
 from app.device.control.transmission import Transmission
 from app.device.control.velocity import VelocityMethod, velocity_stage
@@ -41,6 +42,10 @@ SCRATCH: Final = ("keep", "give back")
 
 WITHOUT_MEMORY: Final = ("machine", "dynamics")
 """Names of a machine's stages: their arrays are what its profile says, and nothing else."""
+
+
+SINCE: Final = ("plausibility",)
+"""Names of stages that older records' tables do not have: their ticks are recomputed without."""
 
 
 @stage
@@ -137,6 +142,12 @@ class Table:
         return len(self.compute) + len(self.write)
 
 
+def judged(link: Link, profile: DeviceProfile, corrections: Iterable[Stage]) -> list[Stage]:
+    """Return a link's read stages, the judgement of what they read, and its corrections."""
+    test = [Plausibility.of(profile).stage()] if link.read else []
+    return [*link.read, *test, *corrections]
+
+
 _DYNAMICS: Final = frozenset(
     name
     for vector in ("mass", "bias", "drift", "weight", "links_potential")
@@ -170,12 +181,15 @@ def machine_stages(
     force_law: ForceLaw = ForceLaw.VIRTUAL_WORK,
     velocity: VelocityMethod | None = None,
     energy_bound: float | None = None,
+    before: Iterable[Stage] = (),
+    corrections: Iterable[Stage] = (),
 ) -> Table:
-    """Table of a machine that points a needle: link read, velocity, depth, the machine's pose,
-    kinematics, its dynamics where a law reads them, force laws, effects, transmission, speed
-    governor, passivity guard, safety, the machine's efforts, link write.
+    """Table of a machine that points a needle: link read, plausibility of what was read, velocity,
+    depth, the machine's pose, kinematics, its dynamics where a law reads them, force laws, effects,
+    transmission, speed governor, passivity guard, safety, the machine's efforts, link write.
 
-    Laws and effects stand between two stages that keep all that is not theirs to write.
+    Laws and effects stand between two stages that keep all that is not theirs to write. A link
+    without read stages is a record's: what it was given was judged when it was read.
 
     Args:
         profile: the robot's numbers.
@@ -186,6 +200,8 @@ def machine_stages(
         velocity: how joint velocities come from encoder angles, if not as the profile says.
         energy_bound: what laws and effects declare to store together [J]; the guard lets no more
             out. None leaves the guard out, for tables whose forces declare nothing.
+        before: stages before the link's: whoever moves the needle.
+        corrections: of what the link reads, on readings that are believed.
 
     Raises:
         DeviceError: if the bound is no finite number of 0 or more, or a law needs dynamics that the
@@ -195,7 +211,8 @@ def machine_stages(
     guard = [] if energy_bound is None else [PassivityGuard.of(profile, energy_bound).stage()]
     return Table.of(
         [
-            *link.read,
+            *before,
+            *judged(link, profile, corrections),
             velocity_stage(profile, velocity),
             DepthInterval.of(profile).stage(),
             machine.pose,

@@ -191,6 +191,7 @@ def acus_write(state: FloatArray, p: FloatArray) -> None:
     left, right = state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT]
     enable = state[sv.ENABLED] > 0.5 and np.isfinite(left + right)
     p[wire.SEQUENCE] = (int(p[wire.SEQUENCE]) + 1) & 0xFFFF
+    p[host.SENT] += 1.0
     receiver = p[host.SPARE : host.SPARE + 8]
     data = receiver.view(np.uint8)
     data[0], data[1] = COMMAND, ENABLE if enable else 0

@@ -54,8 +54,27 @@ def _power_up(p: FloatArray, now: float) -> None:
 
 @njit
 def _count(p: FloatArray, joint: int) -> int:
-    turned = p[at.ENCODER_SIGN + joint] * (p[at.Q + joint] - p[at.ZERO + joint])
-    return int(np.floor(turned / p[at.STEP] + 0.5)) if np.isfinite(turned) else 0
+    angle = p[at.Q + joint]
+    if joint == 0 and p[at.REVERSED] != 0.0:
+        if p[at.TURNING] == 0.0:
+            p[at.TURNING_AT] = angle
+        angle = 2.0 * p[at.TURNING_AT] - angle
+    p[at.TURNING] = p[at.REVERSED]
+    turned = p[at.ENCODER_SIGN + joint] * (angle - p[at.ZERO + joint])
+    count = int(np.floor(turned / p[at.STEP] + 0.5)) if np.isfinite(turned) else 0
+    return _faulty(p, count) if joint == 0 else count
+
+
+@njit
+def _faulty(p: FloatArray, count: int) -> int:
+    """Return the left encoder's count as its faults leave it."""
+    if p[at.STUCK] != 0.0:
+        count = int(p[at.LAST_COUNT])
+    p[at.LAST_COUNT] = count
+    p[at.RANDOM] = (16807.0 * p[at.RANDOM]) % 2147483647.0  # Park and Miller, exact in a double
+    if p[at.RANDOM] < p[at.FLIPS] * 2147483647.0:
+        count ^= 1 << (int(p[at.RANDOM]) % 31)
+    return count + int(p[at.JUMP])
 
 
 @njit
@@ -317,10 +336,22 @@ _SWITCHES: Final = {  # most, factor, places in the box
     "reset": (1.0, 1.0, (at.RESET,)),
     "version": (255.0, 1.0, (at.VERSION,)),
     "error": (255.0, 1.0, (at.ERROR,)),
+    "repeat": (1.0, 1.0, (UP + line.REPEAT,)),
+    "overtake": (1.0, 1.0, (UP + line.OVERTAKE,)),
+    "jump": (float(1 << 30), 1.0, (at.JUMP,)),
+    "stick": (1.0, 1.0, (at.STUCK,)),
+    "reverse": (1.0, 1.0, (at.REVERSED,)),
+    "flip": (1.0, 1.0, (at.FLIPS,)),
 }
 
 FAULTS: Final = tuple(_SWITCHES)
 """Names of the faults."""
+
+NUMBERED: Final = (
+    *("drop", "garble", "delay", "version", "error"),
+    *("repeat", "overtake", "jump", "flip"),
+)
+"""Those that need a number; the others are on or off, or happen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -329,7 +360,10 @@ class Faults:
 
     `drop` and `garble` are probabilities per message in each direction, `delay` is in milliseconds
     each way, `freeze` and `cut` are on or off, `reset` happens once, `version` is what the board
-    claims, `error` is what it reports.
+    claims, `error` is what it reports. `repeat` and `overtake` are probabilities that an answer
+    comes twice, or after the next one. Of the left encoder: `jump` is by how many counts it is off,
+    `stick` and `reverse` are on or off, `flip` is the probability that a bit of its count is wrong
+    in an answer whose checksum is right.
     """
 
     array: FloatArray

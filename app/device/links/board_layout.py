@@ -50,7 +50,15 @@ REEL: Final = CABLE + 4  # reeled in [m], four
 PULL: Final = REEL + 4  # what its winches do: tension [N], or speed of reeling in [m/s]
 HOLDS: Final = PULL + 4  # 1 while those are speeds
 FASTEST: Final = HOLDS + 1  # of reeling [m/s]
-SIZE: Final = FASTEST + 1
+JUMP: Final = FASTEST + 1  # counts by which the left encoder is off
+STUCK: Final = JUMP + 1  # 1: the left encoder gives what it gave last
+LAST_COUNT: Final = STUCK + 1  # of the left encoder
+REVERSED: Final = LAST_COUNT + 1  # 1: the left encoder counts backwards from where it is
+TURNING: Final = REVERSED + 1  # 1: it does so already, about the angle that follows [rad]
+TURNING_AT: Final = TURNING + 1
+FLIPS: Final = TURNING_AT + 1  # probability that a bit of the left count of a state is wrong
+RANDOM: Final = FLIPS + 1
+SIZE: Final = RANDOM + 1
 
 TRIPS_EARLY: Final = 2e-3
 """The watchdog trips this long before its time is over [s], so that the torque is zero by then."""
@@ -69,7 +77,7 @@ def new_board(profile: DeviceProfile, serial: str = "EMULATED", boot: int = 1) -
         p[FASTEST] = profile.fastest_reel
     p[STEP] = 2.0 * np.pi / profile.encoder.counts_per_turn
     p[ENCODER_SIGN : MOTOR_SIGN + 2] = 1.0
-    p[RESET] = 1.0
+    p[RESET] = p[RANDOM] = 1.0
     if profile.wire.protocol is Protocol.HAPLY:
         section = haply.section_of(profile)
         p[HAPLY], p[DEVICE_ID] = 1.0, section.device_id

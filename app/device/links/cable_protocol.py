@@ -72,6 +72,7 @@ def cables_write(state: FloatArray, p: FloatArray) -> None:
         total += state[first + k]
     enable = state[sv.ENABLED] > 0.5 and np.isfinite(total)
     p[wire.SEQUENCE] = (int(p[wire.SEQUENCE]) + 1) & 0xFFFF
+    p[host.SENT] += 1.0
     data = p[host.SPARE : host.SPARE + 8].view(np.uint8)
     data[0], data[1] = COMMAND, (acus.ENABLE if enable else 0) | (HOLD if holds else 0)
     wire.put_int(data, 2, int(p[wire.SEQUENCE]), 2)

@@ -1,9 +1,10 @@
 """The Haply 2DIY's protocol, the program's side (docs/protocol.md).
 
-It has no checksum, no sequence number and no number of the power cycle. A reply is therefore
-believed only with the right length, the right first byte and angles that a joint can have reached
-since the last one; one command is under way at a time, so that a reply belongs to it; and every new
-connection counts as a new power cycle.
+It has no checksum, no sequence number and no number of the power cycle. A reply is therefore taken
+only with the right length, the right first byte and angles within two turns (whether a joint can
+have got there is judged in the loop, for every machine alike); one command is under way at a time,
+so that a reply belongs to it, and what else has come when the next goes out is dropped, which keeps
+both in step; and every new connection counts as a new power cycle.
 """
 
 import struct
@@ -28,20 +29,14 @@ COMMAND_BYTES: Final = 10
 REPLY_BYTES: Final = 9
 SETUP_BYTES: Final = 26
 
-LARGEST_JUMP_DEG: Final = 3.0
-"""Largest believable change of an angle in a millisecond [°]: 52 rad/s."""
-
-FARTHEST_JUMP_DEG: Final = 45.0
 LARGEST_ANGLE_DEG: Final = 720.0
 ANSWER_WITHIN: Final = 2.5e-3
 """After this long without an answer [s] the next command goes out all the same."""
 
 DEVICE_ID: Final = host.SPARE
 LEFT_SECOND: Final = host.SPARE + 1  # 1 if the left joint has the higher port
-FRESH: Final = host.SPARE + 2  # 1 until the first reply is believed
-LAST_ANGLE: Final = host.SPARE + 3  # [°] left, right
-AWAITING: Final = host.SPARE + 5  # 1 while a command is under way
-LAST_TORQUE: Final = host.SPARE + 6  # largest torque of the last command [N·m]
+AWAITING: Final = host.SPARE + 2  # 1 while a command is under way
+LAST_TORQUE: Final = host.SPARE + 3  # largest torque of the last command [N·m]
 _DEGREE: Final = np.pi / 180.0
 
 
@@ -87,27 +82,16 @@ def read_request(profile: DeviceProfile) -> bytes:
 
 
 @njit
-def _believable(p: FloatArray, left: float, right: float) -> bool:
-    if not (abs(left) <= LARGEST_ANGLE_DEG and abs(right) <= LARGEST_ANGLE_DEG):
-        return False  # also NaN
-    if p[FRESH] != 0.0:
-        return True
-    since = max((p[wire.NOW] - p[host.HEARD]) * 1e3, 1.0)
-    limit = min(LARGEST_JUMP_DEG * since, FARTHEST_JUMP_DEG)
-    return abs(left - p[LAST_ANGLE]) <= limit and abs(right - p[LAST_ANGLE + 1]) <= limit
-
-
-@njit
 def _take_reply(state: FloatArray, p: FloatArray, data: Any, k: int) -> bool:
     first, second = wire.get_float(p, data, k + 1), wire.get_float(p, data, k + 5)
     left, right = (second, first) if p[LEFT_SECOND] != 0.0 else (first, second)
-    if not _believable(p, left, right):
-        return False
-    p[LAST_ANGLE], p[LAST_ANGLE + 1], p[FRESH] = left, right, 0.0
+    if not (abs(left) <= LARGEST_ANGLE_DEG and abs(right) <= LARGEST_ANGLE_DEG):
+        return False  # also NaN
+    if p[AWAITING] == 0.0:  # of a command that was answered, or given up: an older reading
+        return True
     host.heard(p)
     asked = wire.sent_at(p, int(p[wire.SEQUENCE]))
-    if p[AWAITING] != 0.0:
-        p[host.ROUND_TRIP] = p[wire.NOW] - asked
+    p[host.ROUND_TRIP] = p[wire.NOW] - asked
     p[AWAITING] = 0.0
     p[host.HOMED] = 1.0 if p[host.HOME_SENT] > 0.0 else 0.0
     # Here OFFSET is the home pose less the wire's own offset, and STEP the radians of a degree.
@@ -119,7 +103,7 @@ def _take_reply(state: FloatArray, p: FloatArray, data: Any, k: int) -> bool:
 
 @stage
 def haply_read(state: FloatArray, p: FloatArray) -> None:
-    """Parse what has come; the newest believable reply becomes Q_* and LINK_*."""
+    """Parse what has come; the newest reply becomes Q_* and LINK_*."""
     data, count, k = wire.incoming(p), int(p[wire.IN_COUNT]), 0
     in_step = True
     while count - k >= REPLY_BYTES:
@@ -158,15 +142,15 @@ def haply_write(state: FloatArray, p: FloatArray) -> None:
     """
     if not host.may_send(p):
         return
-    if host.append_home(p):
-        p[FRESH] = 1.0
+    host.append_home(p)
     late = not state[sv.TIME] - wire.sent_at(p, int(p[wire.SEQUENCE])) <= ANSWER_WITHIN
     stop = p[LAST_TORQUE] > 0.0 and not state[sv.ENABLED] > 0.5
     if p[AWAITING] != 0.0 and not late and not stop:
         return
-    if p[AWAITING] != 0.0 and late:  # its answer, should it come, would be taken for the next
+    if p[AWAITING] != 0.0 and late:
         p[host.LOST] += 1.0
-        p[wire.IN_COUNT] = 0.0
+    p[wire.IN_COUNT] = 0.0  # belongs to no command any more, and would be taken for the next one's
     p[wire.SEQUENCE] += 1.0
+    p[host.SENT] += 1.0
     p[AWAITING] = 1.0
     _put_torques(state, p)

@@ -36,7 +36,9 @@ RECEIVER_AT: Final = wire.END + 25
 SPARE: Final = RECEIVER_AT + RECEIVER
 """A protocol's own fields."""
 
-SIZE: Final = SPARE + 16
+SENT: Final = SPARE + 16  # commands sent so far
+RESTS: Final = SENT + 1  # 1 while no command shall go out
+SIZE: Final = RESTS + 1
 
 _FINE = int(LinkStatus.FINE)
 _CONNECTING = int(LinkStatus.CONNECTING)
@@ -79,10 +81,10 @@ def publish(state: FloatArray, p: FloatArray) -> None:
 
 @njit
 def may_send(p: FloatArray) -> bool:
-    """Whether a command may go out: not while somebody else talks to the board."""
+    """Whether a command may go out: not while somebody else talks to the board, or it rests."""
     p[TICKS] += 1.0
     p[wire.OUT_COUNT] = 0.0
-    return p[STATUS] == _FINE
+    return p[STATUS] == _FINE and p[RESTS] == 0.0
 
 
 @njit

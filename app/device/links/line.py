@@ -18,9 +18,11 @@ CUT: Final = 3  # 1 while the wire is cut
 _RANDOM: Final = 4
 _HEAD: Final = 5
 _TAIL: Final = 6
+REPEAT: Final = 7  # probability that a chunk comes twice
+OVERTAKE: Final = 8  # probability that a chunk comes after the next one
 _CHUNK: Final = 34  # time, length, 256 bytes
 _CHUNKS: Final = 64
-_RING: Final = 8
+_RING: Final = 9
 CHUNK_BYTES: Final = 256
 SIZE: Final = _RING + _CHUNKS * _CHUNK
 
@@ -70,6 +72,30 @@ def push(p: FloatArray, now: float, data: Any, count: int) -> None:
     if _random(p) < p[GARBLE]:
         count = _damage(p, chunk, count)
     p[start], p[start + 1] = now + p[DELAY], count
+    p[_HEAD] = head + 1.0
+    if p[OVERTAKE] > 0.0 and head > p[_TAIL] and _random(p) < p[OVERTAKE]:
+        _swap(p, head, head - 1)
+    if p[REPEAT] > 0.0 and _random(p) < p[REPEAT]:
+        _append(p, start)
+
+
+@njit
+def _swap(p: FloatArray, first: int, second: int) -> None:
+    """Exchange what two chunks say; each comes when the other would have."""
+    a, b = _RING + (first % _CHUNKS) * _CHUNK, _RING + (second % _CHUNKS) * _CHUNK
+    for k in range(1, _CHUNK):
+        p[a + k], p[b + k] = p[b + k], p[a + k]
+
+
+@njit
+def _append(p: FloatArray, start: int) -> None:
+    """Append a copy of the chunk at `start`."""
+    head = int(p[_HEAD])
+    if head - p[_TAIL] >= _CHUNKS:
+        p[_TAIL] += 1.0
+    copy = _RING + (head % _CHUNKS) * _CHUNK
+    for k in range(_CHUNK):
+        p[copy + k] = p[start + k]
     p[_HEAD] = head + 1.0
 
 

@@ -146,9 +146,8 @@ class HaplySpeech(Speech):
         end[host.STEP] = np.pi / 180.0
 
     def greeted(self, end: FloatArray, info: BoardInfo) -> None:
-        """Believe the first angles whatever they are."""
+        """Set it up again with the next homing message."""
         _begin(end, self._setup)
-        end[haply.FRESH] = 1.0
         end[haply.AWAITING] = end[haply.LAST_TORQUE] = 0.0
 
 

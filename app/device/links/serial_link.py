@@ -209,6 +209,15 @@ class SerialLink(DeviceLink):
         """Whether the board was homed since it was switched on (Haply: since it was greeted)."""
         return bool(self._end[host.HOMED])
 
+    @property
+    def commands(self) -> int:
+        """Commands that were sent so far."""
+        return int(self._end[host.SENT])
+
+    def rest(self, rests: bool) -> None:
+        """Send no command while it `rests`; what comes is read. The board's watchdog ends all."""
+        self._end[host.RESTS] = float(rests)
+
     def home(self) -> None:
         """Let the running loop send the homing message: the joints stand at their home angles.
 

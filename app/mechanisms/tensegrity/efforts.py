@@ -17,9 +17,10 @@ held there against any hand, which then feels its own push.
 
 The *watch* compares the same three. A tension that is missing where the lengths say that the cable
 is stretched is a broken cable, where they say that it hangs a slack one; cables that agree with
-each other and not with an encoder tell that the encoder is lost, and so does one that jumps, is
-silent or no number. It is found within 20 ms of showing, and then nothing pulls until the forces
-are disarmed. A motor's current cannot tell a torn cable from a taut one; its reel runs away.
+each other and not with an encoder tell that the encoder is lost, and so does one that is silent or
+no number (one that jumps is judged before, as on every machine). It is found within 20 ms of
+showing, and then nothing pulls until the forces are disarmed. A motor's current cannot tell a torn
+cable from a taut one; its reel runs away.
 """
 
 from math import isfinite, pi, sqrt
@@ -76,6 +77,7 @@ class CablePlaces(NamedTuple):
     arrived: int = 0  # 1 once the guide stood at the goal
     goal1: int = 0
     goal2: int = 0
+    worst_end: int = 0  # 1: what is felt counts at the deepest that the needle can be
 
 
 AT: Final = numbered(CablePlaces, SIZE + FRAME_SIZE)
@@ -84,6 +86,7 @@ _GAIN: Final = 10.0  # [1/s] of the guide towards the path
 _RATE: Final = 0.25  # [rad/s] fastest of a joint while it turns by itself
 _NEAR: Final = 0.02  # [rad] to the path: where it has arrived, it is held so near against any hand
 _ARRIVED: Final = 0.005  # [rad] to the path: there it has arrived
+_SHORTEST: Final = 0.005  # [m] no lever is taken for shorter
 _TIGHTEN: Final = 0.01  # [m/s/N] of the reels towards the pretension
 
 Slopes = tuple[float, float, float, float]
@@ -159,7 +162,9 @@ def _goal(state: FloatArray, p: FloatArray) -> tuple[bool, float, float]:
 
 @njit
 def _tell_what_is_felt(state: FloatArray, p: FloatArray, b1: float, b2: float) -> float:
-    """Write FELT_* from the cables' tensions less the weight of guide and needle; its size [N]."""
+    """Write FELT_* from the cables' tensions less the weight of guide and needle; return the
+    largest that it can be [N].
+    """
     left, right = torques_kernel(
         state[sv.CABLE_1],
         state[sv.CABLE_2],
@@ -197,6 +202,10 @@ def _tell_what_is_felt(state: FloatArray, p: FloatArray, b1: float, b2: float) -
     if not isfinite(size):
         return np.inf
     state[sv.FELT_X], state[sv.FELT_Y], state[sv.FELT_Z] = fx, fy, fz
+    if p[AT.worst_end] != 0.0:
+        length = state[sv.L_OUT] + state[sv.DEPTH]
+        shortest = min(max(length - state[sv.DEPTH_MOST], _SHORTEST), state[sv.L_OUT])
+        size *= state[sv.L_OUT] / shortest
     state[sv.FELT_MOST] = size
     return size
 
@@ -325,8 +334,6 @@ class WatchPlaces(NamedTuple):
     run3: int = 0
     run4: int = 0
     apart: int = 0
-    left: int = 0
-    right: int = 0
 
 
 W: Final = numbered(WatchPlaces, SIZE + FRAME_SIZE)
@@ -335,8 +342,6 @@ PATIENCE: Final = 0.010
 """Time for which something must show before it is a fault [s]."""
 RUNS: Final = 3e-3
 """Length that a reel must have taken in beyond any stretch to be called torn [m]."""
-JUMP: Final = 0.15
-"""Step of an encoder between two ticks that no joint makes [rad]."""
 SILENT: Final = 0.018
 """Age of an encoder's reading that a machine with cables does not go on with [s]."""
 CONTRADICTS: Final = 0.03
@@ -405,9 +410,6 @@ def watch_stage(state: FloatArray, p: FloatArray) -> None:
     else:
         if abs(state[sv.TIME] - state[sv.Q_TIME]) > SILENT and started:
             found = LOST
-        if started and max(abs(b1 - p[W.left]), abs(b2 - p[W.right])) > JUMP:
-            found = LOST
-        p[W.left], p[W.right] = b1, b2
         least = min(
             min(state[sv.TENSION_1], state[sv.TENSION_2]),
             min(state[sv.TENSION_3], state[sv.TENSION_4]),
@@ -461,6 +463,7 @@ def cable_stages(profile: TensegrityProfile, values: FloatArray) -> tuple[Stage,
         fastest=winches.fastest,
         one_count=2.0 * pi / profile.encoder.counts_per_turn,
         hand_force=profile.limits.hand_force,
+        worst_end=1.0,
         tilt=float(np.cos(profile.tilt_limit + 0.01)),
     )
     watch = packed(

@@ -1,10 +1,10 @@
-"""Mean over time of the force that the hand felt while the needle was in the body."""
+"""Mean over time of the force that the hand felt, also where the depth was not known."""
 
 from typing import Any, Final
 
 import numpy as np
 
-from app.scoring.trajectory import Trajectory
+from app.scoring.trajectory import Trajectory, runs
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Mean force, estimated",
@@ -17,11 +17,12 @@ DECLARATION: Final[dict[str, Any]] = {
 def compute(trajectory: Trajectory) -> float:
     """Return the mean of |felt| weighted with time [N]; of a single sample, its value."""
     total = weight = 0.0
-    for part in trajectory.insertions():
+    pushed = trajectory.pushed()
+    for part in runs(pushed):
         force = np.linalg.norm(trajectory.forces()[part], axis=1)
         steps = np.diff(trajectory.time[part])
         total += float((0.5 * (force[1:] + force[:-1]) * steps).sum())
         weight += float(steps.sum())
     if weight > 0.0:
         return total / weight
-    return float(np.linalg.norm(trajectory.forces()[trajectory.inserted], axis=1).mean())
+    return float(np.linalg.norm(trajectory.forces()[pushed], axis=1).mean())

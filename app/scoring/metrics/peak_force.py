@@ -1,4 +1,4 @@
-"""Largest force that the hand felt while the needle was in the body."""
+"""Largest force that the hand felt in the attempt, also where the depth was not known."""
 
 from typing import Any, Final
 
@@ -16,5 +16,4 @@ DECLARATION: Final[dict[str, Any]] = {
 
 def compute(trajectory: Trajectory) -> float:
     """Return the force at the hub point, after all limits [N]."""
-    trajectory.insertions()
-    return float(np.linalg.norm(trajectory.forces()[trajectory.inserted], axis=1).max())
+    return float(np.linalg.norm(trajectory.forces()[trajectory.pushed()], axis=1).max())
