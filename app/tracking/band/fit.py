@@ -12,6 +12,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray, read_only
 from app.core.compiled import njit
+from app.tracking.band.delivered_fit import fit_delivered
 from app.tracking.band.equations import (
     MOVES,
     REST,
@@ -136,6 +137,41 @@ class BandFitter:
             covariance=best.covariance,
             stretch=best.stretch,
             misfit=best.misfit,
+            outliers=best.outliers,
+            area=best.area,
+            paint=best.paint,
+            outline=outline,
+        )
+
+
+    def fit_delivered(
+        self, image: Image, p_camera: FloatArray, axis_camera: FloatArray, gamma: float
+    ) -> BandFit | None:
+        """Like `fit`, in a picture as a camera delivers it.
+
+        Args:
+            image: see `fit`.
+            p_camera: likewise.
+            axis_camera: likewise.
+            gamma: of the tone curve, see `tone`, about.
+        """
+        camera = self._model
+        count = strips(p_camera, self._shape, camera.intrinsics, self._blur)
+        seen, outline = trace(
+            p_camera, axis_camera, self._shape, camera.intrinsics, camera.distortion, count
+        )
+        if not seen:
+            return None
+        found, best = fit_delivered(
+            read_only(image[:]), outline, self._shape, self._blur, 3.0, self._prior, gamma
+        )
+        if not found:
+            return None
+        return BandFit(
+            uv=np.array([outline.u, outline.v]) + best.shift,
+            covariance=best.covariance,
+            stretch=best.stretch,
+            misfit=max(1.0, best.misfit / best.noise[0] ** 2),
             outliers=best.outliers,
             area=best.area,
             paint=best.paint,

@@ -22,13 +22,14 @@ so a hand that hides one end, or a background as grey as the shaft on one side, 
 """
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 import numpy as np
 
 from app.core.arrays import FloatArray, read_only, unit
 from app.core.compiled import njit
+from app.tracking.band.delivered_fit import keeps_all_colour
 from app.tracking.band.fit import BandFit, BandFitter
 from app.tracking.cameras.camera import Image
 from app.tracking.markers.extractor import (
@@ -281,6 +282,11 @@ _QUALITY_ALONE, _ALONE_PX = 0.85, 0.1
 """Least quality and largest standard deviation [px] of a find that no other picture confirms."""
 
 _ONE = np.eye(2)
+SRGB = 2.4
+_HALF: Final = 24
+_MORE = 2.25
+DEBUG = False
+
 
 
 @dataclass(frozen=True)
@@ -378,10 +384,24 @@ class ModelFit(Extractor):
         self, image: Image, found: MarkerFix, axis: FloatArray, p_world: FloatArray | None
     ) -> MarkerFix | Miss:
         start = self._start(found, axis, p_world)
-        fit = None if start is None else self.fitter.fit(image, start, axis)
-        if start is None or fit is None:
+        if start is None:
             return Miss(MissReason.WRONG_SHAPE, found.uv)
-        return self._judged(image, fit, start, axis)
+        if keeps_all_colour(read_only(image[:]), found.uv[0], found.uv[1], _HALF):
+            fit = self.fitter.fit(image, start, axis)
+            if fit is not None:
+                judged = self._judged(image, fit, start, axis)
+                if isinstance(judged, MarkerFix):
+                    return judged
+        return self._delivered(image, found, start, axis)
+
+    def _delivered(
+        self, image: Image, found: MarkerFix, start: FloatArray, axis: FloatArray
+    ) -> MarkerFix | Miss:
+        fit = self.fitter.fit_delivered(image, start, axis, SRGB)
+        if fit is None:
+            return Miss(MissReason.WRONG_SHAPE, found.uv)
+        if DEBUG: print('   delivered', fit.stretch.round(3), round(fit.misfit,2), round(fit.outliers,3), fit.paint.round(), self.coarse.colour.angle(fit.paint), np.sqrt(np.diag(fit.covariance)).round(3))
+        return self._judged(image, replace(fit, covariance=_MORE * fit.covariance+ .02**2*_ONE), start, axis)
 
     def _judged(
         self, image: Image, fit: BandFit, start: FloatArray, axis: FloatArray
