@@ -22,6 +22,9 @@ UNKNOWNS: Final = COLUMNS + GROUND
 SIZE: Final = COLOURS * UNKNOWNS
 MOST: Final = COLUMNS + 4
 PLANES: Final = 3
+_NOTHING: Final = 1e-9
+"""Share of a pixel too small to count."""
+
 _SHAFT0: Final = GROUND
 _BAND0: Final = GROUND + COLUMNS - BAND
 _WEIGHTS = np.array([[0.114, 0.587, 0.299], [0.5, -0.331264, -0.168736], [-0.081312, -0.418688, 0.5]])
@@ -61,28 +64,31 @@ def _ground_column(k: int) -> int:
 
 @njit
 def sparse_rows(pixels: Any, rows: Any, out: Any) -> None:
-    """Fill the columns of every pixel: ground, shaft and point, band."""
+    """Fill the columns of every pixel: ground, shaft and point, band, in rising order."""
     for i in range(pixels.places.shape[0]):
         n, free = 0, 1.0
         if rows.seen[i]:
             row = rows.values[i, 0]
-            free = 1.0 - row[0]
-            if row[0] != 0.0:
-                for k in range(BAND):
-                    out.column[i, n], out.value[i, n] = _BAND0 + k, row[k]
-                    n += 1
             for k in range(BAND, COLUMNS):
-                if row[k] != 0.0:
-                    free -= row[k]
-                    out.column[i, n], out.value[i, n] = _SHAFT0 + k - BAND, row[k]
-                    n += 1
-        if abs(free) > 1e-9:
+                free -= row[k]
+            free -= row[0]
+        if abs(free) > _NOTHING:
             start = pixels.first[i]
             last = CURVE + (SIDE if start >= SIDE else 0)
             for p in range(4):
                 column = _ground_column(last if p == 3 else start + p)
                 out.column[i, n], out.value[i, n] = column, free * pixels.weights[i, p]
                 n += 1
+        if rows.seen[i]:
+            row = rows.values[i, 0]
+            for k in range(BAND, COLUMNS):
+                if row[k] != 0.0:
+                    out.column[i, n], out.value[i, n] = _SHAFT0 + k - BAND, row[k]
+                    n += 1
+            if row[0] != 0.0:
+                for k in range(BAND):
+                    out.column[i, n], out.value[i, n] = _BAND0 + k, row[k]
+                    n += 1
         out.count[i] = n
 
 
@@ -142,24 +148,6 @@ def linearise(levels: Any, gamma: float, out: Any) -> None:
             out.level[i, c], out.slope[i, c], out.by_gamma[i, c] = to_level(x, gamma)
 
 
-@njit(fastmath=REORDERED)
-def _scatter(
-    sparse: Any, tone: Any, i: int, plane: int, scale: float, work: Any, touched: Any, count: int
-) -> int:
-    """Add a pixel's columns, in a plane, to a dense row; returns how many columns are touched."""
-    for k in range(sparse.count[i]):
-        column, value = COLOURS * sparse.column[i, k], scale * sparse.value[i, k]
-        for c in range(COLOURS):
-            at = column + c
-            x = value * PLANE_WEIGHTS[plane, c] * tone.slope[i, c]
-            if work[at] == 0.0:
-                touched[count] = at
-                count += 1
-                work[at] = 1e-30
-            work[at] += x
-    return count
-
-
 @njit(fastmath=REORDERED, forceinline=True)
 def _target(tone: Any, i: int, plane: int) -> float:
     """Level of a plane at light 0, by the tangent."""
@@ -170,23 +158,77 @@ def _target(tone: Any, i: int, plane: int) -> float:
 
 
 @njit(fastmath=REORDERED)
-def _add(work: Any, touched: Any, count: int, y: float, weight: float, normal: Any, right: Any) -> None:
-    """Add a row to the normal equations and empty it."""
+def _group(
+    observed: Any, sparse: Any, tone: Any, b: int, size: int, work: Any, at: Any, columns: Any
+) -> int:
+    """Fill the colours' columns of a group of pixels; returns how many.
+
+    Args:
+        observed, sparse, tone: see `normal_equations`.
+        b: the group.
+        size: its pixels.
+        work: out, by each colour's light, (MOST * 4, 3).
+        at: -1 for every column, and left so, (UNKNOWNS,).
+        columns: out, (MOST * 4,).
+    """
+    count = 0
+    for k in range(size):
+        i = observed.members[b, k]
+        for p in range(sparse.count[i]):
+            column, value = sparse.column[i, p], sparse.value[i, p] / size
+            n = at[column]
+            if n < 0:
+                n = count
+                at[column], columns[n] = n, column
+                work[n, 0] = work[n, 1] = work[n, 2] = 0.0
+                count += 1
+            for c in range(COLOURS):
+                work[n, c] += value * tone.slope[i, c]
     for p in range(count):
-        a = touched[p]
-        x = weight * work[a]
-        right[a] += x * y
+        at[columns[p]] = -1
+    return count
+
+
+@njit(fastmath=REORDERED)
+def _add_block(
+    columns: Any, work: Any, count: int, square: Any, target: Any, normal: Any, right: Any
+) -> None:
+    """Add a pixel's or group's columns to the normal equations.
+
+    Args:
+        columns: which, (count,).
+        work: by each colour's light, (count, 3).
+        count: how many.
+        square: weights of products of colours, (3, 3).
+        target: weighted right side by colour, (3,).
+        normal, right: in and out.
+    """
+    for p in range(count):
+        a = COLOURS * columns[p]
+        first, second, third = work[p, 0], work[p, 1], work[p, 2]
+        right[a] += first * target[0]
+        right[a + 1] += second * target[1]
+        right[a + 2] += third * target[2]
         for q in range(count):
-            b = touched[q]
-            if b <= a:
-                normal[a, b] += x * work[b]
-    for p in range(count):
-        work[touched[p]] = 0.0
+            if columns[q] > columns[p]:
+                continue
+            b = COLOURS * columns[q]
+            for c in range(COLOURS):
+                x = work[p, c]
+                for d in range(COLOURS):
+                    normal[a + c, b + d] += x * square[c, d] * work[q, d]
 
 
 @njit(fastmath=REORDERED)
 def normal_equations(
-    observed: Any, sparse: Any, tone: Any, good: Any, kept: Any, weights: Any, normal: Any, right: Any
+    observed: Any,
+    sparse: Any,
+    tone: Any,
+    good: Any,
+    kept: Any,
+    weights: Any,
+    normal: Any,
+    right: Any,
 ) -> None:
     """Add all that is compared to the colours' normal equations.
 
@@ -200,23 +242,68 @@ def normal_equations(
         normal: in and out, lower triangle, (SIZE, SIZE).
         right: in and out, (SIZE,).
     """
-    work, touched = np.zeros(SIZE), np.zeros(SIZE, np.int64)
+    work, columns = np.zeros((4 * MOST, COLOURS)), np.zeros(4 * MOST, np.int64)
+    at, square, target = np.full(UNKNOWNS, -1), np.zeros((COLOURS, COLOURS)), np.zeros(COLOURS)
+    for c in range(COLOURS):
+        for d in range(COLOURS):
+            square[c, d] = weights[0] * PLANE_WEIGHTS[0, c] * PLANE_WEIGHTS[0, d]
     for i in range(observed.luma.shape[0]):
-        if good[i]:
-            count = _scatter(sparse, tone, i, 0, 1.0, work, touched, 0)
-            y = observed.luma[i] - _target(tone, i, 0)
-            _add(work, touched, count, y, weights[0], normal, right)
+        if not good[i]:
+            continue
+        count = sparse.count[i]
+        y = weights[0] * (observed.luma[i] - _target(tone, i, 0))
+        for c in range(COLOURS):
+            target[c] = y * PLANE_WEIGHTS[0, c]
+            for p in range(count):
+                work[p, c] = sparse.value[i, p] * tone.slope[i, c]
+        _add_block(sparse.column[i], work, count, square, target, normal, right)
+    for c in range(COLOURS):
+        for d in range(COLOURS):
+            square[c, d] = 0.0
+            for plane in range(1, PLANES):
+                square[c, d] += weights[plane] * PLANE_WEIGHTS[plane, c] * PLANE_WEIGHTS[plane, d]
     for b in range(observed.chroma.shape[0]):
         if not kept[b]:
             continue
         size = group_size(observed.members[b])
+        count = _group(observed, sparse, tone, b, size, work, at, columns)
+        target[0] = target[1] = target[2] = 0.0
         for plane in range(1, PLANES):
-            count, y = 0, observed.chroma[b, plane - 1]
+            y = observed.chroma[b, plane - 1]
             for k in range(size):
-                i = observed.members[b, k]
-                count = _scatter(sparse, tone, i, plane, 1.0 / size, work, touched, count)
-                y -= _target(tone, i, plane) / size
-            _add(work, touched, count, y, weights[plane], normal, right)
+                y -= _target(tone, observed.members[b, k], plane) / size
+            for c in range(COLOURS):
+                target[c] += weights[plane] * PLANE_WEIGHTS[plane, c] * y
+        _add_block(columns, work, count, square, target, normal, right)
+
+
+@njit(fastmath=REORDERED)
+def factorise_skyline(matrix: Any, first: Any) -> bool:
+    """Replace the lower triangle by Cholesky's factor; False if it is not positive definite.
+
+    Rows keep their leading zeros: most unknowns of the ground have few neighbours.
+
+    Args:
+        matrix: (n, n), in and out.
+        first: memory, (n,): first column that is not zero.
+    """
+    size = matrix.shape[0]
+    for i in range(size):
+        start = 0
+        while start < i and matrix[i, start] == 0.0:
+            start += 1
+        first[i] = start
+        for j in range(start, i + 1):
+            total = matrix[i, j]
+            for k in range(max(start, first[j]), j):
+                total -= matrix[i, k] * matrix[j, k]
+            if j < i:
+                matrix[i, j] = total / matrix[j, j]
+            elif not total > 0.0:
+                return False
+            else:
+                matrix[i, i] = np.sqrt(total)
+    return True
 
 
 MOVES: Final = 7
@@ -324,43 +411,36 @@ def cross_equations(
         information: in and out, (MOVES, MOVES).
         right: in and out, (MOVES,).
     """
-    work, touched = np.zeros(SIZE), np.zeros(SIZE, np.int64)
+    work, columns = np.zeros((4 * MOST, COLOURS)), np.zeros(4 * MOST, np.int64)
+    at = np.full(UNKNOWNS, -1)
     for i in range(observed.luma.shape[0]):
-        if good[i]:
-            count = _scatter(sparse, tone, i, 0, 1.0, work, touched, 0)
-            by, left = moved.luma[i], moved.luma_left[i]
-            _cross(work, touched, count, by, left, weights[0], cross, information, right)
+        if not good[i]:
+            continue
+        for p in range(sparse.count[i]):
+            a, value = COLOURS * sparse.column[i, p], weights[0] * sparse.value[i, p]
+            for c in range(COLOURS):
+                x = value * PLANE_WEIGHTS[0, c] * tone.slope[i, c]
+                for q in range(MOVES):
+                    cross[a + c, q] += x * moved.luma[i, q]
+        _square(moved.luma[i], moved.luma_left[i], weights[0], information, right)
     for b in range(observed.chroma.shape[0]):
         if not kept[b]:
             continue
         size = group_size(observed.members[b])
+        count = _group(observed, sparse, tone, b, size, work, at, columns)
         for plane in range(1, PLANES):
-            count = 0
-            for k in range(size):
-                i = observed.members[b, k]
-                count = _scatter(sparse, tone, i, plane, 1.0 / size, work, touched, count)
-            by, left = moved.chroma[b, plane - 1], moved.chroma_left[b, plane - 1]
-            _cross(work, touched, count, by, left, weights[plane], cross, information, right)
+            by = moved.chroma[b, plane - 1]
+            for p in range(count):
+                a = COLOURS * columns[p]
+                for c in range(COLOURS):
+                    x = weights[plane] * PLANE_WEIGHTS[plane, c] * work[p, c]
+                    for q in range(MOVES):
+                        cross[a + c, q] += x * by[q]
+            _square(by, moved.chroma_left[b, plane - 1], weights[plane], information, right)
 
 
-@njit(fastmath=REORDERED)
-def _cross(
-    work: Any,
-    touched: Any,
-    count: int,
-    by: Any,
-    left: float,
-    weight: float,
-    cross: Any,
-    information: Any,
-    right: Any,
-) -> None:
-    for p in range(count):
-        a = touched[p]
-        x = weight * work[a]
-        for q in range(MOVES):
-            cross[a, q] += x * by[q]
-        work[a] = 0.0
+@njit(fastmath=REORDERED, forceinline=True)
+def _square(by: Any, left: float, weight: float, information: Any, right: Any) -> None:
     for p in range(MOVES):
         right[p] += weight * by[p] * left
         for q in range(MOVES):
@@ -379,26 +459,26 @@ def projected(
         luma: out, (m, MOVES).
         chroma: out, (b, 2, MOVES).
     """
-    work, touched = np.zeros(SIZE), np.zeros(SIZE, np.int64)
+    work, columns = np.zeros((4 * MOST, COLOURS)), np.zeros(4 * MOST, np.int64)
+    at = np.full(UNKNOWNS, -1)
     for i in range(observed.luma.shape[0]):
-        count = _scatter(sparse, tone, i, 0, 1.0, work, touched, 0)
-        _less(work, touched, count, taken, moved.luma[i], luma[i])
+        for q in range(MOVES):
+            luma[i, q] = moved.luma[i, q]
+        for p in range(sparse.count[i]):
+            a = COLOURS * sparse.column[i, p]
+            for c in range(COLOURS):
+                x = sparse.value[i, p] * PLANE_WEIGHTS[0, c] * tone.slope[i, c]
+                for q in range(MOVES):
+                    luma[i, q] -= x * taken[a + c, q]
     for b in range(observed.chroma.shape[0]):
         size = group_size(observed.members[b])
+        count = _group(observed, sparse, tone, b, size, work, at, columns)
         for plane in range(1, PLANES):
-            count = 0
-            for k in range(size):
-                i = observed.members[b, k]
-                count = _scatter(sparse, tone, i, plane, 1.0 / size, work, touched, count)
-            _less(work, touched, count, taken, moved.chroma[b, plane - 1], chroma[b, plane - 1])
-
-
-@njit(fastmath=REORDERED, forceinline=True)
-def _less(work: Any, touched: Any, count: int, taken: Any, by: Any, out: Any) -> None:
-    for q in range(MOVES):
-        out[q] = by[q]
-    for p in range(count):
-        a = touched[p]
-        for q in range(MOVES):
-            out[q] -= work[a] * taken[a, q]
-        work[a] = 0.0
+            for q in range(MOVES):
+                chroma[b, plane - 1, q] = moved.chroma[b, plane - 1, q]
+            for p in range(count):
+                a = COLOURS * columns[p]
+                for c in range(COLOURS):
+                    x = PLANE_WEIGHTS[plane, c] * work[p, c]
+                    for q in range(MOVES):
+                        chroma[b, plane - 1, q] -= x * taken[a + c, q]

@@ -23,7 +23,7 @@ from app.tracking.band.delivered import (
     Observed,
     Sparse,
     cross_equations,
-    group_size,
+    factorise_skyline,
     linearise,
     move_rows,
     no_moves,
@@ -35,8 +35,8 @@ from app.tracking.band.equations import factorise, finish, halve
 from app.tracking.band.model import BAND, COLUMNS, Rows, design
 from app.tracking.band.pixels import CURVE, SIDE, gather
 
-STEPS: Final = 8
-_DONE_PX: Final = 0.01
+STEPS: Final = 6
+_DONE_PX: Final = 0.02
 _NEAR_PX: Final = 0.3
 _FARTHEST_PX: Final = 8.0
 _MARGIN: Final = 4
@@ -49,9 +49,10 @@ _GAMMA, _GAMMA_SD, _GAMMA_LOW, _GAMMA_HIGH = 2.4, .15, 0.85, 3.2
 _BLUR_SD: Final = 0.5
 _BLUR_LOW: Final = 0.35
 _BLUR_HIGH: Final = 2.2
-_HARMONICS_SD = np.array([10.0, 1.0, 1.0, 0.3, 0.3, 0.1, 0.1])
-HARMONICS_SD: Final = _HARMONICS_SD
-_GLOSS: Final = 0.1
+MATT = np.array([10.0, 1.0, 1.0, 0.15, 0.15, 0.03, 0.03, 0.02])
+GLOSSY = np.array([10.0, 1.0, 1.0, 0.3, 0.3, 0.1, 0.1, 0.1])
+"""Shading of a matt and of a shiny band: standard deviations of the harmonics relative to the
+paint; the last is the share of the brightest colour that every colour may have besides."""
 _LAG: Final = 3
 _STIFF: Final = 2.0
 _SOFT: Final = 25.0
@@ -133,7 +134,9 @@ def keeps_all_colour(image: Any, u: float, v: float, half: int) -> bool:
 
 
 @njit
-def _prior(uneven: Any, ground: Any, paint: Any, noise: float, normal: Any) -> None:
+def _prior(
+    uneven: Any, ground: Any, paint: Any, noise: float, shading: Any, normal: Any
+) -> None:
     """Add what is known of the colours beforehand; `ground` are slopes of the tone, (2, 3)."""
     for a in range(SIZE):
         normal[a, a] += 0.05
@@ -151,7 +154,7 @@ def _prior(uneven: Any, ground: Any, paint: Any, noise: float, normal: Any) -> N
     for k in range(BAND):
         for c in range(COLOURS):
             at = COLOURS * (GROUND + COLUMNS - BAND + k) + c
-            sd = HARMONICS_SD[k] * (paint[c] + _GLOSS * brightest)
+            sd = shading[k] * (paint[c] + shading[BAND] * brightest)
             normal[at, at] += 1.0 / (sd * sd)
 
 
@@ -243,7 +246,7 @@ def _noise(observed: Any, rows: Any, usable: Any, moved: Any) -> Any:
 
 @njit
 def fit_delivered(
-    image: Any, outline: Any, shape: Any, blur0: float, noise0: float, stretch_prior: float, gamma0: float
+    image: Any, outline: Any, shape: Any, blur0: float, noise0: float, stretch_prior: float, gamma0: float, shading: Any
 ) -> Any:
     """Fit the band near its outline in a delivered picture."""
     pixels = gather(image, outline, blur0, max(1.0, noise0))
@@ -269,7 +272,7 @@ def fit_delivered(
     normal, right = np.empty((SIZE, SIZE)), np.empty((SIZE, 1))
     cross, information, gradient = np.empty((SIZE, MOVES)), np.empty((MOVES, MOVES)), np.empty((MOVES, 1))
     inverse, ground, weights = np.empty((MOVES, MOVES)), np.empty((2, 3)), np.empty(3)
-    prior = np.zeros(MOVES)
+    prior, skyline = np.zeros(MOVES), np.empty(SIZE, np.int64)
     prior[2], prior[3] = stretch_prior, stretch_prior
     prior[4], prior[5] = 1.0 / _BLUR_SD**2, 1.0 / _BLUR_SD**2
     prior[6] = 1.0 / _GAMMA_SD**2
@@ -286,9 +289,9 @@ def fit_delivered(
         weights[0], weights[1] = 1.0 / sigma[0] ** 2, 1.0 / sigma[1] ** 2
         weights[2] = weights[1]
         normal[:], right[:] = 0.0, 0.0
-        _prior(pixels.uneven, ground, paint, sigma[0], normal)
+        _prior(pixels.uneven, ground, paint, sigma[0], shading, normal)
         normal_equations(observed, sparse, tone, good, kept, weights, normal, right[:, 0])
-        if not factorise(normal):
+        if not factorise_skyline(normal, skyline):
             return False, nothing
         halve(normal, right)
         finish(normal, right)
@@ -300,7 +303,7 @@ def fit_delivered(
         )
         halve(normal, cross)
         at[2], at[3] = stretch[0] - 1.0, stretch[1] - 1.0
-        at[4], at[5], at[6] = blur[0] - blur0, blur[1] - blur0, gamma - _GAMMA
+        at[4], at[5], at[6] = blur[0] - blur0, blur[1] - blur0, gamma - gamma0
         for p in range(MOVES):
             for q in range(MOVES):
                 for a in range(SIZE):
@@ -343,7 +346,7 @@ def fit_delivered(
                 levels[i, c] = level
         both = np.abs(moved.chroma_left)
         sigma[0], sigma[1] = _noise(observed, rows, pixels.usable, moved)
-        if far < _DONE_PX and abs(step[6]) < 0.05 and attempt > 1:
+        if far < _DONE_PX and abs(step[6]) < 0.1 and attempt > 1:
             break
         if far < _NEAR_PX:
             for i in range(m):

@@ -12,7 +12,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray, read_only
 from app.core.compiled import njit
-from app.tracking.band.delivered_fit import fit_delivered
+from app.tracking.band.delivered_fit import GLOSSY, MATT, fit_delivered
 from app.tracking.band.equations import (
     MOVES,
     REST,
@@ -145,7 +145,7 @@ class BandFitter:
 
 
     def fit_delivered(
-        self, image: Image, p_camera: FloatArray, axis_camera: FloatArray, gamma: float
+        self, image: Image, p_camera: FloatArray, axis_camera: FloatArray, gamma: float, glossy: bool = False
     ) -> BandFit | None:
         """Like `fit`, in a picture as a camera delivers it.
 
@@ -154,6 +154,7 @@ class BandFitter:
             p_camera: likewise.
             axis_camera: likewise.
             gamma: of the tone curve, see `tone`, about.
+            glossy: whether highlights on the band are reckoned with.
         """
         camera = self._model
         count = strips(p_camera, self._shape, camera.intrinsics, self._blur)
@@ -163,7 +164,8 @@ class BandFitter:
         if not seen:
             return None
         found, best = fit_delivered(
-            read_only(image[:]), outline, self._shape, self._blur, 3.0, self._prior, gamma
+            read_only(image[:]), outline, self._shape, self._blur, 3.0, self._prior, gamma,
+            GLOSSY if glossy else MATT,
         )
         if not found:
             return None

@@ -285,7 +285,8 @@ _ONE = np.eye(2)
 SRGB = 2.4
 _HALF: Final = 24
 _MORE = 2.25
-DEBUG = False
+DUMP: Any = None
+_DELIVERED_PX = 0.02
 
 
 
@@ -358,13 +359,12 @@ class ModelFit(Extractor):
         room = max(_AGREES_PX, _AGREES * self._half_px(start, axis)[1])
         if not _farthest(middle, hint.uv) < room:
             return None
-        fit = self.fitter.fit(image, start, axis)
-        if fit is None or not self.coarse.area_min <= fit.area <= self.coarse.area_max:
+        fit = self._weighed(image, start, axis)
+        if isinstance(fit, Miss):
             return None
-        if not _farthest(fit.uv, hint.uv) < _CLOSE_PX:
+        if not self.coarse.area_min <= fit.area <= self.coarse.area_max:
             return None
-        judged = self._judged(image, fit, start, axis)
-        return judged if isinstance(judged, MarkerFix) else None
+        return fit if _farthest(fit.uv, hint.uv) < _CLOSE_PX else None
 
     def _axis(self, axis_world: FloatArray | None) -> FloatArray | None:
         """Carry the axis into the camera frame, at length one; None where it is not known."""
@@ -386,25 +386,36 @@ class ModelFit(Extractor):
         start = self._start(found, axis, p_world)
         if start is None:
             return Miss(MissReason.WRONG_SHAPE, found.uv)
-        if keeps_all_colour(read_only(image[:]), found.uv[0], found.uv[1], _HALF):
-            fit = self.fitter.fit(image, start, axis)
-            if fit is not None:
-                judged = self._judged(image, fit, start, axis)
-                if isinstance(judged, MarkerFix):
-                    return judged
-        return self._delivered(image, found, start, axis)
+        return self._weighed(image, start, axis)
 
-    def _delivered(
-        self, image: Image, found: MarkerFix, start: FloatArray, axis: FloatArray
-    ) -> MarkerFix | Miss:
-        fit = self.fitter.fit_delivered(image, start, axis, SRGB)
-        if fit is None:
-            return Miss(MissReason.WRONG_SHAPE, found.uv)
-        if DEBUG: print('   delivered', fit.stretch.round(3), round(fit.misfit,2), round(fit.outliers,3), fit.paint.round(), self.coarse.colour.angle(fit.paint), np.sqrt(np.diag(fit.covariance)).round(3))
-        return self._judged(image, replace(fit, covariance=_MORE * fit.covariance+ .02**2*_ONE), start, axis)
+    def _weighed(self, image: Image, start: FloatArray, axis: FloatArray) -> MarkerFix | Miss:
+        """Fit and judge: as light that adds up, unless the picture was delivered otherwise."""
+        uv = self.model.pixel(self.model.T_world_camera @ start)
+        if uv is None:
+            return Miss(MissReason.WRONG_SHAPE)
+        if keeps_all_colour(read_only(image[:]), uv[0], uv[1], _HALF):
+            fit = self.fitter.fit(image, start, axis)
+            judged = None if fit is None else self._judged(image, fit, start, axis)
+            if isinstance(judged, MarkerFix):
+                return judged
+        refused: Miss | None = None
+        for glossy in (False, True):
+            fit = self.fitter.fit_delivered(image, start, axis, SRGB, glossy)
+            if fit is None:
+                continue
+            judged = self._judged(image, fit, start, axis, delivered=True)
+            if isinstance(judged, MarkerFix):
+                return judged
+            refused = refused or judged
+        return refused or Miss(MissReason.WRONG_SHAPE, uv)
 
     def _judged(
-        self, image: Image, fit: BandFit, start: FloatArray, axis: FloatArray
+        self,
+        image: Image,
+        fit: BandFit,
+        start: FloatArray,
+        axis: FloatArray,
+        delivered: bool = False,
     ) -> MarkerFix | Miss:
         """Whether the fit is of the band, and the band on a shaft; if so, how far to trust it."""
         if (reason := self._refused(fit)) is not None:
@@ -415,6 +426,10 @@ class ModelFit(Extractor):
             return Miss(MissReason.NO_SHAFT, fit.uv)
         inflation = max(1.0, fit.misfit)
         covariance = inflation * fit.covariance + self._doubt(fit, start, axis) * _ONE
+        if delivered:
+            covariance = covariance + (_MORE - 1.0) * fit.covariance + _DELIVERED_PX**2 * _ONE
+        if DUMP is not None:
+            DUMP.append((fit, start, axis, self))
         quality = (1.0 - fit.outliers) / inflation
         alone = shaft.found_alone and quality >= _QUALITY_ALONE
         alone = alone and float(covariance[0, 0] + covariance[1, 1]) <= _ALONE_PX**2
