@@ -45,7 +45,7 @@ _MARGIN: Final = 4
 _LEAST: Final = 0.5
 """Least standard deviation of brightness or colour [grey levels]: they are whole numbers."""
 
-_GAMMA, _GAMMA_SD, _GAMMA_LOW, _GAMMA_HIGH = 2.4, .15, 0.85, 3.2
+_GAMMA_SD, _GAMMA_LOW, _GAMMA_HIGH = 0.02, 0.85, 3.2
 _BLUR_SD: Final = 0.5
 _BLUR_LOW: Final = 0.35
 _BLUR_HIGH: Final = 2.2

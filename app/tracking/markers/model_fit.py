@@ -282,11 +282,17 @@ _QUALITY_ALONE, _ALONE_PX = 0.85, 0.1
 """Least quality and largest standard deviation [px] of a find that no other picture confirms."""
 
 _ONE = np.eye(2)
-SRGB = 2.4
+SRGB: Final = 2.4
+LINEAR: Final = 1.0
+"""Tone curves that are tried, see `band.tone`: cameras', and none."""
+
+_AS_NOISY: Final = 1.5
+"""What a fit of light that adds up may leave, over the noise of the picture [variances]."""
+
 _HALF: Final = 24
-_MORE = 2.25
+_MORE: Final = 2.5
 DUMP: Any = None
-_DELIVERED_PX = 0.02
+_DELIVERED_PX: Final = 0.012
 
 
 
@@ -396,18 +402,25 @@ class ModelFit(Extractor):
         if keeps_all_colour(read_only(image[:]), uv[0], uv[1], _HALF):
             fit = self.fitter.fit(image, start, axis)
             judged = None if fit is None else self._judged(image, fit, start, axis)
+            if isinstance(judged, MarkerFix) and fit is not None:
+                left = fit.misfit * self.coarse.noise_grey**2
+                if left <= _AS_NOISY * noise_variance(image, uv, _HALF):
+                    return judged
+        fits = [self.fitter.fit_delivered(image, start, axis, gamma) for gamma in (SRGB, LINEAR)]
+        held = sorted((one for one in fits if one is not None), key=lambda one: one.cost)
+        refused: Miss | None = None
+        if held:
+            judged = self._judged(image, held[0], start, axis, delivered=True)
             if isinstance(judged, MarkerFix):
                 return judged
-        refused: Miss | None = None
-        for glossy in (False, True):
-            fit = self.fitter.fit_delivered(image, start, axis, SRGB, glossy)
-            if fit is None:
-                continue
+            refused = judged
+        fit = self.fitter.fit_delivered(image, start, axis, SRGB, glossy=True)
+        if fit is not None and (not held or fit.cost < held[0].cost):
             judged = self._judged(image, fit, start, axis, delivered=True)
             if isinstance(judged, MarkerFix):
                 return judged
             refused = refused or judged
-        return refused or Miss(MissReason.WRONG_SHAPE, uv)
+        return refused or Miss(MissReason.PARTLY_HIDDEN, uv)
 
     def _judged(
         self,
@@ -483,6 +496,16 @@ class ModelFit(Extractor):
             self.model, self.shape, world, self.model.T_world_camera.rotate(axis)
         )
         return None if shift is None else self._at(found.uv - shift, depth)
+
+
+def noise_variance(image: Image, uv: FloatArray, half: int) -> float:
+    """Variance of the grey values' noise about a pixel [levels²], by second differences."""
+    u, v = (round(x) for x in uv.tolist())
+    part = image[max(0, v - half) : v + half, max(0, u - half) : u + half].astype(np.float64)
+    if min(part.shape[:2]) < 8:
+        return 1.0
+    second = np.abs(part[:, 2:] - 2.0 * part[:, 1:-1] + part[:, :-2])
+    return max(1.0, float(np.mean((1.4826 * np.median(second, axis=(0, 1))) ** 2)) / 6.0)
 
 
 def _farthest(uv: FloatArray, other: FloatArray) -> float:
