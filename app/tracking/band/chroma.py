@@ -89,9 +89,7 @@ def halved(plane: Any, first: int, how: int) -> Any:
     """
     start = first % 2
     if how == FILLED and start == 0:
-        start = 2
-    if how == FILLED and start == 1 and plane.shape[1] > 0:
-        start = 1
+        start = 2  # the value before it is looked at too
     stop = plane.shape[1] - (3 if how == FILLED else 1)
     count = max(0, (stop - start + 1) // 2)
     values = np.empty((plane.shape[0], count))
@@ -113,13 +111,14 @@ def true_chroma(chroma: Any, left: int, top: int) -> Any:
 
     Args:
         chroma: both planes at full resolution, (2, h, w).
-        left, top: pixel of the picture that the planes' first one is.
+        left: column of the picture that the planes' first one is.
+        top: row of it.
 
     Returns:
         Values; column and row of the first value's first pixel in the planes; columns and rows of
         pixels that a value is the mean of.
     """
-    height, width = chroma.shape[1], chroma.shape[2]
+    height = chroma.shape[1]
     across = filled_in(chroma[1], left)
     down = filled_in(np.ascontiguousarray(chroma[1].T), top)
     u0, v0, du, dv = 0, 0, 1, 1

@@ -27,7 +27,9 @@ _NOTHING: Final = 1e-9
 
 _SHAFT0: Final = GROUND
 _BAND0: Final = GROUND + COLUMNS - BAND
-_WEIGHTS = np.array([[0.114, 0.587, 0.299], [0.5, -0.331264, -0.168736], [-0.081312, -0.418688, 0.5]])
+_WEIGHTS = np.array(
+    [[0.114, 0.587, 0.299], [0.5, -0.331264, -0.168736], [-0.081312, -0.418688, 0.5]]
+)
 PLANE_WEIGHTS: Final = _WEIGHTS
 """Of blue, green and red in brightness and both colour differences (ITU-T T.871)."""
 
@@ -48,7 +50,7 @@ class Observed(NamedTuple):
 class Sparse(NamedTuple):
     """The columns of every pixel that are not zero, the same for all three colours."""
 
-    count: NDArray[np.int64]
+    used: NDArray[np.int64]
     column: NDArray[np.int64]
     """(m, MOST)."""
     value: FloatArray
@@ -89,7 +91,7 @@ def sparse_rows(pixels: Any, rows: Any, out: Any) -> None:
                 for k in range(BAND):
                     out.column[i, n], out.value[i, n] = _BAND0 + k, row[k]
                     n += 1
-        out.count[i] = n
+        out.used[i] = n
 
 
 @njit
@@ -164,7 +166,9 @@ def _group(
     """Fill the colours' columns of a group of pixels; returns how many.
 
     Args:
-        observed, sparse, tone: see `normal_equations`.
+        observed: see `normal_equations`.
+        sparse: likewise.
+        tone: likewise.
         b: the group.
         size: its pixels.
         work: out, by each colour's light, (MOST * 4, 3).
@@ -174,7 +178,7 @@ def _group(
     count = 0
     for k in range(size):
         i = observed.members[b, k]
-        for p in range(sparse.count[i]):
+        for p in range(sparse.used[i]):
             column, value = sparse.column[i, p], sparse.value[i, p] / size
             n = at[column]
             if n < 0:
@@ -201,7 +205,8 @@ def _add_block(
         count: how many.
         square: weights of products of colours, (3, 3).
         target: weighted right side by colour, (3,).
-        normal, right: in and out.
+        normal: in and out.
+        right: in and out.
     """
     for p in range(count):
         a = COLOURS * columns[p]
@@ -250,7 +255,7 @@ def normal_equations(
     for i in range(observed.luma.shape[0]):
         if not good[i]:
             continue
-        count = sparse.count[i]
+        count = sparse.used[i]
         y = weights[0] * (observed.luma[i] - _target(tone, i, 0))
         for c in range(COLOURS):
             target[c] = y * PLANE_WEIGHTS[0, c]
@@ -350,7 +355,7 @@ def move_rows(
     for i in range(observed.luma.shape[0]):
         for c in range(COLOURS):
             light[c] = 0.0
-        for k in range(sparse.count[i]):
+        for k in range(sparse.used[i]):
             for c in range(COLOURS):
                 light[c] += sparse.value[i, k] * colours[sparse.column[i, k], c]
         for c in range(COLOURS):
@@ -405,7 +410,12 @@ def cross_equations(
     """Add products of the moves' derivatives with the colours, each other and what is left.
 
     Args:
-        observed, sparse, tone, good, kept, weights: see `normal_equations`.
+        observed: see `normal_equations`.
+        sparse: likewise.
+        tone: likewise.
+        good: likewise.
+        kept: likewise.
+        weights: likewise.
         moved: `Moved`.
         cross: in and out, (SIZE, MOVES).
         information: in and out, (MOVES, MOVES).
@@ -416,7 +426,7 @@ def cross_equations(
     for i in range(observed.luma.shape[0]):
         if not good[i]:
             continue
-        for p in range(sparse.count[i]):
+        for p in range(sparse.used[i]):
             a, value = COLOURS * sparse.column[i, p], weights[0] * sparse.value[i, p]
             for c in range(COLOURS):
                 x = value * PLANE_WEIGHTS[0, c] * tone.slope[i, c]
@@ -454,7 +464,10 @@ def projected(
     """Fill the derivatives by the moves less what the colours take of them.
 
     Args:
-        observed, sparse, tone, moved: see `cross_equations`.
+        observed: see `cross_equations`.
+        sparse: likewise.
+        tone: likewise.
+        moved: likewise.
         taken: colours' change with the moves, (SIZE, MOVES).
         luma: out, (m, MOVES).
         chroma: out, (b, 2, MOVES).
@@ -464,7 +477,7 @@ def projected(
     for i in range(observed.luma.shape[0]):
         for q in range(MOVES):
             luma[i, q] = moved.luma[i, q]
-        for p in range(sparse.count[i]):
+        for p in range(sparse.used[i]):
             a = COLOURS * sparse.column[i, p]
             for c in range(COLOURS):
                 x = sparse.value[i, p] * PLANE_WEIGHTS[0, c] * tone.slope[i, c]

@@ -54,10 +54,15 @@ GLOSSY = np.array([10.0, 1.0, 1.0, 0.3, 0.3, 0.1, 0.1, 0.1])
 """Shading of a matt and of a shiny band: standard deviations of the harmonics relative to the
 paint; the last is the share of the brightest colour that every colour may have besides."""
 _LAG: Final = 3
+"""How far what is left is taken to be alike [px, or groups]."""
+
 _STIFF: Final = 2.0
 _SOFT: Final = 25.0
 _FAR_OFF: Final = 4.0
+"""Standard deviations from which a pixel is left out."""
+
 CHROMA_MORE: Final = 2.0
+"""Colour counts for this much less: its quantisation is alike over whole blocks."""
 
 
 class DeliveredMinimum(NamedTuple):
@@ -76,6 +81,7 @@ class DeliveredMinimum(NamedTuple):
     area: float
     steps: int
     sizes: FloatArray
+    """Pixels, groups, and columns and rows of a group, (4,)."""
 
 
 @njit
@@ -114,7 +120,10 @@ def observe(image: Any, outline: Any, pixels: Any) -> Any:
     for b in range(rows * columns):
         if filled[b] == du * dv:
             kept[at] = members[b]
-            colour[at, 0], colour[at, 1] = values[0, b // columns, b % columns], values[1, b // columns, b % columns]
+            colour[at, 0], colour[at, 1] = (
+                values[0, b // columns, b % columns],
+                values[1, b // columns, b % columns],
+            )
             for k in range(filled[b]):
                 group[members[b, k]] = at
             at += 1
@@ -134,9 +143,7 @@ def keeps_all_colour(image: Any, u: float, v: float, half: int) -> bool:
 
 
 @njit
-def _prior(
-    uneven: Any, ground: Any, paint: Any, noise: float, shading: Any, normal: Any
-) -> None:
+def _prior(uneven: Any, ground: Any, paint: Any, noise: float, shading: Any, normal: Any) -> None:
     """Add what is known of the colours beforehand; `ground` are slopes of the tone, (2, 3)."""
     for a in range(SIZE):
         normal[a, a] += 0.05
@@ -174,7 +181,16 @@ def _ground_slopes(pixels: Any, rows: Any, tone: Any, out: Any) -> None:
 
 
 @njit
-def _design(pixels: Any, outline: Any, shape: Any, shift: Any, stretch: Any, blur: Any, rows: Any, other: Any) -> None:
+def _design(
+    pixels: Any,
+    outline: Any,
+    shape: Any,
+    shift: Any,
+    stretch: Any,
+    blur: Any,
+    rows: Any,
+    other: Any,
+) -> None:
     """Fill the rows with all derivatives; those by the blur are differences."""
     design(pixels.places, outline, shape, blur[0], shift, stretch, rows, blur[1])
     for axis in range(2):
@@ -208,7 +224,7 @@ def _paint(rows: Any, good: Any, tone: Any, paint: Any) -> bool:
 
 @njit
 def _deviation(values: Any, which: Any) -> float:
-    """Standard deviation by the median of magnitudes."""
+    """Return the standard deviation by the median of magnitudes."""
     count = 0
     out = np.empty(len(values))
     for i in range(len(values)):
@@ -220,7 +236,7 @@ def _deviation(values: Any, which: Any) -> float:
 
 @njit
 def _noise(observed: Any, rows: Any, usable: Any, moved: Any) -> Any:
-    """Root mean square of what is left near the needle, gross errors cut off: brightness, colour."""
+    """Return the noise of brightness and of colour near the needle, gross errors cut off."""
     typical = max(_LEAST, _deviation(moved.luma_left, rows.seen & usable))
     square, count = 0.0, 0
     for i in range(len(usable)):
@@ -246,7 +262,14 @@ def _noise(observed: Any, rows: Any, usable: Any, moved: Any) -> Any:
 
 @njit
 def fit_delivered(
-    image: Any, outline: Any, shape: Any, blur0: float, noise0: float, stretch_prior: float, gamma0: float, shading: Any
+    image: Any,
+    outline: Any,
+    shape: Any,
+    blur0: float,
+    noise0: float,
+    stretch_prior: float,
+    gamma0: float,
+    shading: Any,
 ) -> Any:
     """Fit the band near its outline in a delivered picture."""
     pixels = gather(image, outline, blur0, max(1.0, noise0))
@@ -270,7 +293,11 @@ def fit_delivered(
     good, kept = pixels.usable.copy(), np.ones(b, np.bool_)
     _keep_groups(observed, good, kept)
     normal, right = np.empty((SIZE, SIZE)), np.empty((SIZE, 1))
-    cross, information, gradient = np.empty((SIZE, MOVES)), np.empty((MOVES, MOVES)), np.empty((MOVES, 1))
+    cross, information, gradient = (
+        np.empty((SIZE, MOVES)),
+        np.empty((MOVES, MOVES)),
+        np.empty((MOVES, 1)),
+    )
     inverse, ground, weights = np.empty((MOVES, MOVES)), np.empty((2, 3)), np.empty(3)
     prior, skyline = np.zeros(MOVES), np.empty(SIZE, np.int64)
     prior[2], prior[3] = stretch_prior, stretch_prior
@@ -356,7 +383,24 @@ def fit_delivered(
                 worst = max(both[k, 0], both[k, 1])
                 kept[k] = kept[k] and worst < _FAR_OFF * sigma[1]
     finish(normal, cross)
-    _sandwich(observed, sparse, tone, good, kept, cross, moved, weights, prior, inverse, us, vs, du, dv, outline, covariance)
+    _sandwich(
+        observed,
+        sparse,
+        tone,
+        good,
+        kept,
+        cross,
+        moved,
+        weights,
+        prior,
+        inverse,
+        us,
+        vs,
+        du,
+        dv,
+        outline,
+        covariance,
+    )
     area, kept_area, total, count = 0.0, 0.0, 0.0, 0.0
     for i in range(m):
         if rows.seen[i]:
@@ -375,8 +419,18 @@ def fit_delivered(
                 colour[c] += moved.levels[i, c]
     colour /= max(number, 1.0)
     return count > 8.0, DeliveredMinimum(
-        shift, covariance, stretch, colour, blur, gamma, sigma,
-        total / max(count, 1e-9), 1.0 - kept_area / max(area, 1e-9), area, steps, sizes,
+        shift,
+        covariance,
+        stretch,
+        colour,
+        blur,
+        gamma,
+        sigma,
+        total / max(count, 1e-9),
+        1.0 - kept_area / max(area, 1e-9),
+        area,
+        steps,
+        sizes,
     )
 
 
@@ -392,8 +446,22 @@ def _keep_groups(observed: Any, usable: Any, kept: Any) -> None:
 
 @njit(fastmath=REORDERED)
 def _sandwich(
-    observed: Any, sparse: Any, tone: Any, good: Any, kept: Any, taken: Any, moved: Any, weights: Any,
-    prior: Any, inverse: Any, us: Any, vs: Any, du: int, dv: int, outline: Any, covariance: Any,
+    observed: Any,
+    sparse: Any,
+    tone: Any,
+    good: Any,
+    kept: Any,
+    taken: Any,
+    moved: Any,
+    weights: Any,
+    prior: Any,
+    inverse: Any,
+    us: Any,
+    vs: Any,
+    du: int,
+    dv: int,
+    outline: Any,
+    covariance: Any,
 ) -> None:
     """Fill the covariance of the band's place with noise as it is correlated in what is left."""
     m, b = len(observed.luma), len(observed.chroma)
@@ -408,8 +476,13 @@ def _sandwich(
     _correlated(us, vs, moved.luma_left, luma, good, weights[0], middle)
     for plane in range(2):
         _correlated(
-            pu, pv, np.ascontiguousarray(moved.chroma_left[:, plane]),
-            np.ascontiguousarray(chroma[:, plane]), kept, weights[1 + plane], middle,
+            pu,
+            pv,
+            np.ascontiguousarray(moved.chroma_left[:, plane]),
+            np.ascontiguousarray(chroma[:, plane]),
+            kept,
+            weights[1 + plane],
+            middle,
         )
     whole = inverse @ middle @ inverse
     turn = np.array([[outline.ev, -outline.eu], [-outline.eu, -outline.ev]])
@@ -417,7 +490,9 @@ def _sandwich(
 
 
 @njit(fastmath=REORDERED)
-def _correlated(us: Any, vs: Any, left: Any, by: Any, good: Any, weight: float, middle: Any) -> None:
+def _correlated(
+    us: Any, vs: Any, left: Any, by: Any, good: Any, weight: float, middle: Any
+) -> None:
     """Add the covariance of the gradient by one plane."""
     n = len(left)
     if n == 0:

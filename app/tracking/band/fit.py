@@ -145,9 +145,13 @@ class BandFitter:
             outline=outline,
         )
 
-
     def fit_delivered(
-        self, image: Image, p_camera: FloatArray, axis_camera: FloatArray, gamma: float, glossy: bool = False
+        self,
+        image: Image,
+        p_camera: FloatArray,
+        axis_camera: FloatArray,
+        gamma: float,
+        glossy: bool = False,
     ) -> BandFit | None:
         """Like `fit`, in a picture as a camera delivers it.
 
@@ -166,7 +170,13 @@ class BandFitter:
         if not seen:
             return None
         found, best = fit_delivered(
-            read_only(image[:]), outline, self._shape, self._blur, 3.0, self._prior, gamma,
+            read_only(image[:]),
+            outline,
+            self._shape,
+            self._blur,
+            3.0,
+            self._prior,
+            gamma,
             GLOSSY if glossy else MATT,
         )
         if not found:

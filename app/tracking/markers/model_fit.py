@@ -22,7 +22,7 @@ so a hand that hides one end, or a background as grey as the shaft on one side, 
 """
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any, Final
 
 import numpy as np
@@ -290,10 +290,19 @@ _AS_NOISY: Final = 1.5
 """What a fit of light that adds up may leave, over the noise of the picture [variances]."""
 
 _HALF: Final = 24
-_MORE: Final = 2.5
-DUMP: Any = None
-_DELIVERED_PX: Final = 0.012
+"""What is looked at about a band for its picture's noise and the colours' resolution [px]."""
 
+_CLEARLY: Final = 30.0
+"""Logarithm of the likelihoods' ratio from which a picture has no tone curve."""
+
+_DELIVERED: Final = 0.15
+"""Like `_STRETCH`, in a delivered picture."""
+
+_MORE: Final = 2.0
+_DELIVERED_PX: Final = 0.015
+"""By how much the covariance of a fit in a delivered picture is larger than what its left-over
+noise makes, and standard deviation [px] besides: quantised blocks spread beyond what is looked
+at."""
 
 
 @dataclass(frozen=True)
@@ -406,21 +415,28 @@ class ModelFit(Extractor):
                 left = fit.misfit * self.coarse.noise_grey**2
                 if left <= _AS_NOISY * noise_variance(image, uv, _HALF):
                     return judged
-        fits = [self.fitter.fit_delivered(image, start, axis, gamma) for gamma in (SRGB, LINEAR)]
-        held = sorted((one for one in fits if one is not None), key=lambda one: one.cost)
-        refused: Miss | None = None
-        if held:
-            judged = self._judged(image, held[0], start, axis, delivered=True)
-            if isinstance(judged, MarkerFix):
-                return judged
-            refused = judged
-        fit = self.fitter.fit_delivered(image, start, axis, SRGB, glossy=True)
-        if fit is not None and (not held or fit.cost < held[0].cost):
-            judged = self._judged(image, fit, start, axis, delivered=True)
-            if isinstance(judged, MarkerFix):
-                return judged
-            refused = refused or judged
-        return refused or Miss(MissReason.PARTLY_HIDDEN, uv)
+        return self._delivered(image, start, axis) or Miss(MissReason.PARTLY_HIDDEN, uv)
+
+    def _delivered(
+        self, image: Image, start: FloatArray, axis: FloatArray
+    ) -> MarkerFix | Miss | None:
+        """Fit with a camera's tone curve, or with none where that leaves clearly less."""
+        fitter = self.fitter
+        matt = fitter.fit_delivered(image, start, axis, SRGB)
+        shiny: BandFit | None = None
+        plain = fitter.fit_delivered(image, start, axis, LINEAR)
+        if matt is not None and plain is not None and plain.cost + _CLEARLY < matt.cost:
+            shiny = fitter.fit_delivered(image, start, axis, SRGB, glossy=True)
+            if shiny is None or plain.cost + _CLEARLY < shiny.cost:
+                return self._judged(image, plain, start, axis, delivered=True)
+        first = None if matt is None else self._judged(image, matt, start, axis, delivered=True)
+        if isinstance(first, MarkerFix):
+            return first
+        shiny = shiny or fitter.fit_delivered(image, start, axis, SRGB, glossy=True)
+        if shiny is None:
+            return first
+        second = self._judged(image, shiny, start, axis, delivered=True)
+        return second if isinstance(second, MarkerFix) or first is None else first
 
     def _judged(
         self,
@@ -438,11 +454,13 @@ class ModelFit(Extractor):
         if not shaft.found:
             return Miss(MissReason.NO_SHAFT, fit.uv)
         inflation = max(1.0, fit.misfit)
-        covariance = inflation * fit.covariance + self._doubt(fit, start, axis) * _ONE
         if delivered:
-            covariance = covariance + (_MORE - 1.0) * fit.covariance + _DELIVERED_PX**2 * _ONE
-        if DUMP is not None:
-            DUMP.append((fit, start, axis, self))
+            covariance = (
+                _MORE * fit.covariance + self._stretched(fit, start, axis, _DELIVERED) * _ONE
+            )
+            covariance = covariance + _DELIVERED_PX**2 * _ONE
+        else:
+            covariance = inflation * fit.covariance + self._doubt(fit, start, axis) * _ONE
         quality = (1.0 - fit.outliers) / inflation
         alone = shaft.found_alone and quality >= _QUALITY_ALONE
         alone = alone and float(covariance[0, 0] + covariance[1, 1]) <= _ALONE_PX**2
@@ -460,14 +478,18 @@ class ModelFit(Extractor):
 
     def _doubt(self, fit: BandFit, start: FloatArray, axis: FloatArray) -> float:
         """Variance of the centre beyond the fit's own, by what the model does not have [px²]."""
-        (width, length), (wide, long) = fit.stretch.tolist(), self._half_px(start, axis)
-        misfit = (wide * (width - 1.0)) ** 2 + (long * (length - 1.0)) ** 2
         return (
             self.floor_px**2
             + _MISFIT_PX2 * max(0.0, fit.misfit - _USUAL_MISFIT)
             + _OUTLIERS_PX2 * max(0.0, fit.outliers - _USUAL_OUTLIERS)
-            + _STRETCH * max(0.0, misfit - _USUAL_STRETCH_PX**2)
+            + self._stretched(fit, start, axis, _STRETCH)
         )
+
+    def _stretched(self, fit: BandFit, start: FloatArray, axis: FloatArray, share: float) -> float:
+        """Variance of the centre by what width and length are off [px²]."""
+        (width, length), (wide, long) = fit.stretch.tolist(), self._half_px(start, axis)
+        misfit = (wide * (width - 1.0)) ** 2 + (long * (length - 1.0)) ** 2
+        return share * max(0.0, misfit - _USUAL_STRETCH_PX**2)
 
     def _half_px(self, p_camera: FloatArray, axis: FloatArray) -> tuple[float, float]:
         """Half the width and half the length of the band's picture [px]."""
