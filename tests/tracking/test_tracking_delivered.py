@@ -13,9 +13,10 @@ from app.core.clock import VirtualClock
 from app.tracking.band.chroma import FILLED, FULL, filled_in, halved, luma_chroma
 from app.tracking.band.tone import to_level, to_light
 from app.tracking.cameras.camera import Camera, CameraFrame
-from app.tracking.fix import FixStatus
+from app.tracking.fix import FixStatus, without_point
+from app.tracking.markers.extractor import Miss, MissReason
 from app.tracking.markers.model_fit import noise_variance
-from app.tracking.tracker import Tracker
+from app.tracking.tracker import Tracker, with_cause
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 LARGEST = 16.27
@@ -133,3 +134,16 @@ def test_a_picture_of_one_colour_is_a_named_miss(wide, level):
     fix = tracker.process(CameraFrame(image, 0.0), CameraFrame(image, 0.0))
     assert not fix.usable
     assert fix.reason
+
+
+def test_a_marker_that_is_partly_hidden_is_not_said_to_be_out_of_view():
+    names, nothing = ("left", "right"), (None, None)
+    hidden, red = Miss(MissReason.PARTLY_HIDDEN), Miss(MissReason.NOTHING_RED)
+    none = without_point(FixStatus.OUT_OF_VIEW, nothing, 0.0, reason="out of view")
+    said = with_cause(none, (hidden, red), names).reason
+    assert said == "left camera: the marker is partly hidden"
+    assert with_cause(none, (red, red), names).reason == "out of view"
+    one = "the marker is out of view of the left camera: depth by the right camera"
+    fix = without_point(FixStatus.ONE_CAMERA, nothing, 0.0, reason=one)
+    assert "out of view" not in with_cause(fix, (hidden, red), names).reason
+    assert with_cause(fix, (red, red), names).reason == one
