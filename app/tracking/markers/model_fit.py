@@ -295,6 +295,11 @@ _HALF: Final = 24
 _CLEARLY: Final = 30.0
 """Logarithm of the likelihoods' ratio from which a picture has no tone curve."""
 
+_WIDER: Final = 0.06
+_LONGER: Final = 0.04
+"""By how much width and length may be off in a delivered picture, relative: its blur is free, so
+that a straight edge over the band's side or end leaves hardly anything else."""
+
 _DELIVERED: Final = 0.15
 """Like `_STRETCH`, in a delivered picture."""
 
@@ -447,7 +452,7 @@ class ModelFit(Extractor):
         delivered: bool = False,
     ) -> MarkerFix | Miss:
         """Whether the fit is of the band, and the band on a shaft; if so, how far to trust it."""
-        if (reason := self._refused(fit)) is not None:
+        if (reason := self._refused(fit, delivered)) is not None:
             return Miss(reason, fit.uv)
         colour, noise = self.coarse.colour, self.coarse.noise_grey
         shaft = shaft_evidence(image, fit, self.shape, colour.weights, self.blur_px, noise)
@@ -466,12 +471,14 @@ class ModelFit(Extractor):
         alone = alone and float(covariance[0, 0] + covariance[1, 1]) <= _ALONE_PX**2
         return MarkerFix(fit.uv, covariance, fit.area, quality, Centre.BAND, alone)
 
-    def _refused(self, fit: BandFit) -> MissReason | None:
+    def _refused(self, fit: BandFit, delivered: bool) -> MissReason | None:
         if not self.coarse.colour.is_marker(fit.paint):
             return MissReason.NOTHING_RED
         if fit.outliers > self.outliers_max or fit.misfit > self.misfit_max:
             return MissReason.PARTLY_HIDDEN
         width, length = fit.stretch.tolist()
+        if delivered and (abs(width - 1.0) > _WIDER or abs(length - 1.0) > _LONGER):
+            return MissReason.PARTLY_HIDDEN
         if max(abs(width - 1.0), abs(length - 1.0)) > self.stretch_max:
             return MissReason.WRONG_SHAPE
         return None
