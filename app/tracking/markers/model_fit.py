@@ -304,7 +304,10 @@ _DELIVERED: Final = 0.15
 """Like `_STRETCH`, in a delivered picture."""
 
 _MORE: Final = 2.0
-_DELIVERED_PX: Final = 0.015
+_MISFIT: Final = 2.6
+"""Like `ModelFit.misfit_max`, in a delivered picture: few photons make more noise in a dark colour."""
+
+_DELIVERED_PX: Final = 0.02
 """By how much the covariance of a fit in a delivered picture is larger than what its left-over
 noise makes, and standard deviation [px] besides: quantised blocks spread beyond what is looked
 at."""
@@ -474,7 +477,9 @@ class ModelFit(Extractor):
     def _refused(self, fit: BandFit, delivered: bool) -> MissReason | None:
         if not self.coarse.colour.is_marker(fit.paint):
             return MissReason.NOTHING_RED
-        if fit.outliers > self.outliers_max or fit.misfit > self.misfit_max:
+        if fit.outliers > self.outliers_max or fit.misfit > (
+            _MISFIT if delivered else self.misfit_max
+        ):
             return MissReason.PARTLY_HIDDEN
         width, length = fit.stretch.tolist()
         if delivered and (abs(width - 1.0) > _WIDER or abs(length - 1.0) > _LONGER):
@@ -533,8 +538,11 @@ def noise_variance(image: Image, uv: FloatArray, half: int) -> float:
     part = image[max(0, v - half) : v + half, max(0, u - half) : u + half].astype(np.float64)
     if min(part.shape[:2]) < 8:
         return 1.0
-    second = np.abs(part[:, 2:] - 2.0 * part[:, 1:-1] + part[:, :-2])
-    return max(1.0, float(np.mean((1.4826 * np.median(second, axis=(0, 1))) ** 2)) / 6.0)
+    second = np.abs(part[:, 2:] - 2.0 * part[:, 1:-1] + part[:, :-2]).reshape(-1, 3)
+    middle = np.median(second, axis=0)  # whole numbers: the median lies somewhere in their bin
+    below, at = (second < middle).mean(axis=0), (second == middle).mean(axis=0)
+    middle = middle - 0.5 + (0.5 - below) / np.maximum(at, 1e-9)
+    return max(1.0, float(np.mean((1.4826 * middle) ** 2)) / 6.0)
 
 
 def _farthest(uv: FloatArray, other: FloatArray) -> float:
