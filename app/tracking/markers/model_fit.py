@@ -305,7 +305,7 @@ _DELIVERED: Final = 0.15
 
 _MORE: Final = 2.0
 _MISFIT: Final = 2.6
-"""Like `ModelFit.misfit_max`, in a delivered picture: few photons make more noise in a dark colour."""
+"""Like `ModelFit.misfit_max`, in a delivered picture: few photons are noisy in a dark colour."""
 
 _DELIVERED_PX: Final = 0.02
 """By how much the covariance of a fit in a delivered picture is larger than what its left-over
