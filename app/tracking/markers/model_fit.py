@@ -421,7 +421,8 @@ class ModelFit(Extractor):
             judged = None if fit is None else self._judged(image, fit, start, axis)
             if isinstance(judged, MarkerFix) and fit is not None:
                 left = fit.misfit * self.coarse.noise_grey**2
-                if left <= _AS_NOISY * noise_variance(image, uv, _HALF):
+                least = (0.5 * self.coarse.noise_grey) ** 2
+                if left <= _AS_NOISY * max(least, noise_variance(image, uv, _HALF)):
                     return judged
         return self._delivered(image, start, axis) or Miss(MissReason.PARTLY_HIDDEN, uv)
 
