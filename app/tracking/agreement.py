@@ -56,7 +56,11 @@ class Continuity:
         alone = all(one.alone for one in found)
         if fix.status is FixStatus.VALID:
             if not alone and all(one.centre is Centre.OUTLINE for one in found):
-                return _without(fix, FixStatus.INCONSISTENT, "what both see is not of its shape")
+                return _without(
+                    fix,
+                    FixStatus.INCONSISTENT,
+                    "no fit holds: the marker is partly hidden, or it is another red thing",
+                )
             self._last = fix
             return fix
         if alone and self._continues(fix):

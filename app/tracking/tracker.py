@@ -7,6 +7,7 @@ the first of any run some tenths of a second.
 
 import threading
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Final
 
 import cv2
@@ -27,7 +28,7 @@ from app.tracking.follower import MarkerFollower
 from app.tracking.health import FixHealth, Hiding
 from app.tracking.markers.choice import extractors as default_extractors
 from app.tracking.markers.colour import RED, ColourModel, learn
-from app.tracking.markers.extractor import Centre, Extractor, Hint, MarkerFix
+from app.tracking.markers.extractor import Centre, Extractor, Hint, MarkerFix, Miss, MissReason
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape, RigProfile
 from app.tracking.solver import FixSolver, SeenMarker
@@ -159,6 +160,30 @@ def _drawn(model: CameraModel, needle: NeedleShape, centre: FloatArray) -> tuple
     return picture, uv[1]
 
 
+def with_cause(fix: NeedleFix, markers: Markers, names: Sequence[str]) -> NeedleFix:
+    """Say why a camera that shows something red does not measure it, instead of "out of view".
+
+    Args:
+        fix: by the solver.
+        markers: what each camera's picture gave.
+        names: of the cameras.
+    """
+    seen = {
+        name: found.reason.words
+        for name, found in zip(names, markers, strict=True)
+        if isinstance(found, Miss) and found.reason is not MissReason.NOTHING_RED
+    }
+    if fix.status is FixStatus.OUT_OF_VIEW and seen:
+        words = "; ".join(f"{name} camera: {word}" for name, word in seen.items())
+        return replace(fix, reason=words)
+    if fix.status is FixStatus.ONE_CAMERA:
+        for name, word in seen.items():
+            lost = f"the marker is out of view of the {name} camera"
+            instead = f"the {name} camera does not measure the marker ({word})"
+            return replace(fix, reason=fix.reason.replace(lost, instead))
+    return fix
+
+
 Axis = Callable[[float], FloatArray | None]
 """Needle direction, hub to tip, at a time [s]; None while the robot does not know it."""
 
@@ -272,6 +297,7 @@ class Tracker:
         time = min(times)
         axis = self._axis(time)
         fix, markers = self._measured(frames, axis, time)
+        fix = with_cause(fix, markers, self._names)
         certain = all(isinstance(m, MarkerFix) and m.centre is Centre.BAND for m in markers)
         fix = self._health.judge(fix, axis, certain, self._follower.exchanged)
         found = [one for one in markers if isinstance(one, MarkerFix)]

@@ -12,6 +12,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray, read_only
 from app.core.compiled import njit
+from app.tracking.band.delivered_fit import GLOSSY, MATT, DeliveredMinimum, fit_delivered
 from app.tracking.band.equations import (
     MOVES,
     REST,
@@ -67,6 +68,7 @@ class BandFit:
         area: of the band [px²].
         paint: mean colour of the band [grey levels], blue, green, red, shape (3,).
         outline: the one that the fit began with.
+        cost: what tone curves are compared by: less is better; 0 where there is one only.
     """
 
     uv: FloatArray
@@ -77,6 +79,7 @@ class BandFit:
     area: float
     paint: FloatArray
     outline: Outline
+    cost: float = 0.0
 
 
 class BandFitter:
@@ -141,6 +144,66 @@ class BandFitter:
             paint=best.paint,
             outline=outline,
         )
+
+    def fit_delivered(
+        self,
+        image: Image,
+        p_camera: FloatArray,
+        axis_camera: FloatArray,
+        gamma: float,
+        glossy: bool = False,
+    ) -> BandFit | None:
+        """Like `fit`, in a picture as a camera delivers it.
+
+        Args:
+            image: see `fit`.
+            p_camera: likewise.
+            axis_camera: likewise.
+            gamma: of the tone curve, see `tone`, about.
+            glossy: whether highlights on the band are reckoned with.
+        """
+        camera = self._model
+        count = strips(p_camera, self._shape, camera.intrinsics, self._blur)
+        seen, outline = trace(
+            p_camera, axis_camera, self._shape, camera.intrinsics, camera.distortion, count
+        )
+        if not seen:
+            return None
+        found, best = fit_delivered(
+            read_only(image[:]),
+            outline,
+            self._shape,
+            self._blur,
+            3.0,
+            self._prior,
+            gamma,
+            GLOSSY if glossy else MATT,
+        )
+        if not found:
+            return None
+        return BandFit(
+            uv=np.array([outline.u, outline.v]) + best.shift,
+            covariance=best.covariance,
+            stretch=best.stretch,
+            misfit=max(1.0, best.misfit / best.noise[0] ** 2),
+            outliers=best.outliers,
+            area=best.area,
+            paint=best.paint,
+            outline=outline,
+            cost=_cost(best, self._prior),
+        )
+
+
+_COMPARED: Final = 400.0
+"""Pixels of brightness that count when tone curves are compared: those that see the needle."""
+
+
+def _cost(best: DeliveredMinimum, prior: float) -> float:
+    """Negative logarithm of the likelihood with noise of its own, but for a constant."""
+    luma, chroma = np.log(best.noise).tolist()
+    shared = float(best.sizes[2] * best.sizes[3])
+    stretched = float(((best.stretch - 1.0) ** 2).sum())
+    return _COMPARED * (luma + 2.0 * chroma / shared) + 0.5 * prior * stretched
 
 
 def rest_prior(*uneven: int) -> FloatArray:

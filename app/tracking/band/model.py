@@ -101,7 +101,14 @@ def no_rows(count: int) -> Any:
 
 @njit(fastmath=REORDERED)
 def design(
-    places: Any, outline: Any, shape: Any, blur: float, shift: Any, stretch: Any, rows: Any
+    places: Any,
+    outline: Any,
+    shape: Any,
+    blur: float,
+    shift: Any,
+    stretch: Any,
+    rows: Any,
+    blur_along: float = 0.0,
 ) -> None:
     """Fill the rows of the pixels that see more than the background.
 
@@ -109,14 +116,17 @@ def design(
         places: u, v from the outline's origin, (m, 2).
         outline: a `band.outline.Outline`.
         shape: a `rig.NeedleShape`.
-        blur: standard deviation of the point spread [px].
+        blur: standard deviation of the point spread [px]; across the needle only if another is
+            given along it.
         shift: how far the band is from the outline's place [px], (2,).
         stretch: width and length of the band over those of the outline, (2,).
         rows: out, `Rows`.
+        blur_along: standard deviation along the needle [px], where it is another one.
     """
     arcs = outline.arcs
     cells = arcs.shape[1]
-    strip, reach = _strips(cells), _FAR * blur
+    long = blur_along if blur_along > 0.0 else blur
+    strip, reach = _strips(cells), _FAR * long
     low, high = stretch[1] * arcs[:2].min(), stretch[1] * arcs[:2].max()
     inner_low = stretch[1] * arcs[0].max() + reach
     inner_high = stretch[1] * arcs[1].min() - reach
@@ -138,18 +148,18 @@ def design(
             if inner_low < e < inner_high:
                 _within(row, a, b, edges, strip.paint)
             else:
-                _band(row, e, a, b, edges, arcs, blur, stretch[1], strip.paint)
+                _band(row, e, a, b, edges, arcs, long, stretch[1], strip.paint)
         for tip in range(2):
             if (e < high - reach * 2.0) if tip else (e > low + reach * 2.0):
                 continue
             thick = slim
             if tip:
                 at = (n - middle) / (stretch[0] * width)
-                thick = _taper(outline, shape, e, at, blur, stretch[1])
+                thick = _taper(outline, shape, e, at, long, stretch[1])
             a, b = _across(n, middle, width * thick, blur, stretch[0], edges)
             if a < b and not rows.seen[i]:
                 row[:], rows.seen[i] = 0.0, True
-            _shaft(row, e, a, b, edges, arcs, blur, stretch[1], tip, strip.splines, strip.first)
+            _shaft(row, e, a, b, edges, arcs, long, stretch[1], tip, strip.splines, strip.first)
 
 
 @njit(fastmath=REORDERED)

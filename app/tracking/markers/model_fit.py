@@ -29,6 +29,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray, read_only, unit
 from app.core.compiled import njit
+from app.tracking.band.delivered_fit import keeps_all_colour
 from app.tracking.band.fit import BandFit, BandFitter
 from app.tracking.cameras.camera import Image
 from app.tracking.markers.extractor import (
@@ -281,6 +282,35 @@ _QUALITY_ALONE, _ALONE_PX = 0.85, 0.1
 """Least quality and largest standard deviation [px] of a find that no other picture confirms."""
 
 _ONE = np.eye(2)
+SRGB: Final = 2.4
+LINEAR: Final = 1.0
+"""Tone curves that are tried, see `band.tone`: cameras', and none."""
+
+_AS_NOISY: Final = 1.5
+"""What a fit of light that adds up may leave, over the noise of the picture [variances]."""
+
+_HALF: Final = 24
+"""What is looked at about a band for its picture's noise and the colours' resolution [px]."""
+
+_CLEARLY: Final = 30.0
+"""Logarithm of the likelihoods' ratio from which a picture has no tone curve."""
+
+_WIDER: Final = 0.06
+_LONGER: Final = 0.04
+"""By how much width and length may be off in a delivered picture, relative: its blur is free, so
+that a straight edge over the band's side or end leaves hardly anything else."""
+
+_DELIVERED: Final = 0.15
+"""Like `_STRETCH`, in a delivered picture."""
+
+_MORE: Final = 2.0
+_MISFIT: Final = 2.6
+"""Like `ModelFit.misfit_max`, in a delivered picture: few photons are noisy in a dark colour."""
+
+_DELIVERED_PX: Final = 0.02
+"""By how much the covariance of a fit in a delivered picture is larger than what its left-over
+noise makes, and standard deviation [px] besides: quantised blocks spread beyond what is looked
+at."""
 
 
 @dataclass(frozen=True)
@@ -352,13 +382,12 @@ class ModelFit(Extractor):
         room = max(_AGREES_PX, _AGREES * self._half_px(start, axis)[1])
         if not _farthest(middle, hint.uv) < room:
             return None
-        fit = self.fitter.fit(image, start, axis)
-        if fit is None or not self.coarse.area_min <= fit.area <= self.coarse.area_max:
+        fit = self._weighed(image, start, axis)
+        if isinstance(fit, Miss):
             return None
-        if not _farthest(fit.uv, hint.uv) < _CLOSE_PX:
+        if not self.coarse.area_min <= fit.area <= self.coarse.area_max:
             return None
-        judged = self._judged(image, fit, start, axis)
-        return judged if isinstance(judged, MarkerFix) else None
+        return fit if _farthest(fit.uv, hint.uv) < _CLOSE_PX else None
 
     def _axis(self, axis_world: FloatArray | None) -> FloatArray | None:
         """Carry the axis into the camera frame, at length one; None where it is not known."""
@@ -378,48 +407,102 @@ class ModelFit(Extractor):
         self, image: Image, found: MarkerFix, axis: FloatArray, p_world: FloatArray | None
     ) -> MarkerFix | Miss:
         start = self._start(found, axis, p_world)
-        fit = None if start is None else self.fitter.fit(image, start, axis)
-        if start is None or fit is None:
+        if start is None:
             return Miss(MissReason.WRONG_SHAPE, found.uv)
-        return self._judged(image, fit, start, axis)
+        return self._weighed(image, start, axis)
+
+    def _weighed(self, image: Image, start: FloatArray, axis: FloatArray) -> MarkerFix | Miss:
+        """Fit and judge: as light that adds up, unless the picture was delivered otherwise."""
+        uv = self.model.pixel(self.model.T_world_camera @ start)
+        if uv is None:
+            return Miss(MissReason.WRONG_SHAPE)
+        if keeps_all_colour(read_only(image[:]), uv[0], uv[1], _HALF):
+            fit = self.fitter.fit(image, start, axis)
+            judged = None if fit is None else self._judged(image, fit, start, axis)
+            if isinstance(judged, MarkerFix) and fit is not None:
+                left = fit.misfit * self.coarse.noise_grey**2
+                least = (0.5 * self.coarse.noise_grey) ** 2
+                if left <= _AS_NOISY * max(least, noise_variance(image, uv, _HALF)):
+                    return judged
+        return self._delivered(image, start, axis) or Miss(MissReason.PARTLY_HIDDEN, uv)
+
+    def _delivered(
+        self, image: Image, start: FloatArray, axis: FloatArray
+    ) -> MarkerFix | Miss | None:
+        """Fit with a camera's tone curve, or with none where that leaves clearly less."""
+        fitter = self.fitter
+        matt = fitter.fit_delivered(image, start, axis, SRGB)
+        shiny: BandFit | None = None
+        plain = fitter.fit_delivered(image, start, axis, LINEAR)
+        if matt is not None and plain is not None and plain.cost + _CLEARLY < matt.cost:
+            shiny = fitter.fit_delivered(image, start, axis, SRGB, glossy=True)
+            if shiny is None or plain.cost + _CLEARLY < shiny.cost:
+                return self._judged(image, plain, start, axis, delivered=True)
+        first = None if matt is None else self._judged(image, matt, start, axis, delivered=True)
+        if isinstance(first, MarkerFix):
+            return first
+        shiny = shiny or fitter.fit_delivered(image, start, axis, SRGB, glossy=True)
+        if shiny is None:
+            return first
+        second = self._judged(image, shiny, start, axis, delivered=True)
+        return second if isinstance(second, MarkerFix) or first is None else first
 
     def _judged(
-        self, image: Image, fit: BandFit, start: FloatArray, axis: FloatArray
+        self,
+        image: Image,
+        fit: BandFit,
+        start: FloatArray,
+        axis: FloatArray,
+        delivered: bool = False,
     ) -> MarkerFix | Miss:
         """Whether the fit is of the band, and the band on a shaft; if so, how far to trust it."""
-        if (reason := self._refused(fit)) is not None:
+        if (reason := self._refused(fit, delivered)) is not None:
             return Miss(reason, fit.uv)
         colour, noise = self.coarse.colour, self.coarse.noise_grey
         shaft = shaft_evidence(image, fit, self.shape, colour.weights, self.blur_px, noise)
         if not shaft.found:
             return Miss(MissReason.NO_SHAFT, fit.uv)
         inflation = max(1.0, fit.misfit)
-        covariance = inflation * fit.covariance + self._doubt(fit, start, axis) * _ONE
+        if delivered:
+            covariance = (
+                _MORE * fit.covariance + self._stretched(fit, start, axis, _DELIVERED) * _ONE
+            )
+            covariance = covariance + _DELIVERED_PX**2 * _ONE
+        else:
+            covariance = inflation * fit.covariance + self._doubt(fit, start, axis) * _ONE
         quality = (1.0 - fit.outliers) / inflation
         alone = shaft.found_alone and quality >= _QUALITY_ALONE
         alone = alone and float(covariance[0, 0] + covariance[1, 1]) <= _ALONE_PX**2
         return MarkerFix(fit.uv, covariance, fit.area, quality, Centre.BAND, alone)
 
-    def _refused(self, fit: BandFit) -> MissReason | None:
+    def _refused(self, fit: BandFit, delivered: bool) -> MissReason | None:
         if not self.coarse.colour.is_marker(fit.paint):
             return MissReason.NOTHING_RED
-        if fit.outliers > self.outliers_max or fit.misfit > self.misfit_max:
+        if fit.outliers > self.outliers_max or fit.misfit > (
+            _MISFIT if delivered else self.misfit_max
+        ):
             return MissReason.PARTLY_HIDDEN
         width, length = fit.stretch.tolist()
+        if delivered and (abs(width - 1.0) > _WIDER or abs(length - 1.0) > _LONGER):
+            return MissReason.PARTLY_HIDDEN
         if max(abs(width - 1.0), abs(length - 1.0)) > self.stretch_max:
             return MissReason.WRONG_SHAPE
         return None
 
     def _doubt(self, fit: BandFit, start: FloatArray, axis: FloatArray) -> float:
         """Variance of the centre beyond the fit's own, by what the model does not have [px²]."""
-        (width, length), (wide, long) = fit.stretch.tolist(), self._half_px(start, axis)
-        misfit = (wide * (width - 1.0)) ** 2 + (long * (length - 1.0)) ** 2
         return (
             self.floor_px**2
             + _MISFIT_PX2 * max(0.0, fit.misfit - _USUAL_MISFIT)
             + _OUTLIERS_PX2 * max(0.0, fit.outliers - _USUAL_OUTLIERS)
-            + _STRETCH * max(0.0, misfit - _USUAL_STRETCH_PX**2)
+            + self._stretched(fit, start, axis, _STRETCH)
         )
+
+    def _stretched(self, fit: BandFit, start: FloatArray, axis: FloatArray, share: float) -> float:
+        """Variance of the centre by what width and length are off [px²]."""
+        (width, length), (wide, long) = fit.stretch.tolist(), self._half_px(start, axis)
+        misfit = (wide * (width - 1.0)) ** 2 + (long * (length - 1.0)) ** 2
+        return share * max(0.0, misfit - _USUAL_STRETCH_PX**2)
 
     def _half_px(self, p_camera: FloatArray, axis: FloatArray) -> tuple[float, float]:
         """Half the width and half the length of the band's picture [px]."""
@@ -448,6 +531,19 @@ class ModelFit(Extractor):
             self.model, self.shape, world, self.model.T_world_camera.rotate(axis)
         )
         return None if shift is None else self._at(found.uv - shift, depth)
+
+
+def noise_variance(image: Image, uv: FloatArray, half: int) -> float:
+    """Variance of the grey values' noise about a pixel [levels²], by second differences."""
+    u, v = (round(x) for x in uv.tolist())
+    part = image[max(0, v - half) : v + half, max(0, u - half) : u + half].astype(np.float64)
+    if min(part.shape[:2]) < 8:
+        return 1.0
+    second = np.abs(part[:, 2:] - 2.0 * part[:, 1:-1] + part[:, :-2]).reshape(-1, 3)
+    middle = np.median(second, axis=0)  # whole numbers: the median lies somewhere in their bin
+    below, at = (second < middle).mean(axis=0), (second == middle).mean(axis=0)
+    middle = middle - 0.5 + (0.5 - below) / np.maximum(at, 1e-9)
+    return max(1.0, float(np.mean((1.4826 * middle) ** 2)) / 6.0)
 
 
 def _farthest(uv: FloatArray, other: FloatArray) -> float:
