@@ -16,6 +16,7 @@ from app.exercises.scene import compile_exercise, device_of, placed_plan_of, sce
 from app.tracking.optics.rig import load_rig
 from app.tracking.simulated import picture_effects
 from app.tracking.simulated.cameras import simulated_cameras
+from app.tracking.simulated.delivery import from_srgb
 from app.tracking.simulated.sampled import BOTH, SampledDepth, Spoiled
 from app.tracking.simulated.scene import MarkerScene
 
@@ -26,23 +27,46 @@ def asking(**effects):
     return exercise.model_copy(update={"effects": parts})
 
 
-def test_an_exercise_without_them_hands_nothing_to_its_cameras():
+def test_an_exercise_without_them_has_the_pictures_that_its_rig_delivers():
     exercise = load_exercise("first-insertion")
-    assert pictures_of(exercise, device_of(exercise)) == {}
+    asked = pictures_of(exercise, device_of(exercise))
+    assert {name: values.tolist() for name, values in asked.items()} == {
+        "camera_tone": [0.0, 4000.0, 8.0],
+        "camera_jpeg": [0.0, 90.0],
+    }
+    plain = exercise.model_copy(update={"rig": "thesis"})
+    assert pictures_of(plain, device_of(plain)).keys() == asked.keys()
 
 
-def test_what_is_asked_for_reaches_the_cameras_before_the_noise():
+def test_an_exercise_can_ask_for_another_delivery():
+    part = EffectPart(parameters={"quality": 80.0}, model="4:2:2")
+    exercise = load_exercise("first-insertion")
+    exercise = exercise.model_copy(update={"effects": {"camera_jpeg": part}})
+    asked = pictures_of(exercise, device_of(exercise))
+    assert asked["camera_jpeg"].tolist() == [1.0, 80.0]
+    assert asked["camera_tone"].tolist() == [0.0, 4000.0, 8.0]
+
+
+def test_real_cameras_deliver_by_themselves_and_the_loop_computes_nothing_of_it():
+    exercise = load_exercise("first-insertion")
+    real = compile_exercise(exercise, device_of(exercise), _views(), simulated=False)
+    assert real.pictures() == {}
+    assert not [one for one in real.dropped if one.name.startswith("camera")]
+    simulated = compile_exercise(exercise, device_of(exercise), _views())
+    assert not [stage for stage in simulated.stages() if stage.name.startswith("camera")]
+
+
+def test_what_is_asked_for_reaches_the_cameras_as_light():
     exercise = asking(camera_light={"level": 0.1, "gradient": 0.0, "flicker": 0.0})
     rig, clock = load_rig("wide"), VirtualClock(1.0)
     scene = MarkerScene(np.array([0.0, 0.16, 0.2]), np.array([0.0, 0.0, -1.0]))
-    asked = pictures_of(exercise, device_of(exercise))
     means = []
-    for effects in ({}, asked):
-        chain = picture_effects.picture_effects(effects)
+    for one in (load_exercise("first-insertion"), exercise):
+        chain = picture_effects.picture_effects(pictures_of(one, device_of(one)))
         camera, _ = simulated_cameras(rig, lambda _: scene, clock, 1, chain)
         camera.open()
-        means.append(float(camera.read().image.mean()))
-    assert means[1] == pytest.approx(0.1 * means[0], abs=3.0)
+        means.append(float(from_srgb(camera.read().image / 255.0).mean()))
+    assert means[1] == pytest.approx(0.1 * means[0], rel=0.1)
 
 
 def test_a_poisoned_effect_on_pictures_is_never_called_where_it_is_dropped(monkeypatch):
@@ -69,6 +93,7 @@ def test_explain_says_by_whom_they_are_used_and_their_time_for_each_picture():
     blur, joint = found["camera_blur"], found["ball_joint"]
     assert "the tracker measures in pictures of simulated cameras" in blur["why"]
     assert blur["picture_ns"] > 0.0
+    assert min(found[name]["picture_ns"] for name in ("camera_tone", "camera_jpeg")) > 0.0
     assert (blur["cost_ns"], blur["model_costs_ns"]) == (0.0, {})
     assert joint["picture_ns"] is None
     real = explanation(exercise, simulated=False)

@@ -42,8 +42,10 @@ def test_explain_says_what_is_simulated_why_and_at_what_cost() -> None:
     done = RUN.invoke(build(), ["explain", "first-insertion", "--json=1"])
     assert done.exit_code == 0
     document = json.loads(done.stdout)
-    assert {row["effect"] for row in document["simulated"]} == {"lateral_tissue", "shaft_friction"}
-    assert all(row["cost_ns"] > 0.0 and row["why"] for row in document["simulated"])
+    cost = {row["effect"]: (row["cost_ns"], row["picture_ns"]) for row in document["simulated"]}
+    assert set(cost) == {"lateral_tissue", "shaft_friction", "camera_tone", "camera_jpeg"}
+    assert all(sum(one or 0.0 for one in both) > 0.0 for both in cost.values())
+    assert all(row["why"] for row in document["simulated"])
     assert document["dropped"][0]["effect"] == "breathing"
     (law,) = document["laws"]
     assert law["law"] == "fixture"

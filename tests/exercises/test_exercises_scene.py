@@ -75,7 +75,7 @@ def test_scored_metrics_are_consumers_of_what_they_read() -> None:
 
 def test_the_first_insertion_drops_breathing_of_an_organ_the_target_is_not_in() -> None:
     kept, dropped = fate("first-insertion", simulated=True)
-    assert kept == ["lateral_tissue", "shaft_friction"]
+    assert kept == ["camera_jpeg", "camera_tone", "lateral_tissue", "shaft_friction"]
     assert "acts on lung, and the target lies in liver" in dropped["breathing"]
 
 

@@ -6,8 +6,8 @@ pixels, brightness at full resolution, the two colour differences at less: by ha
 subsampling spreads it over two pixels, and the quantisation leaves steps at the blocks' borders.
 
 The time is that of coding and decoding; a real camera codes by itself. Where no pictures are made
-(a trial in virtual time) the marker's centre has the noise that was measured in pictures of the rig
-as it is delivered. Made by `tracking.simulated.delivery`.
+(a trial in virtual time) it changes nothing: the marker's centre has the noise that
+`tracking.simulated.sampled` gives it. Made by `tracking.simulated.delivery`.
 """
 
 from typing import Any, Final

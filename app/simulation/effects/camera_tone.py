@@ -7,12 +7,12 @@ what the tone curve makes a grey value of 255 of:
     srgb     IEC 61966-2-1: 12.92 L up to L = 0.0031308, from there 1.055 L^(1/2.4) - 0.055
     linear   L itself
 
-The photons stand in for the rig's constant noise: brighter is noisier in light, and dimmer is
-noisier in grey values, where the curve is steep. More than 200 photons are counted as a normal
-number of the same variance, and so are fewer: the picture is rounded to more than their difference.
+The number is drawn from the normal distribution of its mean and variance. The photons stand in for
+the rig's constant noise: brighter is noisier in light, and dimmer is noisier in grey values, where
+the curve is steep.
 
-Where no pictures are made (a trial in virtual time) the marker's centre has the noise that was
-measured in pictures of the rig as it is delivered. Made by `tracking.simulated.delivery`.
+Where no pictures are made (a trial in virtual time) it changes nothing: the marker's centre has the
+noise that `tracking.simulated.sampled` gives it. Made by `tracking.simulated.delivery`.
 """
 
 from typing import Any, Final
