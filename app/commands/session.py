@@ -120,7 +120,8 @@ def verify(
     from app.commands.people import held
     from app.session.recording import open_recording
     from app.session.sidecar import verify_record
-    from app.session.signature import Signed, judge_whole, this_station
+    from app.session.signature import Signed, judge_whole
+    from app.session.station import this_station
     from app.session.store import find
     from app.session.summary import derive
 

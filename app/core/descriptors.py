@@ -26,13 +26,23 @@ def hold(descriptor: int) -> None:
 
 def is_held(descriptor: int) -> bool:
     """Whether somebody else holds a file; True where the system cannot tell."""
+    return hold_alone(descriptor) is not True
+
+
+def hold_alone(descriptor: int) -> bool | None:
+    """Hold a file alone until it is closed, unless somebody else holds it (False).
+
+    None where the system cannot tell: it has no locks, or this file system has none.
+    """
     if fcntl is None:
-        return True
+        return None
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
     except OSError:
-        return True
-    return False
+        return None
+    return True
 
 
 def seal(descriptor: int, seals: int) -> None:

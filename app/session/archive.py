@@ -34,7 +34,8 @@ from app.session.header import TRASH
 from app.session.index import Index
 from app.session.people import NAMES_FILE, PEOPLE, People
 from app.session.sidecar import file_digest, read_kept, sidecar
-from app.session.signature import StationKey, key_file, signature_file
+from app.session.signature import signature_file
+from app.session.station import StationKey, key_file
 from app.session.store import SUFFIX, records
 
 UNDO_DAYS: Final = 30

@@ -26,7 +26,8 @@ from app.scoring.conditions import Conditions, DeviceKind
 from app.session.database import BUSY_SECONDS, Database, DatabaseError
 from app.session.people import People
 from app.session.sidecar import Cached, fresh_kept, read_kept
-from app.session.signature import StationKey, judged, signature_file, this_station
+from app.session.signature import judged, signature_file
+from app.session.station import StationKey, this_station
 from app.session.store import SUFFIX, records
 from app.session.summary import UNFINISHED, Summary
 

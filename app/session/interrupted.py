@@ -13,7 +13,7 @@ import os
 import struct
 import time
 from collections.abc import Iterator
-from contextlib import closing
+from contextlib import closing, suppress
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import IO, Final
@@ -23,8 +23,8 @@ from mcap.opcode import Opcode
 from mcap.records import DataEnd, Footer, Metadata
 from mcap.writer import MCAP0_MAGIC
 
-from app.core.descriptors import is_held
-from app.core.files import sync
+from app.core.descriptors import hold, is_held
+from app.core.files import replace, sync
 from app.session.errors import SessionError
 from app.session.machine import FINAL
 from app.session.recording import read_recording
@@ -110,12 +110,14 @@ def recover(folder: Path, session_id: str, now: float | None = None) -> Path:
             end = _end(path, now)
             fd = os.open(beside, os.O_CREAT | os.O_TRUNC | os.O_WRONLY, 0o600)
             with closing(os.fdopen(fd, "wb")) as out:
+                with suppress(OSError):
+                    hold(out.fileno())  # nobody takes it for one that a killed program left
                 for part in _whole(stream, path.stat().st_size):
                     out.write(part)
                 out.write(end)
                 out.flush()
                 os.fsync(out.fileno())
-            os.replace(beside, path)
+            replace(beside, path)
         if os.name == "posix":
             sync(path.parent)
     except OSError as error:

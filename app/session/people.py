@@ -25,7 +25,7 @@ from app.core.files import write_atomically
 from app.session.database import BUSY_SECONDS, Database
 from app.session.errors import PeopleError
 from app.session.roster import RosterLine, checked_pin, judged_lines
-from app.session.signature import StationKey, new_recovery_key
+from app.session.station import StationKey, new_recovery_key
 
 if TYPE_CHECKING:
     from sqlalchemy import Connection, MetaData, Table

@@ -10,8 +10,11 @@ from app.core.paths import sessions
 from app.session.calibration_flag import CalibrationFlags
 from app.session.errors import SessionError, SessionNotFoundError
 from app.session.header import TRASH as TRASH
+from app.session.journal import Journal, move, settle
+from app.session.mcap_file import remove_strays
 from app.session.sidecar import Cached, fresh_kept, read_kept, sidecar
-from app.session.signature import judged, signature_file, this_station
+from app.session.signature import judged, signature_file
+from app.session.station import this_station
 from app.session.summary import Summary
 
 SUFFIX: Final = ".mcap"
@@ -63,10 +66,11 @@ def delete(folder: Path, session_id: str) -> Path:
         SessionNotFoundError: if there is no such session.
         SessionError: if it cannot be moved.
     """
-    path = _move(find(folder, session_id), folder / TRASH)
+    settle(folder)
+    path = find(folder, session_id)
     with suppress(OSError):
         os.utime(sidecar(path))  # its time tells from now on when the record was deleted
-    return path
+    return _move(path, folder / TRASH, folder)
 
 
 def restore(folder: Path, session_id: str) -> Path:
@@ -76,10 +80,12 @@ def restore(folder: Path, session_id: str) -> Path:
         SessionNotFoundError: if the trash does not hold it.
         SessionError: if it cannot be moved.
     """
-    return _move(find(folder / TRASH, session_id), folder)
+    settle(folder)
+    return _move(find(folder / TRASH, session_id), folder, folder)
 
 
 def _sorted(folder: Path, kept_of: Callable[[Path], Cached]) -> list[Summary]:
+    settle(folder.parent if folder.name == TRASH else folder)
     flags, key = CalibrationFlags.read(), this_station()
     summaries = [flags.flagged(judged(path, kept_of(path), key)) for path in records(folder)]
     return sorted(summaries, key=lambda summary: (summary.started, summary.id), reverse=True)
@@ -92,10 +98,10 @@ def records_folder(chosen: Path | None) -> Path:
         SessionError: if the chosen one is no folder.
     """
     if chosen is None:
-        return sessions()
+        return settled(sessions())
     if not chosen.is_dir():
         raise SessionError(f"{chosen} is not a folder: give the folder that holds the records")
-    return chosen
+    return settled(chosen)
 
 
 def records(folder: Path) -> list[Path]:
@@ -112,17 +118,28 @@ def records(folder: Path) -> list[Path]:
         raise SessionError(f"cannot read the folder {folder}: {error.strerror or error}") from error
 
 
-def _move(path: Path, folder: Path) -> Path:
-    """Move a record and what stands beside it; the record last: it is never without them."""
-    target = folder / path.name
+def beside(path: Path) -> tuple[Path, ...]:
+    """Return what belongs to a record: the files beside it, and itself at last."""
+    return sidecar(path), signature_file(path), path
+
+
+def settled(folder: Path) -> Path:
+    """Return a folder of records after whatever a killed program left there was put in order."""
+    settle(folder)
+    remove_strays(folder)
+    return folder
+
+
+def _move(path: Path, to: Path, folder: Path) -> Path:
+    """Move a record with what stands beside it as one step of the folder of the records."""
+    target = to / path.name
     if target.exists():
         raise SessionError(f"{target} exists already: move it away first")
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for beside in (sidecar, signature_file):
-            if beside(path).exists():
-                os.replace(beside(path), beside(target))
-        os.replace(path, target)
-    except OSError as error:
-        raise SessionError(f"cannot move {path} to {folder}: {error.strerror or error}") from error
+    with Journal(folder) as journal:
+        steps = [move(a, b) for a, b in zip(beside(path), beside(target), strict=True)]
+        try:
+            journal.plan(steps)
+        except OSError as error:
+            why = error.strerror or error
+            raise SessionError(f"cannot move {path} to {to}: {why}") from error
     return target

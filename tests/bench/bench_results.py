@@ -27,7 +27,7 @@ from app.session.people import People
 from app.session.recording import open_recording
 from app.session.roster import RosterLine
 from app.session.sidecar import fresh_kept
-from app.session.signature import this_station
+from app.session.station import this_station
 from app.views.people.results_report import group_report, student_report, write_report
 from tests.bench.bench_record import record
 from tests.bench.in_turn import compare
