@@ -14,6 +14,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from app.core.files import step
 from app.session.errors import SessionError
 
 if TYPE_CHECKING:
@@ -23,10 +24,16 @@ BUSY_SECONDS: Final = 10.0
 """So long a program waits for another one that writes [s]."""
 
 
+_READ_ONLY: Final = "can only be read: give this user the right to write there"
+_FULL: Final = "cannot be written, the disk is full: make room, nothing is lost"
+_NO_LOCKS: Final = "cannot be locked or written where it lies: put it on a disk of this computer"
 _MENDED: Final = (
     "is damaged: `acus store rebuild` makes the index anew, people come back from a backup"
     " (`acus store restore`)"
 )
+
+
+_NO_FOLDER: Final = "cannot be opened: look whether its folder exists and may be written"
 
 
 class DatabaseError(SessionError):
@@ -36,6 +43,21 @@ class DatabaseError(SessionError):
     def damaged(self) -> bool:
         """Whether the file is no database, or a broken one."""
         return _MENDED in str(self)
+
+    @property
+    def unwritable(self) -> bool:
+        """Whether the file cannot be written: no right, no room, or a disk without locks."""
+        return any(text in str(self) for text in (_READ_ONLY, _FULL, _NO_LOCKS, _NO_FOLDER))
+
+    @property
+    def busy(self) -> bool:
+        """Whether another program has it."""
+        return "in use by another program" in str(self)
+
+    @property
+    def newer(self) -> bool:
+        """Whether a newer version of Acus has written it."""
+        return "newer version of Acus" in str(self)
 
 
 class Database:
@@ -47,6 +69,7 @@ class Database:
         version: of the tables; a file of a later one is left alone.
         what: it holds, for messages, such as "index".
         busy: seconds to wait for another program.
+        disposable: what it holds can be made anew: tables that are not these are thrown away.
     """
 
     def __init__(
@@ -56,7 +79,9 @@ class Database:
         version: int,
         what: str,
         busy: float = BUSY_SECONDS,
+        disposable: bool = False,
     ) -> None:
+        self._disposable = disposable
         self.path, self._tables, self._version = path, tables, version
         self._what, self._busy = what, busy
 
@@ -81,6 +106,8 @@ class Database:
             connection.exec_driver_sql("ROLLBACK")
             connection.exec_driver_sql("BEGIN IMMEDIATE")
             yield connection
+            if self.path is not None:
+                step("commit", self.path)
             connection.commit()
 
     def close(self) -> None:
@@ -135,14 +162,27 @@ class Database:
                 f"was written by a newer version of Acus (form {found}, this one knows "
                 f"{self._version}): use that version"
             )
-        if found < self._version:
+        if found < self._version or (self._disposable and not self._ours(engine)):
             with engine.connect() as connection:
                 connection.exec_driver_sql("ROLLBACK")
                 connection.exec_driver_sql("BEGIN IMMEDIATE")
+                if self._disposable:
+                    _drop_all(connection)
                 self._tables().create_all(connection)
                 connection.exec_driver_sql(f"PRAGMA user_version = {self._version}")
                 connection.commit()
         return engine
+
+    def _ours(self, engine: Engine) -> bool:
+        """Whether the file holds the tables that it should, and nothing else."""
+        from sqlalchemy import create_engine
+
+        with engine.connect() as connection:
+            there = schema_of(connection)
+        memory = create_engine("sqlite://")
+        self._tables().create_all(memory)
+        with memory.connect() as connection:
+            return there == schema_of(connection)
 
     def _prepare(self, connection: Any, _: object) -> None:
         connection.isolation_level = None  # transactions begin where `_begin` and `write` say so
@@ -169,6 +209,32 @@ class Database:
         return DatabaseError(f"the {self._what} {self.path or 'in memory'} {why}")
 
 
+def schema_of(connection: Connection) -> set[tuple[str, ...]]:
+    """Return all that a database defines: kind, name, and the columns of tables.
+
+    Tables of SQLite's own are left out.
+    """
+    found = connection.exec_driver_sql("SELECT type, name, tbl_name FROM sqlite_master")
+    items = [tuple(map(str, row)) for row in found if not str(row[1]).startswith("sqlite_")]
+    columns = {
+        (kind, name, *map(str, column))
+        for kind, name, _ in items
+        if kind == "table"
+        for column in connection.exec_driver_sql("SELECT * FROM pragma_table_info(?)", (name,))
+    }
+    return {*items, *columns}
+
+
+def _drop_all(connection: Connection) -> None:
+    """Throw away all that a database defines."""
+    for kind in ("trigger", "view", "table"):
+        found = connection.exec_driver_sql("SELECT name FROM sqlite_master WHERE type = ?", (kind,))
+        for (name,) in list(found):
+            if not str(name).startswith("sqlite_"):
+                quoted = str(name).replace('"', '""')
+                connection.exec_driver_sql(f'DROP {kind} IF EXISTS "{quoted}"')
+
+
 def _begin(connection: Any) -> None:
     connection.exec_driver_sql("BEGIN")
 
@@ -176,10 +242,12 @@ def _begin(connection: Any) -> None:
 def _reason(text: str, busy: float) -> str:
     reasons = {
         "database is locked": f"is in use by another program for {busy:g} s: close it, try again",
-        "readonly": "can only be read: give this user the right to write there",
-        "disk is full": "cannot be written, the disk is full: make room, nothing is lost",
+        "readonly": _READ_ONLY,
+        "disk is full": _FULL,
+        "locking protocol": _NO_LOCKS,
+        "disk I/O error": _NO_LOCKS,
         "not a database": _MENDED,
         "malformed": _MENDED,
-        "unable to open": "cannot be opened: look whether its folder exists and may be written",
+        "unable to open": _NO_FOLDER,
     }
     return next((said for key, said in reasons.items() if key in text), f"cannot be used: {text}")

@@ -5,16 +5,22 @@ last look (by size and time of record and signature) is read, all else is taken 
 forgets all and reads every record. Both end with the same rows. A program that is killed in between
 leaves whole rows only, and the next look reads what is missing. Where the folder cannot be written
 the index is kept in memory.
+
+Nothing is believed of a row that this station has not sealed (a keyed MAC over all of it): its
+record is read instead. Where a station seals, an attempt counts if its signature is verified or the
+instructor has admitted it.
 """
 
 from __future__ import annotations
 
 import hashlib
+import hmac
 import json
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from contextlib import suppress
+from dataclasses import dataclass, field, fields, replace
 from datetime import UTC, datetime
 from functools import cache, cached_property, lru_cache
 from pathlib import Path
@@ -23,11 +29,13 @@ from typing import TYPE_CHECKING, Any, Final
 from app.core.json_values import finite
 from app.core.progress import Progress
 from app.scoring.conditions import Conditions, DeviceKind
+from app.session.admission import Admission, admissions, with_admission
 from app.session.database import BUSY_SECONDS, Database, DatabaseError
+from app.session.journal import settle
 from app.session.people import People
 from app.session.sidecar import Cached, fresh_kept, read_kept
-from app.session.signature import judged, signature_file
-from app.session.station import StationKey, this_station
+from app.session.signature import Signed, judged, signature_file
+from app.session.station import StationKey, seals_here, this_station
 from app.session.store import SUFFIX, records
 from app.session.summary import UNFINISHED, Summary
 
@@ -37,7 +45,7 @@ if TYPE_CHECKING:
 INDEX: Final = "index.sqlite"
 """Name of the file in the folder of the records."""
 
-_VERSION: Final = 1
+_VERSION: Final = 2
 _AT_ONCE: Final = 100
 """Rows that are written in one transaction."""
 
@@ -60,9 +68,11 @@ class Indexed:
         total: points; None where it was not scored or is void.
         passed: whether the score passes; None without one.
         verdict: of the signature.
-        counts: whether it counts for a person: scored, by a person, and not emulated.
+        counts: whether it counts for a person: scored, by a person, not emulated, and it `stands`.
         under: what the score was made under, as text; empty where nothing is known.
         document: the summary as `Summary.document` gives it, as text.
+        stands: whether this station vouches for it: verified, admitted by the instructor, or not
+            altered where no station seals. What does not stand neither passes nor counts.
     """
 
     id: str
@@ -78,6 +88,7 @@ class Indexed:
     counts: bool
     under: str
     document: str
+    stands: bool = field(default=True, compare=False)
 
     @cached_property
     def summary(self) -> Summary:
@@ -114,11 +125,13 @@ class Refreshed:
         read: records that were read into the index.
         gone: rows whose record has gone.
         total: rows now.
+        mended: rows that were not what this station had written, of those that were read.
     """
 
     read: int
     gone: int
     total: int
+    mended: int = 0
 
 
 def totals_of(folder: Path, student: str, exercise: str, version: int) -> list[float | None]:
@@ -143,9 +156,12 @@ def totals_of(folder: Path, student: str, exercise: str, version: int) -> list[f
         if (one.exercise, one.version) == (exercise, version)
         and one.state in ("ended", "aborted", "unfinished")
         and one.conditions.by_person
+        and (one.stands or one.state == UNFINISHED)
         and (one.id not in remarks or not remarks[one.id].void)
     ]
 
+
+_FIELDS: Final = tuple(one.name for one in fields(Indexed) if one.name != "stands")
 
 Mark = tuple[int, int, int, str]
 """Size and time of a record, time of its signature, and the station whose key judged that."""
@@ -164,7 +180,12 @@ class Index:
         path = folder / INDEX
         writable = os.access(path if path.exists() else folder, os.W_OK)
         where = path if writable and os.access(folder, os.W_OK) else None
-        self.database = Database(where, lambda: _attempts().metadata, _VERSION, "index", busy)
+        self._busy = busy
+        self.database = self._opened(where)
+
+    def _opened(self, path: Path | None) -> Database:
+        tables = lambda: _attempts().metadata  # noqa: E731
+        return Database(path, tables, _VERSION, "index", self._busy, disposable=True)
 
     @property
     def path(self) -> Path | None:
@@ -174,12 +195,25 @@ class Index:
     def refresh(self, progress: Progress | None = None) -> Refreshed:
         """Bring the index up to date with the folder.
 
+        Where its file cannot be written it goes on in memory.
+
         Raises:
             DatabaseError: if it cannot be read or written.
             SessionError: if the folder cannot be read.
             Cancelled: if that was asked for; what was read by then stays.
         """
-        progress, key = progress or Progress(), this_station()
+        settle(self.folder)
+        try:
+            return self._refresh(progress or Progress())
+        except DatabaseError as error:
+            if not error.unwritable or self.path is None:
+                raise
+        self.database.close()
+        self.database = self._opened(None)
+        return self._refresh(progress or Progress())
+
+    def _refresh(self, progress: Progress) -> Refreshed:
+        key = this_station()
         there, known = self._there(key), self._known()
         changed = [name for name, mark in there.items() if known.get(name) != mark]
         gone = [name for name in known if name not in there]
@@ -197,8 +231,10 @@ class Index:
     def rebuild(self, progress: Progress | None = None) -> Refreshed:
         """Make the index anew from the records, whatever it and their summaries say.
 
-        Until all are read the old one stands; a damaged file is replaced. Raises as `refresh`.
+        Until all are read the old one stands; a file that is no index is replaced. Raises as
+        `refresh`.
         """
+        settle(self.folder)
         progress, key = progress or Progress(), this_station()
         there = self._there(key)
         rows: list[dict[str, Any]] = []
@@ -209,7 +245,7 @@ class Index:
             gone = len(set(self._known()) - set(there))
             self._put(rows, None)
         except DatabaseError as error:
-            if not error.damaged:
+            if error.newer or error.busy or error.unwritable:
                 raise
             self.database.discard()
             gone = 0
@@ -219,20 +255,48 @@ class Index:
     def attempts(self, students: Sequence[str] | None = None) -> list[Indexed]:
         """Return what is in the index, oldest first; only that of some students if asked.
 
-        Raises:
-            DatabaseError: if it cannot be read.
-        """
-        from sqlalchemy import select
+        Rows that this station has not sealed are read anew from their records.
 
-        table = _attempts()
-        names = [field.name for field in fields(Indexed)]
-        wanted = select(*(table.c[name] for name in names)).order_by(table.c.started, table.c.id)
-        with self.database.read() as connection:
-            found = [Indexed(*row) for row in connection.execute(wanted)]
-        if students is None:
-            return found
-        asked = set(students)
-        return [one for one in found if one.student in asked]
+        Raises:
+            DatabaseError: if it cannot be read, or what the instructor has admitted cannot.
+        """
+        key, admitted, seals = this_station(), admissions(), seals_here()
+        rows, odd = self._sealed_rows(key)
+        if odd:
+            rows += self._mend(odd, key)
+        rows.sort(key=lambda row: (row["started"], row["id"]))
+        asked = None if students is None else set(students)
+        return [
+            _indexed(row, seals, admitted.get(row["id"]))
+            for row in rows
+            if asked is None or row["student"] in asked
+        ]
+
+    def problems_of(self, path: Path) -> list[str]:
+        """Say in which values the row of a record is not what the record gives; changes nothing.
+
+        A row that is merely not up to date, or not there, has no problems.
+
+        Raises:
+            DatabaseError: if the index cannot be read.
+        """
+        key = this_station()
+        mark = self._there(key).get(path.stem)
+        row = next((row for row in self._rows_as_they_are() if row["id"] == path.stem), None)
+        if mark is None or row is None or _mark_of(row) != mark:
+            return []
+        right = next(iter(_rows(self.folder, path.stem, mark, read_kept, key)), None)
+        if right is None:
+            return []
+        other = [name for name in _SEALED if name in row and row[name] != right[name]]
+        found = [
+            f"{name}: {row[name]!r} in the index, {right[name]!r} by the record"
+            for name in other
+            if name not in ("document", "under")
+        ]
+        if not found and (other or row["seal"] != _seal(row, key)):
+            found = ["its row was not written by this station"]
+        return found
 
     def content(self) -> str:
         """Return a digest of all rows: the same for two indexes that say the same."""
@@ -246,6 +310,38 @@ class Index:
         return digest.hexdigest()
 
     # --- inside -----------------------------------------------------------------------------------
+    def _rows_as_they_are(self) -> list[dict[str, Any]]:
+        """Return all rows as they stand, with record's digest and seal; those are None without."""
+        from sqlalchemy import select
+
+        table, seals = _attempts(), _seals()
+        wanted = select(table, seals.c.record, seals.c.seal).outerjoin(
+            seals, table.c.id == seals.c.id
+        )
+        names = (*(column.name for column in table.columns), "record", "seal")
+        with self.database.read() as connection:
+            return [dict(zip(names, row, strict=True)) for row in connection.execute(wanted)]
+
+    def _sealed_rows(self, key: StationKey | None) -> tuple[list[dict[str, Any]], list[str]]:
+        """Return the rows that this station has sealed, and the ids of the others."""
+        rows, odd = [], []
+        for row in self._rows_as_they_are():
+            if hmac.compare_digest(str(row["seal"]).encode(), _seal(row, key).encode()):
+                rows.append(row)
+            else:
+                odd.append(str(row["id"]))
+        return rows, odd
+
+    def _mend(self, names: Sequence[str], key: StationKey | None) -> list[dict[str, Any]]:
+        """Read records anew, and write their rows where the index can be written."""
+        there, rows = self._there(key), []
+        for name in names:
+            if name in there:
+                rows += _rows(self.folder, name, there[name], read_kept, key)
+        with suppress(DatabaseError):
+            self._put(rows, [name for name in names if name not in there])
+        return rows
+
     def _there(self, key: StationKey | None) -> dict[str, Mark]:
         """Return the marks of the records in the folder now."""
         station, marks = key.station if key else "", {}
@@ -274,17 +370,20 @@ class Index:
         from sqlalchemy import delete
         from sqlalchemy.dialects.sqlite import insert
 
-        table = _attempts()
+        key = this_station()
+        sealed = [dict(row) | {"seal": _seal(row, key)} for row in rows]
         with self.database.write() as connection:
-            if gone is None:
-                connection.execute(delete(table))
-            for begin in range(0, len(gone or ()), _AT_ONCE):
-                some = (gone or ())[begin : begin + _AT_ONCE]
-                connection.execute(delete(table).where(table.c.id.in_(some)))
-            if rows:
-                put = insert(table)
-                new = {column.name: put.excluded[column.name] for column in table.columns}
-                connection.execute(put.on_conflict_do_update(["id"], set_=new), rows)
+            for table in (_attempts(), _seals()):
+                if gone is None:
+                    connection.execute(delete(table))
+                for begin in range(0, len(gone or ()), _AT_ONCE):
+                    some = (gone or ())[begin : begin + _AT_ONCE]
+                    connection.execute(delete(table).where(table.c.id.in_(some)))
+                if sealed:
+                    put, names = insert(table), [column.name for column in table.columns]
+                    new = {name: put.excluded[name] for name in names}
+                    part = [{name: row[name] for name in names} for row in sealed]
+                    connection.execute(put.on_conflict_do_update(["id"], set_=new), part)
 
 
 def _rows(
@@ -301,7 +400,7 @@ def _rows(
     if summary.state == UNFINISHED and time.time() - mark[1] * 1e-9 < _STILL_WRITTEN:
         return []
     score, known = summary.score or {}, summary.conditions
-    total = score.get("total")
+    total = None if score.get("total") is None else float(score["total"])
     person = known is not None and known.by_person and known.kind is not DeviceKind.EMULATED
     return [
         {
@@ -315,24 +414,64 @@ def _rows(
             "exercise": summary.exercise_id,
             "version": known.version if known is not None else 0,
             "state": summary.state,
-            "duration": summary.duration,
+            "duration": float(summary.duration),
             "total": total,
             "passed": score.get("passed") if total is not None else None,
             "verdict": summary.signature,
             "counts": person and total is not None and not score.get("void_reason"),
             "under": "" if known is None else json.dumps(finite(known.document()), sort_keys=True),
             "document": json.dumps(summary.document(), sort_keys=True, ensure_ascii=False),
+            "record": kept.sha256,
         }
     ]
+
+
+_SEALED: Final = (
+    *("id", "size", "modified_ns", "signed_ns", "station", "started", "student", "exercise"),
+    *("version", "state", "duration", "total", "passed", "verdict", "counts", "under", "document"),
+    "record",
+)
+"""What the seal of a row is over, in this order."""
+
+
+def _seal(row: Mapping[str, Any], key: StationKey | None) -> str:
+    """Return the seal of a row: nobody without the station's key can make it, nor move it."""
+    if key is None:
+        return ""
+    texts = [str(row[name]) for name in _SEALED]
+    whole = "".join(f"{len(text)}:{text}" for text in texts).encode("utf-8", "surrogatepass")
+    return hmac.digest(key.derived("row of the index"), whole, "sha256").hex()
+
+
+def _mark_of(row: Mapping[str, Any]) -> Mark:
+    return row["size"], row["modified_ns"], row["signed_ns"], row["station"]
+
+
+def _indexed(row: Mapping[str, Any], seals: bool, admitted: Admission | None) -> Indexed:
+    """Return an attempt with what this station says of it now."""
+    verdict = with_admission(row["verdict"], row["record"], admitted)
+    stands = verdict != Signed.ALTERED and (not seals or verdict != Signed.UNSIGNED)
+    values = {name: row[name] for name in _FIELDS} | {"verdict": verdict}
+    if not stands:
+        values |= {"counts": False, "passed": None}
+    return Indexed(**values, stands=stands)
 
 
 @cache
 def _attempts() -> Table:
     from sqlalchemy import BigInteger, Boolean, Column, Float, Integer, MetaData, String, Table
 
+    known = MetaData()
+    Table(
+        "seals",
+        known,
+        Column("id", String, primary_key=True),
+        Column("record", String, nullable=False),
+        Column("seal", String, nullable=False),
+    )
     return Table(
         "attempts",
-        MetaData(),
+        known,
         Column("id", String, primary_key=True),
         Column("size", BigInteger, nullable=False),
         Column("modified_ns", BigInteger, nullable=False),
@@ -351,3 +490,8 @@ def _attempts() -> Table:
         Column("under", String, nullable=False),
         Column("document", String, nullable=False),
     )
+
+
+@cache
+def _seals() -> Table:
+    return _attempts().metadata.tables["seals"]

@@ -34,7 +34,7 @@ PEOPLE: Final = "people.sqlite"
 NAMES_FILE: Final = "names.json"
 INSTRUCTOR: Final = "the instructor"
 
-_VERSION: Final = 1
+_VERSION: Final = 2
 _SHORTEST_PASSWORD: Final = 8
 _FREE_TRIES: Final = 3
 _FIRST_DELAY, _LONGEST_DELAY = 5.0, 300.0
@@ -388,6 +388,32 @@ class People:
                 put = insert(table).values(attempt=attempt, **new)
                 connection.execute(put.on_conflict_do_update(["attempt"], set_=said))
 
+    def admitted(self) -> list[tuple[str, str, str, str, str]]:
+        """Return what was admitted (`admission`): attempt, record, reason, time and seal."""
+        if not (self.folder / PEOPLE).exists():
+            return []
+        from sqlalchemy import select
+
+        t = _tables().tables["admitted"].c
+        wanted = select(t.attempt, t.record, t.why, t.time, t.seal)
+        with self.database.read() as connection:
+            return [
+                (str(a), str(record), str(why), str(time), str(seal))
+                for a, record, why, time, seal in connection.execute(wanted)
+            ]
+
+    def admit(self, rows: Sequence[tuple[str, str, str, str, str]]) -> None:
+        """Keep what was admitted, all or nothing; `admission.admit` seals it."""
+        from sqlalchemy.dialects.sqlite import insert
+
+        table = _tables().tables["admitted"]
+        names = ("attempt", "record", "why", "time", "seal")
+        with self.database.write() as connection:
+            for row in rows:
+                values = dict(zip(names, row, strict=True))
+                put = insert(table).values(**values)
+                connection.execute(put.on_conflict_do_update(["attempt"], set_=values))
+
     # --- erasing ----------------------------------------------------------------------------------
     def erased(self) -> dict[str, str]:
         """Return when each erased person was, by key."""
@@ -433,7 +459,8 @@ class People:
                 put = insert(t["erased_attempts"]).values(id=attempt)
                 connection.execute(put.on_conflict_do_nothing())
             for attempt in comments:
-                connection.execute(t["remarks"].delete().where(t["remarks"].c.attempt == attempt))
+                for table in (t["remarks"], t["admitted"]):
+                    connection.execute(table.delete().where(table.c.attempt == attempt))
             names = self._names()
             left = {key: name for key, name in names.items() if key not in keys}
             if left != names:
@@ -585,6 +612,8 @@ def _tables() -> MetaData:
         text("void"),
         Column("released", Boolean, nullable=False),
     )
+    admitted = (text(name) for name in ("record", "why", "time", "seal"))
+    Table("admitted", known, text("attempt", primary_key=True), *admitted)
     return known
 
 

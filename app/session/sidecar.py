@@ -214,7 +214,7 @@ def _size_and_time(path: Path) -> tuple[int, int]:
     return stat.st_size, stat.st_mtime_ns
 
 
-def _digest(document: Mapping[str, Any], key: StationKey | None) -> str:
+def _digest(document: Mapping[str, Any], key: StationKey | None = None) -> str:
     text = json.dumps(document, sort_keys=True, separators=(",", ":"), ensure_ascii=False).encode()
     if key is None:
         return hashlib.sha256(text).hexdigest()

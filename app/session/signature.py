@@ -30,11 +30,12 @@ _VERSION: Final = 1
 
 
 class Signed(StrEnum):
-    """What a signature says of a record."""
+    """What a signature says of a record, or the instructor in its place."""
 
     VERIFIED = "verified"
     ALTERED = "altered"
     UNSIGNED = "unsigned"
+    ADMITTED = "admitted"
 
 
 @dataclass(frozen=True, slots=True)

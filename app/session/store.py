@@ -1,13 +1,16 @@
 """The folder of recorded attempts: list, find, delete to a trash folder and bring back."""
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
 from app.core.paths import sessions
+from app.session.admission import Admission, admissions, with_admission
 from app.session.calibration_flag import CalibrationFlags
+from app.session.database import DatabaseError
 from app.session.errors import SessionError, SessionNotFoundError
 from app.session.header import TRASH as TRASH
 from app.session.journal import Journal, move, settle
@@ -33,13 +36,20 @@ def list_sessions(folder: Path) -> list[Summary]:
     return _sorted(folder, read_kept)
 
 
-def computed(folder: Path) -> list[Summary]:
-    """Return what `list_sessions` does, every one of them computed from its record: for exports.
+def computed(folder: Path, names: Sequence[str] = ()) -> list[Summary]:
+    """Return summaries that are computed from their records, for exports.
+
+    Args:
+        folder: of the records.
+        names: ids, or their beginnings, in the order asked for; none for all, newest first.
 
     Raises:
+        SessionNotFoundError: if one is not there.
         SessionError: if the folder cannot be read.
     """
-    return _sorted(folder, fresh_kept)
+    if not names:
+        return _sorted(folder, fresh_kept)
+    return _listed([find(folder, name) for name in names], fresh_kept)
 
 
 def find(folder: Path, session_id: str) -> Path:
@@ -86,9 +96,28 @@ def restore(folder: Path, session_id: str) -> Path:
 
 def _sorted(folder: Path, kept_of: Callable[[Path], Cached]) -> list[Summary]:
     settle(folder.parent if folder.name == TRASH else folder)
-    flags, key = CalibrationFlags.read(), this_station()
-    summaries = [flags.flagged(judged(path, kept_of(path), key)) for path in records(folder)]
+    summaries = _listed(records(folder), kept_of)
     return sorted(summaries, key=lambda summary: (summary.started, summary.id), reverse=True)
+
+
+def _listed(paths: Sequence[Path], kept_of: Callable[[Path], Cached]) -> list[Summary]:
+    """Return summaries with what their signatures, or the instructor, say of them."""
+    flags, key = CalibrationFlags.read(), this_station()
+    admitted, summaries = _admitted(), []
+    for path in paths:
+        kept = kept_of(path)
+        summary = flags.flagged(judged(path, kept, key))
+        verdict = with_admission(summary.signature, kept.sha256, admitted.get(path.stem))
+        summaries.append(replace(summary, signature=verdict))
+    return summaries
+
+
+def _admitted() -> dict[str, Admission]:
+    """Return what was admitted; nothing where that cannot be read: lists go on."""
+    try:
+        return admissions()
+    except DatabaseError:
+        return {}
 
 
 def records_folder(chosen: Path | None) -> Path:

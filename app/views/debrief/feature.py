@@ -38,8 +38,7 @@ from app.session.recording import open_recording
 from app.session.result import AttemptResult
 from app.session.review import Review, review, review_of_result
 from app.session.roster import looks_like_a_key
-from app.session.sidecar import fresh_summary
-from app.session.store import find
+from app.session.store import computed, find
 from app.session.summary import Summary
 from app.views.debrief.page import DebriefPage, date_text
 from app.views.debrief.replay import Ghost
@@ -286,7 +285,7 @@ class DebriefController(QObject):
 
     def _computed(self, summary: Summary) -> Summary:
         try:
-            return fresh_summary(find(self._folder, summary.id))
+            return computed(self._folder, [summary.id])[0]
         except SessionError:
             return summary
 
