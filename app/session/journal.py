@@ -13,11 +13,14 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import sqlite3
+import time
 from collections.abc import Sequence
-from contextlib import suppress
+from contextlib import closing, suppress
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Final
+from typing import Final
 
 from app.core.descriptors import hold_alone
 from app.core.files import remove, replace, step, sweep, sync, write_atomically
@@ -26,8 +29,31 @@ from app.session.errors import SessionError
 
 FOLDER: Final = ".journal"
 
+_PATIENCE: Final = 10.0
+"""So long a program waits for another one that changes the folder [s]."""
+
 Step = tuple[str, ...]
-"""`move` and two paths, `remove` and a path, or `seal` with record, digest, file and its text."""
+"""`move` or `database` and two paths, `remove` and a path, or `seal` with record, digest, file and
+its text."""
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What is to be done.
+
+    Attributes:
+        steps: in their order.
+        database: whose transaction decides, empty where none does: only if it holds `stamp` the
+            steps are carried out, else those of `otherwise`.
+        stamp: name of a setting that the transaction writes.
+        otherwise: see above.
+    """
+
+    steps: Sequence[Sequence[str]] = ()
+    database: str = ""
+    stamp: str = ""
+    otherwise: Sequence[Sequence[str]] = ()
+
 
 _swept: set[Path] = set()
 """Folders in which this program has looked for what others left."""
@@ -36,6 +62,11 @@ _swept: set[Path] = set()
 def move(source: Path, target: Path) -> Step:
     """Plan to give a file another name; one that has gone has been moved already."""
     return "move", str(source.absolute()), str(target.absolute())
+
+
+def move_database(source: Path, target: Path) -> Step:
+    """Plan to put an SQLite file in the place of another, whose logs go with it."""
+    return "database", str(source.absolute()), str(target.absolute())
 
 
 def removal(path: Path) -> Step:
@@ -54,23 +85,27 @@ class Journal:
     Args:
         folder: that it is about.
         plan: what is done if nothing else is planned.
+        alone: wait for other programs that change the folder alone, and let them wait.
 
     Raises:
         SessionError: if it cannot be written, or a plan cannot be carried out. What is planned is
             then tried again by the next program that looks.
     """
 
-    def __init__(self, folder: Path, plan: Sequence[Step] = ()) -> None:
-        self._folder, self._plan = folder, tuple(plan)
+    def __init__(self, folder: Path, plan: Sequence[Step] = (), alone: bool = False) -> None:
+        self._alone, self._lock = alone, -1
+        self._folder, self._plan = folder, Plan(tuple(plan))
         self._path, self._fd = folder, -1
 
     def __enter__(self) -> Journal:
         """Open it and write the first plan."""
+        if self._alone:
+            self._wait()
         settle(self._folder)
         try:
             while self._fd < 0:
                 self._open()
-            self.plan(self._plan)
+            self._write(self._plan)
         except OSError as error:
             self._close()
             with suppress(OSError):
@@ -87,12 +122,32 @@ class Journal:
         Raises:
             OSError: if it cannot be written; the plan before holds.
         """
-        line = json.dumps(steps).encode() + b"\n"
+        self._write(Plan(tuple(steps)))
+
+    def plan_with(
+        self, database: Path, stamp: str, steps: Sequence[Step], otherwise: Sequence[Step] = ()
+    ) -> None:
+        """Plan what happens if a transaction that is about to end is committed, or is not.
+
+        Args:
+            database: whose transaction.
+            stamp: a setting that it writes and nobody else.
+            steps: what is done if it was committed.
+            otherwise: what is done if it was not.
+
+        Raises:
+            OSError: as `plan`.
+        """
+        where = str(database.absolute())
+        self._write(Plan(tuple(steps), where, stamp, tuple(otherwise)))
+
+    def _write(self, plan: Plan) -> None:
+        line = json.dumps(asdict(plan)).encode() + b"\n"
         step("plan", self._path)
         if os.write(self._fd, line) != len(line):
             raise OSError(28, os.strerror(28), str(self._path))
         os.fsync(self._fd)
-        self._plan = tuple(steps)
+        self._plan = plan
 
     def __exit__(
         self,
@@ -102,7 +157,7 @@ class Journal:
     ) -> None:
         """Carry out what is planned, also after an exception."""
         try:
-            carry_out(self._plan)
+            _follow(self._plan)
             _end(self._path)
         except OSError as problem:
             if error is None:
@@ -127,10 +182,26 @@ class Journal:
                 self._fd = fd
                 sync(place)
 
+    def _wait(self) -> None:
+        """Hold the folder alone, where it can be locked."""
+        with suppress(OSError):  # no folder yet, or a system that opens none
+            self._folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+            self._lock = os.open(self._folder, os.O_RDONLY)
+        end = time.monotonic() + _PATIENCE
+        while self._lock >= 0 and hold_alone(self._lock) is False:
+            if time.monotonic() > end:
+                self._close()
+                raise SessionError(
+                    f"another program has been changing {self._folder} for {_PATIENCE:g} s: "
+                    "wait until it is done, then try again"
+                )
+            time.sleep(0.01)
+
     def _close(self) -> None:
-        if self._fd >= 0:
-            os.close(self._fd)
-            self._fd = -1
+        for fd in (self._fd, self._lock):
+            if fd >= 0:
+                os.close(fd)
+        self._fd = self._lock = -1
 
 
 def settle(folder: Path) -> None:
@@ -162,8 +233,11 @@ def carry_out(steps: Sequence[Sequence[str]]) -> None:
         first = Path(args[0])
         if what == "remove":
             remove(first)
-        elif what == "move" and os.path.lexists(first):
+        elif what in ("move", "database") and os.path.lexists(first):
             target = Path(args[1])
+            if what == "database":
+                for end in ("-wal", "-shm", "-journal"):
+                    remove(target.with_name(target.name + end))
             target.parent.mkdir(parents=True, exist_ok=True)
             replace(first, target)
             touched |= {first.parent, target.parent}
@@ -182,18 +256,36 @@ def _settle(path: Path) -> None:
         if alone is False or (alone is None and not process_has_gone(path.name)):
             return
         if os.fstat(fd).st_nlink:  # else another program has just settled it
-            carry_out(_last_plan(path))
+            _follow(_last_plan(path))
             _end(path)
     finally:
         os.close(fd)
 
 
-def _last_plan(path: Path) -> list[Any]:
+def _last_plan(path: Path) -> Plan:
     for line in reversed(path.read_bytes().split(b"\n")[:-1]):
-        with suppress(ValueError):
-            found = json.loads(line)
-            return list(found)
-    return []
+        with suppress(ValueError, TypeError):
+            return Plan(**json.loads(line))
+    return Plan()
+
+
+def _follow(plan: Plan) -> None:
+    """Carry out a plan, as its transaction ended."""
+    done = not plan.database or _is_stamped(Path(plan.database), plan.stamp)
+    carry_out(plan.steps if done else plan.otherwise)
+
+
+def _is_stamped(database: Path, stamp: str) -> bool:
+    if not database.exists():
+        return False
+    try:
+        with closing(sqlite3.connect(database, timeout=10.0)) as connection:
+            wanted = "SELECT 1 FROM settings WHERE name = ?"
+            return connection.execute(wanted, (stamp,)).fetchone() is not None
+    except sqlite3.OperationalError as error:  # another program has it: later
+        raise OSError(error.sqlite_errorcode, str(error), str(database)) from error
+    except sqlite3.DatabaseError:
+        return False  # damaged, and nothing in it says so
 
 
 def _end(path: Path) -> None:
