@@ -106,11 +106,7 @@ def _write(part: Path, scratch: Path, folder: Path, people: People, progress: Pr
     with zipfile.ZipFile(part, "x", zipfile.ZIP_STORED) as archive:
         every = list(_members(folder, people, scratch))
         members = [(name, path) for name, path in every if may_hold(name)]
-        odd = [
-            f"{name}, which has a name that no backup holds"
-            for name, _ in every
-            if not may_hold(name)
-        ]
+        odd = [f"{name}, by its name" for name, _ in every if not may_hold(name)]
         for number, (name, path) in enumerate(members):
             progress.report(number / len(members), path.name)
             with suppress(FileNotFoundError):  # deleted or moved meanwhile

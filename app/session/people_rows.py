@@ -124,8 +124,9 @@ def untaken(of: PeopleRows, left: PeopleRows, whose: str) -> list[str]:
         ]
         lines += [count_words(len(some), word, whose)] if some else []
     for table, word in (("members", "membership"), ("assigned", "assignment"), ("admitted", "")):
-        some = [row for row in of.rows(table) if row not in left.rows(table) and not gone & {*row}]
-        lines += [count_words(len(some), word or "admission", whose)] if some else []
+        others = [row for row in of.rows(table) if row not in left.rows(table)]
+        others = [row for row in others if not gone & {*map(str, row)}]
+        lines += [count_words(len(others), word or "admission", whose)] if others else []
     return lines
 
 

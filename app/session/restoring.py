@@ -126,9 +126,8 @@ def restore_backup(
     try:
         with zipfile.ZipFile(source) as archive:
             manifest = read_manifest(archive, source)
-            key = (
-                StationKey.unwrapped(manifest.key, recovery) if recovery and manifest.key else None
-            )
+            asked = recovery and manifest.key
+            key = StationKey.unwrapped(manifest.key, recovery) if asked else None
             with _staged(folder, people) as (journal, stages):
                 at = _Restoring(archive, source, manifest, folder, people, stages)
                 _restore(at, key, replace_people, progress)
@@ -150,7 +149,7 @@ def _staged(folder: Path, people: People) -> Iterator[tuple[Journal, dict[Path, 
         place.mkdir(parents=True, exist_ok=True, mode=0o700)
     stages = {place: place / f".restoring.{name_of_process()}" for place in places}
     clear = [removal(stage) for stage in stages.values()]
-    with Journal(people.folder, clear) as journal:
+    with Journal(people.folder, clear, alone=True) as journal:
         yield journal, stages
 
 
@@ -288,8 +287,8 @@ def _key(at: _Restoring, key: StationKey | None) -> None:
         if at.manifest.station and at.manifest.station != mine and at.done.records:
             at.say(
                 f"the signatures of {count_words(at.done.records, 'attempt', 'restored')}: another "
-                f"station ({at.manifest.station[:16]}) made them, and they count nowhere here until "
-                "the instructor admits each (`acus people remark ID --admit REASON`)"
+                f"station ({at.manifest.station[:16]}) made them, and they count nowhere here "
+                "until the instructor admits each (`acus people remark ID --admit REASON`)"
             )
         return
     if here == key:
