@@ -8,6 +8,7 @@ the user's own exercises with their structures and profiles, each with its SHA-2
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import sqlite3
@@ -41,7 +42,6 @@ from app.session.journal import Journal, removal
 from app.session.people import NAMES_FILE, PEOPLE, People
 from app.session.restoring import Restored as Restored
 from app.session.restoring import restore_backup as restore_backup
-from app.session.sidecar import file_digest
 from app.session.signature import signature_file
 from app.session.station import this_station
 from app.session.store import SUFFIX, records
@@ -110,12 +110,7 @@ def _write(part: Path, scratch: Path, folder: Path, people: People, progress: Pr
         for number, (name, path) in enumerate(members):
             progress.report(number / len(members), path.name)
             with suppress(FileNotFoundError):  # deleted or moved meanwhile
-                digest = file_digest(path)
-                packed = path.suffix not in (SUFFIX, ".sig")
-                kind = zipfile.ZIP_DEFLATED if packed else zipfile.ZIP_STORED
-                step("pack", path)
-                archive.write(path, name, kind)
-                digests[name] = digest
+                digests[name] = _pack(archive, name, path)
                 count += name.endswith(SUFFIX)
         key = this_station()
         manifest = {
@@ -133,6 +128,21 @@ def _write(part: Path, scratch: Path, folder: Path, people: People, progress: Pr
     with part.open("rb+") as stream:
         os.fsync(stream.fileno())
     return count
+
+
+def _pack(archive: zipfile.ZipFile, name: str, path: Path) -> str:
+    """Pack a file as it is while it is read; return the SHA-256 of just that."""
+    step("pack", path)
+    sha = hashlib.sha256()
+    with path.open("rb") as stream:
+        info = zipfile.ZipInfo.from_file(path, name)
+        packed = path.suffix not in (SUFFIX, ".sig")
+        info.compress_type = zipfile.ZIP_DEFLATED if packed else zipfile.ZIP_STORED
+        with archive.open(info, "w") as target:
+            while block := stream.read(1 << 20):
+                sha.update(block)
+                target.write(block)
+    return sha.hexdigest()
 
 
 def _members(folder: Path, people: People, scratch: Path) -> Iterator[tuple[str, Path]]:

@@ -31,12 +31,11 @@ from app.core.progress import Progress
 from app.scoring.conditions import Conditions, DeviceKind
 from app.session.admission import Admission, admissions, with_admission
 from app.session.database import BUSY_SECONDS, Database, DatabaseError
-from app.session.journal import settle
 from app.session.people import People
 from app.session.sidecar import Cached, fresh_kept, read_kept
 from app.session.signature import Signed, judged, signature_file
 from app.session.station import StationKey, seals_here, this_station
-from app.session.store import SUFFIX, records
+from app.session.store import SUFFIX, records, settled
 from app.session.summary import UNFINISHED, Summary
 
 if TYPE_CHECKING:
@@ -202,7 +201,7 @@ class Index:
             SessionError: if the folder cannot be read.
             Cancelled: if that was asked for; what was read by then stays.
         """
-        settle(self.folder)
+        settled(self.folder)
         try:
             return self._refresh(progress or Progress())
         except DatabaseError as error:
@@ -234,7 +233,7 @@ class Index:
         Until all are read the old one stands; a file that is no index is replaced. Raises as
         `refresh`.
         """
-        settle(self.folder)
+        settled(self.folder)
         progress, key = progress or Progress(), this_station()
         there = self._there(key)
         rows: list[dict[str, Any]] = []

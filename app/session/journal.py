@@ -209,17 +209,17 @@ def settle(folder: Path) -> None:
 
     A folder that cannot be written stays as it is.
     """
-    if folder not in _swept and sweep(folder) >= 0:
-        _swept.add(folder)
-    try:
+    left: list[Path] = []
+    with suppress(OSError):
         left = sorted((folder / FOLDER).iterdir())
-    except OSError:
-        return
     for path in left:
         with suppress(OSError):
             _settle(path)
     with suppress(OSError):
         (folder / FOLDER).rmdir()
+    if folder not in _swept and not (folder / FOLDER).exists():  # no plan needs what lies there
+        _swept.add(folder)
+        sweep(folder)
 
 
 def carry_out(steps: Sequence[Sequence[str]]) -> None:

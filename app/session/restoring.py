@@ -13,11 +13,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from uuid import uuid4
 
 from app.core import paths
 from app.core.files import write_atomically
 from app.core.progress import Progress
-from app.core.temporary import name_of_process
 from app.session.backup_file import ArchiveError, Manifest, read_manifest, unpack
 from app.session.erasing import finish_erasing
 from app.session.errors import BrokenRecordingError
@@ -147,7 +147,7 @@ def _staged(folder: Path, people: People) -> Iterator[tuple[Journal, dict[Path, 
     places = (folder, people.folder, paths.data())
     for place in places:
         place.mkdir(parents=True, exist_ok=True, mode=0o700)
-    stages = {place: place / f".restoring.{name_of_process()}" for place in places}
+    stages = {place: place / f".restoring.{uuid4().hex}" for place in places}
     clear = [removal(stage) for stage in stages.values()]
     with Journal(people.folder, clear, alone=True) as journal:
         yield journal, stages

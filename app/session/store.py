@@ -15,6 +15,7 @@ from app.session.errors import SessionError, SessionNotFoundError
 from app.session.header import TRASH as TRASH
 from app.session.journal import Journal, move, settle
 from app.session.mcap_file import remove_strays
+from app.session.people import people_folder
 from app.session.sidecar import Cached, fresh_kept, read_kept, sidecar
 from app.session.signature import judged, signature_file
 from app.session.station import this_station
@@ -22,6 +23,9 @@ from app.session.summary import Summary
 
 SUFFIX: Final = ".mcap"
 _SHOWN: Final = 5
+
+_cleared: set[Path] = set()
+"""Folders in which this program has looked for what others left."""
 
 
 def list_sessions(folder: Path) -> list[Summary]:
@@ -76,7 +80,7 @@ def delete(folder: Path, session_id: str) -> Path:
         SessionNotFoundError: if there is no such session.
         SessionError: if it cannot be moved.
     """
-    settle(folder)
+    settled(folder)
     path = find(folder, session_id)
     with suppress(OSError):
         os.utime(sidecar(path))  # its time tells from now on when the record was deleted
@@ -90,12 +94,12 @@ def restore(folder: Path, session_id: str) -> Path:
         SessionNotFoundError: if the trash does not hold it.
         SessionError: if it cannot be moved.
     """
-    settle(folder)
+    settled(folder)
     return _move(find(folder / TRASH, session_id), folder, folder)
 
 
 def _sorted(folder: Path, kept_of: Callable[[Path], Cached]) -> list[Summary]:
-    settle(folder.parent if folder.name == TRASH else folder)
+    settled(folder.parent if folder.name == TRASH else folder)
     summaries = _listed(records(folder), kept_of)
     return sorted(summaries, key=lambda summary: (summary.started, summary.id), reverse=True)
 
@@ -153,9 +157,12 @@ def beside(path: Path) -> tuple[Path, ...]:
 
 
 def settled(folder: Path) -> Path:
-    """Return a folder of records after whatever a killed program left there was put in order."""
+    """Return a folder of records after whatever killed programs left there was put in order."""
+    settle(people_folder())  # first: a restore is planned there
     settle(folder)
-    remove_strays(folder)
+    if folder not in _cleared:
+        _cleared.add(folder)
+        remove_strays(folder)
     return folder
 
 
