@@ -9,13 +9,16 @@ done whole or not at all, and nothing was left over; 3: something was not so.
 from __future__ import annotations
 
 import argparse
+import multiprocessing
 import os
 import random
 import shutil
 import sys
 import tempfile
 import time
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
+from typing import Any
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "session"))  # its fakes
 
@@ -30,7 +33,10 @@ from tests.kills.works import (
     started,
 )
 
-_LOST = ("records", "deleted")
+State = dict[str, Any]
+
+_trial: Trial | None = None
+"""What the processes that kill inherit."""
 
 
 def trial_in(scratch: Path) -> Trial:
@@ -43,73 +49,83 @@ def trial_in(scratch: Path) -> Trial:
     return Trial(home, empty, recovery, scratch / "copies")
 
 
-def every_step(trial: Trial, work: str, each: int = 1) -> tuple[int, list[str]]:
-    """Kill a work at every step, or at every so many; return how many, and what was wrong."""
-    steps, before, after = trial.steps(work)
-    found, kills = [], 0
-    for at in range(0, steps, each):
-        home = trial.copy_for(work, at)
-        if not killed_at(home, work, trial.recovery, at):
-            found.append(f"{work}, step {at} of {steps}: was not killed")
-        seen, kills = next_start(home), kills + 1
-        wrong = seen.pop("faults")
-        if work == "attempt":  # ids are drawn: as many as before, or one more
-            whole = len(seen["records"]) - len(before["records"]) in (0, 1)
-        else:
-            whole = seen in (before, after)
-        if not whole:
-            kept = before | {"": "before"}, after | {"": "after"}
-            other = [
-                f"{name}: {seen[name]}, not {' or '.join(str(one[name]) for one in kept)}"
-                for name in seen
-                if seen[name] not in (before[name], after[name])
-            ]
-            wrong.append(f"neither as before nor as after: {'; '.join(other) or 'a mixture'}")
-        found += [f"{work}, step {at} of {steps}: {text}" for text in wrong]
-        shutil.rmtree(home.root)
-    return kills, found
-
-
-def at_random(trial: Trial, rng: random.Random, number: int) -> tuple[bool, list[str]]:
-    """Kill works in a row at some moment; return whether it came to that, and what was wrong."""
-    works = mixed(rng)
-    home = trial.copy_for("", number)
-    killed = killed_after(home, works, trial.recovery, rng.uniform(0.0, 1.5))
+def at_step(trial: Trial, work: str, at: int, before: State, after: State) -> list[str]:
+    """Kill a work before one of its steps; return what was wrong at the next start."""
+    home = trial.copy_for(work, f"{work.replace(' ', '-')}-{at}")
+    killed = killed_at(home, work, trial.recovery, at)
     seen = next_start(home)
-    wrong = seen["faults"]
+    wrong: list[str] = [*seen.pop("faults"), *([] if killed else ["was not killed"])]
+    if work == "attempt":  # ids are drawn: as many as before, or one more
+        whole = len(seen["records"]) - len(before["records"]) in (0, 1)
+    else:
+        whole = seen in (before, after)
+    if not whole:
+        other = [
+            f"{name}: {seen[name]}, not {before[name]} or {after[name]}"
+            for name in seen
+            if seen[name] not in (before[name], after[name])
+        ]
+        wrong.append(f"neither as before nor as after: {'; '.join(other) or 'a mixture'}")
+    shutil.rmtree(home.root)
+    return [f"{work}, step {at}: {text}" for text in wrong]
+
+
+def at_random(trial: Trial, seed: int) -> list[str]:
+    """Kill works in a row at some moment; return what was wrong at the next start."""
+    rng = random.Random(seed)
+    works = mixed(rng)
+    home = trial.copy_for("", f"random-{seed}")
+    killed = killed_after(home, works, trial.recovery, rng.uniform(0.0, 1.0))
+    seen = next_start(home)
+    wrong = [*seen["faults"], *([] if killed else ["was not killed"])]
     if "erase" not in works and "empty the trash" not in works:
         there = {*seen["records"], *seen["deleted"]}
         lost = {path.stem for path in trial.home.folder.rglob("*.mcap")} - there
         wrong += [f"{name} is lost" for name in sorted(lost)]
     shutil.rmtree(home.root)
-    return killed, [f"{', '.join(works)}: {text}" for text in wrong]
+    return [f"{', '.join(works)} (seed {seed}): {text}" for text in wrong]
+
+
+def _kill(task: tuple[str, int, State, State]) -> list[str]:
+    assert _trial is not None
+    work, at, before, after = task
+    return at_step(_trial, work, at, before, after) if work else at_random(_trial, at)
+
+
+def _tasks(trial: Trial, kills: int, seed: int) -> list[tuple[str, int, State, State]]:
+    """Return every step of each work, then moments until there are so many."""
+    tasks: list[tuple[str, int, State, State]] = []
+    for work in WORKS:
+        steps, before, after = trial.steps(work)
+        print(f"{work:20} {steps} steps", flush=True)
+        tasks += [(work, at, before, after) for at in range(steps)]
+    more = range(seed * 1_000_000, seed * 1_000_000 + max(0, kills - len(tasks)))
+    return tasks + [("", number, {}, {}) for number in more]
 
 
 def main() -> int:
     """Kill, and tell."""
+    global _trial
     parser = argparse.ArgumentParser(prog="python -m tests.kills", description=__doc__)
     parser.add_argument("--kills", type=int, default=1000)
     parser.add_argument("--seconds", type=float, default=86_400.0)
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
-    end, rng = time.monotonic() + options.seconds, random.Random(options.seed)
-    kills, wrong = 0, []
+    end, wrong, kills, moments = time.monotonic() + options.seconds, [], 0, 0
     with tempfile.TemporaryDirectory() as name:
         os.umask(0o077)
-        trial = trial_in(Path(name))
-        for work in WORKS:
-            if time.monotonic() > end:
-                print(f"no time left for the steps of: {work}")
-                continue
-            done, found = every_step(trial, work)
-            kills, wrong = kills + done, wrong + found
-            print(f"{work:20} killed at each of {done} steps: {len(found)} faults", flush=True)
-        random_kills = 0
-        while kills < options.kills and time.monotonic() < end:
-            killed, found = at_random(trial, rng, kills + random_kills)
-            kills, random_kills = kills + killed, random_kills + killed
-            wrong += found
-    print(f"{kills} programs killed, {random_kills} of them at any moment: {len(wrong)} faults")
+        _trial = trial_in(Path(name))
+        tasks, cores = _tasks(_trial, options.kills, options.seed), os.cpu_count() or 1
+        with ProcessPoolExecutor(cores, multiprocessing.get_context("fork")) as pool:
+            while tasks and time.monotonic() < end:
+                some, tasks = tasks[: 4 * cores], tasks[4 * cores :]
+                for task, found in zip(some, pool.map(_kill, some), strict=True):
+                    kills, moments, wrong = kills + 1, moments + (not task[0]), wrong + found
+    left = sum(bool(task[0]) for task in tasks)
+    print(
+        f"{kills} programs killed, {moments} of them at any moment, the others at each step: "
+        f"{len(wrong)} faults" + (f"; no time left for {left} steps" if left else "")
+    )
     for text in wrong[:40]:
         print(f"NO  {text}")
     return 3 if wrong else 0

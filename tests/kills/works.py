@@ -11,12 +11,14 @@ import sys
 import time
 import traceback
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
-from itertools import count
+from itertools import count, cycle
 from pathlib import Path
 from typing import Any
 
 from app.commands import build
+from app.core.errors import AcusError
 from app.core.files import watched
 from app.session import store
 from app.session.archive import backup, empty_trash, erase_person, restore_backup
@@ -85,10 +87,10 @@ class Trial:
     recovery: str
     scratch: Path
 
-    def copy_for(self, work: str, number: int) -> Home:
+    def copy_for(self, work: str, name: str) -> Home:
         """Copy the home that a work begins in; for a restore two records and a signature lack."""
         source = self.empty if work == "first restore" else self.home
-        home = source.copied(self.scratch / f"{number:05d}")
+        home = source.copied(self.scratch / name)
         if work.startswith("restore"):
             for path in (home.folder / store.TRASH).glob("*"):
                 path.unlink()
@@ -96,7 +98,7 @@ class Trial:
 
     def steps(self, work: str) -> tuple[int, dict[str, Any], dict[str, Any]]:
         """Return how many steps a work has, and what is kept before and after it."""
-        home = self.copy_for(work, 99_999)
+        home = self.copy_for(work, "counted")
         before = asked(lambda: (home.enter(), state())[1])
         after = asked(lambda: _counted(home, work, self.recovery))
         shutil.rmtree(home.root)
@@ -133,8 +135,9 @@ def killed_after(home: Home, works: list[str], recovery: str, seconds: float) ->
 
     def program() -> None:
         home.enter()
-        for work in works:
-            WORKS[work](home, recovery)
+        for work in cycle(works):
+            with suppress(AcusError, ValueError):  # the student was erased, the trash is empty
+                WORKS[work](home, recovery)
 
     return _ended_by(program, seconds) == -signal.SIGKILL
 
