@@ -4,6 +4,10 @@ Windows has no `fcntl`. What is only a safeguard there falls away; what would be
 lock is not done.
 """
 
+import errno
+import tempfile
+from pathlib import Path
+
 try:
     import fcntl
 except ImportError:  # pragma: no cover - tested in a process without it
@@ -42,6 +46,18 @@ def hold_alone(descriptor: int) -> bool | None:
         return False
     except OSError:
         return None
+    return True
+
+
+def has_locks(folder: Path) -> bool:
+    """Whether files in a folder can be locked; True where that cannot be tried."""
+    if fcntl is None:
+        return True
+    try:
+        with tempfile.TemporaryFile(dir=folder) as probe:
+            fcntl.lockf(probe.fileno(), fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
+        return error.errno not in (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP, errno.EINVAL)
     return True
 
 

@@ -7,13 +7,17 @@ when the program is killed in the middle of it. SQLAlchemy is imported when a fi
 
 from __future__ import annotations
 
+import os
+import shutil
 import sqlite3
+import tempfile
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
-from functools import cached_property
+from contextlib import closing, contextmanager, suppress
+from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from app.core.descriptors import has_locks
 from app.core.files import step
 from app.session.errors import SessionError
 
@@ -92,7 +96,7 @@ class Database:
         Raises:
             DatabaseError: if it cannot be read.
         """
-        with self._errors(), self._engine.connect() as connection:
+        with self._errors(), self._reading() as connection:
             yield connection
 
     @contextmanager
@@ -102,6 +106,8 @@ class Database:
         Raises:
             DatabaseError: if it cannot be written.
         """
+        if self._why_read_only:
+            raise self._error(self._why_read_only)
         with self._errors(), self._engine.connect() as connection:
             connection.exec_driver_sql("ROLLBACK")
             connection.exec_driver_sql("BEGIN IMMEDIATE")
@@ -141,6 +147,56 @@ class Database:
             except OSError as error:
                 raise self._error(f"cannot be deleted: {error.strerror or error}") from error
 
+    @property
+    def _why_read_only(self) -> str:
+        """Say why a file that is there can only be read; empty if it can be written."""
+        if self.path is None or self._disposable or not self.path.exists():
+            return ""
+        if not (os.access(self.path, os.W_OK) and os.access(self.path.parent, os.W_OK)):
+            return _READ_ONLY
+        return "" if _has_locks(self.path.parent) else _NO_LOCKS
+
+    @contextmanager
+    def _reading(self) -> Iterator[Connection]:
+        """Connect to read: to the file, or to a copy in memory where the file needs writing."""
+        from sqlalchemy.exc import DatabaseError as Refused
+
+        if self.path is None or not self._why_read_only:
+            try:
+                connection = self._engine.connect()
+            except Refused as error:
+                full = _reason(str(error.orig), self._busy) in (_FULL, _NO_LOCKS, _NO_FOLDER)
+                if not full or self.path is None or not self.path.exists() or self._disposable:
+                    raise
+            else:
+                with connection:
+                    yield connection
+                return
+        with self._copied(self.path).connect() as connection:
+            yield connection
+
+    def _copied(self, path: Path) -> Engine:
+        """Return an engine on a copy of a file as it is now, in memory."""
+        from sqlalchemy import create_engine
+        from sqlalchemy.pool import StaticPool
+
+        taken = copied_to_memory(path)
+        engine = create_engine("sqlite://", poolclass=StaticPool, creator=lambda: taken)
+        with engine.connect() as connection:
+            self._check_version(connection)
+            self._tables().create_all(connection)
+            connection.commit()
+        return engine
+
+    def _check_version(self, connection: Connection) -> int:
+        found = int(connection.exec_driver_sql("PRAGMA user_version").scalar() or 0)
+        if found > self._version:
+            raise self._error(
+                f"was written by a newer version of Acus (form {found}, this one knows "
+                f"{self._version}): use that version"
+            )
+        return found
+
     @cached_property
     def _engine(self) -> Engine:
         from sqlalchemy import create_engine, event
@@ -156,12 +212,7 @@ class Database:
         event.listen(engine, "connect", self._prepare)
         event.listen(engine, "begin", _begin)
         with engine.connect() as connection:
-            found = int(connection.exec_driver_sql("PRAGMA user_version").scalar() or 0)
-        if found > self._version:
-            raise self._error(
-                f"was written by a newer version of Acus (form {found}, this one knows "
-                f"{self._version}): use that version"
-            )
+            found = self._check_version(connection)
         if found < self._version or (self._disposable and not self._ours(engine)):
             with engine.connect() as connection:
                 connection.exec_driver_sql("ROLLBACK")
@@ -207,6 +258,29 @@ class Database:
 
     def _error(self, why: str) -> DatabaseError:
         return DatabaseError(f"the {self._what} {self.path or 'in memory'} {why}")
+
+
+def copied_to_memory(path: Path) -> sqlite3.Connection:
+    """Copy a database into memory without writing or locking anything beside it.
+
+    Raises:
+        sqlite3.DatabaseError, OSError: if it cannot be read.
+    """
+    taken = sqlite3.connect(":memory:", check_same_thread=False)
+    log = path.with_name(f"{path.name}-wal")
+    with tempfile.TemporaryDirectory() as place:  # for this user only
+        mine = Path(place) / path.name
+        shutil.copyfile(path, mine)
+        if log.exists() and log.stat().st_size:  # what is not in the file yet
+            shutil.copyfile(log, mine.with_name(log.name))
+        with closing(sqlite3.connect(mine)) as source:
+            source.backup(taken)
+    return taken
+
+
+@cache
+def _has_locks(folder: Path) -> bool:
+    return has_locks(folder)
 
 
 def schema_of(connection: Connection) -> set[tuple[str, ...]]:
