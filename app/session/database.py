@@ -154,7 +154,7 @@ class Database:
             return ""
         if not (os.access(self.path, os.W_OK) and os.access(self.path.parent, os.W_OK)):
             return _READ_ONLY
-        return "" if _has_locks(self.path.parent) else _NO_LOCKS
+        return "" if lockable(self.path.parent) else _NO_LOCKS
 
     @contextmanager
     def _reading(self) -> Iterator[Connection]:
@@ -273,13 +273,16 @@ def copied_to_memory(path: Path) -> sqlite3.Connection:
         shutil.copyfile(path, mine)
         if log.exists() and log.stat().st_size:  # what is not in the file yet
             shutil.copyfile(log, mine.with_name(log.name))
-        with closing(sqlite3.connect(mine)) as source:
+        alone = "?vfs=unix-none" if os.name == "posix" else ""  # nobody else has this copy
+        with closing(sqlite3.connect(mine.as_uri() + alone, uri=True)) as source:
+            source.execute("PRAGMA locking_mode = EXCLUSIVE")  # its log needs no shared memory
             source.backup(taken)
     return taken
 
 
 @cache
-def _has_locks(folder: Path) -> bool:
+def lockable(folder: Path) -> bool:
+    """Whether files in a folder can be locked; looked at once."""
     return has_locks(folder)
 
 

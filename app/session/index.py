@@ -30,7 +30,7 @@ from app.core.json_values import finite
 from app.core.progress import Progress
 from app.scoring.conditions import Conditions, DeviceKind
 from app.session.admission import Admission, admissions, with_admission
-from app.session.database import BUSY_SECONDS, Database, DatabaseError
+from app.session.database import BUSY_SECONDS, Database, DatabaseError, lockable
 from app.session.people import People
 from app.session.sidecar import Cached, fresh_kept, read_kept
 from app.session.signature import Signed, judged, signature_file
@@ -178,7 +178,8 @@ class Index:
         self.folder = folder
         path = folder / INDEX
         writable = os.access(path if path.exists() else folder, os.W_OK)
-        where = path if writable and os.access(folder, os.W_OK) else None
+        usable = writable and os.access(folder, os.W_OK) and lockable(folder)
+        where = path if usable else None
         self._busy = busy
         self.database = self._opened(where)
 
