@@ -20,13 +20,13 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Final
 
+import yaml
+
 from app import __version__
 from app.core import paths
 from app.core.disclaimer import DISCLAIMER
-from app.core.errors import AcusError
 from app.core.files import beside, remove, replace, step, sweep
 from app.core.progress import Progress
-from app.exercises.library import read_exercise
 from app.session.backup_file import FORMAT, MANIFEST, VERSION, ArchiveError, may_hold
 from app.session.course import courses_folder
 from app.session.database import BUSY_SECONDS
@@ -83,18 +83,21 @@ def backup(
 def left_out() -> list[str]:
     """Say what a backup does not hold: CTs, by their digests, and files that lie elsewhere."""
     scans: dict[str, list[str]] = defaultdict(list)
-    lines, own = [], paths.data().resolve()
-    for path in sorted((paths.data() / "exercises").glob("*.yaml")):
+    lines, data = [], paths.data()
+    for path in sorted((data / "exercises").glob("*.yaml")):
         try:
-            exercise = read_exercise(path)
-        except AcusError:
-            continue  # it goes in as it is
-        if exercise.ct.folder is not None:
-            name = exercise.ct.digest or f"without a digest, in {exercise.ct.folder}"
-            scans[name].append(path.stem)
-        for part in exercise.structures:
-            if not part.file.resolve().is_relative_to(own):
-                lines.append(f"the structures {part.file} of {path.stem}")
+            document = yaml.safe_load(path.read_text(encoding="utf-8"))
+            ct, parts = document.get("ct") or {}, document.get("structures") or ()
+            files = [Path(str(part["file"])) for part in parts]
+            if ct.get("folder"):
+                where = ct.get("digest") or f"without a digest, in {ct['folder']}"
+                scans[str(where)].append(path.stem)
+        except (OSError, ValueError, yaml.YAMLError, AttributeError, LookupError, TypeError):
+            continue  # a file that is no exercise goes in as it is
+        for file in files:
+            places = ((room / file).resolve() for room in (path.parent, data / "structures"))
+            if not any(p.is_file() and p.is_relative_to(data.resolve()) for p in places):
+                lines.append(f"the structures {file} of {path.stem}")
     return [f"the CT {name} of {', '.join(some)}" for name, some in sorted(scans.items())] + lines
 
 

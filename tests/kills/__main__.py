@@ -16,6 +16,7 @@ import shutil
 import sys
 import tempfile
 import time
+from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -92,13 +93,15 @@ def _kill(task: tuple[str, int, State, State]) -> list[str]:
     return at_step(_trial, work, at, before, after) if work else at_random(_trial, at)
 
 
-def _tasks(trial: Trial, kills: int, seed: int) -> list[tuple[str, int, State, State]]:
-    """Return every step of each work, then moments until there are so many."""
+def _tasks(
+    trial: Trial, works: Sequence[str], each: int, kills: int, seed: int
+) -> list[tuple[str, int, State, State]]:
+    """Return every step, or every so many, of each work, then moments until there are so many."""
     tasks: list[tuple[str, int, State, State]] = []
-    for work in WORKS:
+    for work in works:
         steps, before, after = trial.steps(work)
         print(f"{work:20} {steps} steps", flush=True)
-        tasks += [(work, at, before, after) for at in range(steps)]
+        tasks += [(work, at, before, after) for at in range(0, steps, each)]
     more = range(seed * 1_000_000, seed * 1_000_000 + max(0, kills - len(tasks)))
     return tasks + [("", number, {}, {}) for number in more]
 
@@ -110,12 +113,15 @@ def main() -> int:
     parser.add_argument("--kills", type=int, default=1000)
     parser.add_argument("--seconds", type=float, default=86_400.0)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", default=",".join(WORKS), help="works whose steps are taken")
+    parser.add_argument("--each", type=int, default=1, help="every so many steps")
     options = parser.parse_args()
     end, wrong, kills, moments = time.monotonic() + options.seconds, [], 0, 0
     with tempfile.TemporaryDirectory() as name:
         os.umask(0o077)
         _trial = trial_in(Path(name))
-        tasks, cores = _tasks(_trial, options.kills, options.seed), os.cpu_count() or 1
+        works, cores = options.only.split(","), os.cpu_count() or 1
+        tasks = _tasks(_trial, works, options.each, options.kills, options.seed)
         with ProcessPoolExecutor(cores, multiprocessing.get_context("fork")) as pool:
             while tasks and time.monotonic() < end:
                 some, tasks = tasks[: 4 * cores], tasks[4 * cores :]
