@@ -13,14 +13,13 @@ instructor has admitted it.
 
 from __future__ import annotations
 
-import hashlib
 import hmac
 import json
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from functools import cache, cached_property, lru_cache
 from pathlib import Path
@@ -160,8 +159,6 @@ def totals_of(folder: Path, student: str, exercise: str, version: int) -> list[f
     ]
 
 
-_FIELDS: Final = tuple(one.name for one in fields(Indexed) if one.name != "stands")
-
 Mark = tuple[int, int, int, str]
 """Size and time of a record, time of its signature, and the station whose key judged that."""
 
@@ -264,12 +261,12 @@ class Index:
         rows, odd = self._sealed_rows(key)
         if odd:
             rows += self._mend(odd, key)
-        rows.sort(key=lambda row: (row["started"], row["id"]))
+            rows.sort(key=lambda row: (row[_STARTED], row[0]))
         asked = None if students is None else set(students)
         return [
-            _indexed(row, seals, admitted.get(row["id"]))
+            _indexed(row, seals, admitted.get(row[0]))
             for row in rows
-            if asked is None or row["student"] in asked
+            if asked is None or row[_STUDENT] in asked
         ]
 
     def problems_of(self, path: Path) -> list[str]:
@@ -282,57 +279,49 @@ class Index:
         """
         key = this_station()
         mark = self._there(key).get(path.stem)
-        row = next((row for row in self._rows_as_they_are() if row["id"] == path.stem), None)
-        if mark is None or row is None or _mark_of(row) != mark:
+        found = next((row for row in self._rows_as_they_are() if row[0] == path.stem), None)
+        if mark is None or found is None or found[1:5] != mark:
             return []
+        row = dict(zip(_SEALED, found, strict=False))
         right = next(iter(_rows(self.folder, path.stem, mark, read_kept, key)), None)
         if right is None:
             return []
-        other = [name for name in _SEALED if name in row and row[name] != right[name]]
-        found = [
+        other = [name for name in _SEALED if row[name] != right[name] and name != "record"]
+        told = [
             f"{name}: {row[name]!r} in the index, {right[name]!r} by the record"
             for name in other
             if name not in ("document", "under")
         ]
-        if not found and (other or row["seal"] != _seal(row, key)):
-            found = ["its row was not written by this station"]
-        return found
-
-    def content(self) -> str:
-        """Return a digest of all rows: the same for two indexes that say the same."""
-        from sqlalchemy import select
-
-        table = _attempts()
-        digest = hashlib.sha256()
-        with self.database.read() as connection:
-            for row in connection.execute(select(table).order_by(table.c.id)):
-                digest.update(repr(tuple(row)).encode())
-        return digest.hexdigest()
+        if not told and (other or found[-1] != _Sealer(key)(found[:-1])):
+            told = ["its row was not written by this station"]
+        return told
 
     # --- inside -----------------------------------------------------------------------------------
-    def _rows_as_they_are(self) -> list[dict[str, Any]]:
-        """Return all rows as they stand, with record's digest and seal; those are None without."""
+    def _rows_as_they_are(self) -> list[_Row]:
+        """Return all rows as they stand, oldest first: what a seal is over, and the seal at last.
+
+        Digest of the record and seal are None where there is none.
+        """
         from sqlalchemy import select
 
         table, seals = _attempts(), _seals()
-        wanted = select(table, seals.c.record, seals.c.seal).outerjoin(
-            seals, table.c.id == seals.c.id
-        )
-        names = (*(column.name for column in table.columns), "record", "seal")
+        columns = [*table.columns, seals.c.record, seals.c.seal]
+        wanted = select(*columns).outerjoin(seals, table.c.id == seals.c.id)
         with self.database.read() as connection:
-            return [dict(zip(names, row, strict=True)) for row in connection.execute(wanted)]
+            found = connection.execute(wanted.order_by(table.c.started, table.c.id))
+            return [tuple(row) for row in found]
 
-    def _sealed_rows(self, key: StationKey | None) -> tuple[list[dict[str, Any]], list[str]]:
+    def _sealed_rows(self, key: StationKey | None) -> tuple[list[_Row], list[str]]:
         """Return the rows that this station has sealed, and the ids of the others."""
-        rows, odd = [], []
+        rows, odd, seal_of = [], [], _Sealer(key)
         for row in self._rows_as_they_are():
-            if hmac.compare_digest(str(row["seal"]).encode(), _seal(row, key).encode()):
+            if hmac.compare_digest(str(row[-1]).encode(), seal_of(row[:-1]).encode()):
                 rows.append(row)
             else:
-                odd.append(str(row["id"]))
+                odd.append(str(row[0]))
         return rows, odd
 
-    def _mend(self, names: Sequence[str], key: StationKey | None) -> list[dict[str, Any]]:
+    def _mend(self, names: Sequence[str], key: StationKey | None) -> list[_Row]:
         """Read records anew, and write their rows where the index can be written."""
         there, rows = self._there(key), []
         for name in names:
@@ -340,7 +329,7 @@ class Index:
                 rows += _rows(self.folder, name, there[name], read_kept, key)
         with suppress(DatabaseError):
             self._put(rows, [name for name in names if name not in there])
-        return rows
+        return [tuple(row[name] for name in _SEALED) for row in rows]
 
     def _there(self, key: StationKey | None) -> dict[str, Mark]:
         """Return the marks of the records in the folder now."""
@@ -370,8 +359,10 @@ class Index:
         from sqlalchemy import delete
         from sqlalchemy.dialects.sqlite import insert
 
-        key = this_station()
-        sealed = [dict(row) | {"seal": _seal(row, key)} for row in rows]
+        seal_of = _Sealer(this_station())
+        sealed = [
+            dict(row) | {"seal": seal_of(tuple(row[name] for name in _SEALED))} for row in rows
+        ]
         with self.database.write() as connection:
             for table in (_attempts(), _seals()):
                 if gone is None:
@@ -434,27 +425,37 @@ _SEALED: Final = (
 """What the seal of a row is over, in this order."""
 
 
-def _seal(row: Mapping[str, Any], key: StationKey | None) -> str:
-    """Return the seal of a row: nobody without the station's key can make it, nor move it."""
-    if key is None:
-        return ""
-    texts = [str(row[name]) for name in _SEALED]
-    whole = "".join(f"{len(text)}:{text}" for text in texts).encode("utf-8", "surrogatepass")
-    return hmac.digest(key.derived("row of the index"), whole, "sha256").hex()
+_STARTED, _STUDENT, _VERDICT = (_SEALED.index(n) for n in ("started", "student", "verdict"))
+
+_Row = tuple[Any, ...]
+"""Values in the order of `_SEALED`; a seal may follow."""
 
 
-def _mark_of(row: Mapping[str, Any]) -> Mark:
-    return row["size"], row["modified_ns"], row["signed_ns"], row["station"]
+class _Sealer:
+    """Makes the seals of rows: nobody without the station's key can, nor move one elsewhere."""
+
+    def __init__(self, key: StationKey | None) -> None:
+        self._key = None if key is None else key.derived("row of the index")
+
+    def __call__(self, row: _Row) -> str:
+        if self._key is None:
+            return ""
+        texts = [f"{len(text)}:{text}" for text in map(str, row)]
+        whole = "".join(texts).encode("utf-8", "surrogatepass")
+        return hmac.digest(self._key, whole, "sha256").hex()
 
 
-def _indexed(row: Mapping[str, Any], seals: bool, admitted: Admission | None) -> Indexed:
+def _indexed(row: _Row, seals: bool, admitted: Admission | None) -> Indexed:
     """Return an attempt with what this station says of it now."""
-    verdict = with_admission(row["verdict"], row["record"], admitted)
+    verdict, record = row[_VERDICT], row[len(_SEALED) - 1]
+    if admitted is not None:
+        verdict = with_admission(verdict, record, admitted)
     stands = verdict != Signed.ALTERED and (not seals or verdict != Signed.UNSIGNED)
-    values = {name: row[name] for name in _FIELDS} | {"verdict": verdict}
+    name, values = row[0], row[_STARTED : len(_SEALED) - 1]
+    found = Indexed(name, *values, stands)
     if not stands:
-        values |= {"counts": False, "passed": None}
-    return Indexed(**values, stands=stands)
+        return replace(found, counts=False, passed=None)
+    return found if verdict == row[_VERDICT] else replace(found, verdict=verdict)
 
 
 @cache
