@@ -56,6 +56,11 @@ def computed(folder: Path, names: Sequence[str] = ()) -> list[Summary]:
     return _listed([find(folder, name) for name in names], fresh_kept)
 
 
+def verdict_of(path: Path) -> str:
+    """Return what lists say of a record: `verified`, `altered`, `unsigned` or `admitted`."""
+    return _listed([path], read_kept)[0].signature
+
+
 def find(folder: Path, session_id: str) -> Path:
     """Return the record of a session; the beginning of an id is enough if only one fits.
 

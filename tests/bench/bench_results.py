@@ -1,8 +1,9 @@
 """A group of 200 students with 50 attempts each: board, every form of results, scores anew.
 
-Run as `make bench BENCH=results`. Every row is sealed and every seal looked at. Records are 10 000 names of one file with a summary beside each,
-as recording leaves them. Figures to keep: the board in 1 s; scores by other bands from metrics, 200
-attempts a second; from records of three minutes, 20 a second on two cores.
+Run as `make bench BENCH=results`. Records are 10 000 names of one file with a summary beside each,
+as recording leaves them; every row of the index is sealed, and every seal looked at. Figures to
+keep: the board in 1 s; scores by other bands from metrics, 200 attempts a second; from records of
+three minutes, 20 a second on two cores.
 """
 
 import json
