@@ -32,9 +32,14 @@ def process_has_gone(name: str) -> bool:
     False where the system does not tell which processes run, and for files of other computers.
     """
     match = _PROCESS.fullmatch(name)
-    if match is None or match[1] != _computer() or not _started(os.getpid()):
+    if match is None or match[1] != _computer() or not tells_processes():
         return False
     return _started(int(match[2])) != match[3]
+
+
+def tells_processes() -> bool:
+    """Whether this system tells which processes run, and since when."""
+    return bool(_started(os.getpid()))
 
 
 @cache

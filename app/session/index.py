@@ -451,8 +451,8 @@ def _indexed(row: _Row, seals: bool, admitted: Admission | None) -> Indexed:
     if admitted is not None:
         verdict = with_admission(verdict, record, admitted)
     stands = verdict != Signed.ALTERED and (not seals or verdict != Signed.UNSIGNED)
-    name, values = row[0], row[_STARTED : len(_SEALED) - 1]
-    found = Indexed(name, *values, stands=stands)
+    values = row[_STARTED : len(_SEALED) - 1]
+    found = Indexed(*(row[0], *values, stands))
     if not stands:
         return replace(found, counts=False, passed=None)
     return found if verdict == row[_VERDICT] else replace(found, verdict=verdict)

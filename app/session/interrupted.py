@@ -30,7 +30,7 @@ from app.session.machine import FINAL
 from app.session.recording import read_recording
 from app.session.sidecar import read_summary
 from app.session.signature import signature_file
-from app.session.store import find, records
+from app.session.store import find, records, settled
 from app.session.summary import BROKEN, Summary
 from app.session.verify import state_of
 
@@ -55,7 +55,7 @@ def interrupted(folder: Path, now: float | None = None) -> tuple[list[Summary], 
         SessionError: if the folder cannot be read.
     """
     now, found, fresh = time.time() if now is None else now, [], False
-    for path in records(folder):
+    for path in records(settled(folder)):
         if not is_cut_off(path):
             continue
         if _age(path, now) < QUIET_S:

@@ -24,13 +24,16 @@ from typing import Final
 
 from app.core.descriptors import hold_alone
 from app.core.files import remove, replace, step, sweep, sync, write_atomically
-from app.core.temporary import name_of_process, process_has_gone
+from app.core.temporary import name_of_process, process_has_gone, tells_processes
 from app.session.errors import SessionError
 
 FOLDER: Final = ".journal"
 
 _PATIENCE: Final = 10.0
 """So long a program waits for another one that changes the folder [s]."""
+
+_OLD: Final = 3600.0
+"""A journal is left over after so long [s] where neither locks nor processes tell."""
 
 Step = tuple[str, ...]
 """`move` or `database` and two paths, `remove` and a path, or `seal` with record, digest, file and
@@ -158,7 +161,8 @@ class Journal:
         """Carry out what is planned, also after an exception."""
         try:
             _follow(self._plan)
-            _end(self._path)
+            fd, self._fd = self._fd, -1
+            _end(self._path, fd)
         except OSError as problem:
             if error is None:
                 raise SessionError(
@@ -253,13 +257,18 @@ def _settle(path: Path) -> None:
     fd = os.open(path, os.O_RDWR)
     try:
         alone = hold_alone(fd)
-        if alone is False or (alone is None and not process_has_gone(path.name)):
+        if alone is None:
+            old = not tells_processes() and time.time() - path.stat().st_mtime > _OLD
+            alone = old or process_has_gone(path.name)
+        if not alone:
             return
         if os.fstat(fd).st_nlink:  # else another program has just settled it
             _follow(_last_plan(path))
-            _end(path)
+            mine, fd = fd, -1
+            _end(path, mine)
     finally:
-        os.close(fd)
+        if fd >= 0:
+            os.close(fd)
 
 
 def _last_plan(path: Path) -> Plan:
@@ -288,9 +297,15 @@ def _is_stamped(database: Path, stamp: str) -> bool:
         return False  # damaged, and nothing in it says so
 
 
-def _end(path: Path) -> None:
+def _end(path: Path, fd: int) -> None:
+    """Delete a journal that is open and held until then, and close it."""
     step("end", path)
-    path.unlink(missing_ok=True)
+    try:
+        if os.name == "posix":
+            path.unlink(missing_ok=True)
+    finally:
+        os.close(fd)
+    path.unlink(missing_ok=True)  # elsewhere nobody deletes what is open
     with suppress(OSError):
         path.parent.rmdir()
 
