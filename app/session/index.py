@@ -21,7 +21,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
-from functools import cache, cached_property, lru_cache
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -31,6 +31,16 @@ from app.scoring.conditions import Conditions, DeviceKind
 from app.session.admission import Admission, admissions, with_admission
 from app.session.database import BUSY_SECONDS, Database, DatabaseError, lockable
 from app.session.people import People
+from app.session.sealed_rows import (
+    SEALED,
+    STARTED,
+    STUDENT,
+    VERDICT,
+    Row,
+    Sealer,
+    attempts_table,
+    seals_table,
+)
 from app.session.sidecar import Cached, fresh_kept, read_kept
 from app.session.signature import Signed, judged, signature_file
 from app.session.station import StationKey, seals_here, this_station
@@ -38,7 +48,7 @@ from app.session.store import SUFFIX, records, settled
 from app.session.summary import UNFINISHED, Summary
 
 if TYPE_CHECKING:
-    from sqlalchemy import Table
+    pass
 
 INDEX: Final = "index.sqlite"
 """Name of the file in the folder of the records."""
@@ -181,7 +191,7 @@ class Index:
         self.database = self._opened(where)
 
     def _opened(self, path: Path | None) -> Database:
-        tables = lambda: _attempts().metadata  # noqa: E731
+        tables = lambda: attempts_table().metadata  # noqa: E731
         return Database(path, tables, _VERSION, "index", self._busy, disposable=True)
 
     @property
@@ -261,12 +271,12 @@ class Index:
         rows, odd = self._sealed_rows(key)
         if odd:
             rows += self._mend(odd, key)
-            rows.sort(key=lambda row: (row[_STARTED], row[0]))
+            rows.sort(key=lambda row: (row[STARTED], row[0]))
         asked = None if students is None else set(students)
         return [
             _indexed(row, seals, admitted.get(row[0]))
             for row in rows
-            if asked is None or row[_STUDENT] in asked
+            if asked is None or row[STUDENT] in asked
         ]
 
     def problems_of(self, path: Path) -> list[str]:
@@ -282,38 +292,38 @@ class Index:
         found = next((row for row in self._rows_as_they_are() if row[0] == path.stem), None)
         if mark is None or found is None or found[1:5] != mark:
             return []
-        row = dict(zip(_SEALED, found, strict=False))
+        row = dict(zip(SEALED, found, strict=False))
         right = next(iter(_rows(self.folder, path.stem, mark, read_kept, key)), None)
         if right is None:
             return []
-        other = [name for name in _SEALED if row[name] != right[name] and name != "record"]
+        other = [name for name in SEALED if row[name] != right[name] and name != "record"]
         told = [
             f"{name}: {row[name]!r} in the index, {right[name]!r} by the record"
             for name in other
             if name not in ("document", "under")
         ]
-        if not told and (other or found[-1] != _Sealer(key)(found[:-1])):
+        if not told and (other or found[-1] != Sealer(key)(found[:-1])):
             told = ["its row was not written by this station"]
         return told
 
     # --- inside -----------------------------------------------------------------------------------
-    def _rows_as_they_are(self) -> list[_Row]:
+    def _rows_as_they_are(self) -> list[Row]:
         """Return all rows as they stand, oldest first: what a seal is over, and the seal at last.
 
         Digest of the record and seal are None where there is none.
         """
         from sqlalchemy import select
 
-        table, seals = _attempts(), _seals()
+        table, seals = attempts_table(), seals_table()
         columns = [*table.columns, seals.c.record, seals.c.seal]
         wanted = select(*columns).outerjoin(seals, table.c.id == seals.c.id)
         with self.database.read() as connection:
             found = connection.execute(wanted.order_by(table.c.started, table.c.id))
             return [tuple(row) for row in found]
 
-    def _sealed_rows(self, key: StationKey | None) -> tuple[list[_Row], list[str]]:
+    def _sealed_rows(self, key: StationKey | None) -> tuple[list[Row], list[str]]:
         """Return the rows that this station has sealed, and the ids of the others."""
-        rows, odd, seal_of = [], [], _Sealer(key)
+        rows, odd, seal_of = [], [], Sealer(key)
         for row in self._rows_as_they_are():
             if hmac.compare_digest(str(row[-1]).encode(), seal_of(row[:-1]).encode()):
                 rows.append(row)
@@ -321,7 +331,7 @@ class Index:
                 odd.append(str(row[0]))
         return rows, odd
 
-    def _mend(self, names: Sequence[str], key: StationKey | None) -> list[_Row]:
+    def _mend(self, names: Sequence[str], key: StationKey | None) -> list[Row]:
         """Read records anew, and write their rows where the index can be written."""
         there, rows = self._there(key), []
         for name in names:
@@ -329,7 +339,7 @@ class Index:
                 rows += _rows(self.folder, name, there[name], read_kept, key)
         with suppress(DatabaseError):
             self._put(rows, [name for name in names if name not in there])
-        return [tuple(row[name] for name in _SEALED) for row in rows]
+        return [tuple(row[name] for name in SEALED) for row in rows]
 
     def _there(self, key: StationKey | None) -> dict[str, Mark]:
         """Return the marks of the records in the folder now."""
@@ -349,7 +359,7 @@ class Index:
     def _known(self) -> dict[str, Mark]:
         from sqlalchemy import select
 
-        c = _attempts().c
+        c = attempts_table().c
         wanted = select(c.id, c.size, c.modified_ns, c.signed_ns, c.station)
         with self.database.read() as connection:
             return {row[0]: (row[1], row[2], row[3], row[4]) for row in connection.execute(wanted)}
@@ -359,12 +369,12 @@ class Index:
         from sqlalchemy import delete
         from sqlalchemy.dialects.sqlite import insert
 
-        seal_of = _Sealer(this_station())
+        seal_of = Sealer(this_station())
         sealed = [
-            dict(row) | {"seal": seal_of(tuple(row[name] for name in _SEALED))} for row in rows
+            dict(row) | {"seal": seal_of(tuple(row[name] for name in SEALED))} for row in rows
         ]
         with self.database.write() as connection:
-            for table in (_attempts(), _seals()):
+            for table in (attempts_table(), seals_table()):
                 if gone is None:
                     connection.execute(delete(table))
                 for begin in range(0, len(gone or ()), _AT_ONCE):
@@ -417,82 +427,14 @@ def _rows(
     ]
 
 
-_SEALED: Final = (
-    *("id", "size", "modified_ns", "signed_ns", "station", "started", "student", "exercise"),
-    *("version", "state", "duration", "total", "passed", "verdict", "counts", "under", "document"),
-    "record",
-)
-"""What the seal of a row is over, in this order."""
-
-
-_STARTED, _STUDENT, _VERDICT = (_SEALED.index(n) for n in ("started", "student", "verdict"))
-
-_Row = tuple[Any, ...]
-"""Values in the order of `_SEALED`; a seal may follow."""
-
-
-class _Sealer:
-    """Makes the seals of rows: nobody without the station's key can, nor move one elsewhere."""
-
-    def __init__(self, key: StationKey | None) -> None:
-        self._key = None if key is None else key.derived("row of the index")
-
-    def __call__(self, row: _Row) -> str:
-        if self._key is None:
-            return ""
-        texts = [f"{len(text)}:{text}" for text in map(str, row)]
-        whole = "".join(texts).encode("utf-8", "surrogatepass")
-        return hmac.digest(self._key, whole, "sha256").hex()
-
-
-def _indexed(row: _Row, seals: bool, admitted: Admission | None) -> Indexed:
+def _indexed(row: Row, seals: bool, admitted: Admission | None) -> Indexed:
     """Return an attempt with what this station says of it now."""
-    verdict, record = row[_VERDICT], row[len(_SEALED) - 1]
+    verdict, record = row[VERDICT], row[len(SEALED) - 1]
     if admitted is not None:
         verdict = with_admission(verdict, record, admitted)
     stands = verdict != Signed.ALTERED and (not seals or verdict != Signed.UNSIGNED)
-    values = row[_STARTED : len(_SEALED) - 1]
+    values = row[STARTED : len(SEALED) - 1]
     found = Indexed(*(row[0], *values, stands))
     if not stands:
         return replace(found, counts=False, passed=None)
-    return found if verdict == row[_VERDICT] else replace(found, verdict=verdict)
-
-
-@cache
-def _attempts() -> Table:
-    from sqlalchemy import BigInteger, Boolean, Column, Float, Integer, MetaData, String, Table
-
-    known = MetaData()
-    Table(
-        "seals",
-        known,
-        Column("id", String, primary_key=True),
-        Column("record", String, nullable=False),
-        Column("seal", String, nullable=False),
-    )
-    return Table(
-        "attempts",
-        known,
-        Column("id", String, primary_key=True),
-        Column("size", BigInteger, nullable=False),
-        Column("modified_ns", BigInteger, nullable=False),
-        Column("signed_ns", BigInteger, nullable=False),
-        Column("station", String, nullable=False),
-        Column("started", String, nullable=False, index=True),
-        Column("student", String, nullable=False, index=True),
-        Column("exercise", String, nullable=False),
-        Column("version", Integer, nullable=False),
-        Column("state", String, nullable=False),
-        Column("duration", Float, nullable=False),
-        Column("total", Float),
-        Column("passed", Boolean),
-        Column("verdict", String, nullable=False),
-        Column("counts", Boolean, nullable=False),
-        Column("under", String, nullable=False),
-        Column("document", String, nullable=False),
-    )
-
-
-@cache
-def _seals() -> Table:
-    return _attempts().metadata.tables["seals"]
+    return found if verdict == row[VERDICT] else replace(found, verdict=verdict)
