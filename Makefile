@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constr
 TRAINER := $(VENV)/.trainer
 TESTS := $(VENV)/.tests
 
-.PHONY: setup demo run test by-hand careless soak check bench trial fuzz accuracy docs docs-pictures wheel clean
+.PHONY: setup demo run test by-hand careless soak check bench trial fuzz kills accuracy docs docs-pictures wheel clean
 
 setup: $(TESTS)  ## make .venv with all that tests and checks need, and install what the system lacks
 
@@ -67,6 +67,11 @@ bench: setup  ## every figure against its peer, in one run
 SEEDS ?= 100
 trial: setup  ## what five skills score in every exercise that ships; an hour or more, goes on where it stopped
 	$(BIN)/python -m tools.trial_table --seeds $(SEEDS) $(TRIAL)
+
+KILLS ?= 1000
+SECONDS ?= 86400
+kills: setup  ## programs killed at every step and at any moment, and what the next start finds
+	$(BIN)/python -m tests.kills --kills $(KILLS) --seconds $(SECONDS) --seed $(SEED)
 
 fuzz: setup  ## ten thousand mutated files of every kind through their readers
 	$(BIN)/python -W ignore -m tests.fuzz $(FUZZ)

@@ -268,15 +268,24 @@ def remark(
     release: Annotated[
         bool | None, typer.Option("--release/--hold", help="Show the result of an assessment.")
     ] = None,
+    admit: Annotated[
+        str | None,
+        typer.Option("--admit", help="Why an attempt that is not signed here counts all the same."),
+    ] = None,
     folder: FolderOption = None,
 ) -> Answer:
-    """Comment an attempt, declare it void, release it (instructor)."""
+    """Comment an attempt, declare it void, release it, admit an unsigned one (instructor)."""
+    from app.session.admission import admissions
+    from app.session.admission import admit as admit_records
     from app.session.people import People
     from app.session.store import find, records_folder
 
     people = People()
     instructor(people)
-    name = find(records_folder(folder), attempt).stem
+    path = find(records_folder(folder), attempt)
+    name = path.stem
+    if admit is not None:
+        admit_records([path], admit, people)
     asked = {"comment": comment, "void": void, "released": release}
     said: dict[str, str | bool] = {k: v for k, v in asked.items() if v is not None}
     if said:
@@ -287,6 +296,7 @@ def remark(
         "comment": now.comment if now else "",
         "void": now.void if now else "",
         "released": bool(now and now.released),
+        "admitted": admitted.why if (admitted := admissions(people).get(name)) else "",
     }
     return Answer(facts, [f"{key:9} {value or '-'}" for key, value in facts.items()])
 

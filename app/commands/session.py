@@ -113,25 +113,38 @@ def verify(
 ) -> Answer:
     """Compute the score anew and say what differs, and what is signed.
 
-    Looks at the score in the record and at the files beside it. Ends with code 3 if the score
-    differs or the record was altered after it was signed. *verified* means: written by this
-    station, not that the owner of its disk could not forge it.
+    Looks at the score in the record, the files beside it and its row of the index. Ends with code 3
+    if one of them differs or the record was altered after it was signed. *verified* means: written
+    by this station, not that the owner of its disk could not forge it.
     """
     from app.commands.people import held
+    from app.session.admission import admissions, with_admission
+    from app.session.index import Index
     from app.session.recording import open_recording
-    from app.session.sidecar import verify_record
-    from app.session.signature import Signed, judge_whole, this_station
+    from app.session.sidecar import file_digest, verify_record
+    from app.session.signature import Signed, judge_whole
+    from app.session.station import this_station
     from app.session.store import find
     from app.session.summary import derive
 
     path = find(_folder(folder), session_id)
     held([derive(open_recording(path))], ask=True)  # nothing beside the record is written anew
     found, signed = verify_record(path), judge_whole(path, this_station())
-    facts = {"signature": signed.verdict.value, "signature_reason": signed.why}
+    index, admitted = Index(path.parent).problems_of(path), admissions().get(path.stem)
+    verdict = with_admission(signed.verdict.value, file_digest(path), admitted)
+    facts: dict[str, Any] = {
+        "signature": verdict,
+        "signature_reason": signed.why,
+        "admitted": admitted.why if admitted is not None and verdict == Signed.ADMITTED else "",
+        "index": index,
+    }
+    lines = [*found.sentences(), f"signature: {signed.sentence()}"]
+    lines += [f"admitted by the instructor: {facts['admitted']}"] if facts["admitted"] else []
+    lines += [f"the index was altered: {problem}" for problem in index]
     return Answer(
         found.document() | facts,
-        [*found.sentences(), f"signature: {signed.sentence()}"],
-        yes=found.confirmed and signed.verdict is not Signed.ALTERED,
+        lines,
+        yes=found.confirmed and signed.verdict is not Signed.ALTERED and not index,
     )
 
 
@@ -256,11 +269,9 @@ def _folder(folder: Path | None) -> Path:
 def _scores(folder: Path, ids: list[str] | None) -> tuple[str, int]:
     from app.commands.people import held
     from app.exchange.csv_export import score_table
-    from app.session.sidecar import fresh_summary
-    from app.session.store import computed, find
+    from app.session.store import computed
 
-    chosen = [find(folder, name) for name in dict.fromkeys(ids or [])]
-    summaries = [fresh_summary(path) for path in chosen] if ids else computed(folder)
+    summaries = computed(folder, list(dict.fromkeys(ids or [])))
     held(summaries, ask=True)
     return score_table(summaries), len(summaries)
 

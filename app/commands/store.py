@@ -38,20 +38,21 @@ def status(folder: FolderOption = None) -> Answer:
     seen = index.refresh()
     found = index.attempts()
     verdicts, states = Counter(one.verdict for one in found), Counter(one.state for one in found)
+    words = [v for v in Signed if v is not Signed.ADMITTED or verdicts[v.value]]
     facts = {
         "folder": place,
         "index": index.path,
         "read": seen.read,
         "gone": seen.gone,
         "attempts": len(found),
-        "signatures": {verdict.value: verdicts[verdict.value] for verdict in Signed},
+        "signatures": {verdict.value: verdicts[verdict.value] for verdict in words},
         "states": dict(sorted(states.items())),
         "deleted": len(records(place / TRASH)),
     }
     lines = [
         f"{len(found)} attempts in {place}, {facts['deleted']} deleted",
         f"index: {index.path or 'in memory, the folder can only be read'}",
-        "signatures: " + ", ".join(f"{verdicts[v.value]} {v.value}" for v in Signed),
+        "signatures: " + ", ".join(f"{verdicts[v.value]} {v.value}" for v in words),
         "states: " + (", ".join(f"{n} {state}" for state, n in sorted(states.items())) or "none"),
     ]
     return Answer(facts, lines)
@@ -89,12 +90,14 @@ def backup(
     count = with_progress(lambda progress: archive.backup(out, place, people, progress))
     key = bool(people.wrapped_key())
     lines = [f"{count} records written to {out}"]
+    left = archive.left_out()
+    lines += [f"not in it: {line}" for line in left]
     if not key:
         lines.append(
             "without the station's key: set a password first (`acus people instructor`) if its "
             "records are to be verified on another computer"
         )
-    return Answer({"files": [out], "records": count, "key": key}, lines)
+    return Answer({"files": [out], "records": count, "key": key, "left_out": left}, lines)
 
 
 def restore(
@@ -109,8 +112,8 @@ def restore(
 ) -> Answer:
     """Bring back what a backup holds (instructor).
 
-    Only what is missing here: no record is overwritten, and nobody comes back who was erased here.
-    Ends with code 3 if a record is another one here.
+    Only what is missing here, all of it or nothing: no record is overwritten, and nobody comes back
+    who was erased. Says what of it is not taken, and ends with code 3 if anything is not.
     """
     from app.commands.calibrate_parts import with_progress
     from app.commands.people import instructor
@@ -133,6 +136,7 @@ def restore(
         "erased": done.erased,
         "people": done.people,
         "key": done.key,
+        "not_taken": list(done.not_taken),
     }
     lines = [
         f"{done.records} records restored, {done.kept} were here already",
@@ -141,7 +145,8 @@ def restore(
     ]
     if done.erased:
         lines.append(f"{done.erased} records left out: their person was erased")
-    return Answer(facts, lines, yes=not done.different)
+    lines += [f"✖ not taken: {line}" for line in done.not_taken]
+    return Answer(facts, lines, yes=not done.different and not done.not_taken)
 
 
 def empty(

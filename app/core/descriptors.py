@@ -4,6 +4,10 @@ Windows has no `fcntl`. What is only a safeguard there falls away; what would be
 lock is not done.
 """
 
+import errno
+import tempfile
+from pathlib import Path
+
 try:
     import fcntl
 except ImportError:  # pragma: no cover - tested in a process without it
@@ -26,13 +30,35 @@ def hold(descriptor: int) -> None:
 
 def is_held(descriptor: int) -> bool:
     """Whether somebody else holds a file; True where the system cannot tell."""
+    return hold_alone(descriptor) is not True
+
+
+def hold_alone(descriptor: int) -> bool | None:
+    """Hold a file alone until it is closed, unless somebody else holds it (False).
+
+    None where the system cannot tell: it has no locks, or this file system has none.
+    """
+    if fcntl is None:
+        return None
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:
+        return None
+    return True
+
+
+def has_locks(folder: Path) -> bool:
+    """Whether files in a folder can be locked; True where that cannot be tried."""
     if fcntl is None:
         return True
     try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        return True
-    return False
+        with tempfile.TemporaryFile(dir=folder) as probe:
+            fcntl.lockf(probe.fileno(), fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
+        return error.errno not in (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP, errno.EINVAL)
+    return True
 
 
 def seal(descriptor: int, seals: int) -> None:

@@ -1,16 +1,50 @@
-"""Folders for the time that a program runs, in the system's temporary folder.
+"""Folders for the time that a program runs, in the system's temporary folder, and temporary names.
 
-Their names say whose they are, by process and the moment it started, so that those of a program
-that was killed can be told from those of one that lives, and are swept away by the next.
+They say whose they are, by process and the moment it started, so that those of a program that was
+killed can be told from those of one that lives, and are swept away by the next.
 """
 
+import hashlib
 import os
+import platform
 import re
 import shutil
 import tempfile
+from functools import cache
 from pathlib import Path
+from uuid import uuid4
 
 _NAME = re.compile(r"acus-[a-z]+-(\d+)-(\d+)-.*")
+
+
+_PROCESS = re.compile(r".*\.([0-9a-f]{8})-(\d+)-(\d+)-[0-9a-f]{32}")
+
+
+def name_of_process() -> str:
+    """Return a new name that tells of which computer and process it is."""
+    own = os.getpid()
+    return f"{_computer()}-{own}-{_started(own) or 0}-{uuid4().hex}"
+
+
+def process_has_gone(name: str) -> bool:
+    """Whether a file's name ends in that of a process of this computer that runs no more.
+
+    False where the system does not tell which processes run, and for files of other computers.
+    """
+    match = _PROCESS.fullmatch(name)
+    if match is None or match[1] != _computer() or not tells_processes():
+        return False
+    return _started(int(match[2])) != match[3]
+
+
+def tells_processes() -> bool:
+    """Whether this system tells which processes run, and since when."""
+    return bool(_started(os.getpid()))
+
+
+@cache
+def _computer() -> str:
+    return hashlib.sha256(platform.node().encode()).hexdigest()[:8]
 
 
 def temporary_folder(kind: str) -> Path:
@@ -46,9 +80,10 @@ def _is_own(folder: Path) -> bool:
 
 
 def _started(pid: int) -> str:
-    """When a process started, in ticks since the machine did; empty if there is none."""
+    """When a process started, in ticks since the machine did; empty if none runs."""
     try:
         text = Path(f"/proc/{pid}/stat").read_text()
     except OSError:
         return ""
-    return text[text.rindex(")") + 2 :].split()[19]
+    fields = text[text.rindex(")") + 2 :].split()
+    return "" if fields[0] in "ZX" else fields[19]  # ended, and nobody has asked how

@@ -199,6 +199,7 @@ FIXED: Final = (
     "agreement_mm",
     "scoring_version",
     "comparison_group",
+    "signature",
 )
 """Columns before the metrics; each metric then has the column `<name>_<unit>`."""
 
@@ -251,6 +252,7 @@ def score_table(summaries: Iterable[Summary]) -> str:
             *_fixed(row),
             *_conditions(row),
             group,
+            row.signature,
             *(values.get(name) for name in metrics),
             *(sds.get(name) for name in metrics),
             DISCLAIMER,

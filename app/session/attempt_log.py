@@ -1,7 +1,7 @@
 """Everything that one attempt leaves behind: samples, events, its record, and its result."""
 
 from collections.abc import Callable
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
@@ -15,8 +15,9 @@ from app.session import sample as encoding
 from app.session.conditions import conditions_of
 from app.session.control_scan import scan_marks
 from app.session.curves import curves
-from app.session.errors import RecordingError
+from app.session.errors import RecordingError, SessionError
 from app.session.header import Attachment
+from app.session.journal import Journal, Step, carry_out, sealing
 from app.session.machine import Attempt
 from app.session.recorder import Recorder
 from app.session.recording import Recording, deferred_inputs
@@ -27,7 +28,8 @@ from app.session.sample_columns import attachment
 from app.session.samples import SampleHistory, Samples
 from app.session.scored import agreement_of, renders_force, score_document, trajectory
 from app.session.sidecar import write_summary
-from app.session.signature import SignatureError, StationKey, sign
+from app.session.signature import signature_file, signed
+from app.session.station import StationKey
 from app.session.summary import Summary
 from app.session.touching import touches_of
 from app.session.transitions import excused
@@ -168,8 +170,6 @@ class AttemptLog:
     ) -> Summary:
         header = self.recorder.header
         document = score_document(score) if score is not None else None
-        self.recorder.finish(files, self._result(attempt))
-        status = self.recorder.status()
         summary = Summary(
             id=header.id,
             started=header.records()["session"]["started"],
@@ -181,7 +181,6 @@ class AttemptLog:
             duration=attempt.duration(attempt.since),
             scans=self.scans,
             score=document,
-            problems=_problems(status.failure, status.lost_rows, status.full),
             conditions=conditions_of(
                 header.records(),
                 {a.name: a.data for a in header.attachments},
@@ -190,30 +189,45 @@ class AttemptLog:
                 self.events,
             ),
         )
-        return self._write(summary, files)
+        if not self.recorder.status().published:
+            self.recorder.finish(files, self._result(attempt))
+            return self._with_problems(summary)
+        return self._end(summary, files, self._result(attempt))
 
-    def _write(self, summary: Summary, files: tuple[Attachment, ...]) -> Summary:
-        """Write sidecar and signature of a record that exists and is ours."""
-        status = self.recorder.status()
-        if not status.published:
-            return summary
-        with suppress(OSError):  # the list derives it from the record, which is complete
-            write_summary(status.path, summary)
-        return self._sign(summary, files)
+    def _end(
+        self, summary: Summary, files: tuple[Attachment, ...], result: dict[str, str]
+    ) -> Summary:
+        """End the record, sign it and write the summary beside it.
 
-    def _sign(self, summary: Summary, files: tuple[Attachment, ...]) -> Summary:
-        """Sign the record with the station's key; what hinders that is told with the attempt."""
-        status = self.recorder.status()
-        if status.failure:
-            return summary
+        The signature is planned before the record's last bytes are written, so that no finished
+        attempt is without one, whatever ends the program in between. What hinders it is told.
+        """
+        path, unsigned = self.recorder.status().path, ""
         held = {a.name: a.data for a in (*self.recorder.header.attachments, *files)}
+        steps: list[Step] = []
         try:
-            sign(status.path, summary, held, StationKey.of())
-        except SignatureError as error:
-            return replace(summary, problems=(*summary.problems, str(error)))
+            key = StationKey.of()
+            with ExitStack() as stack:
+
+                def seal(digest: str) -> None:
+                    text = signed(path, digest, summary, held, key)
+                    steps.append(sealing(path, digest, signature_file(path), text))
+                    with suppress(SessionError, OSError):  # then it is signed right after its end
+                        stack.enter_context(Journal(path.parent)).plan(steps)
+
+                self.recorder.finish(files, result, seal)
+            carry_out(steps)  # nothing where the journal has done it
+        except (SessionError, OSError) as error:
+            unsigned = f"{path.name} is not signed: {error}"
+            self.recorder.finish(files, result)
+        summary = self._with_problems(summary, unsigned)
+        with suppress(OSError):  # the list derives it from the record, which is complete
+            write_summary(path, summary)
         return summary
 
-
-def _problems(failure: str, lost_rows: int, full: str) -> tuple[str, ...]:
-    lost = f"{lost_rows} ticks of the loop were lost while recording" if lost_rows else ""
-    return tuple(text for text in (failure, lost, full) if text)
+    def _with_problems(self, summary: Summary, unsigned: str = "") -> Summary:
+        """Return the summary with what the record lacks."""
+        status = self.recorder.status()
+        lost = f"{status.lost_rows} ticks of the loop were lost while recording"
+        found = (status.failure, lost if status.lost_rows else "", status.full, unsigned)
+        return replace(summary, problems=tuple(text for text in found if text))

@@ -205,7 +205,7 @@ def board_of(
     ]
     whose = people.keys()
     own = [one for one in attempts if one.student in whose]
-    items = course.items if course is not None else every_item(own)
+    items = course.items if course is not None else every_item([one for one in own if one.stands])
     now = now or datetime.datetime.now(datetime.UTC)
     asked = ((one.id, one.student, one.exercise, one.version) for one in own)
     held = held_back(asked) if released else {}
@@ -297,6 +297,8 @@ def _why_not_counted(one: Indexed, item: CourseItem, said: Remarks | None) -> st
         return "altered after it was signed"
     if said is not None and said.void:
         return "declared void by the instructor"
+    if not one.stands:
+        return "not sealed by this station"
     if not one.counts:
         known = one.conditions
         if not known.by_person:

@@ -22,6 +22,7 @@ from app.exercises.schema import Exercise
 from app.session.errors import SessionError
 from app.session.index import Indexed
 from app.session.people import PEOPLE, People, Person, Remarks, people_folder
+from app.session.signature import Signed
 
 NAME: Final = r"^[a-z0-9]+(-[a-z0-9]+)*$"
 """A course's id is also its file's name."""
@@ -422,7 +423,11 @@ def held_back(attempts: Iterable[tuple[str, str, str, int]]) -> dict[str, str]:
 
 
 def attempts_used(attempts: Sequence[Indexed], item: CourseItem) -> list[Indexed]:
-    """Return a student's attempts that use one up: begun by a person, of this version."""
+    """Return a student's attempts that use one up: begun by a person, of this version.
+
+    What this station did not seal uses up none, but for those that were cut off: nothing seals
+    them, and a program that is killed must not give an attempt back.
+    """
     return [
         one
         for one in attempts
@@ -430,4 +435,5 @@ def attempts_used(attempts: Sequence[Indexed], item: CourseItem) -> list[Indexed
         and one.version == item.version
         and one.state in ("ended", "aborted", "unfinished")
         and one.conditions.by_person
+        and (one.stands or one.state == "unfinished" or one.verdict == Signed.ALTERED)
     ]

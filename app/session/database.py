@@ -7,13 +7,18 @@ when the program is killed in the middle of it. SQLAlchemy is imported when a fi
 
 from __future__ import annotations
 
+import os
+import shutil
 import sqlite3
+import tempfile
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
-from functools import cached_property
+from contextlib import closing, contextmanager, suppress
+from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from app.core.descriptors import has_locks
+from app.core.files import step
 from app.session.errors import SessionError
 
 if TYPE_CHECKING:
@@ -23,10 +28,16 @@ BUSY_SECONDS: Final = 10.0
 """So long a program waits for another one that writes [s]."""
 
 
+_READ_ONLY: Final = "can only be read: give this user the right to write there"
+_FULL: Final = "cannot be written, the disk is full: make room, nothing is lost"
+_NO_LOCKS: Final = "cannot be locked or written where it lies: put it on a disk of this computer"
 _MENDED: Final = (
     "is damaged: `acus store rebuild` makes the index anew, people come back from a backup"
     " (`acus store restore`)"
 )
+
+
+_NO_FOLDER: Final = "cannot be opened: look whether its folder exists and may be written"
 
 
 class DatabaseError(SessionError):
@@ -36,6 +47,21 @@ class DatabaseError(SessionError):
     def damaged(self) -> bool:
         """Whether the file is no database, or a broken one."""
         return _MENDED in str(self)
+
+    @property
+    def unwritable(self) -> bool:
+        """Whether the file cannot be written: no right, no room, or a disk without locks."""
+        return any(text in str(self) for text in (_READ_ONLY, _FULL, _NO_LOCKS, _NO_FOLDER))
+
+    @property
+    def busy(self) -> bool:
+        """Whether another program has it."""
+        return "in use by another program" in str(self)
+
+    @property
+    def newer(self) -> bool:
+        """Whether a newer version of Acus has written it."""
+        return "newer version of Acus" in str(self)
 
 
 class Database:
@@ -47,6 +73,7 @@ class Database:
         version: of the tables; a file of a later one is left alone.
         what: it holds, for messages, such as "index".
         busy: seconds to wait for another program.
+        disposable: what it holds can be made anew: tables that are not these are thrown away.
     """
 
     def __init__(
@@ -56,7 +83,9 @@ class Database:
         version: int,
         what: str,
         busy: float = BUSY_SECONDS,
+        disposable: bool = False,
     ) -> None:
+        self._disposable = disposable
         self.path, self._tables, self._version = path, tables, version
         self._what, self._busy = what, busy
 
@@ -67,7 +96,7 @@ class Database:
         Raises:
             DatabaseError: if it cannot be read.
         """
-        with self._errors(), self._engine.connect() as connection:
+        with self._errors(), self._reading() as connection:
             yield connection
 
     @contextmanager
@@ -77,10 +106,14 @@ class Database:
         Raises:
             DatabaseError: if it cannot be written.
         """
+        if self._why_read_only:
+            raise self._error(self._why_read_only)
         with self._errors(), self._engine.connect() as connection:
             connection.exec_driver_sql("ROLLBACK")
             connection.exec_driver_sql("BEGIN IMMEDIATE")
             yield connection
+            if self.path is not None:
+                step("commit", self.path)
             connection.commit()
 
     def close(self) -> None:
@@ -114,6 +147,56 @@ class Database:
             except OSError as error:
                 raise self._error(f"cannot be deleted: {error.strerror or error}") from error
 
+    @property
+    def _why_read_only(self) -> str:
+        """Say why a file that is there can only be read; empty if it can be written."""
+        if self.path is None or self._disposable or not self.path.exists():
+            return ""
+        if not (os.access(self.path, os.W_OK) and os.access(self.path.parent, os.W_OK)):
+            return _READ_ONLY
+        return "" if lockable(self.path.parent) else _NO_LOCKS
+
+    @contextmanager
+    def _reading(self) -> Iterator[Connection]:
+        """Connect to read: to the file, or to a copy in memory where the file needs writing."""
+        from sqlalchemy.exc import DatabaseError as Refused
+
+        if self.path is None or not self._why_read_only:
+            try:
+                connection = self._engine.connect()
+            except Refused as error:
+                full = _reason(str(error.orig), self._busy) in (_FULL, _NO_LOCKS, _NO_FOLDER)
+                if not full or self.path is None or not self.path.exists() or self._disposable:
+                    raise
+            else:
+                with connection:
+                    yield connection
+                return
+        with self._copied(self.path).connect() as connection:
+            yield connection
+
+    def _copied(self, path: Path) -> Engine:
+        """Return an engine on a copy of a file as it is now, in memory."""
+        from sqlalchemy import create_engine
+        from sqlalchemy.pool import StaticPool
+
+        taken = copied_to_memory(path)
+        engine = create_engine("sqlite://", poolclass=StaticPool, creator=lambda: taken)
+        with engine.connect() as connection:
+            self._check_version(connection)
+            self._tables().create_all(connection)
+            connection.commit()
+        return engine
+
+    def _check_version(self, connection: Connection) -> int:
+        found = int(connection.exec_driver_sql("PRAGMA user_version").scalar() or 0)
+        if found > self._version:
+            raise self._error(
+                f"was written by a newer version of Acus (form {found}, this one knows "
+                f"{self._version}): use that version"
+            )
+        return found
+
     @cached_property
     def _engine(self) -> Engine:
         from sqlalchemy import create_engine, event
@@ -129,20 +212,28 @@ class Database:
         event.listen(engine, "connect", self._prepare)
         event.listen(engine, "begin", _begin)
         with engine.connect() as connection:
-            found = int(connection.exec_driver_sql("PRAGMA user_version").scalar() or 0)
-        if found > self._version:
-            raise self._error(
-                f"was written by a newer version of Acus (form {found}, this one knows "
-                f"{self._version}): use that version"
-            )
-        if found < self._version:
+            found = self._check_version(connection)
+        if found < self._version or (self._disposable and not self._ours(engine)):
             with engine.connect() as connection:
                 connection.exec_driver_sql("ROLLBACK")
                 connection.exec_driver_sql("BEGIN IMMEDIATE")
+                if self._disposable:
+                    _drop_all(connection)
                 self._tables().create_all(connection)
                 connection.exec_driver_sql(f"PRAGMA user_version = {self._version}")
                 connection.commit()
         return engine
+
+    def _ours(self, engine: Engine) -> bool:
+        """Whether the file holds the tables that it should, and nothing else."""
+        from sqlalchemy import create_engine
+
+        with engine.connect() as connection:
+            there = schema_of(connection)
+        memory = create_engine("sqlite://")
+        self._tables().create_all(memory)
+        with memory.connect() as connection:
+            return there == schema_of(connection)
 
     def _prepare(self, connection: Any, _: object) -> None:
         connection.isolation_level = None  # transactions begin where `_begin` and `write` say so
@@ -169,6 +260,58 @@ class Database:
         return DatabaseError(f"the {self._what} {self.path or 'in memory'} {why}")
 
 
+def copied_to_memory(path: Path) -> sqlite3.Connection:
+    """Copy a database into memory without writing or locking anything beside it.
+
+    Raises:
+        sqlite3.DatabaseError, OSError: if it cannot be read.
+    """
+    taken = sqlite3.connect(":memory:", check_same_thread=False)
+    log = path.with_name(f"{path.name}-wal")
+    with tempfile.TemporaryDirectory() as place:  # for this user only
+        mine = Path(place) / path.name
+        shutil.copyfile(path, mine)
+        if log.exists() and log.stat().st_size:  # what is not in the file yet
+            shutil.copyfile(log, mine.with_name(log.name))
+        alone = "?vfs=unix-none" if os.name == "posix" else ""  # nobody else has this copy
+        with closing(sqlite3.connect(mine.as_uri() + alone, uri=True)) as source:
+            source.execute("PRAGMA locking_mode = EXCLUSIVE")  # its log needs no shared memory
+            source.backup(taken)
+    return taken
+
+
+@cache
+def lockable(folder: Path) -> bool:
+    """Whether files in a folder can be locked; looked at once."""
+    return has_locks(folder)
+
+
+def schema_of(connection: Connection) -> set[tuple[str, ...]]:
+    """Return all that a database defines: kind, name, and the columns of tables.
+
+    Tables of SQLite's own are left out.
+    """
+    found = connection.exec_driver_sql("SELECT type, name, tbl_name FROM sqlite_master")
+    items = [tuple(map(str, row)) for row in found if not str(row[1]).startswith("sqlite_")]
+    columns = {
+        (kind, name, *map(str, column))
+        for kind, name, _ in items
+        if kind == "table"
+        for column in connection.exec_driver_sql("SELECT * FROM pragma_table_info(?)", (name,))
+    }
+    return {*items, *columns}
+
+
+def _drop_all(connection: Connection) -> None:
+    """Throw away all that a database defines."""
+    for kind in ("trigger", "view", "table"):
+        found = connection.exec_driver_sql("SELECT name FROM sqlite_master WHERE type = ?", (kind,))
+        for (name,) in list(found):
+            if not str(name).startswith("sqlite_"):
+                quoted = str(name).replace('"', '""')
+                connection.exec_driver_sql(f'DROP {kind} IF EXISTS "{quoted}"')
+
+
 def _begin(connection: Any) -> None:
     connection.exec_driver_sql("BEGIN")
 
@@ -176,10 +319,12 @@ def _begin(connection: Any) -> None:
 def _reason(text: str, busy: float) -> str:
     reasons = {
         "database is locked": f"is in use by another program for {busy:g} s: close it, try again",
-        "readonly": "can only be read: give this user the right to write there",
-        "disk is full": "cannot be written, the disk is full: make room, nothing is lost",
+        "readonly": _READ_ONLY,
+        "disk is full": _FULL,
+        "locking protocol": _NO_LOCKS,
+        "disk I/O error": _NO_LOCKS,
         "not a database": _MENDED,
         "malformed": _MENDED,
-        "unable to open": "cannot be opened: look whether its folder exists and may be written",
+        "unable to open": _NO_FOLDER,
     }
     return next((said for key, said in reasons.items() if key in text), f"cannot be used: {text}")

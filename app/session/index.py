@@ -5,38 +5,56 @@ last look (by size and time of record and signature) is read, all else is taken 
 forgets all and reads every record. Both end with the same rows. A program that is killed in between
 leaves whole rows only, and the next look reads what is missing. Where the folder cannot be written
 the index is kept in memory.
+
+Nothing is believed of a row that this station has not sealed (a keyed MAC over all of it): its
+record is read instead. Where a station seals, an attempt counts if its signature is verified or the
+instructor has admitted it.
 """
 
 from __future__ import annotations
 
 import hashlib
+import hmac
 import json
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
-from functools import cache, cached_property, lru_cache
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from app.core.json_values import finite
 from app.core.progress import Progress
 from app.scoring.conditions import Conditions, DeviceKind
-from app.session.database import BUSY_SECONDS, Database, DatabaseError
+from app.session.admission import Admission, admissions, with_admission
+from app.session.database import BUSY_SECONDS, Database, DatabaseError, lockable
 from app.session.people import People
+from app.session.sealed_rows import (
+    SEALED,
+    STARTED,
+    STUDENT,
+    VERDICT,
+    Row,
+    Sealer,
+    attempts_table,
+    seals_table,
+)
 from app.session.sidecar import Cached, fresh_kept, read_kept
-from app.session.signature import StationKey, judged, signature_file, this_station
-from app.session.store import SUFFIX, records
+from app.session.signature import Signed, judged, signature_file
+from app.session.station import StationKey, seals_here, this_station
+from app.session.store import SUFFIX, records, settled
 from app.session.summary import UNFINISHED, Summary
 
 if TYPE_CHECKING:
-    from sqlalchemy import Table
+    pass
 
 INDEX: Final = "index.sqlite"
 """Name of the file in the folder of the records."""
 
-_VERSION: Final = 1
+_VERSION: Final = 2
 _AT_ONCE: Final = 100
 """Rows that are written in one transaction."""
 
@@ -59,9 +77,11 @@ class Indexed:
         total: points; None where it was not scored or is void.
         passed: whether the score passes; None without one.
         verdict: of the signature.
-        counts: whether it counts for a person: scored, by a person, and not emulated.
+        counts: whether it counts for a person: scored, by a person, not emulated, and it `stands`.
         under: what the score was made under, as text; empty where nothing is known.
         document: the summary as `Summary.document` gives it, as text.
+        stands: whether this station vouches for it: verified, admitted by the instructor, or not
+            altered where no station seals. What does not stand neither passes nor counts.
     """
 
     id: str
@@ -77,6 +97,7 @@ class Indexed:
     counts: bool
     under: str
     document: str
+    stands: bool = field(default=True, compare=False)
 
     @cached_property
     def summary(self) -> Summary:
@@ -113,11 +134,13 @@ class Refreshed:
         read: records that were read into the index.
         gone: rows whose record has gone.
         total: rows now.
+        mended: rows that were not what this station had written, of those that were read.
     """
 
     read: int
     gone: int
     total: int
+    mended: int = 0
 
 
 def totals_of(folder: Path, student: str, exercise: str, version: int) -> list[float | None]:
@@ -142,6 +165,7 @@ def totals_of(folder: Path, student: str, exercise: str, version: int) -> list[f
         if (one.exercise, one.version) == (exercise, version)
         and one.state in ("ended", "aborted", "unfinished")
         and one.conditions.by_person
+        and (one.stands or one.state == UNFINISHED)
         and (one.id not in remarks or not remarks[one.id].void)
     ]
 
@@ -162,8 +186,14 @@ class Index:
         self.folder = folder
         path = folder / INDEX
         writable = os.access(path if path.exists() else folder, os.W_OK)
-        where = path if writable and os.access(folder, os.W_OK) else None
-        self.database = Database(where, lambda: _attempts().metadata, _VERSION, "index", busy)
+        usable = writable and os.access(folder, os.W_OK) and lockable(folder)
+        where = path if usable else None
+        self._busy = busy
+        self.database = self._opened(where)
+
+    def _opened(self, path: Path | None) -> Database:
+        tables = lambda: attempts_table().metadata  # noqa: E731
+        return Database(path, tables, _VERSION, "index", self._busy, disposable=True)
 
     @property
     def path(self) -> Path | None:
@@ -173,12 +203,25 @@ class Index:
     def refresh(self, progress: Progress | None = None) -> Refreshed:
         """Bring the index up to date with the folder.
 
+        Where its file cannot be written it goes on in memory.
+
         Raises:
             DatabaseError: if it cannot be read or written.
             SessionError: if the folder cannot be read.
             Cancelled: if that was asked for; what was read by then stays.
         """
-        progress, key = progress or Progress(), this_station()
+        settled(self.folder)
+        try:
+            return self._refresh(progress or Progress())
+        except DatabaseError as error:
+            if not error.unwritable or self.path is None:
+                raise
+        self.database.close()
+        self.database = self._opened(None)
+        return self._refresh(progress or Progress())
+
+    def _refresh(self, progress: Progress) -> Refreshed:
+        key = this_station()
         there, known = self._there(key), self._known()
         changed = [name for name, mark in there.items() if known.get(name) != mark]
         gone = [name for name in known if name not in there]
@@ -196,8 +239,10 @@ class Index:
     def rebuild(self, progress: Progress | None = None) -> Refreshed:
         """Make the index anew from the records, whatever it and their summaries say.
 
-        Until all are read the old one stands; a damaged file is replaced. Raises as `refresh`.
+        Until all are read the old one stands; a file that is no index is replaced. Raises as
+        `refresh`.
         """
+        settled(self.folder)
         progress, key = progress or Progress(), this_station()
         there = self._there(key)
         rows: list[dict[str, Any]] = []
@@ -208,7 +253,7 @@ class Index:
             gone = len(set(self._known()) - set(there))
             self._put(rows, None)
         except DatabaseError as error:
-            if not error.damaged:
+            if error.newer or error.busy or error.unwritable:
                 raise
             self.database.discard()
             gone = 0
@@ -218,26 +263,55 @@ class Index:
     def attempts(self, students: Sequence[str] | None = None) -> list[Indexed]:
         """Return what is in the index, oldest first; only that of some students if asked.
 
-        Raises:
-            DatabaseError: if it cannot be read.
-        """
-        from sqlalchemy import select
+        Rows that this station has not sealed are read anew from their records.
 
-        table = _attempts()
-        names = [field.name for field in fields(Indexed)]
-        wanted = select(*(table.c[name] for name in names)).order_by(table.c.started, table.c.id)
-        with self.database.read() as connection:
-            found = [Indexed(*row) for row in connection.execute(wanted)]
-        if students is None:
-            return found
-        asked = set(students)
-        return [one for one in found if one.student in asked]
+        Raises:
+            DatabaseError: if it cannot be read, or what the instructor has admitted cannot.
+        """
+        key, admitted, seals = this_station(), admissions(), seals_here()
+        rows, odd = self._sealed_rows(key)
+        if odd:
+            rows += self._mend(odd, key)
+            rows.sort(key=lambda row: (row[STARTED], row[0]))
+        asked = None if students is None else set(students)
+        return [
+            _indexed(row, seals, admitted.get(row[0]))
+            for row in rows
+            if asked is None or row[STUDENT] in asked
+        ]
+
+    def problems_of(self, path: Path) -> list[str]:
+        """Say in which values the row of a record is not what the record gives; changes nothing.
+
+        A row that is merely not up to date, or not there, has no problems.
+
+        Raises:
+            DatabaseError: if the index cannot be read.
+        """
+        key = this_station()
+        mark = self._there(key).get(path.stem)
+        found = next((row for row in self._rows_as_they_are() if row[0] == path.stem), None)
+        if mark is None or found is None or found[1:5] != mark:
+            return []
+        row = dict(zip(SEALED, found, strict=False))
+        right = next(iter(_rows(self.folder, path.stem, mark, read_kept, key)), None)
+        if right is None:
+            return []
+        other = [name for name in SEALED if row[name] != right[name] and name != "record"]
+        told = [
+            f"{name}: {row[name]!r} in the index, {right[name]!r} by the record"
+            for name in other
+            if name not in ("document", "under")
+        ]
+        if not told and (other or found[-1] != Sealer(key)(found[:-1])):
+            told = ["its row was not written by this station"]
+        return told
 
     def content(self) -> str:
         """Return a digest of all rows: the same for two indexes that say the same."""
         from sqlalchemy import select
 
-        table = _attempts()
+        table = attempts_table()
         digest = hashlib.sha256()
         with self.database.read() as connection:
             for row in connection.execute(select(table).order_by(table.c.id)):
@@ -245,6 +319,40 @@ class Index:
         return digest.hexdigest()
 
     # --- inside -----------------------------------------------------------------------------------
+    def _rows_as_they_are(self) -> list[Row]:
+        """Return all rows as they stand, oldest first: what a seal is over, and the seal at last.
+
+        Digest of the record and seal are None where there is none.
+        """
+        from sqlalchemy import select
+
+        table, seals = attempts_table(), seals_table()
+        columns = [*table.columns, seals.c.record, seals.c.seal]
+        wanted = select(*columns).outerjoin(seals, table.c.id == seals.c.id)
+        with self.database.read() as connection:
+            found = connection.execute(wanted.order_by(table.c.started, table.c.id))
+            return [tuple(row) for row in found]
+
+    def _sealed_rows(self, key: StationKey | None) -> tuple[list[Row], list[str]]:
+        """Return the rows that this station has sealed, and the ids of the others."""
+        rows, odd, seal_of = [], [], Sealer(key)
+        for row in self._rows_as_they_are():
+            if hmac.compare_digest(str(row[-1]).encode(), seal_of(row[:-1]).encode()):
+                rows.append(row)
+            else:
+                odd.append(str(row[0]))
+        return rows, odd
+
+    def _mend(self, names: Sequence[str], key: StationKey | None) -> list[Row]:
+        """Read records anew, and write their rows where the index can be written."""
+        there, rows = self._there(key), []
+        for name in names:
+            if name in there:
+                rows += _rows(self.folder, name, there[name], read_kept, key)
+        with suppress(DatabaseError):
+            self._put(rows, [name for name in names if name not in there])
+        return [tuple(row[name] for name in SEALED) for row in rows]
+
     def _there(self, key: StationKey | None) -> dict[str, Mark]:
         """Return the marks of the records in the folder now."""
         station, marks = key.station if key else "", {}
@@ -263,7 +371,7 @@ class Index:
     def _known(self) -> dict[str, Mark]:
         from sqlalchemy import select
 
-        c = _attempts().c
+        c = attempts_table().c
         wanted = select(c.id, c.size, c.modified_ns, c.signed_ns, c.station)
         with self.database.read() as connection:
             return {row[0]: (row[1], row[2], row[3], row[4]) for row in connection.execute(wanted)}
@@ -273,17 +381,22 @@ class Index:
         from sqlalchemy import delete
         from sqlalchemy.dialects.sqlite import insert
 
-        table = _attempts()
+        seal_of = Sealer(this_station())
+        sealed = [
+            dict(row) | {"seal": seal_of(tuple(row[name] for name in SEALED))} for row in rows
+        ]
         with self.database.write() as connection:
-            if gone is None:
-                connection.execute(delete(table))
-            for begin in range(0, len(gone or ()), _AT_ONCE):
-                some = (gone or ())[begin : begin + _AT_ONCE]
-                connection.execute(delete(table).where(table.c.id.in_(some)))
-            if rows:
-                put = insert(table)
-                new = {column.name: put.excluded[column.name] for column in table.columns}
-                connection.execute(put.on_conflict_do_update(["id"], set_=new), rows)
+            for table in (attempts_table(), seals_table()):
+                if gone is None:
+                    connection.execute(delete(table))
+                for begin in range(0, len(gone or ()), _AT_ONCE):
+                    some = (gone or ())[begin : begin + _AT_ONCE]
+                    connection.execute(delete(table).where(table.c.id.in_(some)))
+                if sealed:
+                    put, names = insert(table), [column.name for column in table.columns]
+                    new = {name: put.excluded[name] for name in names}
+                    part = [{name: row[name] for name in names} for row in sealed]
+                    connection.execute(put.on_conflict_do_update(["id"], set_=new), part)
 
 
 def _rows(
@@ -300,7 +413,7 @@ def _rows(
     if summary.state == UNFINISHED and time.time() - mark[1] * 1e-9 < _STILL_WRITTEN:
         return []
     score, known = summary.score or {}, summary.conditions
-    total = score.get("total")
+    total = None if score.get("total") is None else float(score["total"])
     person = known is not None and known.by_person and known.kind is not DeviceKind.EMULATED
     return [
         {
@@ -314,39 +427,26 @@ def _rows(
             "exercise": summary.exercise_id,
             "version": known.version if known is not None else 0,
             "state": summary.state,
-            "duration": summary.duration,
+            "duration": float(summary.duration),
             "total": total,
             "passed": score.get("passed") if total is not None else None,
             "verdict": summary.signature,
             "counts": person and total is not None and not score.get("void_reason"),
             "under": "" if known is None else json.dumps(finite(known.document()), sort_keys=True),
             "document": json.dumps(summary.document(), sort_keys=True, ensure_ascii=False),
+            "record": kept.sha256,
         }
     ]
 
 
-@cache
-def _attempts() -> Table:
-    from sqlalchemy import BigInteger, Boolean, Column, Float, Integer, MetaData, String, Table
-
-    return Table(
-        "attempts",
-        MetaData(),
-        Column("id", String, primary_key=True),
-        Column("size", BigInteger, nullable=False),
-        Column("modified_ns", BigInteger, nullable=False),
-        Column("signed_ns", BigInteger, nullable=False),
-        Column("station", String, nullable=False),
-        Column("started", String, nullable=False, index=True),
-        Column("student", String, nullable=False, index=True),
-        Column("exercise", String, nullable=False),
-        Column("version", Integer, nullable=False),
-        Column("state", String, nullable=False),
-        Column("duration", Float, nullable=False),
-        Column("total", Float),
-        Column("passed", Boolean),
-        Column("verdict", String, nullable=False),
-        Column("counts", Boolean, nullable=False),
-        Column("under", String, nullable=False),
-        Column("document", String, nullable=False),
-    )
+def _indexed(row: Row, seals: bool, admitted: Admission | None) -> Indexed:
+    """Return an attempt with what this station says of it now."""
+    verdict, record = row[VERDICT], row[len(SEALED) - 1]
+    if admitted is not None:
+        verdict = with_admission(verdict, record, admitted)
+    stands = verdict != Signed.ALTERED and (not seals or verdict != Signed.UNSIGNED)
+    values = row[STARTED : len(SEALED) - 1]
+    found = Indexed(*(row[0], *values, stands))
+    if not stands:
+        return replace(found, counts=False, passed=None)
+    return found if verdict == row[VERDICT] else replace(found, verdict=verdict)

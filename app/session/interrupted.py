@@ -13,7 +13,7 @@ import os
 import struct
 import time
 from collections.abc import Iterator
-from contextlib import closing
+from contextlib import closing, suppress
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import IO, Final
@@ -23,14 +23,14 @@ from mcap.opcode import Opcode
 from mcap.records import DataEnd, Footer, Metadata
 from mcap.writer import MCAP0_MAGIC
 
-from app.core.descriptors import is_held
-from app.core.files import sync
+from app.core.descriptors import hold, is_held
+from app.core.files import replace, sync
 from app.session.errors import SessionError
 from app.session.machine import FINAL
 from app.session.recording import read_recording
 from app.session.sidecar import read_summary
 from app.session.signature import signature_file
-from app.session.store import find, records
+from app.session.store import find, records, settled
 from app.session.summary import BROKEN, Summary
 from app.session.verify import state_of
 
@@ -55,7 +55,7 @@ def interrupted(folder: Path, now: float | None = None) -> tuple[list[Summary], 
         SessionError: if the folder cannot be read.
     """
     now, found, fresh = time.time() if now is None else now, [], False
-    for path in records(folder):
+    for path in records(settled(folder)):
         if not is_cut_off(path):
             continue
         if _age(path, now) < QUIET_S:
@@ -110,12 +110,14 @@ def recover(folder: Path, session_id: str, now: float | None = None) -> Path:
             end = _end(path, now)
             fd = os.open(beside, os.O_CREAT | os.O_TRUNC | os.O_WRONLY, 0o600)
             with closing(os.fdopen(fd, "wb")) as out:
+                with suppress(OSError):
+                    hold(out.fileno())  # nobody takes it for one that a killed program left
                 for part in _whole(stream, path.stat().st_size):
                     out.write(part)
                 out.write(end)
                 out.flush()
                 os.fsync(out.fileno())
-            os.replace(beside, path)
+            replace(beside, path)
         if os.name == "posix":
             sync(path.parent)
     except OSError as error:

@@ -8,16 +8,18 @@ under its own name is never without its beginning.
 """
 
 import errno
+import hashlib
 import os
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
-from time import time
 from typing import Any, Final, cast
 
 from mcap.writer import CompressionType, Writer
 
 from app import __version__
-from app.core.descriptors import hold
+from app.core.descriptors import hold, hold_alone
+from app.core.files import step
 from app.session.blocks import COLUMNS, SLOT_NAMES
 from app.session.errors import RecordingError
 from app.session.header import Attachment, SessionHeader
@@ -28,9 +30,8 @@ RESERVE: Final = 4 * 1024 * 1024
 """Set aside for the end [bytes]: the last chunk, score, result, samples of a short attempt and the
 index of an hour."""
 
+_TRIES: Final = 20
 _NO_SPACE: Final = (errno.ENOSPC, errno.EDQUOT)
-_STRAY: Final = 86_400.0
-"""What a killed program left under a temporary name is removed after this long [s]."""
 
 
 class GrowingFile:
@@ -47,7 +48,7 @@ class GrowingFile:
         self._size = reserve
         self._part = path.with_name(f".{path.name}.part")
         self._reserve = path.with_name(f".{path.name}.reserve")
-        self._fd = -1
+        self._fd = self._reserve_fd = -1
         self._committed = 0
         self._pending = bytearray()
         self._published = False
@@ -69,17 +70,15 @@ class GrowingFile:
             FileExistsError: if there is a file of this name already.
             OSError: if it cannot be created, or there is no space for its end.
         """
-        _remove_strays(self.path.parent)
+        remove_strays(self.path.parent)
         if self.path.exists():
             raise FileExistsError(errno.EEXIST, "exists already", str(self.path))
         flags = os.O_CREAT | os.O_EXCL | os.O_WRONLY | getattr(os, "O_BINARY", 0)
         try:
-            _set_aside(self._reserve, self._size)
-            self._fd = os.open(self._part, flags, 0o600)
-            with suppress(OSError):  # a file system without locks: its time of change tells
-                hold(self._fd)  # nobody takes it for one that a killed program left
+            self._reserve_fd = _held(self._opened_reserve)
+            self._fd = _held(lambda: os.open(self._part, flags, 0o600))
         except OSError:
-            self._reserve.unlink(missing_ok=True)
+            self._give_back_space()
             raise
 
     def write(self, data: bytes) -> int:
@@ -124,6 +123,7 @@ class GrowingFile:
             OSError: if it cannot be written.
         """
         self.commit()
+        step("publish", self.path)
         try:
             os.link(self._part, self.path)  # refuses a name that is taken, as a rename would not
         except FileExistsError:
@@ -136,8 +136,11 @@ class GrowingFile:
         self._published = True
         _sync_folder(self.path.parent)
 
-    def close(self) -> None:
+    def close(self, sealed: Callable[[str], object] | None = None) -> None:
         """Commit the rest and close; what was never published is removed. Idempotent.
+
+        Args:
+            sealed: told the SHA-256 of the whole file before its end is written.
 
         Raises:
             OSError: if it cannot be written.
@@ -146,6 +149,9 @@ class GrowingFile:
             return
         try:
             self._give_back_space()
+            if sealed is not None:
+                sealed(self._digest())
+            step("close", self.path)
             self.commit()
         finally:
             self.abandon()
@@ -159,10 +165,24 @@ class GrowingFile:
         with suppress(OSError):
             os.close(fd)
         with suppress(OSError):
-            self._reserve.unlink(missing_ok=True)
+            self._give_back_space()
         if not self._published:
             with suppress(OSError):
                 self._part.unlink(missing_ok=True)
+
+    def _opened_reserve(self) -> int:
+        step("reserve", self._reserve)
+        _set_aside(self._reserve, self._size)
+        return os.open(self._reserve, os.O_RDONLY)
+
+    def _digest(self) -> str:
+        """SHA-256 of what is on the disk and what waits, hexadecimal."""
+        found = hashlib.sha256()
+        with (self.path if self._published else self._part).open("rb") as stream:
+            while block := stream.read(1 << 20):
+                found.update(block)
+        found.update(self._pending)
+        return found.hexdigest()
 
     def _append(self) -> None:
         view = memoryview(self._pending)
@@ -189,11 +209,36 @@ class GrowingFile:
         self._give_back_space()
 
     def _give_back_space(self) -> None:
+        fd, self._reserve_fd = self._reserve_fd, -1
+        if fd >= 0:
+            os.close(fd)
+        step("give back", self._reserve)
         self._reserve.unlink(missing_ok=True)
 
     def _spend(self, count: int) -> None:
         if self.full:
             self._size = max(0, self._size - count)
+
+
+def _held(opened: Callable[[], int]) -> int:
+    """Create a file and hold it, so that nobody takes it for one that a killed program left.
+
+    One that was swept away before it was held is created once more.
+
+    Raises:
+        OSError: if it cannot be created.
+    """
+    for _ in range(_TRIES):
+        try:
+            fd = opened()
+        except FileNotFoundError:
+            continue
+        with suppress(OSError):  # a file system without locks: nothing is swept there
+            hold(fd)
+        if os.fstat(fd).st_nlink:
+            return fd
+        os.close(fd)
+    raise FileNotFoundError(errno.ENOENT, "its folder has gone, or is cleared all the time")
 
 
 def _write(fd: int, data: memoryview) -> int:
@@ -224,11 +269,16 @@ def _sync_folder(folder: Path) -> None:
             os.close(handle)
 
 
-def _remove_strays(folder: Path) -> None:
+def remove_strays(folder: Path) -> None:
+    """Delete what killed programs left of records under temporary names: who lives holds them."""
     for path in (*folder.glob(".*.mcap.part"), *folder.glob(".*.mcap.reserve")):
         with suppress(OSError):
-            if time() - path.stat().st_mtime > _STRAY:
-                path.unlink()
+            fd = os.open(path, os.O_RDONLY)
+            try:
+                if hold_alone(fd):
+                    path.unlink(missing_ok=True)
+            finally:
+                os.close(fd)
 
 
 CHUNK_SIZE = 256 * 1024
@@ -323,8 +373,11 @@ class McapFile:
         self._finish_chunk()
         self._file.commit(sync)
 
-    def close(self) -> None:
+    def close(self, sealed: Callable[[str], object] | None = None) -> None:
         """Finish the file (index and footer) and close it; idempotent.
+
+        Args:
+            sealed: told the SHA-256 of the whole file before its end is written; does not raise.
 
         Raises:
             OSError: if it cannot be written.
@@ -333,7 +386,7 @@ class McapFile:
             return
         try:
             self._writer.finish()  # type: ignore[no-untyped-call]
-            self._file.close()
+            self._file.close(sealed)
         finally:
             self.abandon()
 

@@ -342,7 +342,7 @@ def rivals(
 ) -> tuple[Indexed, ...]:
     """Return the attempts that may stand beside one: own best first, then the others, best first.
 
-    Those that `scoring.conditions.comparable` lets meet, scored and not altered.
+    Those that `scoring.conditions.comparable` lets meet, scored and vouched for by this station.
 
     Args:
         attempts: of the index.
@@ -358,6 +358,7 @@ def rivals(
         for one in attempts
         if one.id != shown
         and one.total is not None
+        and one.stands
         and one.verdict != "altered"
         and not comparable(under, one.conditions)
         and open_to(one)

@@ -260,7 +260,7 @@ def around(
         return holding(courses_here, owner, one.exercise, one.version, released) is None
 
     under = shown.conditions
-    own = [one for one in attempts if same(one.student) and one.conditions.by_person]
+    own = [one for one in attempts if same(one.student) and one.stands and one.conditions.by_person]
     done = under.exercise if under is not None else ""
     course = next(
         (

@@ -10,22 +10,26 @@ can read these files can replace them.
 from __future__ import annotations
 
 import json
+import os
 import secrets
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
+from uuid import uuid4
 
 from app.core import paths
-from app.core.files import write_atomically
+from app.core.files import beside, step
 from app.session.database import BUSY_SECONDS, Database
 from app.session.errors import PeopleError
+from app.session.journal import Journal, Step, move, removal, settle
 from app.session.roster import RosterLine, checked_pin, judged_lines
-from app.session.signature import StationKey, new_recovery_key
+from app.session.station import StationKey, new_recovery_key
 
 if TYPE_CHECKING:
     from sqlalchemy import Connection, MetaData, Table
@@ -34,7 +38,8 @@ PEOPLE: Final = "people.sqlite"
 NAMES_FILE: Final = "names.json"
 INSTRUCTOR: Final = "the instructor"
 
-_VERSION: Final = 1
+VERSION: Final = 2
+"""Of the tables; a file of a later one is left alone."""
 _SHORTEST_PASSWORD: Final = 8
 _FREE_TRIES: Final = 3
 _FIRST_DELAY, _LONGEST_DELAY = 5.0, 300.0
@@ -114,8 +119,9 @@ class People:
         busy: float = BUSY_SECONDS,
     ) -> None:
         self.folder = folder or people_folder()
+        settle(self.folder)
         self._clock = clock
-        self.database = Database(self.folder / PEOPLE, _tables, _VERSION, "list of people", busy)
+        self.database = Database(self.folder / PEOPLE, _tables, VERSION, "list of people", busy)
 
     # --- the instructor ---------------------------------------------------------------------------
     def has_instructor(self) -> bool:
@@ -259,7 +265,7 @@ class People:
                 pin = line.pin or f"{secrets.randbelow(10**6):06d}"
                 hashed[line.pseudonym] = _hashed(pin)
                 pins |= {} if line.pin else {line.pseudonym: pin}
-        with self.database.write() as connection:
+        with self._as_one() as (connection, write_names):
             known = {
                 row.pseudonym.casefold(): row.key for row in connection.execute(select(persons))
             }
@@ -284,7 +290,7 @@ class People:
                     connection.execute(insert(members), rows)
                 if line.name:
                     names[key] = line.name
-            self._write_names(names)
+            write_names(names)
         pinned = MappingProxyType(pins)
         return RosterReport(tuple(added), tuple(updated), pinned, tuple(errors))
 
@@ -388,6 +394,32 @@ class People:
                 put = insert(table).values(attempt=attempt, **new)
                 connection.execute(put.on_conflict_do_update(["attempt"], set_=said))
 
+    def admitted(self) -> list[tuple[str, str, str, str, str]]:
+        """Return what was admitted (`admission`): attempt, record, reason, time and seal."""
+        if not (self.folder / PEOPLE).exists():
+            return []
+        from sqlalchemy import select
+
+        t = _tables().tables["admitted"].c
+        wanted = select(t.attempt, t.record, t.why, t.time, t.seal)
+        with self.database.read() as connection:
+            return [
+                (str(a), str(record), str(why), str(time), str(seal))
+                for a, record, why, time, seal in connection.execute(wanted)
+            ]
+
+    def admit(self, rows: Sequence[tuple[str, str, str, str, str]]) -> None:
+        """Keep what was admitted, all or nothing; `admission.admit` seals it."""
+        from sqlalchemy.dialects.sqlite import insert
+
+        table = _tables().tables["admitted"]
+        names = ("attempt", "record", "why", "time", "seal")
+        with self.database.write() as connection:
+            for row in rows:
+                values = dict(zip(names, row, strict=True))
+                put = insert(table).values(**values)
+                connection.execute(put.on_conflict_do_update(["attempt"], set_=values))
+
     # --- erasing ----------------------------------------------------------------------------------
     def erased(self) -> dict[str, str]:
         """Return when each erased person was, by key."""
@@ -411,21 +443,26 @@ class People:
             return frozenset(row.id for row in found)
 
     def forget_keys(
-        self, keys: Sequence[str], comments: Sequence[str] = (), attempts: Sequence[str] = ()
+        self,
+        keys: Sequence[str],
+        comments: Sequence[str] = (),
+        attempts: Sequence[str] = (),
+        files: Sequence[Path] = (),
     ) -> None:
-        """Erase persons for good: what is known by key, name and PIN first.
+        """Erase persons for good, with what is known by key, name and PIN, as one step.
 
         Args:
             keys: of the persons.
             comments: attempts of which nothing said is to be left.
-            attempts: ids of records that go too; `archive.finish_erasing` deletes the files.
+            attempts: ids of records that go too.
+            files: of those records.
         """
         from sqlalchemy.dialects.sqlite import insert
 
         t = _tables().tables
-        with self.database.write() as connection:
+        with self._as_one(files) as (connection, write_names):
             for key in keys:
-                for name, column in _OF_PERSON.items():
+                for name, column in OF_PERSON.items():
                     connection.execute(t[name].delete().where(t[name].c[column] == key))
                 put = insert(t["erased"]).values(key=key, time=_now())
                 connection.execute(put.on_conflict_do_nothing())
@@ -433,11 +470,12 @@ class People:
                 put = insert(t["erased_attempts"]).values(id=attempt)
                 connection.execute(put.on_conflict_do_nothing())
             for attempt in comments:
-                connection.execute(t["remarks"].delete().where(t["remarks"].c.attempt == attempt))
+                for table in (t["remarks"], t["admitted"]):
+                    connection.execute(table.delete().where(table.c.attempt == attempt))
             names = self._names()
             left = {key: name for key, name in names.items() if key not in keys}
             if left != names:
-                self._write_names(left)
+                write_names(left)
         self.database.shrink()
 
     # --- inside -----------------------------------------------------------------------------------
@@ -489,15 +527,50 @@ class People:
                 "without names"
             ) from error
 
-    def _write_names(self, names: Mapping[str, str]) -> None:
-        path = self.folder / NAMES_FILE
-        if not names and not path.exists():
-            return
+    @contextmanager
+    def _as_one(
+        self, files: Sequence[Path] = ()
+    ) -> Iterator[tuple[Connection, Callable[[Mapping[str, str]], None]]]:
+        """Write in one transaction, with which the file of names changes and other files go.
+
+        Whatever ends the program: either all of it has happened, or nothing, from the next look on.
+
+        Args:
+            files: to be deleted.
+        """
+        stamp, part = f"stamp:{uuid4().hex}", beside(self.folder / NAMES_FILE)
+        planned = False
+        steps: list[Step] = [removal(path) for path in files]
+
+        def write_names(names: Mapping[str, str]) -> None:
+            if not names and not (self.folder / NAMES_FILE).exists():
+                return
+            step("write", part)
+            fd = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+            with os.fdopen(fd, "wb") as stream:
+                text = json.dumps(dict(names), indent=1, ensure_ascii=False) + "\n"
+                stream.write(text.encode())
+                stream.flush()
+                os.fsync(stream.fileno())
+            steps.append(move(part, self.folder / NAMES_FILE))
+
+        self.folder.mkdir(parents=True, exist_ok=True, mode=0o700)
         try:
-            write_atomically(path, json.dumps(dict(names), indent=1, ensure_ascii=False) + "\n")
-            path.chmod(0o600)
+            with Journal(self.folder, alone=True) as journal, self.database.write() as connection:
+                yield connection, write_names
+                settings = _tables().tables["settings"].c
+                old = settings.name.like("stamp:%") & (settings.value < _yesterday())
+                connection.execute(_tables().tables["settings"].delete().where(old))
+                _set(connection, stamp, _now())
+                journal.plan_with(self.folder / PEOPLE, stamp, steps, [removal(part)])
+                planned = True
         except OSError as error:
-            raise PeopleError(f"cannot write {path}: {error.strerror or error}") from error
+            raise PeopleError(
+                f"cannot write in {self.folder}: {error.strerror or error}; nothing was changed"
+            ) from error
+        finally:
+            if not planned:
+                part.unlink(missing_ok=True)
 
 
 def people_folder() -> Path:
@@ -550,6 +623,11 @@ def _set(connection: Connection, name: str, value: str) -> None:
     connection.execute(insert(table), {"name": name, "value": value})
 
 
+def tables() -> Mapping[str, Table]:
+    """Return the tables by name."""
+    return _tables().tables
+
+
 def _failures() -> Table:
     return _tables().tables["failures"]
 
@@ -585,6 +663,8 @@ def _tables() -> MetaData:
         text("void"),
         Column("released", Boolean, nullable=False),
     )
+    admitted = (text(name) for name in ("record", "why", "time", "seal"))
+    Table("admitted", known, text("attempt", primary_key=True), *admitted)
     return known
 
 
@@ -592,10 +672,16 @@ def _now() -> str:
     return datetime.now(UTC).isoformat(timespec="seconds")
 
 
-_OF_PERSON: Final = {
+def _yesterday() -> str:
+    return (datetime.now(UTC) - timedelta(days=1)).isoformat(timespec="seconds")
+
+
+OF_PERSON: Final = {
     "persons": "key",
     "members": "person",
     "assigned": "person",
     "failures": "account",
 }
+"""Tables that hold something of a person, each with the column of its key."""
+
 _NO_SIGN_IN: Final = "pseudonym or PIN is wrong"

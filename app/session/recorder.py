@@ -195,9 +195,18 @@ class Recorder:
                 self._fail(error)
 
     def finish(
-        self, attachments: tuple[Attachment, ...] = (), result: dict[str, str] | None = None
+        self,
+        attachments: tuple[Attachment, ...] = (),
+        result: dict[str, str] | None = None,
+        sealed: Callable[[str], object] | None = None,
     ) -> None:
-        """Write the rest, the attachments and the result, and close the file; idempotent."""
+        """Write the rest, the attachments and the result, and close the file; idempotent.
+
+        Args:
+            attachments: that stand at its end.
+            result: what became of the attempt.
+            sealed: told the SHA-256 of the whole record before its end is written; does not raise.
+        """
         self._stop.set()
         if self._thread is not None:
             self._thread.join()
@@ -209,7 +218,7 @@ class Recorder:
                 self._last_block = -np.inf
                 self._write()
                 self._write_end(attachments, result)
-                self._file.close()
+                self._file.close(sealed)
             except (OSError, AcusError) as error:
                 self._fail(error)
             self._active = False

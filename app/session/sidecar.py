@@ -1,13 +1,15 @@
 """The summary beside a record, as a cache: lists trust it as long as the record is as it was.
 
 `<id>.json` holds the summary, the size, time and digest of the record that it was made of, and a
-digest of itself. Where size and time are those of the record and its own digest is right, a list
-takes it as it is; else the record is read and the file written anew. Whatever shows one attempt
+digest of itself: a keyed one where this station has a key, so that nobody else can write it. Where
+size and time are those of the record and its own digest is right, a list takes it as it is; else
+the record is read and the file written anew. Whatever shows one attempt
 (its debrief, report, exports, `acus session verify`) computes from the record and never asks the
 file.
 """
 
 import hashlib
+import hmac
 import json
 from collections.abc import Mapping
 from contextlib import suppress
@@ -20,6 +22,7 @@ from app.core.files import write_atomically
 from app.core.json_values import finite
 from app.session.errors import BrokenRecordingError
 from app.session.recording import messages_agree, open_recording, read_recording
+from app.session.station import StationKey, this_station
 from app.session.summary import BROKEN, UNFINISHED, Summary, derive
 from app.session.verify import Change, Verification, verify
 
@@ -61,7 +64,11 @@ def sidecar(path: Path) -> Path:
 
 
 def write_summary(path: Path, summary: Summary) -> None:
-    """Write the summary beside the record `path`, whole or not at all."""
+    """Write the summary beside the record `path`, whole or not at all.
+
+    Raises:
+        OSError: if the record cannot be read or the file not be written.
+    """
     stat = path.stat()
     record = {
         "size": stat.st_size,
@@ -69,9 +76,8 @@ def write_summary(path: Path, summary: Summary) -> None:
         "sha256": file_digest(path),
     }
     document = summary.document() | {"record": record}
-    text = json.dumps(
-        document | {"digest": _digest(document)}, indent=1, allow_nan=False, ensure_ascii=False
-    )
+    document |= {"digest": _digest(document, this_station())}
+    text = json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False)
     write_atomically(sidecar(path), text + "\n")
 
 
@@ -80,13 +86,13 @@ def cached(path: Path) -> Cached | None:
     try:
         document = json.loads(sidecar(path).read_text(encoding="utf-8"))
         written, record = document.pop("digest", ""), document["record"]
-        digest = _digest(document)  # raises for text that cannot be printed: it is not ours
+        digest = _digest(document, this_station())  # raises for what cannot be printed: not ours
         return Cached(
             summary=Summary.of(document, path.stem),
             size=int(record["size"]),
             modified_ns=int(record["modified_ns"]),
             sha256=str(record["sha256"]),
-            intact=written == digest,
+            intact=hmac.compare_digest(str(written).encode(), digest.encode()),
         )
     except _NOT_OURS:
         return None
@@ -208,9 +214,11 @@ def _size_and_time(path: Path) -> tuple[int, int]:
     return stat.st_size, stat.st_mtime_ns
 
 
-def _digest(document: Mapping[str, Any]) -> str:
-    text = json.dumps(document, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
-    return hashlib.sha256(text.encode()).hexdigest()
+def _digest(document: Mapping[str, Any], key: StationKey | None = None) -> str:
+    text = json.dumps(document, sort_keys=True, separators=(",", ":"), ensure_ascii=False).encode()
+    if key is None:
+        return hashlib.sha256(text).hexdigest()
+    return hmac.digest(key.derived("summary"), text, "sha256").hex()
 
 
 def _seconds_since(path: Path) -> float:

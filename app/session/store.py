@@ -1,21 +1,31 @@
 """The folder of recorded attempts: list, find, delete to a trash folder and bring back."""
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
 from app.core.paths import sessions
+from app.session.admission import Admission, admissions, with_admission
 from app.session.calibration_flag import CalibrationFlags
+from app.session.database import DatabaseError
 from app.session.errors import SessionError, SessionNotFoundError
 from app.session.header import TRASH as TRASH
+from app.session.journal import Journal, move, settle
+from app.session.mcap_file import remove_strays
+from app.session.people import people_folder
 from app.session.sidecar import Cached, fresh_kept, read_kept, sidecar
-from app.session.signature import judged, signature_file, this_station
+from app.session.signature import judged, signature_file
+from app.session.station import this_station
 from app.session.summary import Summary
 
 SUFFIX: Final = ".mcap"
 _SHOWN: Final = 5
+
+_cleared: set[Path] = set()
+"""Folders in which this program has looked for what others left."""
 
 
 def list_sessions(folder: Path) -> list[Summary]:
@@ -30,13 +40,25 @@ def list_sessions(folder: Path) -> list[Summary]:
     return _sorted(folder, read_kept)
 
 
-def computed(folder: Path) -> list[Summary]:
-    """Return what `list_sessions` does, every one of them computed from its record: for exports.
+def computed(folder: Path, names: Sequence[str] = ()) -> list[Summary]:
+    """Return summaries that are computed from their records, for exports.
+
+    Args:
+        folder: of the records.
+        names: ids, or their beginnings, in the order asked for; none for all, newest first.
 
     Raises:
+        SessionNotFoundError: if one is not there.
         SessionError: if the folder cannot be read.
     """
-    return _sorted(folder, fresh_kept)
+    if not names:
+        return _sorted(folder, fresh_kept)
+    return _listed([find(folder, name) for name in names], fresh_kept)
+
+
+def verdict_of(path: Path) -> str:
+    """Return what lists say of a record: `verified`, `altered`, `unsigned` or `admitted`."""
+    return _listed([path], read_kept)[0].signature
 
 
 def find(folder: Path, session_id: str) -> Path:
@@ -63,10 +85,11 @@ def delete(folder: Path, session_id: str) -> Path:
         SessionNotFoundError: if there is no such session.
         SessionError: if it cannot be moved.
     """
-    path = _move(find(folder, session_id), folder / TRASH)
+    settled(folder)
+    path = find(folder, session_id)
     with suppress(OSError):
         os.utime(sidecar(path))  # its time tells from now on when the record was deleted
-    return path
+    return _move(path, folder / TRASH, folder)
 
 
 def restore(folder: Path, session_id: str) -> Path:
@@ -76,13 +99,34 @@ def restore(folder: Path, session_id: str) -> Path:
         SessionNotFoundError: if the trash does not hold it.
         SessionError: if it cannot be moved.
     """
-    return _move(find(folder / TRASH, session_id), folder)
+    settled(folder)
+    return _move(find(folder / TRASH, session_id), folder, folder)
 
 
 def _sorted(folder: Path, kept_of: Callable[[Path], Cached]) -> list[Summary]:
-    flags, key = CalibrationFlags.read(), this_station()
-    summaries = [flags.flagged(judged(path, kept_of(path), key)) for path in records(folder)]
+    settled(folder.parent if folder.name == TRASH else folder)
+    summaries = _listed(records(folder), kept_of)
     return sorted(summaries, key=lambda summary: (summary.started, summary.id), reverse=True)
+
+
+def _listed(paths: Sequence[Path], kept_of: Callable[[Path], Cached]) -> list[Summary]:
+    """Return summaries with what their signatures, or the instructor, say of them."""
+    flags, key = CalibrationFlags.read(), this_station()
+    admitted, summaries = _admitted(), []
+    for path in paths:
+        kept = kept_of(path)
+        summary = flags.flagged(judged(path, kept, key))
+        verdict = with_admission(summary.signature, kept.sha256, admitted.get(path.stem))
+        summaries.append(replace(summary, signature=verdict))
+    return summaries
+
+
+def _admitted() -> dict[str, Admission]:
+    """Return what was admitted; nothing where that cannot be read: lists go on."""
+    try:
+        return admissions()
+    except DatabaseError:
+        return {}
 
 
 def records_folder(chosen: Path | None) -> Path:
@@ -92,10 +136,10 @@ def records_folder(chosen: Path | None) -> Path:
         SessionError: if the chosen one is no folder.
     """
     if chosen is None:
-        return sessions()
+        return settled(sessions())
     if not chosen.is_dir():
         raise SessionError(f"{chosen} is not a folder: give the folder that holds the records")
-    return chosen
+    return settled(chosen)
 
 
 def records(folder: Path) -> list[Path]:
@@ -112,17 +156,31 @@ def records(folder: Path) -> list[Path]:
         raise SessionError(f"cannot read the folder {folder}: {error.strerror or error}") from error
 
 
-def _move(path: Path, folder: Path) -> Path:
-    """Move a record and what stands beside it; the record last: it is never without them."""
-    target = folder / path.name
+def beside(path: Path) -> tuple[Path, ...]:
+    """Return what belongs to a record: the files beside it, and itself at last."""
+    return sidecar(path), signature_file(path), path
+
+
+def settled(folder: Path) -> Path:
+    """Return a folder of records after whatever killed programs left there was put in order."""
+    settle(people_folder())  # first: a restore is planned there
+    settle(folder)
+    if folder not in _cleared:
+        _cleared.add(folder)
+        remove_strays(folder)
+    return folder
+
+
+def _move(path: Path, to: Path, folder: Path) -> Path:
+    """Move a record with what stands beside it as one step of the folder of the records."""
+    target = to / path.name
     if target.exists():
         raise SessionError(f"{target} exists already: move it away first")
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for beside in (sidecar, signature_file):
-            if beside(path).exists():
-                os.replace(beside(path), beside(target))
-        os.replace(path, target)
-    except OSError as error:
-        raise SessionError(f"cannot move {path} to {folder}: {error.strerror or error}") from error
+    with Journal(folder) as journal:
+        steps = [move(a, b) for a, b in zip(beside(path), beside(target), strict=True)]
+        try:
+            journal.plan(steps)
+        except OSError as error:
+            why = error.strerror or error
+            raise SessionError(f"cannot move {path} to {to}: {why}") from error
     return target

@@ -26,7 +26,8 @@ from app.session.course import Course, courses
 from app.session.index import Index
 from app.session.people import PEOPLE, People
 from app.session.roster import RosterLine
-from app.session.signature import SignatureError, StationKey, key_file, signature_file
+from app.session.signature import signature_file
+from app.session.station import SignatureError, StationKey, key_file
 from app.session.store import TRASH, delete, list_sessions, records, restore
 
 

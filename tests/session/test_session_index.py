@@ -19,16 +19,8 @@ from app.session.database import DatabaseError
 from app.session.index import INDEX, Index
 from app.session.recording import read_recording
 from app.session.sidecar import read_kept, sidecar
-from app.session.signature import (
-    SignatureError,
-    Signed,
-    StationKey,
-    judge_whole,
-    key_file,
-    new_recovery_key,
-    signature_file,
-    this_station,
-)
+from app.session.signature import Signed, judge_whole, signature_file
+from app.session.station import SignatureError, StationKey, key_file, new_recovery_key, this_station
 from app.session.store import delete, list_sessions, restore
 
 KILLS = int(os.environ.get("ACUS_KILLS", "20"))
@@ -144,7 +136,7 @@ def test_the_key_travels_only_under_the_recovery_key(tmp_path: Path) -> None:
 
 def test_two_programs_that_start_together_draw_one_key(tmp_path: Path) -> None:
     code = (
-        "from pathlib import Path; from app.session.signature import StationKey;"
+        "from pathlib import Path; from app.session.station import StationKey;"
         f"print(StationKey.of(Path({str(tmp_path / 'p')!r})).station)"
     )
     children = [

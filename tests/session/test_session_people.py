@@ -12,7 +12,7 @@ from app.session.database import DatabaseError
 from app.session.errors import PeopleError
 from app.session.people import NAMES_FILE, PEOPLE, People, WrongPasswordError
 from app.session.roster import RosterLine, checked_pseudonym, read_roster
-from app.session.signature import SignatureError, StationKey
+from app.session.station import SignatureError, StationKey
 
 
 class Wall:

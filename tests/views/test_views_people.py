@@ -18,7 +18,9 @@ from app.session.people import People
 from app.session.recorder import Recorder
 from app.session.recording import read_recording
 from app.session.roster import RosterLine
-from app.session.sidecar import write_summary
+from app.session.sidecar import file_digest, write_summary
+from app.session.signature import signature_file, signed
+from app.session.station import StationKey
 from app.session.summary import Summary
 from app.views.author.feature import AuthorFeature
 from app.views.debrief.feature import DebriefFeature
@@ -35,15 +37,19 @@ def feature(window):
     window.feature(PeopleFeature).close()
 
 
-def record(folder, name, student, total=80.0, version=1):
+def record(folder, name, student, total=80.0, version=1, sign=True):
     folder.mkdir(parents=True, exist_ok=True)
+    key = StationKey.of() if sign else None
     path = folder / f"{name}.mcap"
     path.write_bytes(b"not opened: the sidecar is enough")
     score = {"total": total, "passed": True, "void_reason": "", "rows": []}
     now = datetime.now(UTC).isoformat()
-    write_summary(path, Summary(name, now, student, "first-insertion", state="ended",
-                                score=MappingProxyType(score),
-                                conditions=Conditions("first-insertion", version)))  # fmt: skip
+    summary = Summary(name, now, student, "first-insertion", state="ended",
+                      score=MappingProxyType(score),
+                      conditions=Conditions("first-insertion", version))  # fmt: skip
+    write_summary(path, summary)
+    if key is not None:
+        signature_file(path).write_text(signed(path, file_digest(path), summary, {}, key))
 
 
 def fill(dialog, *texts):
@@ -148,7 +154,7 @@ def test_the_first_password_shows_a_recovery_key_and_closes_what_students_must_n
 
 
 def test_the_list_says_what_the_signature_says(window, feature, settle):
-    record(feature.context.services.sessions(), "a", "typed")
+    record(feature.context.services.sessions(), "a", "typed", sign=False)
     sessions = shown(window, settle)
     assert sessions.model.index(0, SIGNED).data() == "• unsigned"
 

@@ -38,8 +38,7 @@ from app.session.recording import open_recording
 from app.session.result import AttemptResult
 from app.session.review import Review, review, review_of_result
 from app.session.roster import looks_like_a_key
-from app.session.sidecar import fresh_summary
-from app.session.store import find
+from app.session.store import computed, find, verdict_of
 from app.session.summary import Summary
 from app.views.debrief.page import DebriefPage, date_text
 from app.views.debrief.replay import Ghost
@@ -149,8 +148,20 @@ class DebriefController(QObject):
         """Ask where, and write the report."""
         path = self._ask(tr("Save report"), f"acus-{shown.id}.pdf", tr("PDF (*.pdf)"), ".pdf")
         if path is not None:
+            shown = self._with_verdict(shown)
             data = report_bytes(shown)  # Qt draws it, so it is drawn on the window's thread
             self._save(path, lambda: write_atomically(path, data))
+
+    def _with_verdict(self, shown: Review) -> Review:
+        """Let a report say where this station does not vouch for the record."""
+        try:
+            verdict = verdict_of(find(self._folder, shown.id))
+        except SessionError:
+            return shown  # the record has gone: what is shown is from memory
+        if verdict == "verified":
+            return shown
+        words = tr("not verified: the record is {verdict}", verdict=verdict)
+        return replace(shown, problems=(words, *shown.problems))
 
     def export_one(self, shown: Review) -> None:
         """Ask where, and write one attempt over time as a table."""
@@ -286,7 +297,7 @@ class DebriefController(QObject):
 
     def _computed(self, summary: Summary) -> Summary:
         try:
-            return fresh_summary(find(self._folder, summary.id))
+            return computed(self._folder, [summary.id])[0]
         except SessionError:
             return summary
 

@@ -7,6 +7,7 @@ the attempt; the record stays as it is.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QAction, QKeySequence, QShortcut
@@ -20,6 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.core.errors import AcusError
+from app.session.admission import admit
 from app.session.errors import PeopleError
 from app.session.people import NOTHING_SAID, People, Remarks
 from app.views.kit.access import ACCESS
@@ -85,6 +87,7 @@ class RemarkActions(QObject):
     Args:
         page: whose keys they are, while the keyboard is in it.
         chosen: ids of the attempts that they are about.
+        record: the file of one; without it nothing is admitted here.
 
     Signals:
         changed(): something was said.
@@ -101,9 +104,15 @@ class RemarkActions(QObject):
     noted = Signal(str)
     failed = Signal(object)
 
-    def __init__(self, page: QWidget, chosen: Callable[[], Sequence[str]]) -> None:
+    def __init__(
+        self,
+        page: QWidget,
+        chosen: Callable[[], Sequence[str]],
+        record: Callable[[str], Path] | None = None,
+    ) -> None:
         super().__init__(page)
-        self._page, self._chosen = page, chosen
+        self._page, self._chosen, self._record = page, chosen, record
+        self._unsigned: frozenset[str] = frozenset()
         self._said: Mapping[str, Remarks] = {}
         self._held: Mapping[str, str] = {}
         self.dialog: SayingDialog | None = None
@@ -130,23 +139,36 @@ class RemarkActions(QObject):
         self.hold = self._add(
             tr("Hold the result back"), "", tr("Hide it again until it is released")
         )
-        self.all = (self.comment, self.void, self.count, self.release, self.hold)
+        self.admit = self._add(
+            tr("Admit…"),
+            "",
+            tr("Let an attempt count that this station has not signed; the reason is sealed"),
+        )
+        self.admit.setVisible(record is not None)
+        self.all = (self.comment, self.void, self.count, self.release, self.hold, self.admit)
         menu.addActions(self.all)
         self.comment.triggered.connect(lambda: self.ask_comment())
         self.void.triggered.connect(lambda: self.ask_void())
         self.count.triggered.connect(lambda: self._say(tr("It counts again"), void=""))
         self.release.triggered.connect(lambda: self._say(tr("Released"), released=True))
         self.hold.triggered.connect(lambda: self._say(tr("Held back"), released=False))
+        self.admit.triggered.connect(lambda: self.ask_admission())
         self.follow({}, {})
 
-    def follow(self, said: Mapping[str, Remarks], held: Mapping[str, str]) -> None:
+    def follow(
+        self,
+        said: Mapping[str, Remarks],
+        held: Mapping[str, str],
+        unsigned: frozenset[str] = frozenset(),
+    ) -> None:
         """Offer what can be said now.
 
         Args:
             said: what the instructor said, by attempt.
             held: courses that hold a result back, by attempt.
+            unsigned: attempts that this station has not signed, and nobody has admitted.
         """
-        self._said, self._held = said, held
+        self._said, self._held, self._unsigned = said, held, unsigned
         ids = list(self._chosen()) if ACCESS.may_manage else []
         self.button.setVisible(ACCESS.may_manage)
         self.button.setEnabled(bool(ids))
@@ -155,6 +177,7 @@ class RemarkActions(QObject):
         self.count.setEnabled(any(self._of(name).void for name in ids))
         self.release.setEnabled(any(name in held for name in ids))
         self.hold.setEnabled(any(self._of(name).released for name in ids))
+        self.admit.setEnabled(any(name in unsigned for name in ids))
 
     def ask_comment(self) -> None:
         """Ask for a comment; an empty one takes it away."""
@@ -176,6 +199,16 @@ class RemarkActions(QObject):
             known = {self._of(name).void for name in ids}
             text = known.pop() if len(known) == 1 else ""
             self._ask(tr("Declare void"), words, text, lambda why: self._void(ids, why))
+
+    def ask_admission(self) -> None:
+        """Ask why attempts that are not signed here count all the same."""
+        ids = [name for name in self._ids() if name in self._unsigned]
+        if ids:
+            words = tr(
+                "This station did not sign it: it counts on no board and for no course. Why is it "
+                "to count all the same? The reason is sealed with the record as it is now."
+            )
+            self._ask(tr("Admit"), words, "", lambda why: self._admit(ids, why))
 
     # --- inside -----------------------------------------------------------------------------------
     def _add(self, text: str, keys: str, tip: str) -> QAction:
@@ -207,6 +240,14 @@ class RemarkActions(QObject):
         self._write(ids, void=why)
         many = tr("{n} attempts declared void", n=len(ids))
         self.noted.emit(counted(len(ids), tr("1 attempt declared void"), many))
+
+    def _admit(self, ids: Sequence[str], why: str) -> None:
+        if not ACCESS.may_manage or self._record is None:
+            raise PeopleError(tr("Only the instructor does that: Sessions ▸ Sign in."))
+        admit([self._record(name) for name in ids], why)
+        self.changed.emit()
+        many = tr("{n} attempts admitted", n=len(ids))
+        self.noted.emit(counted(len(ids), tr("1 attempt admitted"), many))
 
     def _say(self, done: str, **said: str | bool) -> None:
         ids = self._ids()

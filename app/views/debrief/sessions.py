@@ -64,6 +64,7 @@ _SIGNED_LOOKS: Final = {
     "verified": (theme.GOOD, "✔"),
     "altered": (theme.BAD, "✖"),
     "unsigned": (theme.TEXT_DIM, "•"),
+    "admitted": (theme.GOOD, "▲"),
 }
 _STATE_LOOKS: Final = {
     "ended": (theme.TEXT, "✔"),
@@ -255,6 +256,7 @@ def signature_word(verdict: str) -> str:
         "verified": tr("verified"),
         "altered": tr("altered"),
         "unsigned": tr("unsigned"),
+        "admitted": tr("admitted"),
     }
     return f"{_SIGNED_LOOKS[verdict][1]} {words[verdict]}" if verdict in words else ""
 
@@ -351,7 +353,11 @@ class SessionsPage(QWidget):
         self.recover = QPushButton(tr("Recover"), self)
         self.everything = QPushButton(self)
         self._prepare_table()
-        self.remarks = RemarkActions(self, lambda: [] if self._in_trash else self._readable())
+        self.remarks = RemarkActions(
+            self,
+            lambda: [] if self._in_trash else self._readable(),
+            lambda name: self._folder / f"{name}{SUFFIX}",
+        )
         self._lay_out()
         self._connect()
         ACCESS.changed.connect(self._show_again)
@@ -551,7 +557,8 @@ class SessionsPage(QWidget):
         self.export.setEnabled(bool(readable) and manage and not deleted)
         self.delete_button.setEnabled(bool(chosen) and manage and not deleted)
         self.undo.setEnabled(bool(self._deleted) and manage)
-        self.remarks.follow(self._listed.said, self._listed.held)
+        unsigned = frozenset(s.id for s in self._listed.summaries if s.signature == "unsigned")
+        self.remarks.follow(self._listed.said, self._listed.held, unsigned)
         if deleted:
             self.remarks.button.hide()
         shown, total = self.proxy.rowCount(), self.model.rowCount()

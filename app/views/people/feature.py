@@ -16,7 +16,7 @@ from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.exchange.results import Results, ResultsFormat, results_text, write_results
 from app.exercises.schema import Exercise
-from app.session.archive import Erased, backup, erase_person
+from app.session.archive import Erased, backup, erase_person, left_out
 from app.session.board import ProgressBoard, board_of
 from app.session.course import (
     Course,
@@ -555,11 +555,17 @@ class PeopleFeature(Feature):
         kind = tr("Backup of Acus (*.acusbackup)")
         path = QFileDialog.getSaveFileName(parent, tr("Back up everything"), str(start), kind)[0]
         if path:
-            self._beside(
-                lambda progress: backup(Path(path), self._folder, self._people, progress),
-                lambda n: self.noted.emit(tr("{n} records saved in {name}", n=n, name=path)),
-                tr("Backing up"),
-            )
+
+            def save(progress: Progress) -> tuple[int, list[str]]:
+                return backup(Path(path), self._folder, self._people, progress), left_out()
+
+            def tell(saved: tuple[int, list[str]]) -> None:
+                count, left = saved
+                words = tr("{n} records saved in {name}", n=count, name=path)
+                without = tr("Not in it: {what}", what="; ".join(left)) if left else ""
+                self.noted.emit(". ".join(filter(None, (words, without))))
+
+            self._beside(save, tell, tr("Backing up"))
 
     # --- inside -----------------------------------------------------------------------------------
     def _connect(self) -> None:

@@ -1,0 +1,101 @@
+"""The file of a backup: a ZIP archive whose list tells the SHA-256 of each file in it."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+import zipfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from app.core.files import step
+from app.session.errors import SessionError
+
+FORMAT: Final = "acus-backup"
+VERSION: Final = 1
+MANIFEST: Final = "manifest.json"
+
+_MEMBER: Final = re.compile(
+    r"(records/(\.trash/)?[0-9A-Za-z][0-9A-Za-z._-]{0,63}\.(mcap|sig)"
+    r"|people/(people\.sqlite|names\.json|courses/[a-z0-9-]+\.yaml)"
+    r"|exercises/(profiles/)?[\w@][\w@.-]*"
+    r"|structures/([\w-][\w.-]*/){0,3}[\w-][\w.-]*)"
+)
+_LARGEST_MANIFEST: Final = 1 << 26
+
+
+class ArchiveError(SessionError):
+    """A backup that cannot be written or read; says what to do."""
+
+
+@dataclass(frozen=True)
+class Manifest:
+    """What a backup says of itself.
+
+    Attributes:
+        files: SHA-256 of each file in it, by name.
+        key: the station's key under the recovery key; empty without one.
+        station: id of the station that wrote it; empty where it does not say.
+        left_out: what is not in it, one line each.
+    """
+
+    files: Mapping[str, str]
+    key: Mapping[str, str]
+    station: str
+    left_out: tuple[str, ...] = ()
+
+
+def may_hold(name: str) -> bool:
+    """Whether a backup may hold a file of this name."""
+    return _MEMBER.fullmatch(name) is not None
+
+
+def read_manifest(archive: zipfile.ZipFile, source: Path) -> Manifest:
+    """Read and check the list of what a backup holds.
+
+    Raises:
+        ArchiveError: if it is none, damaged, of a newer version, or would write elsewhere.
+    """
+    try:
+        if archive.getinfo(MANIFEST).file_size > _LARGEST_MANIFEST:
+            raise ValueError("its list is too long")
+        document: dict[str, Any] = json.loads(archive.read(MANIFEST))
+        kind, version = document["format"], document["version"]
+        files, known = dict(document["files"]), set(archive.namelist())
+        key = {str(name): str(value) for name, value in dict(document["key"]).items()}
+        station = str(document.get("station") or key.get("station", ""))
+        left_out = tuple(map(str, document.get("left_out", ())))
+    except (KeyError, ValueError, TypeError, RecursionError) as error:
+        raise ArchiveError(f"{source} is no backup of Acus: {error}") from error
+    if kind != FORMAT or not isinstance(version, int):
+        raise ArchiveError(f"{source} is no backup of Acus: its format is {kind!r}")
+    if version > VERSION:
+        raise ArchiveError(f"{source} was written by a newer version of Acus: use that version")
+    odd = [name for name in files if not _MEMBER.fullmatch(str(name)) or name not in known]
+    if odd:
+        raise ArchiveError(f"{source} is damaged: {odd[0]!r} is missing in it or no name of Acus")
+    return Manifest(files, key, station, left_out)
+
+
+def unpack(archive: zipfile.ZipFile, name: str, digest: str, target: Path, source: Path) -> None:
+    """Unpack one file, and look whether it is what was packed.
+
+    Raises:
+        ArchiveError: if it is not.
+        OSError: if it cannot be written.
+    """
+    target.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+    step("unpack", target)
+    sha = hashlib.sha256()
+    with archive.open(name) as packed, target.open("xb") as stream:
+        while block := packed.read(1 << 20):
+            sha.update(block)
+            stream.write(block)
+        stream.flush()
+        os.fsync(stream.fileno())
+    if sha.hexdigest() != digest:
+        raise ArchiveError(f"{source} is damaged: {name} is not what was packed")

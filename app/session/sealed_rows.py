@@ -1,0 +1,82 @@
+"""Rows of the index: their tables, and the seal that stands over each of them."""
+
+from __future__ import annotations
+
+import hmac
+from functools import cache
+from typing import TYPE_CHECKING, Any, Final
+
+from app.session.station import StationKey
+
+if TYPE_CHECKING:
+    from sqlalchemy import Table
+
+SEALED: Final = (
+    *("id", "size", "modified_ns", "signed_ns", "station", "started", "student", "exercise"),
+    *("version", "state", "duration", "total", "passed", "verdict", "counts", "under", "document"),
+    "record",
+)
+"""What the seal of a row is over, in this order."""
+
+
+STARTED, STUDENT, VERDICT = (SEALED.index(n) for n in ("started", "student", "verdict"))
+
+Row = tuple[Any, ...]
+"""Values in the order of `SEALED`; a seal may follow."""
+
+
+class Sealer:
+    """Makes the seals of rows: nobody without the station's key can, nor move one elsewhere."""
+
+    def __init__(self, key: StationKey | None) -> None:
+        self._key = None if key is None else key.derived("row of the index")
+
+    def __call__(self, row: Row) -> str:
+        """Return the seal of a row, hexadecimal; empty without a key."""
+        if self._key is None:
+            return ""
+        texts = [f"{len(text)}:{text}" for text in map(str, row)]
+        whole = "".join(texts).encode("utf-8", "surrogatepass")
+        return hmac.digest(self._key, whole, "sha256").hex()
+
+
+@cache
+def attempts_table() -> Table:
+    """Return the table of attempts."""
+    from sqlalchemy import BigInteger, Boolean, Column, Float, Integer, MetaData, String, Table
+
+    known = MetaData()
+    Table(
+        "seals",
+        known,
+        Column("id", String, primary_key=True),
+        Column("record", String, nullable=False),
+        Column("seal", String, nullable=False),
+    )
+    return Table(
+        "attempts",
+        known,
+        Column("id", String, primary_key=True),
+        Column("size", BigInteger, nullable=False),
+        Column("modified_ns", BigInteger, nullable=False),
+        Column("signed_ns", BigInteger, nullable=False),
+        Column("station", String, nullable=False),
+        Column("started", String, nullable=False, index=True),
+        Column("student", String, nullable=False, index=True),
+        Column("exercise", String, nullable=False),
+        Column("version", Integer, nullable=False),
+        Column("state", String, nullable=False),
+        Column("duration", Float, nullable=False),
+        Column("total", Float),
+        Column("passed", Boolean),
+        Column("verdict", String, nullable=False),
+        Column("counts", Boolean, nullable=False),
+        Column("under", String, nullable=False),
+        Column("document", String, nullable=False),
+    )
+
+
+@cache
+def seals_table() -> Table:
+    """Return the table of their seals."""
+    return attempts_table().metadata.tables["seals"]

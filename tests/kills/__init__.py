@@ -1,0 +1,1 @@
+"""Programs that are killed while they change what is kept, and what the next start finds."""
