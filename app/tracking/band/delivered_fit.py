@@ -40,7 +40,7 @@ from app.tracking.band.model import BAND, COLUMNS, Rows, design
 from app.tracking.band.pixels import CURVE, SIDE, gather
 
 STEPS: Final = 6
-_DONE_PX: Final = 0.02
+_DONE_PX: Final = 0.03
 _NEAR_PX: Final = 0.3
 _LEAST_STEPS: Final = 2
 _FARTHEST_PX: Final = 8.0
@@ -449,7 +449,7 @@ def fit_delivered(
         _level_up(moved, step, scale, levels)
         sigma[0], sigma[1] = noise_left(observed, solved.rows, pixels.usable, moved)
         far = max(abs(step[0]), abs(step[1]))
-        if far < _DONE_PX and abs(step[6]) < 0.1 and steps > _LEAST_STEPS:
+        if far < _DONE_PX and abs(step[6]) < 0.1 and steps >= _LEAST_STEPS:
             break
         if far < _NEAR_PX and steps < STEPS:
             _leave_out(observed, pixels.usable, moved, sigma, solved.good, solved.kept)

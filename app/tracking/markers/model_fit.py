@@ -304,17 +304,21 @@ _LONGER: Final = 0.04
 """By how much width and length may be off in a delivered picture, relative: its blur is free, so
 that a straight edge over the band's side or end leaves hardly anything else."""
 
-_DELIVERED: Final = 0.15
-"""Like `_STRETCH`, in a delivered picture."""
+_MORE: Final = 3.5
+"""By how much the covariance of a fit in a delivered picture is larger than what its left-over
+noise makes: quantised blocks are alike beyond what is looked at."""
 
-_MORE: Final = 2.0
+_FLOOR_PX: Final = 0.01
+_STRETCH_SHARE, _STRETCH_BEYOND, _ORDINARY_STRETCH_PX = 0.03, 0.12, 0.2
+"""Like `floor_px` and `_STRETCH`, in a delivered picture: width and length are off by so much in
+ordinary ones without moving the centre; beyond, something hides a part of the band."""
+
+_BLURRED: Final = 0.0015
+"""Variance of the centre per variance of the blur beyond the rig's, in its direction: light and
+speed are not the same throughout an exposure, so that its middle is not quite the motion's."""
+
 _MISFIT: Final = 2.6
 """Like `ModelFit.misfit_max`, in a delivered picture: few photons are noisy in a dark colour."""
-
-_DELIVERED_PX: Final = 0.02
-"""By how much the covariance of a fit in a delivered picture is larger than what its left-over
-noise makes, and standard deviation [px] besides: quantised blocks spread beyond what is looked
-at."""
 
 
 @dataclass(slots=True)
@@ -508,10 +512,7 @@ class ModelFit(Extractor):
             return Miss(MissReason.NO_SHAFT, fit.uv)
         inflation = max(1.0, fit.misfit)
         if delivered:
-            covariance = (
-                _MORE * fit.covariance + self._stretched(fit, start, axis, _DELIVERED) * _ONE
-            )
-            covariance = covariance + _DELIVERED_PX**2 * _ONE
+            covariance = _MORE * fit.covariance + self._doubt_delivered(fit, start, axis)
         else:
             covariance = inflation * fit.covariance + self._doubt(fit, start, axis) * _ONE
         quality = (1.0 - fit.outliers) / inflation
@@ -539,14 +540,26 @@ class ModelFit(Extractor):
             self.floor_px**2
             + _MISFIT_PX2 * max(0.0, fit.misfit - _USUAL_MISFIT)
             + _OUTLIERS_PX2 * max(0.0, fit.outliers - _USUAL_OUTLIERS)
-            + self._stretched(fit, start, axis, _STRETCH)
+            + self._stretched(fit, start, axis)
         )
 
-    def _stretched(self, fit: BandFit, start: FloatArray, axis: FloatArray, share: float) -> float:
+    def _doubt_delivered(self, fit: BandFit, start: FloatArray, axis: FloatArray) -> FloatArray:
+        """Like `_doubt`, in a delivered picture, (2, 2): by stretch and blur [px²]."""
+        (width, length), (wide, long) = fit.stretch.tolist(), self._half_px(start, axis)
+        square = (wide * (width - 1.0)) ** 2 + (long * (length - 1.0)) ** 2
+        beyond = max(0.0, square - _ORDINARY_STRETCH_PX**2)
+        usual = _FLOOR_PX**2 + _STRETCH_SHARE * square + _STRETCH_BEYOND * beyond
+        across, along = (_BLURRED * max(0.0, blur**2 - self.blur_px**2) for blur in fit.blur)
+        eu, ev = fit.outline.eu, fit.outline.ev
+        forward, aside = np.array([eu, ev]), np.array([-ev, eu])
+        moved: FloatArray = along * np.outer(forward, forward) + across * np.outer(aside, aside)
+        return usual * _ONE + moved
+
+    def _stretched(self, fit: BandFit, start: FloatArray, axis: FloatArray) -> float:
         """Variance of the centre by what width and length are off [px²]."""
         (width, length), (wide, long) = fit.stretch.tolist(), self._half_px(start, axis)
         misfit = (wide * (width - 1.0)) ** 2 + (long * (length - 1.0)) ** 2
-        return share * max(0.0, misfit - _USUAL_STRETCH_PX**2)
+        return _STRETCH * max(0.0, misfit - _USUAL_STRETCH_PX**2)
 
     def _half_px(self, p_camera: FloatArray, axis: FloatArray) -> tuple[float, float]:
         """Half the width and half the length of the band's picture [px]."""
