@@ -308,7 +308,7 @@ _MORE: Final = 3.5
 """By how much the covariance of a fit in a delivered picture is larger than what its left-over
 noise makes: quantised blocks are alike beyond what is looked at."""
 
-_FLOOR_PX: Final = 0.01
+_FLOOR_PX: Final = 0.015
 _STRETCH_SHARE, _STRETCH_BEYOND, _ORDINARY_STRETCH_PX = 0.03, 0.12, 0.2
 """Like `floor_px` and `_STRETCH`, in a delivered picture: width and length are off by so much in
 ordinary ones without moving the centre; beyond, something hides a part of the band."""
