@@ -11,15 +11,26 @@ import pytest
 
 from app.core.clock import VirtualClock
 from app.tracking.band.chroma import FILLED, FULL, filled_in, halved, luma_chroma
-from app.tracking.band.tone import to_level, to_light
+from app.tracking.band.delivered import (
+    MOVES,
+    SIZE,
+    factorise_colours,
+    finish_colours,
+    halve_colours,
+    solve_colours_alone,
+)
+from app.tracking.band.tone import about_level, to_level, to_light
 from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.fix import FixStatus, without_point
 from app.tracking.markers.extractor import Miss, MissReason
-from app.tracking.markers.model_fit import noise_variance
+from app.tracking.markers.model_fit import LINEAR, SRGB, ToneMemory, noise_variance
 from app.tracking.tracker import Tracker, with_cause
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 LARGEST = 16.27
+MEDIAN = (1.2, 3.5)
+"""Of the square of three errors over their covariance: 2.4 where that is true."""
+
 LEAST = {
     "clean": 0.98,
     "cast": 0.8,
@@ -68,6 +79,8 @@ def _fixes(rig, folder):
 
 def test_the_marker_of_another_renderer_is_found_as_cameras_deliver_it(wide):
     fixes = _fixes(wide, _folder())
+    squares = [one[1] for results in fixes.values() for one in results if one is not None]
+    assert MEDIAN[0] < np.median(squares) < MEDIAN[1]
     for kind, results in fixes.items():
         valid = [one for one in results if one is not None]
         assert all(error < 1e-3 and square < LARGEST for error, square in valid), kind
@@ -115,6 +128,7 @@ def test_the_tone_curve_is_srgbs_above_its_dark_end_and_has_its_derivatives():
         assert slope == pytest.approx((more - less) / (2e-4 * light), rel=1e-5)
         other = (to_level(light, 2.4001)[0] - to_level(light, 2.3999)[0]) / 2e-4
         assert by_gamma == pytest.approx(other, rel=1e-5)
+        assert about_level(level, 2.4) == pytest.approx((light, slope, by_gamma), rel=1e-12)
 
 
 @pytest.mark.parametrize("sd", [2.0, 4.0, 8.0])
@@ -124,6 +138,40 @@ def test_the_noise_of_a_picture_is_measured_beside_edges(sd):
     clean[:, 50:] = 160.0
     picture = np.rint(clean + rng.normal(0.0, sd, clean.shape)).astype(np.uint8)
     assert noise_variance(picture, np.array([48.0, 48.0]), 24) == pytest.approx(sd**2, rel=0.35)
+
+
+def test_a_tone_curve_is_believed_after_some_pictures_and_asked_again_later():
+    memory = ToneMemory()
+    assert not memory.known(SRGB)
+    assert not memory.known(LINEAR)
+    memory.learn(-500.0)  # no picture alone decides
+    assert not memory.known(SRGB)
+    memory.learn(-30.0)
+    assert memory.known(SRGB)
+    assert not memory.known(LINEAR)
+    memory.age = 32
+    assert not memory.known(SRGB)
+    for _ in range(4):
+        memory.learn(40.0)
+    assert memory.known(LINEAR)
+
+
+def test_colours_are_solved_as_a_dense_solver_does():
+    rng = np.random.default_rng(8)
+    some = rng.normal(size=(SIZE + 20, SIZE))
+    normal = some.T @ some
+    hidden = np.abs(np.subtract.outer(np.arange(SIZE) // 3, np.arange(SIZE) // 3)) > 6
+    normal[hidden] = 0.0
+    normal += 400.0 * np.eye(SIZE)
+    right, moves = rng.normal(size=SIZE), rng.normal(size=(SIZE, MOVES))
+    factor, first, x, y = np.tril(normal), np.empty(SIZE, np.int64), right.copy(), moves.copy()
+    assert factorise_colours(factor, first)
+    assert first[-1] == SIZE - 21
+    solve_colours_alone(factor, first, x)
+    halve_colours(factor, first, y)
+    finish_colours(factor, first, y)
+    np.testing.assert_allclose(x, np.linalg.solve(normal, right), rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(y, np.linalg.solve(normal, moves), rtol=1e-9, atol=1e-12)
 
 
 @pytest.mark.parametrize("level", [0, 128, 255])

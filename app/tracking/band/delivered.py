@@ -14,7 +14,7 @@ from app.core.arrays import FloatArray
 from app.core.compiled import REORDERED, njit
 from app.tracking.band.model import BAND, COLUMNS
 from app.tracking.band.pixels import CURVE, SIDE
-from app.tracking.band.tone import to_level, to_light
+from app.tracking.band.tone import about_level
 
 COLOURS: Final = 3
 GROUND: Final = 2 * SIDE
@@ -43,8 +43,6 @@ class Observed(NamedTuple):
     """(b, 2)."""
     members: NDArray[np.int64]
     """Pixels of every group, -1 for none, (b, 4)."""
-    group: NDArray[np.int64]
-    """Group of every pixel, -1 for none, (m,)."""
 
 
 class Sparse(NamedTuple):
@@ -94,38 +92,6 @@ def sparse_rows(pixels: Any, rows: Any, out: Any) -> None:
         out.used[i] = n
 
 
-@njit
-def derivative(pixels: Any, rows: Any, i: int, partial: int, colours: Any, light: Any) -> None:
-    """Fill the change of a pixel's light with a move, (3,).
-
-    Args:
-        pixels: `BandPixels`.
-        rows: `model.Rows`.
-        i: pixel.
-        partial: which of the rows' derivatives.
-        colours: coefficients, (UNKNOWNS, 3).
-        light: out.
-    """
-    change = rows.values[i, partial]
-    gained = -change[0]
-    for c in range(COLOURS):
-        light[c] = 0.0
-    for k in range(BAND):
-        for c in range(COLOURS):
-            light[c] += change[k] * colours[_BAND0 + k, c]
-    for k in range(BAND, COLUMNS):
-        if change[k] != 0.0:
-            gained -= change[k]
-            for c in range(COLOURS):
-                light[c] += change[k] * colours[_SHAFT0 + k - BAND, c]
-    start = pixels.first[i]
-    last = CURVE + (SIDE if start >= SIDE else 0)
-    for p in range(4):
-        column = _ground_column(last if p == 3 else start + p)
-        for c in range(COLOURS):
-            light[c] += gained * pixels.weights[i, p] * colours[column, c]
-
-
 class Linearised(NamedTuple):
     """The tone curve about each pixel's light."""
 
@@ -145,9 +111,8 @@ def linearise(levels: Any, gamma: float, out: Any) -> None:
     for i in range(levels.shape[0]):
         for c in range(COLOURS):
             level = min(265.0, max(-8.0, levels[i, c]))
-            x = to_light(level, gamma)
-            out.light[i, c] = x
-            out.level[i, c], out.slope[i, c], out.by_gamma[i, c] = to_level(x, gamma)
+            out.level[i, c] = level
+            out.light[i, c], out.slope[i, c], out.by_gamma[i, c] = about_level(level, gamma)
 
 
 @njit(fastmath=REORDERED, forceinline=True)
@@ -161,9 +126,9 @@ def _target(tone: Any, i: int, plane: int) -> float:
 
 @njit(fastmath=REORDERED)
 def _group(
-    observed: Any, sparse: Any, tone: Any, b: int, size: int, work: Any, at: Any, columns: Any
+    observed: Any, sparse: Any, tone: Any, b: int, size: int, work: Any, seen: Any, columns: Any
 ) -> int:
-    """Fill the colours' columns of a group of pixels; returns how many.
+    """Fill the columns of a group of pixels, in rising order; returns how many.
 
     Args:
         observed: see `normal_equations`.
@@ -171,57 +136,53 @@ def _group(
         tone: likewise.
         b: the group.
         size: its pixels.
-        work: out, by each colour's light, (MOST * 4, 3).
-        at: -1 for every column, and left so, (UNKNOWNS,).
-        columns: out, (MOST * 4,).
+        work: by each colour's light, zero and left so but for what is returned, (UNKNOWNS, 3).
+        seen: likewise False, (UNKNOWNS,).
+        columns: out, (UNKNOWNS,).
     """
-    count = 0
+    share = 1.0 / size
     for k in range(size):
         i = observed.members[b, k]
         for p in range(sparse.used[i]):
-            column, value = sparse.column[i, p], sparse.value[i, p] / size
-            n = at[column]
-            if n < 0:
-                n = count
-                at[column], columns[n] = n, column
-                work[n, 0] = work[n, 1] = work[n, 2] = 0.0
-                count += 1
+            column, value = sparse.column[i, p], sparse.value[i, p] * share
+            seen[column] = True
             for c in range(COLOURS):
-                work[n, c] += value * tone.slope[i, c]
-    for p in range(count):
-        at[columns[p]] = -1
+                work[column, c] += value * tone.slope[i, c]
+    count = 0
+    for column in range(UNKNOWNS):
+        if seen[column]:
+            columns[count] = column
+            count += 1
     return count
 
 
 @njit(fastmath=REORDERED)
-def _add_block(
-    columns: Any, work: Any, count: int, square: Any, target: Any, normal: Any, right: Any
-) -> None:
-    """Add a pixel's or group's columns to the normal equations.
-
-    Args:
-        columns: which, (count,).
-        work: by each colour's light, (count, 3).
-        count: how many.
-        square: weights of products of colours, (3, 3).
-        target: weighted right side by colour, (3,).
-        normal: in and out.
-        right: in and out.
-    """
+def _clear(columns: Any, count: int, work: Any, seen: Any) -> None:
+    """Undo `_group`."""
     for p in range(count):
-        a = COLOURS * columns[p]
-        first, second, third = work[p, 0], work[p, 1], work[p, 2]
-        right[a] += first * target[0]
-        right[a + 1] += second * target[1]
-        right[a + 2] += third * target[2]
-        for q in range(count):
-            if columns[q] > columns[p]:
-                continue
-            b = COLOURS * columns[q]
-            for c in range(COLOURS):
-                x = work[p, c]
-                for d in range(COLOURS):
-                    normal[a + c, b + d] += x * square[c, d] * work[q, d]
+        seen[columns[p]] = False
+        for c in range(COLOURS):
+            work[columns[p], c] = 0.0
+
+
+@njit(fastmath=REORDERED, forceinline=True)
+def _add_row(at: Any, z: Any, count: int, y: float, normal: Any, right: Any) -> None:
+    """Add what one value says of the colours; `at` are the unknowns, rising, `z` its changes."""
+    for p in range(count):
+        x, row = z[p], normal[at[p]]
+        right[at[p]] += x * y
+        for q in range(p + 1):
+            row[at[q]] += x * z[q]
+
+
+@njit(fastmath=REORDERED, forceinline=True)
+def _add_rows(at: Any, z: Any, count: int, y: Any, normal: Any, right: Any) -> None:
+    """Like `_add_row` of two values, z (2, n), y (2,)."""
+    for p in range(count):
+        x0, x1, row = z[0, p], z[1, p], normal[at[p]]
+        right[at[p]] += x0 * y[0] + x1 * y[1]
+        for q in range(p + 1):
+            row[at[q]] += x0 * z[0, q] + x1 * z[1, q]
 
 
 @njit(fastmath=REORDERED)
@@ -247,68 +208,124 @@ def normal_equations(
         normal: in and out, lower triangle, (SIZE, SIZE).
         right: in and out, (SIZE,).
     """
-    work, columns = np.zeros((4 * MOST, COLOURS)), np.zeros(4 * MOST, np.int64)
-    at, square, target = np.full(UNKNOWNS, -1), np.zeros((COLOURS, COLOURS)), np.zeros(COLOURS)
-    for c in range(COLOURS):
-        for d in range(COLOURS):
-            square[c, d] = weights[0] * PLANE_WEIGHTS[0, c] * PLANE_WEIGHTS[0, d]
+    work, columns = np.zeros((UNKNOWNS, COLOURS)), np.empty(UNKNOWNS, np.int64)
+    seen, at, z, y = np.zeros(UNKNOWNS, np.bool_), np.empty(SIZE, np.int64), np.empty(SIZE), 0.0
+    both, targets, root = np.empty((2, SIZE)), np.empty(2), np.sqrt(weights)
     for i in range(observed.luma.shape[0]):
         if not good[i]:
             continue
-        count = sparse.used[i]
-        y = weights[0] * (observed.luma[i] - _target(tone, i, 0))
-        for c in range(COLOURS):
-            target[c] = y * PLANE_WEIGHTS[0, c]
-            for p in range(count):
-                work[p, c] = sparse.value[i, p] * tone.slope[i, c]
-        _add_block(sparse.column[i], work, count, square, target, normal, right)
-    for c in range(COLOURS):
-        for d in range(COLOURS):
-            square[c, d] = 0.0
-            for plane in range(1, PLANES):
-                square[c, d] += weights[plane] * PLANE_WEIGHTS[plane, c] * PLANE_WEIGHTS[plane, d]
+        n = 0
+        for p in range(sparse.used[i]):
+            a, value = COLOURS * sparse.column[i, p], root[0] * sparse.value[i, p]
+            for c in range(COLOURS):
+                at[n], z[n] = a + c, value * PLANE_WEIGHTS[0, c] * tone.slope[i, c]
+                n += 1
+        y = root[0] * (observed.luma[i] - _target(tone, i, 0))
+        _add_row(at, z, n, y, normal, right)
     for b in range(observed.chroma.shape[0]):
         if not kept[b]:
             continue
         size = group_size(observed.members[b])
-        count = _group(observed, sparse, tone, b, size, work, at, columns)
-        target[0] = target[1] = target[2] = 0.0
-        for plane in range(1, PLANES):
-            y = observed.chroma[b, plane - 1]
-            for k in range(size):
-                y -= _target(tone, observed.members[b, k], plane) / size
+        count = _group(observed, sparse, tone, b, size, work, seen, columns)
+        n = 0
+        for p in range(count):
             for c in range(COLOURS):
-                target[c] += weights[plane] * PLANE_WEIGHTS[plane, c] * y
-        _add_block(columns, work, count, square, target, normal, right)
+                at[n] = COLOURS * columns[p] + c
+                for k in range(2):
+                    both[k, n] = root[1 + k] * PLANE_WEIGHTS[1 + k, c] * work[columns[p], c]
+                n += 1
+        for k in range(2):
+            y = observed.chroma[b, k]
+            for j in range(size):
+                y -= _target(tone, observed.members[b, j], 1 + k) / size
+            targets[k] = root[1 + k] * y
+        _add_rows(at, both, n, targets, normal, right)
+        _clear(columns, count, work, seen)
 
 
 @njit(fastmath=REORDERED)
-def factorise_skyline(matrix: Any, first: Any) -> bool:
+def factorise_colours(matrix: Any, first: Any) -> bool:
     """Replace the lower triangle by Cholesky's factor; False if it is not positive definite.
 
-    Rows keep their leading zeros: most unknowns of the ground have few neighbours.
+    Rows keep their leading zeros: most unknowns of the ground have few neighbours. The three
+    colours of an unknown have the same ones, and are done together.
 
     Args:
-        matrix: (n, n), in and out.
-        first: memory, (n,): first column that is not zero.
+        matrix: (SIZE, SIZE), in and out.
+        first: out, first column of every row that may differ from zero, (SIZE,).
     """
-    size = matrix.shape[0]
-    for i in range(size):
+    for a in range(0, matrix.shape[0], COLOURS):
         start = 0
-        while start < i and matrix[i, start] == 0.0:
+        while start < a and matrix[a, start] == 0.0 and matrix[a + 1, start] == 0.0:
+            if matrix[a + 2, start] != 0.0:
+                break
             start += 1
-        first[i] = start
-        for j in range(start, i + 1):
-            total = matrix[i, j]
+        first[a] = first[a + 1] = first[a + 2] = start
+        one, two, three = matrix[a], matrix[a + 1], matrix[a + 2]
+        for j in range(start, a):
+            row, x, y, z = matrix[j], 0.0, 0.0, 0.0
             for k in range(max(start, first[j]), j):
-                total -= matrix[i, k] * matrix[j, k]
-            if j < i:
-                matrix[i, j] = total / matrix[j, j]
-            elif not total > 0.0:
-                return False
-            else:
-                matrix[i, i] = np.sqrt(total)
+                x += one[k] * row[k]
+                y += two[k] * row[k]
+                z += three[k] * row[k]
+            pivot = 1.0 / row[j]
+            one[j] = (one[j] - x) * pivot
+            two[j] = (two[j] - y) * pivot
+            three[j] = (three[j] - z) * pivot
+        for i in range(a, a + COLOURS):
+            for j in range(a, i + 1):
+                total = matrix[i, j]
+                for k in range(start, j):
+                    total -= matrix[i, k] * matrix[j, k]
+                if j < i:
+                    matrix[i, j] = total / matrix[j, j]
+                elif not total > 0.0:
+                    return False
+                else:
+                    matrix[i, i] = np.sqrt(total)
     return True
+
+
+@njit(fastmath=REORDERED)
+def halve_colours(factor: Any, first: Any, right: Any) -> None:
+    """Like `equations.halve`, with rows' leading zeros passed over."""
+    size, count = right.shape
+    for i in range(size):
+        for k in range(first[i], i):
+            x = factor[i, k]
+            for c in range(count):
+                right[i, c] -= x * right[k, c]
+        for c in range(count):
+            right[i, c] /= factor[i, i]
+
+
+@njit(fastmath=REORDERED)
+def finish_colours(factor: Any, first: Any, right: Any) -> None:
+    """Like `equations.finish`, likewise."""
+    size, count = right.shape
+    for i in range(size - 1, -1, -1):
+        for c in range(count):
+            right[i, c] /= factor[i, i]
+        for k in range(first[i], i):
+            x = factor[i, k]
+            for c in range(count):
+                right[k, c] -= x * right[i, c]
+
+
+@njit(fastmath=REORDERED)
+def solve_colours_alone(factor: Any, first: Any, x: Any) -> None:
+    """Replace a vector b by (L Lᵀ)⁻¹ b."""
+    for i in range(len(x)):
+        total, row = 0.0, factor[i]
+        for k in range(first[i], i):
+            total += row[k] * x[k]
+        x[i] = (x[i] - total) / row[i]
+    for i in range(len(x) - 1, -1, -1):
+        row = factor[i]
+        x[i] /= row[i]
+        y = x[i]
+        for k in range(first[i], i):
+            x[k] -= row[k] * y
 
 
 MOVES: Final = 7
@@ -345,32 +362,73 @@ def no_moves(m: int, b: int) -> Any:
     )
 
 
+@njit(fastmath=REORDERED, forceinline=True)
+def _behind(pixels: Any, i: int, colours: Any, ground: Any) -> None:
+    """Fill the background's light at a pixel, (3,)."""
+    start = pixels.first[i]
+    last = CURVE + (SIDE if start >= SIDE else 0)
+    ground[0] = ground[1] = ground[2] = 0.0
+    for p in range(4):
+        column, weight = _ground_column(last if p == 3 else start + p), pixels.weights[i, p]
+        for c in range(COLOURS):
+            ground[c] += weight * colours[column, c]
+
+
+@njit(fastmath=REORDERED, forceinline=True)
+def _light_moved(row: Any, colours: Any, ground: Any, slope: Any, changes: Any) -> None:
+    """Add the change of a pixel's grey levels with the moves to `changes`, (MOVES, 3).
+
+    What a column gains with a move the background behind loses.
+    """
+    begin = 0 if row[0, 0] != 0.0 else BAND
+    for k in range(begin, COLUMNS):
+        if k >= BAND and row[0, k] == 0.0:
+            continue
+        at = _BAND0 + k if k < BAND else _SHAFT0 + k - BAND
+        b, g, r = colours[at, 0], colours[at, 1], colours[at, 2]
+        if k == 0 or k >= BAND:  # the shares; the other harmonics are of the same share
+            b, g, r = b - ground[0], g - ground[1], r - ground[2]
+        b, g, r = b * slope[0], g * slope[1], r * slope[2]
+        for p in range(MOVES - 1):
+            x = row[1 + p, k]
+            changes[p, 0] += x * b
+            changes[p, 1] += x * g
+            changes[p, 2] += x * r
+
+
 @njit(fastmath=REORDERED)
 def move_rows(
     pixels: Any, observed: Any, rows: Any, sparse: Any, tone: Any, colours: Any, moved: Any
 ) -> None:
     """Fill the derivatives and residuals at solved colours, (UNKNOWNS, 3)."""
-    levels, changes, light = moved.levels, moved.changes, np.empty(COLOURS)
-    changes[:], moved.chroma[:], moved.luma[:] = 0.0, 0.0, 0.0
+    levels, changes, light, ground = moved.levels, moved.changes, np.empty(3), np.empty(3)
+    changes[:], moved.luma[:] = 0.0, 0.0
     for i in range(observed.luma.shape[0]):
-        for c in range(COLOURS):
-            light[c] = 0.0
+        light[0] = light[1] = light[2] = 0.0
         for k in range(sparse.used[i]):
+            value, column = sparse.value[i, k], sparse.column[i, k]
             for c in range(COLOURS):
-                light[c] += sparse.value[i, k] * colours[sparse.column[i, k], c]
+                light[c] += value * colours[column, c]
         for c in range(COLOURS):
             levels[i, c] = tone.level[i, c] + tone.slope[i, c] * (light[c] - tone.light[i, c])
             changes[i, MOVES - 1, c] = tone.by_gamma[i, c]
         if rows.seen[i]:
-            for p in range(MOVES - 1):
-                derivative(pixels, rows, i, 1 + p, colours, light)
-                for c in range(COLOURS):
-                    changes[i, p, c] = tone.slope[i, c] * light[c]
+            _behind(pixels, i, colours, ground)
+            _light_moved(rows.values[i], colours, ground, tone.slope[i], changes[i])
         moved.luma_left[i] = observed.luma[i]
         for c in range(COLOURS):
             moved.luma_left[i] -= PLANE_WEIGHTS[0, c] * levels[i, c]
-            for p in range(MOVES):
+        for p in range(MOVES):
+            for c in range(COLOURS):
                 moved.luma[i, p] += PLANE_WEIGHTS[0, c] * changes[i, p, c]
+    _move_groups(observed, moved)
+
+
+@njit(fastmath=REORDERED)
+def _move_groups(observed: Any, moved: Any) -> None:
+    """Fill what `Moved` has of the colour differences."""
+    levels, changes = moved.levels, moved.changes
+    moved.chroma[:] = 0.0
     for b in range(observed.chroma.shape[0]):
         size = group_size(observed.members[b])
         for plane in range(1, PLANES):
@@ -421,8 +479,8 @@ def cross_equations(
         information: in and out, (MOVES, MOVES).
         right: in and out, (MOVES,).
     """
-    work, columns = np.zeros((4 * MOST, COLOURS)), np.zeros(4 * MOST, np.int64)
-    at = np.full(UNKNOWNS, -1)
+    work, columns = np.zeros((UNKNOWNS, COLOURS)), np.empty(UNKNOWNS, np.int64)
+    seen = np.zeros(UNKNOWNS, np.bool_)
     for i in range(observed.luma.shape[0]):
         if not good[i]:
             continue
@@ -437,16 +495,17 @@ def cross_equations(
         if not kept[b]:
             continue
         size = group_size(observed.members[b])
-        count = _group(observed, sparse, tone, b, size, work, at, columns)
+        count = _group(observed, sparse, tone, b, size, work, seen, columns)
         for plane in range(1, PLANES):
             by = moved.chroma[b, plane - 1]
             for p in range(count):
                 a = COLOURS * columns[p]
                 for c in range(COLOURS):
-                    x = weights[plane] * PLANE_WEIGHTS[plane, c] * work[p, c]
+                    x = weights[plane] * PLANE_WEIGHTS[plane, c] * work[columns[p], c]
                     for q in range(MOVES):
                         cross[a + c, q] += x * by[q]
             _square(by, moved.chroma_left[b, plane - 1], weights[plane], information, right)
+        _clear(columns, count, work, seen)
 
 
 @njit(fastmath=REORDERED, forceinline=True)
@@ -458,40 +517,44 @@ def _square(by: Any, left: float, weight: float, information: Any, right: Any) -
 
 
 @njit(fastmath=REORDERED)
-def projected(
-    observed: Any, sparse: Any, tone: Any, taken: Any, moved: Any, luma: Any, chroma: Any
+def influences(
+    observed: Any, sparse: Any, tone: Any, taken: Any, moved: Any, inverse: Any, out: Any
 ) -> None:
-    """Fill the derivatives by the moves less what the colours take of them.
+    """Fill by how much each value moves the band's n and e, but for its weight.
 
     Args:
         observed: see `cross_equations`.
         sparse: likewise.
         tone: likewise.
-        moved: likewise.
         taken: colours' change with the moves, (SIZE, MOVES).
-        luma: out, (m, MOVES).
-        chroma: out, (b, 2, MOVES).
+        moved: see `cross_equations`.
+        inverse: of the moves' information, (MOVES, MOVES).
+        out: of brightness and both colour differences, three times (m or b, 2).
     """
-    work, columns = np.zeros((4 * MOST, COLOURS)), np.zeros(4 * MOST, np.int64)
-    at = np.full(UNKNOWNS, -1)
+    work, columns = np.zeros((UNKNOWNS, COLOURS)), np.empty(UNKNOWNS, np.int64)
+    seen, luma = np.zeros(UNKNOWNS, np.bool_), out[0]
+    turn = np.ascontiguousarray(inverse[:, :2])
+    by_colour = taken @ turn
+    luma[:] = moved.luma @ turn
     for i in range(observed.luma.shape[0]):
-        for q in range(MOVES):
-            luma[i, q] = moved.luma[i, q]
         for p in range(sparse.used[i]):
             a = COLOURS * sparse.column[i, p]
             for c in range(COLOURS):
                 x = sparse.value[i, p] * PLANE_WEIGHTS[0, c] * tone.slope[i, c]
-                for q in range(MOVES):
-                    luma[i, q] -= x * taken[a + c, q]
+                luma[i, 0] -= x * by_colour[a + c, 0]
+                luma[i, 1] -= x * by_colour[a + c, 1]
     for b in range(observed.chroma.shape[0]):
         size = group_size(observed.members[b])
-        count = _group(observed, sparse, tone, b, size, work, at, columns)
+        count = _group(observed, sparse, tone, b, size, work, seen, columns)
         for plane in range(1, PLANES):
-            for q in range(MOVES):
-                chroma[b, plane - 1, q] = moved.chroma[b, plane - 1, q]
-            for p in range(count):
-                a = COLOURS * columns[p]
-                for c in range(COLOURS):
-                    x = PLANE_WEIGHTS[plane, c] * work[p, c]
-                    for q in range(MOVES):
-                        chroma[b, plane - 1, q] -= x * taken[a + c, q]
+            for q in range(2):
+                total = 0.0
+                for k in range(MOVES):
+                    total += moved.chroma[b, plane - 1, k] * turn[k, q]
+                for p in range(count):
+                    a = COLOURS * columns[p]
+                    for c in range(COLOURS):
+                        x = PLANE_WEIGHTS[plane, c] * work[columns[p], c]
+                        total -= x * by_colour[a + c, q]
+                out[plane][b, q] = total
+        _clear(columns, count, work, seen)

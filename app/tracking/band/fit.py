@@ -69,6 +69,7 @@ class BandFit:
         paint: mean colour of the band [grey levels], blue, green, red, shape (3,).
         outline: the one that the fit began with.
         cost: what tone curves are compared by: less is better; 0 where there is one only.
+        blur: fitted standard deviation across and along the needle [px]; 0 where it is given.
     """
 
     uv: FloatArray
@@ -80,6 +81,7 @@ class BandFit:
     paint: FloatArray
     outline: Outline
     cost: float = 0.0
+    blur: tuple[float, float] = (0.0, 0.0)
 
 
 class BandFitter:
@@ -191,6 +193,7 @@ class BandFitter:
             paint=best.paint,
             outline=outline,
             cost=_cost(best, self._prior),
+            blur=(float(best.blur[0]), float(best.blur[1])),
         )
 
 

@@ -77,7 +77,8 @@ class Rows(NamedTuple):
     """The model's columns at m pixels."""
 
     values: FloatArray
-    """Entry and its derivatives, (m, PARTIALS, COLUMNS); of no meaning where not `seen`."""
+    """Entry and its derivatives, (m, PARTIALS or more, COLUMNS); of no meaning where not `seen`.
+    If there are more, two of them are by the blur across and along the needle."""
     seen: NDArray[np.bool_]
     """Whether a pixel sees more than the background, (m,)."""
 
@@ -130,7 +131,7 @@ def design(
     low, high = stretch[1] * arcs[:2].min(), stretch[1] * arcs[:2].max()
     inner_low = stretch[1] * arcs[0].max() + reach
     inner_high = stretch[1] * arcs[1].min() - reach
-    edges, slim = np.empty((3, cells + 1)), shape.shaft / shape.radius
+    edges, slim = np.empty((4, cells + 1)), shape.shaft / shape.radius
     for i in range(places.shape[0]):
         row = rows.values[i]
         rows.seen[i] = False
@@ -201,7 +202,7 @@ def _taper(outline: Any, shape: Any, e: float, x: float, blur: float, stretch: f
 
 @njit(fastmath=REORDERED, forceinline=True)
 def _across(n: float, middle: float, width: float, blur: float, stretch: float, edges: Any) -> Any:
-    """Fill share below, bell, its n and width derivative at the strips' edges near a pixel.
+    """Fill share below, its derivatives by n, width and blur, at the strips' edges near a pixel.
 
     Returns the first strip near and the last + 1.
     """
@@ -212,10 +213,12 @@ def _across(n: float, middle: float, width: float, blur: float, stretch: float, 
     a, b = max(0, math.floor(start)), min(cells, math.ceil(stop))
     at, ahead, sharp = (middle - stretch * width - n) / blur, step / blur, 1.0 / blur
     for j in range(a, b + 1):
-        below, bell = _gauss(at + j * ahead)
+        z = at + j * ahead
+        below, bell = _gauss(z)
         bell *= sharp
         edges[0, j], edges[1, j] = below, -bell
         edges[2, j] = bell * width * (j * (2.0 / cells) - 1.0)
+        edges[3, j] = -bell * z
     return a, b
 
 
@@ -231,6 +234,10 @@ def _within(row: Any, a: int, b: int, edges: Any, profile: Any) -> None:
             row[0, k] += p * share
             row[1, k] += p * by_n
             row[3, k] += p * by_width
+        if row.shape[0] > PARTIALS:
+            by_blur = edges[3, j + 1] - edges[3, j]
+            for k in range(BAND):
+                row[PARTIALS, k] += profile[j, k] * by_blur
 
 
 @njit(fastmath=REORDERED, forceinline=True)
@@ -266,6 +273,12 @@ def _band(
             row[2, k] += p * by_e
             row[3, k] += p * by_width
             row[4, k] += p * by_length
+        if row.shape[0] > PARTIALS:
+            by_blur = (edges[3, j + 1] - edges[3, j]) * along
+            by_long = (k1 * h1 - k2 * h2) * across
+            for k in range(BAND):
+                row[PARTIALS, k] += profile[j, k] * by_blur
+                row[PARTIALS + 1, k] += profile[j, k] * by_long
 
 
 @njit(fastmath=REORDERED, forceinline=True)
@@ -304,3 +317,10 @@ def _shaft(
             row[2, column] += p * by_e
             row[3, column] += p * by_width
             row[4, column] += p * by_length
+        if row.shape[0] > PARTIALS:
+            by_blur = (edges[3, j + 1] - edges[3, j]) * along
+            by_long = -bell * h * across
+            for k in range(3):
+                column = start + first[j] + k
+                row[PARTIALS, column] += splines[j, k] * by_blur
+                row[PARTIALS + 1, column] += splines[j, k] * by_long

@@ -40,3 +40,21 @@ def to_level(light: float, gamma: float) -> Any:
         255.0 * (1.0 + _A) * root / (gamma * light),
         -255.0 * (1.0 + _A) * root * math.log(light) / (gamma * gamma),
     )
+
+
+@njit(forceinline=True)
+def about_level(level: float, gamma: float) -> Any:
+    """Light of a grey level, and the level's derivative by the light and by γ there."""
+    x = (level / 255.0 + _A) / (1.0 + _A)
+    zero = _A / (1.0 + _A)
+    if x <= zero:
+        light = to_light(level, gamma)
+        _, slope, by_gamma = to_level(light, gamma)
+        return light, slope, by_gamma
+    log = math.log(x)
+    light = math.exp(gamma * log)
+    return (
+        light,
+        255.0 * (1.0 + _A) * x / (gamma * light),
+        -255.0 * (1.0 + _A) * x * log / gamma,
+    )

@@ -286,6 +286,10 @@ SRGB: Final = 2.4
 LINEAR: Final = 1.0
 """Tone curves that are tried, see `band.tone`: cameras', and none."""
 
+_SURE, _MOST_SURE, _MOST_BY_ONE, _AGAIN = 60.0, 120.0, 40.0, 32
+"""Logarithm of the likelihoods' ratio, summed over pictures, from which a camera's tone curve is
+known; to which it is counted, and of one picture; and after how many pictures it is asked again."""
+
 _AS_NOISY: Final = 1.5
 """What a fit of light that adds up may leave, over the noise of the picture [variances]."""
 
@@ -300,17 +304,45 @@ _LONGER: Final = 0.04
 """By how much width and length may be off in a delivered picture, relative: its blur is free, so
 that a straight edge over the band's side or end leaves hardly anything else."""
 
-_DELIVERED: Final = 0.15
-"""Like `_STRETCH`, in a delivered picture."""
+_MORE: Final = 3.5
+"""By how much the covariance of a fit in a delivered picture is larger than what its left-over
+noise makes: quantised blocks are alike beyond what is looked at."""
 
-_MORE: Final = 2.0
+_FLOOR_PX: Final = 0.015
+_STRETCH_SHARE, _STRETCH_BEYOND, _ORDINARY_STRETCH_PX = 0.03, 0.12, 0.2
+"""Like `floor_px` and `_STRETCH`, in a delivered picture: width and length are off by so much in
+ordinary ones without moving the centre; beyond, something hides a part of the band."""
+
+_BLURRED: Final = 0.0015
+"""Variance of the centre per variance of the blur beyond the rig's, in its direction: light and
+speed are not the same throughout an exposure, so that its middle is not quite the motion's."""
+
 _MISFIT: Final = 2.6
 """Like `ModelFit.misfit_max`, in a delivered picture: few photons are noisy in a dark colour."""
 
-_DELIVERED_PX: Final = 0.02
-"""By how much the covariance of a fit in a delivered picture is larger than what its left-over
-noise makes, and standard deviation [px] besides: quantised blocks spread beyond what is looked
-at."""
+
+@dataclass(slots=True)
+class ToneMemory:
+    """What a camera's pictures have told of its tone curve.
+
+    Attributes:
+        evidence: log-likelihood of a linear curve over sRGB's, summed over pictures.
+        age: pictures since the last that counted.
+    """
+
+    evidence: float = 0.0
+    age: int = 0
+
+    def known(self, gamma: float) -> bool:
+        """Tell whether the curve is known to be this one, and need not be asked again yet."""
+        sign = 1.0 if gamma == LINEAR else -1.0
+        return sign * self.evidence >= _SURE and self.age < _AGAIN
+
+    def learn(self, ratio: float) -> None:
+        """Count a picture: log-likelihood of a linear curve over sRGB's."""
+        ratio = min(_MOST_BY_ONE, max(-_MOST_BY_ONE, ratio))
+        self.evidence = min(_MOST_SURE, max(-_MOST_SURE, self.evidence + ratio))
+        self.age = 0
 
 
 @dataclass(frozen=True)
@@ -338,6 +370,7 @@ class ModelFit(Extractor):
     floor_px: float = 0.004
     region: int = field(init=False)
     fitter: BandFitter = field(init=False)
+    tone: ToneMemory = field(default_factory=ToneMemory, init=False, compare=False)
 
     def __post_init__(self) -> None:
         fitter = BandFitter(self.model, self.shape, self.blur_px, self.coarse.noise_grey)
@@ -424,28 +457,43 @@ class ModelFit(Extractor):
                 least = (0.5 * self.coarse.noise_grey) ** 2
                 if left <= _AS_NOISY * max(least, noise_variance(image, uv, _HALF)):
                     return judged
+        self.tone.age += 1
         return self._delivered(image, start, axis) or Miss(MissReason.PARTLY_HIDDEN, uv)
 
     def _delivered(
         self, image: Image, start: FloatArray, axis: FloatArray
     ) -> MarkerFix | Miss | None:
         """Fit with a camera's tone curve, or with none where that leaves clearly less."""
-        fitter = self.fitter
+        fitter, memory = self.fitter, self.tone
+        plain: BandFit | None = None
+        if memory.known(LINEAR):
+            plain = fitter.fit_delivered(image, start, axis, LINEAR)
+            judged = self._judged_delivered(image, plain, start, axis)
+            if isinstance(judged, MarkerFix):
+                return judged
         matt = fitter.fit_delivered(image, start, axis, SRGB)
+        first = self._judged_delivered(image, matt, start, axis)
+        if isinstance(first, MarkerFix) and memory.known(SRGB):
+            return first
+        if plain is None and not memory.known(SRGB):
+            plain = fitter.fit_delivered(image, start, axis, LINEAR)
         shiny: BandFit | None = None
-        plain = fitter.fit_delivered(image, start, axis, LINEAR)
-        if matt is not None and plain is not None and plain.cost + _CLEARLY < matt.cost:
+        if not isinstance(first, MarkerFix) or _clearly_less(plain, matt):
             shiny = fitter.fit_delivered(image, start, axis, SRGB, glossy=True)
-            if shiny is None or plain.cost + _CLEARLY < shiny.cost:
-                return self._judged(image, plain, start, axis, delivered=True)
-        first = None if matt is None else self._judged(image, matt, start, axis, delivered=True)
-        if isinstance(first, MarkerFix):
-            return first
-        shiny = shiny or fitter.fit_delivered(image, start, axis, SRGB, glossy=True)
-        if shiny is None:
-            return first
-        second = self._judged(image, shiny, start, axis, delivered=True)
-        return second if isinstance(second, MarkerFix) or first is None else first
+        curved = min((f for f in (matt, shiny) if f is not None), key=_cost_of, default=None)
+        second = self._judged_delivered(image, shiny, start, axis)
+        if plain is not None and curved is not None:
+            straight = self._judged_delivered(image, plain, start, axis)
+            if isinstance(straight, MarkerFix) or isinstance(first, MarkerFix):
+                memory.learn(curved.cost - plain.cost)
+            if _clearly_less(plain, curved):
+                return straight
+        return first if isinstance(first, MarkerFix) or second is None else second
+
+    def _judged_delivered(
+        self, image: Image, fit: BandFit | None, start: FloatArray, axis: FloatArray
+    ) -> MarkerFix | Miss | None:
+        return None if fit is None else self._judged(image, fit, start, axis, delivered=True)
 
     def _judged(
         self,
@@ -464,10 +512,7 @@ class ModelFit(Extractor):
             return Miss(MissReason.NO_SHAFT, fit.uv)
         inflation = max(1.0, fit.misfit)
         if delivered:
-            covariance = (
-                _MORE * fit.covariance + self._stretched(fit, start, axis, _DELIVERED) * _ONE
-            )
-            covariance = covariance + _DELIVERED_PX**2 * _ONE
+            covariance = _MORE * fit.covariance + self._doubt_delivered(fit, start, axis)
         else:
             covariance = inflation * fit.covariance + self._doubt(fit, start, axis) * _ONE
         quality = (1.0 - fit.outliers) / inflation
@@ -495,14 +540,26 @@ class ModelFit(Extractor):
             self.floor_px**2
             + _MISFIT_PX2 * max(0.0, fit.misfit - _USUAL_MISFIT)
             + _OUTLIERS_PX2 * max(0.0, fit.outliers - _USUAL_OUTLIERS)
-            + self._stretched(fit, start, axis, _STRETCH)
+            + self._stretched(fit, start, axis)
         )
 
-    def _stretched(self, fit: BandFit, start: FloatArray, axis: FloatArray, share: float) -> float:
+    def _doubt_delivered(self, fit: BandFit, start: FloatArray, axis: FloatArray) -> FloatArray:
+        """Like `_doubt`, in a delivered picture, (2, 2): by stretch and blur [px²]."""
+        (width, length), (wide, long) = fit.stretch.tolist(), self._half_px(start, axis)
+        square = (wide * (width - 1.0)) ** 2 + (long * (length - 1.0)) ** 2
+        beyond = max(0.0, square - _ORDINARY_STRETCH_PX**2)
+        usual = _FLOOR_PX**2 + _STRETCH_SHARE * square + _STRETCH_BEYOND * beyond
+        across, along = (_BLURRED * max(0.0, blur**2 - self.blur_px**2) for blur in fit.blur)
+        eu, ev = fit.outline.eu, fit.outline.ev
+        forward, aside = np.array([eu, ev]), np.array([-ev, eu])
+        moved: FloatArray = along * np.outer(forward, forward) + across * np.outer(aside, aside)
+        return usual * _ONE + moved
+
+    def _stretched(self, fit: BandFit, start: FloatArray, axis: FloatArray) -> float:
         """Variance of the centre by what width and length are off [px²]."""
         (width, length), (wide, long) = fit.stretch.tolist(), self._half_px(start, axis)
         misfit = (wide * (width - 1.0)) ** 2 + (long * (length - 1.0)) ** 2
-        return share * max(0.0, misfit - _USUAL_STRETCH_PX**2)
+        return _STRETCH * max(0.0, misfit - _USUAL_STRETCH_PX**2)
 
     def _half_px(self, p_camera: FloatArray, axis: FloatArray) -> tuple[float, float]:
         """Half the width and half the length of the band's picture [px]."""
@@ -531,6 +588,15 @@ class ModelFit(Extractor):
             self.model, self.shape, world, self.model.T_world_camera.rotate(axis)
         )
         return None if shift is None else self._at(found.uv - shift, depth)
+
+
+def _cost_of(fit: BandFit) -> float:
+    return fit.cost
+
+
+def _clearly_less(fit: BandFit | None, other: BandFit | None) -> bool:
+    """Tell whether a fit is much likelier than another one."""
+    return fit is not None and other is not None and fit.cost + _CLEARLY < other.cost
 
 
 def noise_variance(image: Image, uv: FloatArray, half: int) -> float:
