@@ -274,7 +274,7 @@ def remark(
     ] = None,
     folder: FolderOption = None,
 ) -> Answer:
-    """Comment an attempt, declare it void, release it, admit an unsigned one (instructor)."""
+    """Comment an attempt, void, release or admit it (instructor)."""
     from app.session.admission import admissions
     from app.session.admission import admit as admit_records
     from app.session.people import People

@@ -41,7 +41,7 @@ its text."""
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class JournalPlan:
     """What is to be done.
 
     Attributes:
@@ -63,22 +63,22 @@ _swept: set[Path] = set()
 
 
 def move(source: Path, target: Path) -> Step:
-    """Plan to give a file another name; one that has gone has been moved already."""
+    """JournalPlan to give a file another name; one that has gone has been moved already."""
     return "move", str(source.absolute()), str(target.absolute())
 
 
 def move_database(source: Path, target: Path) -> Step:
-    """Plan to put an SQLite file in the place of another, whose logs go with it."""
+    """JournalPlan to put an SQLite file in the place of another, whose logs go with it."""
     return "database", str(source.absolute()), str(target.absolute())
 
 
 def removal(path: Path) -> Step:
-    """Plan to delete a file or folder; one that has gone was deleted already."""
+    """JournalPlan to delete a file or folder; one that has gone was deleted already."""
     return "remove", str(path.absolute())
 
 
 def sealing(record: Path, digest: str, target: Path, text: str) -> Step:
-    """Plan to write a text once a record is whole, which its SHA-256 tells; else never."""
+    """JournalPlan to write a text once a record is whole, which its SHA-256 tells; else never."""
     return "seal", str(record.absolute()), digest, str(target.absolute()), text
 
 
@@ -97,7 +97,7 @@ class Journal:
 
     def __init__(self, folder: Path, plan: Sequence[Step] = (), alone: bool = False) -> None:
         self._alone, self._lock = alone, -1
-        self._folder, self._plan = folder, Plan(tuple(plan))
+        self._folder, self._plan = folder, JournalPlan(tuple(plan))
         self._path, self._fd = folder, -1
 
     def __enter__(self) -> Journal:
@@ -120,17 +120,17 @@ class Journal:
         return self
 
     def plan(self, steps: Sequence[Step]) -> None:
-        """Plan something else from now on: when this returns it stands on the disk.
+        """JournalPlan something else from now on: when this returns it stands on the disk.
 
         Raises:
             OSError: if it cannot be written; the plan before holds.
         """
-        self._write(Plan(tuple(steps)))
+        self._write(JournalPlan(tuple(steps)))
 
     def plan_with(
         self, database: Path, stamp: str, steps: Sequence[Step], otherwise: Sequence[Step] = ()
     ) -> None:
-        """Plan what happens if a transaction that is about to end is committed, or is not.
+        """JournalPlan what happens if a transaction that is about to end is committed, or is not.
 
         Args:
             database: whose transaction.
@@ -142,9 +142,9 @@ class Journal:
             OSError: as `plan`.
         """
         where = str(database.absolute())
-        self._write(Plan(tuple(steps), where, stamp, tuple(otherwise)))
+        self._write(JournalPlan(tuple(steps), where, stamp, tuple(otherwise)))
 
-    def _write(self, plan: Plan) -> None:
+    def _write(self, plan: JournalPlan) -> None:
         line = json.dumps(asdict(plan)).encode() + b"\n"
         step("plan", self._path)
         if os.write(self._fd, line) != len(line):
@@ -271,14 +271,14 @@ def _settle(path: Path) -> None:
             os.close(fd)
 
 
-def _last_plan(path: Path) -> Plan:
+def _last_plan(path: Path) -> JournalPlan:
     for line in reversed(path.read_bytes().split(b"\n")[:-1]):
         with suppress(ValueError, TypeError):
-            return Plan(**json.loads(line))
-    return Plan()
+            return JournalPlan(**json.loads(line))
+    return JournalPlan()
 
 
-def _follow(plan: Plan) -> None:
+def _follow(plan: JournalPlan) -> None:
     """Carry out a plan, as its transaction ended."""
     done = not plan.database or _is_stamped(Path(plan.database), plan.stamp)
     carry_out(plan.steps if done else plan.otherwise)

@@ -17,7 +17,7 @@ from app.core import paths
 from app.core.progress import Progress
 from app.studies.coverage_trials.chain import chain
 from app.studies.coverage_trials.scene import LENSES, RIGS
-from app.studies.coverage_trials.tally import Cell, Tally
+from app.studies.coverage_trials.tally import CoverageCell, CoverageTally
 from app.studies.coverage_trials.touches import KINDS, touched
 from app.studies.findings import Figure, Findings, Sheet, Survey
 
@@ -50,10 +50,12 @@ _COLUMNS: Final = (
 )
 
 
-def cells() -> list[Cell]:
+def cells() -> list[CoverageCell]:
     """Return every kind of trial, none tried yet."""
-    chains = [Cell(f"{rig}, {lens}", partial(chain, rig, lens)) for rig in RIGS for lens in LENSES]
-    return chains + [Cell(f"touches {kind}", partial(touched, kind)) for kind in KINDS]
+    chains = [
+        CoverageCell(f"{rig}, {lens}", partial(chain, rig, lens)) for rig in RIGS for lens in LENSES
+    ]
+    return chains + [CoverageCell(f"touches {kind}", partial(touched, kind)) for kind in KINDS]
 
 
 def _measure(progress: Progress | None = None, inputs: tuple[Path, ...] = ()) -> Findings:
@@ -78,7 +80,7 @@ def _tried(count: int, folder: Path | None, progress: Progress | None) -> Findin
     return findings(kinds)
 
 
-def findings(kinds: list[Cell]) -> Findings:
+def findings(kinds: list[CoverageCell]) -> Findings:
     """Return the table of what was tried, and what it says."""
     rows = [
         (cell.name, *_row(name, t, cell.name.endswith("not stated")))
@@ -96,7 +98,7 @@ def findings(kinds: list[Cell]) -> Findings:
     )
 
 
-def _row(quantity: str, tally: Tally, bound: bool) -> tuple[str | float | int, ...]:
+def _row(quantity: str, tally: CoverageTally, bound: bool) -> tuple[str | float | int, ...]:
     """Return a quantity's row; a bound may hold more, since its scale is estimated."""
     spread = tally.spread.values()
     ratio, held = tally.squares / tally.freedom, tally.held / tally.trials

@@ -73,7 +73,9 @@ def test_what_is_simulated_is_explained_with_the_layers_of_the_ct(
 ) -> None:
     asks = exercise(layers_from="ct")
     found = explanation(asks)
-    assert {one["effect"] for one in found["simulated"]} == set(EFFECTS) - {"bone_contact"}
+    assert {one["effect"] for one in found["simulated"]} == (
+        set(EFFECTS) - {"bone_contact"} | {"camera_tone", "camera_jpeg"}
+    )
     assert "it needs bones" in found["dropped"][0]["why"]
     own = asks.model_copy(update={"plan": OwnPlan(own=True)})
     assert explanation(own)["simulated"]

@@ -23,6 +23,7 @@ from app.scoring.rows import ScoreRules
 from app.session.context import RunContext
 from app.session.header import Attachment
 from app.session.trainer import Trainer
+from app.tracking.discrepancy import Discrepancy
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 WALL = datetime(2026, 1, 15, 9, 31, 22, 418000, tzinfo=UTC)
@@ -150,6 +151,7 @@ class FakeFix:
     has_point: bool = False
     line_variance: float | None = None
     axis: FloatArray | None = None
+    discrepancy: Discrepancy = field(default_factory=Discrepancy)
 
     @property
     def usable(self) -> bool:

@@ -5,14 +5,14 @@ import pytest
 from app.studies.coverage import RIGHT, findings
 from app.studies.coverage_trials.chain import QUANTITIES, SETS, chain
 from app.studies.coverage_trials.scene import LENSES, RIGS
-from app.studies.coverage_trials.tally import Cell, Tally
+from app.studies.coverage_trials.tally import CoverageCell, CoverageTally
 from app.studies.coverage_trials.touches import KINDS, touched
 
 
 @pytest.fixture(scope="module")
-def pooled() -> dict[str, Tally]:
+def pooled() -> dict[str, CoverageTally]:
     """About 200 chains over all rigs and lenses."""
-    sums = {name: Tally() for name in QUANTITIES}
+    sums = {name: CoverageTally() for name in QUANTITIES}
     for rig in RIGS:
         for lens in LENSES:
             for trial in range(22):
@@ -37,7 +37,7 @@ def test_the_sphere_round_the_tip_holds_it_as_often_as_it_says(pooled):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_error_at_the_target_holds_whatever_the_touches_errors_look_like(kind):
-    cell = Cell("touches", lambda seed: touched(kind, seed))
+    cell = CoverageCell("touches", lambda seed: touched(kind, seed))
     cell.run(300)
     tally = cell.tallies["target"]
     assert tally.held / tally.trials >= 0.915
@@ -46,12 +46,12 @@ def test_the_error_at_the_target_holds_whatever_the_touches_errors_look_like(kin
 
 def test_a_run_that_was_broken_off_goes_on_where_it_was(tmp_path):
     kind = next(iter(KINDS))
-    whole = Cell("touches", lambda seed: touched(kind, seed))
+    whole = CoverageCell("touches", lambda seed: touched(kind, seed))
     whole.run(6)
-    first = Cell("touches", lambda seed: touched(kind, seed))
+    first = CoverageCell("touches", lambda seed: touched(kind, seed))
     first.run(4)
     first.keep(tmp_path)
-    rest = Cell("touches", lambda seed: touched(kind, seed)).go_on(tmp_path)
+    rest = CoverageCell("touches", lambda seed: touched(kind, seed)).go_on(tmp_path)
     assert rest.done == 4
     rest.run(2)
     assert rest.tallies["target"].squares == pytest.approx(whole.tallies["target"].squares)

@@ -78,7 +78,7 @@ def test_the_outline_model_agrees_with_the_rendered_band(wide, wide_renderers, s
             other = renderer.render(scene).astype(float)
         finally:
             simulated._COLOURS[:] = colours
-        ambient, diffuse = renderer._light[3:]
+        ambient, diffuse = renderer._light[3:5]
         assert ambient + diffuse <= 1.0
         band = (other - image)[..., 1] > 0.5 * (250.0 - 26.0) * ambient
         v, u = np.nonzero(band)

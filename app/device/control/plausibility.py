@@ -53,6 +53,9 @@ _LEAST_BITS: Final = 8
 _MOST_BITS: Final = 32
 _NEAR: Final = 0.02  # share of a power of two, or of a turn, within which a jump is one
 
+_STILL: Final = 1e-12
+"""Speed that counts as none [rad/s]."""
+
 # Compiled code takes plain integers as constants.
 _WRAPPED = int(Fault.ENCODER_WRAPPED)
 _JUMPED = int(Fault.ENCODER_JUMPED)
@@ -98,11 +101,18 @@ def is_wrap(jump: float, count: float) -> bool:
 
 
 @njit
+def _smoothed(before: float, speed: float) -> float:
+    """Return the smoothed speed [rad/s]; one that fades away ends at zero, not at a subnormal."""
+    smooth = before + _SMOOTHING * (speed - before)
+    return smooth if abs(smooth) > _STILL else 0.0
+
+
+@njit
 def _believe(p: FloatArray, stamp: float, left: float, right: float) -> None:
     since = stamp - p[_AT.stamp]
     if since > 0.0:
-        p[_AT.speed_left] += _SMOOTHING * ((left - p[_AT.left]) / since - p[_AT.speed_left])
-        p[_AT.speed_right] += _SMOOTHING * ((right - p[_AT.right]) / since - p[_AT.speed_right])
+        p[_AT.speed_left] = _smoothed(p[_AT.speed_left], (left - p[_AT.left]) / since)
+        p[_AT.speed_right] = _smoothed(p[_AT.speed_right], (right - p[_AT.right]) / since)
         p[_AT.lacking] = max(p[_AT.lacking] - _FORGIVEN * since, 0.0)
     p[_AT.stamp], p[_AT.left], p[_AT.right], p[_AT.doubts] = stamp, left, right, 0.0
 

@@ -67,7 +67,7 @@ def even_odd(lines: Sequence[FloatArray], shape: tuple[int, int]) -> Picture:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Plane:
+class ContourPlane:
     """The contours of one plane.
 
     Attributes:
@@ -92,7 +92,7 @@ class Plane:
         shape: tuple[int, int],
         pixel_mm: FloatArray,
         odd: bool = False,
-    ) -> Plane:
+    ) -> ContourPlane:
         """Fill the contours of a plane.
 
         Args:
@@ -200,7 +200,7 @@ def gathered(heights: FloatArray, tolerance: float) -> list[NDArray[np.intp]]:
 
 
 def stacked(
-    planes: Sequence[Plane], pixel_mm: FloatArray, step_mm: float, usual: float | None
+    planes: Sequence[ContourPlane], pixel_mm: FloatArray, step_mm: float, usual: float | None
 ) -> tuple[NDArray[np.bool_], int]:
     """Fill the slices of the grid between and beside planes.
 
@@ -237,14 +237,16 @@ def stacked(
     return mask, low
 
 
-def _alone(planes: Sequence[Plane], usual: float | None) -> float:
+def _alone(planes: Sequence[ContourPlane], usual: float | None) -> float:
     """Thickness of a plane that no other one is joined to [slices]."""
     gaps = np.diff([plane.height for plane in planes])
     least = float(gaps.min()) if len(gaps) else np.inf
     return max(1.0, min(usual, least)) if usual is not None else 1.0
 
 
-def _runs(planes: Sequence[Plane], step_mm: float, usual: float | None) -> list[list[Plane]]:
+def _runs(
+    planes: Sequence[ContourPlane], step_mm: float, usual: float | None
+) -> list[list[ContourPlane]]:
     """Part the planes where they are further apart than they usually are."""
     gaps = np.diff([plane.height for plane in planes])
     runs = [[planes[0]]]
@@ -263,11 +265,13 @@ def _runs(planes: Sequence[Plane], step_mm: float, usual: float | None) -> list[
     return runs
 
 
-def _overlap(one: Plane, other: Plane) -> bool:
+def _overlap(one: ContourPlane, other: ContourPlane) -> bool:
     return bool((one.picture & other.picture).any())
 
 
-def _at(run: Sequence[Plane], heights: FloatArray, height: float, pixel_mm: FloatArray) -> Picture:
+def _at(
+    run: Sequence[ContourPlane], heights: FloatArray, height: float, pixel_mm: FloatArray
+) -> Picture:
     """Return the picture of a region at a height."""
     above = int(np.searchsorted(heights, height))
     if above in (0, len(run)):
@@ -288,7 +292,7 @@ def _at(run: Sequence[Plane], heights: FloatArray, height: float, pixel_mm: Floa
 
 
 def _signed(
-    plane: Plane, points: FloatArray, pixels: NDArray[np.intp], pixel_mm: FloatArray
+    plane: ContourPlane, points: FloatArray, pixels: NDArray[np.intp], pixel_mm: FloatArray
 ) -> FloatArray:
     """Distances of pixel centres from the lines of a plane [mm], positive inside."""
     finest = 0.05 * float(pixel_mm.min())

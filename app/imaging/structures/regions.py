@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
-from app.imaging.structures.contours import ONE_PLANE_MM, Plane, gathered, stacked
+from app.imaging.structures.contours import ONE_PLANE_MM, ContourPlane, gathered, stacked
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.structure import Colour, StructureKind
 from app.imaging.volume import Volume
@@ -34,7 +34,7 @@ _SNAP_MM, _SNAP_SHARE = 0.15, 0.2
 
 
 @dataclass(slots=True)
-class Region:
+class ContourRegion:
     """One region of the file.
 
     Attributes:
@@ -78,7 +78,7 @@ class Layers:
         frame: columns are steps of the grid along columns, rows and slices [mm], shape (3, 3).
         lines: points (column, row), each of shape (n, 2).
         heights: of each line, in slices.
-        odd: see `Region`.
+        odd: see `ContourRegion`.
         step_mm: distance of slices.
         on_slices: whether the grid is the CT's own.
     """
@@ -92,7 +92,7 @@ class Layers:
     on_slices: bool
 
     @classmethod
-    def of(cls, region: Region, volume: Volume) -> Layers | None:
+    def of(cls, region: ContourRegion, volume: Volume) -> Layers | None:
         """Find the grid; contours that are not flat on it are left out of the region.
 
         Returns:
@@ -122,7 +122,9 @@ class Layers:
         return cls(layers.origin_mm, frame, layers.lines, heights, layers.odd, step, on_slices)
 
     @classmethod
-    def _on(cls, region: Region, origin: FloatArray, frame: FloatArray, flat_mm: float) -> Layers:
+    def _on(
+        cls, region: ContourRegion, origin: FloatArray, frame: FloatArray, flat_mm: float
+    ) -> Layers:
         normal = np.cross(frame[:, 0], frame[:, 1])
         normal /= np.linalg.norm(normal)
         rise = float(frame[:, 2] @ normal)
@@ -181,11 +183,11 @@ class Layers:
 
     def _plane(
         self, group: NDArray[np.intp], low: Any, shape: tuple[int, int], pixel_mm: FloatArray
-    ) -> Plane:
+    ) -> ContourPlane:
         lines = [self.lines[number] - low for number in group]
         height = float(np.mean(self.heights[group]))
         odd = any(self.odd[number] for number in group)
-        return Plane.of(height, lines, shape, pixel_mm, odd)
+        return ContourPlane.of(height, lines, shape, pixel_mm, odd)
 
     def _nearest(self, shape: tuple[int, ...], low: Any, first: int) -> NDArray[np.bool_]:
         mask = np.zeros(shape, bool)
@@ -195,7 +197,7 @@ class Layers:
         return mask
 
 
-def _remarks(planes: Sequence[Plane]) -> list[str]:
+def _remarks(planes: Sequence[ContourPlane]) -> list[str]:
     said = []
     if repeated := sum(plane.repeated for plane in planes):
         times = "contour that is" if repeated == 1 else "contours that are"

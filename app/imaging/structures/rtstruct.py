@@ -17,7 +17,7 @@ from app.core.arrays import FloatArray
 from app.imaging.errors import brief
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.placing import Found, Labelled
-from app.imaging.structures.regions import Layers, Region, newell, usual_gap
+from app.imaging.structures.regions import ContourRegion, Layers, newell, usual_gap
 from app.imaging.structures.structure import Colour, StructureKind
 from app.imaging.volume import Volume
 
@@ -76,10 +76,10 @@ def read_rtstruct(dataset: Any, path: Path, volume: Volume) -> Found:
     return Found(found, len(found), regions[0].frame, tuple(notes), _named_images(dataset))
 
 
-def _regions(dataset: Any, path: Path) -> tuple[list[Region], list[str]]:
+def _regions(dataset: Any, path: Path) -> tuple[list[ContourRegion], list[str]]:
     """Return the regions that have a name and contours, and what was left out."""
     known, notes = _declared(dataset, path)
-    drawn: dict[int, Region] = {}
+    drawn: dict[int, ContourRegion] = {}
     strange: Counter[str] = Counter()
     for item in _needed(dataset, "ROIContourSequence", path):
         number = _number(item, "ReferencedROINumber")
@@ -98,7 +98,7 @@ def _regions(dataset: Any, path: Path) -> tuple[list[Region], list[str]]:
     return list(drawn.values()), notes
 
 
-def _declared(dataset: Any, path: Path) -> tuple[dict[int, Region], list[str]]:
+def _declared(dataset: Any, path: Path) -> tuple[dict[int, ContourRegion], list[str]]:
     """Return the regions that the file declares by number, without contours."""
     items = _needed(dataset, "StructureSetROISequence", path)
     kinds = {}
@@ -107,7 +107,7 @@ def _declared(dataset: Any, path: Path) -> tuple[dict[int, Region], list[str]]:
         if number is not None:
             kinds[number] = _KINDS.get(_text(item, "RTROIInterpretedType"))
     general = _general_frame(dataset)
-    known: dict[int, Region] = {}
+    known: dict[int, ContourRegion] = {}
     notes = []
     for item in items:
         number = _number(item, "ROINumber")
@@ -117,7 +117,7 @@ def _declared(dataset: Any, path: Path) -> tuple[dict[int, Region], list[str]]:
             notes.append(f"{name} {what}: left out")
             continue
         frame = _text(item, "ReferencedFrameOfReferenceUID") or general
-        known[number] = Region(name, None, kinds.get(number), frame)
+        known[number] = ContourRegion(name, None, kinds.get(number), frame)
     return known, notes
 
 
@@ -170,7 +170,7 @@ def _colour(item: Any) -> Colour | None:
     return r, g, b
 
 
-def _take_contours(item: Any, region: Region) -> None:
+def _take_contours(item: Any, region: ContourRegion) -> None:
     """Sort the contours of an item into usable ones and others."""
     for contour in _items(item, "ContourSequence"):
         kind = _text(contour, "ContourGeometricType")
@@ -206,7 +206,7 @@ def _line(contour: Any, left_out: Counter[str]) -> FloatArray | None:
     return None
 
 
-def _of_one_frame(regions: list[Region], own: str) -> tuple[list[Region], list[str]]:
+def _of_one_frame(regions: list[ContourRegion], own: str) -> tuple[list[ContourRegion], list[str]]:
     """Keep the regions of the CT's frame of reference where the file mixes several."""
     frames = list(dict.fromkeys(region.frame for region in regions if region.lines))
     if len(frames) < 2:

@@ -36,7 +36,7 @@ Part = tuple[Mask, FloatArray]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Frame:
+class SegFrame:
     """Place of one frame.
 
     Attributes:
@@ -67,7 +67,7 @@ class Frame:
         return np.cross(self.turn[:, 0], self.turn[:, 1])
 
 
-def frames_of(dataset: Any, count: int, labels: bool) -> tuple[list[Frame], Counter[str]]:
+def frames_of(dataset: Any, count: int, labels: bool) -> tuple[list[SegFrame], Counter[str]]:
     """Return the frames that say where they lie, and why others were left out.
 
     Args:
@@ -104,7 +104,7 @@ def _group(groups: Iterable[Any], keyword: str) -> Any:
     return next((g for g in (_first(group, keyword) for group in groups) if g is not None), None)
 
 
-def _frame(index: int, groups: Sequence[Any], numbers: set[int], labels: bool) -> Frame:
+def _frame(index: int, groups: Sequence[Any], numbers: set[int], labels: bool) -> SegFrame:
     measures = _group(groups, "PixelMeasuresSequence")
     place = _group(groups, "PlanePositionSequence")
     position = np.array([float(v) for v in place.ImagePositionPatient])
@@ -125,7 +125,7 @@ def _frame(index: int, groups: Sequence[Any], numbers: set[int], labels: bool) -
         alone = identity is None and len(numbers) == 1
         segment = next(iter(numbers)) if alone else int(identity.ReferencedSegmentNumber)
     between, thick = (_length(measures, k) for k in ("SpacingBetweenSlices", "SliceThickness"))
-    return Frame(index, segment, position, turn / lengths, (column, row), between, thick)
+    return SegFrame(index, segment, position, turn / lengths, (column, row), between, thick)
 
 
 def _length(measures: Any, keyword: str) -> float | None:
@@ -134,7 +134,7 @@ def _length(measures: Any, keyword: str) -> float | None:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Stack:
+class FrameStack:
     """Frames that lie on one another, and how thick each is.
 
     Attributes:
@@ -150,7 +150,7 @@ class Stack:
     layers: dict[int, tuple[int, int]]
 
 
-def on_voxels(frames: Sequence[Frame], size: tuple[int, int], volume: Volume) -> bool:
+def on_voxels(frames: Sequence[SegFrame], size: tuple[int, int], volume: Volume) -> bool:
     """Tell whether every pixel of every frame is one voxel of the CT.
 
     Args:
@@ -174,14 +174,14 @@ def on_voxels(frames: Sequence[Frame], size: tuple[int, int], volume: Volume) ->
     return True
 
 
-def _in_voxels(frame: Frame, volume: Volume) -> tuple[FloatArray, FloatArray]:
+def _in_voxels(frame: SegFrame, volume: Volume) -> tuple[FloatArray, FloatArray]:
     """Return steps along columns and rows, and the first pixel, in voxels of a CT."""
     inverse = volume.inverse_mm
     start: FloatArray = inverse[:3, :3] @ frame.position_mm + inverse[:3, 3]
     return inverse[:3, :3] @ frame.steps_mm, start
 
 
-def thickness_mm(frames: Sequence[Frame], volume: Volume) -> float:
+def thickness_mm(frames: Sequence[SegFrame], volume: Volume) -> float:
     """Return how thick a frame is: no thicker than frames lie apart [mm].
 
     SpacingBetweenSlices where frames lie whole numbers of it apart; else their distance, where it
@@ -201,7 +201,7 @@ def thickness_mm(frames: Sequence[Frame], volume: Volume) -> float:
     return min(float(volume.spacing_mm[2]), least)
 
 
-def spacing_note(frames: Sequence[Frame]) -> str:
+def spacing_note(frames: Sequence[SegFrame]) -> str:
     """Say that a file's SpacingBetweenSlices contradicts its frames; empty where it does not."""
     between, gaps = frames[0].between_mm, _gaps(frames)
     if between is None or not len(gaps):
@@ -215,7 +215,7 @@ def spacing_note(frames: Sequence[Frame]) -> str:
     )
 
 
-def _gaps(frames: Sequence[Frame]) -> FloatArray:
+def _gaps(frames: Sequence[SegFrame]) -> FloatArray:
     """Distances of neighbouring planes [mm], of frames that are parallel to the first."""
     normal = frames[0].normal
     parallel = [f for f in frames if np.abs(f.normal - normal).max() < 1e-2]
@@ -225,16 +225,16 @@ def _gaps(frames: Sequence[Frame]) -> FloatArray:
     return result
 
 
-def is_thin(frames: Sequence[Frame], volume: Volume) -> bool:
+def is_thin(frames: Sequence[SegFrame], volume: Volume) -> bool:
     """Tell whether frames are no thicker than the CT's slices that they lie on."""
     axis = int(np.argmin(np.abs(np.rint(_in_voxels(frames[0], volume)[0])).sum(axis=1)))
     step = volume.affine_mm[:3, axis] @ frames[0].normal
     return thickness_mm(frames, volume) <= _THICKER * abs(float(step))
 
 
-def stacks_of(frames: Sequence[Frame], volume: Volume) -> list[Stack]:
+def stacks_of(frames: Sequence[SegFrame], volume: Volume) -> list[FrameStack]:
     """Part frames into stacks: same turn and pixels, and starts on one straight line."""
-    groups: list[list[Frame]] = []
+    groups: list[list[SegFrame]] = []
     for frame in frames:
         for group in groups:
             if _alike(group[0], frame):
@@ -245,14 +245,14 @@ def stacks_of(frames: Sequence[Frame], volume: Volume) -> list[Stack]:
     return [stack for group in groups for stack in _straight(group, volume)]
 
 
-def _alike(one: Frame, other: Frame) -> bool:
+def _alike(one: SegFrame, other: SegFrame) -> bool:
     return bool(
         np.abs(one.turn - other.turn).max() < _SAME_TURN
         and np.allclose(one.pixel_mm, other.pixel_mm, rtol=1e-4)
     )
 
 
-def _straight(group: Sequence[Frame], volume: Volume) -> list[Stack]:
+def _straight(group: Sequence[SegFrame], volume: Volume) -> list[FrameStack]:
     normal = group[0].normal
     thick = thickness_mm(group, volume)
     places = np.array([frame.position_mm for frame in group])
@@ -264,7 +264,7 @@ def _straight(group: Sequence[Frame], volume: Volume) -> list[Stack]:
     if np.linalg.norm(off, axis=1).max() <= _STRAIGHT_MM:
         return [_stack(group, places[low], along, thick)]
     sideways = np.rint((places - heights[:, None] * normal) / _STRAIGHT_MM).astype(int)
-    columns: dict[tuple[int, ...], list[Frame]] = {}
+    columns: dict[tuple[int, ...], list[SegFrame]] = {}
     for frame, key in zip(group, sideways.tolist(), strict=True):
         columns.setdefault(tuple(key), []).append(frame)
     lowest = (min(part, key=lambda f: float(f.position_mm @ normal)) for part in columns.values())
@@ -274,7 +274,9 @@ def _straight(group: Sequence[Frame], volume: Volume) -> list[Stack]:
     ]
 
 
-def _stack(frames: Sequence[Frame], start: FloatArray, along: FloatArray, thick: float) -> Stack:
+def _stack(
+    frames: Sequence[SegFrame], start: FloatArray, along: FloatArray, thick: float
+) -> FrameStack:
     """Return a stack of frames whose layers are as thick as they are, or thin enough for all."""
     normal = frames[0].normal
     heights = np.array([float((frame.position_mm - start) @ normal) for frame in frames])
@@ -287,10 +289,12 @@ def _stack(frames: Sequence[Frame], start: FloatArray, along: FloatArray, thick:
         layers = [(int(n), 4) for n in np.ceil((heights - thick / 2.0) / step - 1e-6)]
     axes = np.column_stack([frames[0].steps_mm, step * along])
     numbers = tuple(frame.index for frame in frames)
-    return Stack(numbers, start, axes, dict(zip(numbers, layers, strict=True)))
+    return FrameStack(numbers, start, axes, dict(zip(numbers, layers, strict=True)))
 
 
-def voxel_part(pieces: Sequence[tuple[Frame, Pixels]], columns: int, volume: Volume) -> Part | None:
+def voxel_part(
+    pieces: Sequence[tuple[SegFrame, Pixels]], columns: int, volume: Volume
+) -> Part | None:
     """Return pixels that are voxels of the CT, on its grid; None where there are none.
 
     Args:
@@ -311,7 +315,9 @@ def voxel_part(pieces: Sequence[tuple[Frame, Pixels]], columns: int, volume: Vol
     return _boxed(places, volume.affine_mm)
 
 
-def stack_part(stack: Stack, pieces: Sequence[tuple[Frame, Pixels]], columns: int) -> Part | None:
+def stack_part(
+    stack: FrameStack, pieces: Sequence[tuple[SegFrame, Pixels]], columns: int
+) -> Part | None:
     """Return the pixels of a stack's frames on its grid; as `voxel_part`."""
     places = []
     for frame, pixels in pieces:

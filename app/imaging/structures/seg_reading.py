@@ -19,7 +19,7 @@ from app.imaging.structures import seg_frames
 from app.imaging.structures.dicom_seg import CODES, rgb_of
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.placing import Found, Labelled, guessed_kind
-from app.imaging.structures.seg_frames import Frame, Pixels, Stack
+from app.imaging.structures.seg_frames import FrameStack, Pixels, SegFrame
 from app.imaging.structures.structure import Colour, StructureKind
 from app.imaging.volume import Volume
 
@@ -48,9 +48,9 @@ class Segmentation:
     kind: str
     rows: int
     columns: int
-    frames: list[Frame]
-    stacks: list[Stack]
-    pixels: dict[int, list[tuple[Frame, Pixels]]]
+    frames: list[SegFrame]
+    stacks: list[FrameStack]
+    pixels: dict[int, list[tuple[SegFrame, Pixels]]]
 
 
 def read_seg(dataset: Any, path: Path, volume: Volume, own: frozenset[str]) -> Found:
@@ -165,7 +165,9 @@ def _sort_pixels(segmentation: Segmentation, left_out: Counter[str]) -> set[int]
     return undescribed
 
 
-def _add(segmentation: Segmentation, number: int, frame: Frame, inside: NDArray[np.bool_]) -> None:
+def _add(
+    segmentation: Segmentation, number: int, frame: SegFrame, inside: NDArray[np.bool_]
+) -> None:
     pixels = np.flatnonzero(inside).astype(np.int32)
     segmentation.pixels.setdefault(number, []).append((frame, pixels))
 

@@ -15,7 +15,7 @@ from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
 from app.studies.coverage_trials.deviation import Deviation
-from app.studies.coverage_trials.scene import LENSES, RIGS, SIZE, Scene, TrueCamera, scene
+from app.studies.coverage_trials.scene import LENSES, RIGS, SIZE, RigScene, TrueCamera, scene
 from app.tracking.calibration.bundle import Adjusted, adjust
 from app.tracking.calibration.mono import calibrate_mono
 from app.tracking.calibration.placed_board import PlacedBoard
@@ -142,7 +142,7 @@ def _lens(
 
 
 def _calibration(
-    before: Scene, adjusted: Adjusted, names: tuple[tuple[str, ...], tuple[str, ...]]
+    before: RigScene, adjusted: Adjusted, names: tuple[tuple[str, ...], tuple[str, ...]]
 ) -> StereoCalibration:
     cameras = []
     for i, p in enumerate(adjusted.state.parameters.tolist()):
@@ -171,7 +171,9 @@ def _calibration(
     )
 
 
-def _world(before: Scene, calibration: StereoCalibration, rng: np.random.Generator) -> WorldFrame:
+def _world(
+    before: RigScene, calibration: StereoCalibration, rng: np.random.Generator
+) -> WorldFrame:
     """Find the world frame by a board that lies a little beside where it is said to."""
     mm, deg = PLACE_SD
     there = RigidTransform.from_translation(before.placed.translation)
@@ -188,7 +190,7 @@ def _world(before: Scene, calibration: StereoCalibration, rng: np.random.Generat
     )
 
 
-def _tip(before: Scene, calibration: StereoCalibration, rng: np.random.Generator) -> Deviation:
+def _tip(before: RigScene, calibration: StereoCalibration, rng: np.random.Generator) -> Deviation:
     """See a band whose place on the shaft is not quite what the profile says; weigh the tip."""
     rig = before.profile.calibrated(calibration)
     band, axis = before.needle(rng)

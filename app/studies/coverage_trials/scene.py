@@ -50,7 +50,7 @@ class TrueCamera:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Scene:
+class RigScene:
     """Two cameras, the board that calibrates them, and where needle and world are.
 
     Attributes:
@@ -107,7 +107,7 @@ class Scene:
 
 
 @cache
-def scene(rig: str, lens: str) -> Scene:
+def scene(rig: str, lens: str) -> RigScene:
     """Return a rig with a lens, by their names in `RIGS` and `LENSES`."""
     if rig == "usual":
         return _usual(lens)
@@ -121,7 +121,7 @@ def scene(rig: str, lens: str) -> Scene:
     )
     down, pose = np.array([0.0, 0.0, -1.0]), cameras[0].T_camera_world
     distance = float(np.linalg.norm(pose @ _FULCRUM))
-    unplaced = Scene(
+    unplaced = RigScene(
         profile,
         (cameras[0], cameras[1]),
         board,
@@ -133,7 +133,7 @@ def scene(rig: str, lens: str) -> Scene:
     return _placed(unplaced)
 
 
-def _usual(lens: str) -> Scene:
+def _usual(lens: str) -> RigScene:
     """640x480, cameras side by side 83 mm apart that look down, squares of 25 mm."""
     above = RigidTransform(np.diag([1.0, -1.0, -1.0]), np.array([0.0, 0.0, 0.5])).inverse()
     beside = RigidTransform(np.eye(3), np.array([-0.083, 0.0, 0.0])) @ above
@@ -142,7 +142,7 @@ def _usual(lens: str) -> Scene:
         TrueCamera(_matrix(np.array(values)), _coefficients("usual", lens, side), pose)
         for side, (values, pose) in enumerate(zip(centres, (above, beside), strict=True))
     )
-    unplaced = Scene(
+    unplaced = RigScene(
         load_rig("wide"),
         (cameras[0], cameras[1]),
         parse_board("charuco:10x7:25mm:18mm:DICT_5X5_100"),
@@ -154,7 +154,7 @@ def _usual(lens: str) -> Scene:
     return _placed(unplaced)
 
 
-def _placed(unplaced: Scene) -> Scene:
+def _placed(unplaced: RigScene) -> RigScene:
     """Say where the board lies for the world frame: where both cameras see it, print up."""
     print_up = (T for T in unplaced.poses(30, 5) if T.rotation[2, 2] < -0.1)
     return replace(unplaced, placed=next(print_up))

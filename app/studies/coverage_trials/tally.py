@@ -14,7 +14,7 @@ from app.studies.coverage_trials.deviation import Deviation
 
 
 @dataclass(slots=True)
-class Tally:
+class CoverageTally:
     """Sums of one quantity's deviations.
 
     Attributes:
@@ -53,7 +53,7 @@ class Tally:
 
 
 @dataclass(slots=True)
-class Cell:
+class CoverageCell:
     """All quantities of one kind of trial.
 
     Attributes:
@@ -66,13 +66,13 @@ class Cell:
     name: str
     trial: Callable[[int], dict[str, Deviation]]
     done: int = 0
-    tallies: dict[str, Tally] = field(default_factory=dict)
+    tallies: dict[str, CoverageTally] = field(default_factory=dict)
 
     def run(self, count: int) -> None:
         """Try some more."""
         for seed in range(self.done, self.done + count):
             for quantity, found in self.trial(seed).items():
-                self.tallies.setdefault(quantity, Tally()).add(found)
+                self.tallies.setdefault(quantity, CoverageTally()).add(found)
         self.done += count
 
     def keep(self, folder: Path) -> None:
@@ -90,7 +90,7 @@ class Cell:
         try:
             data = json.loads(self._file(folder).read_text(encoding="utf-8"))
             if data["version"] == __version__:
-                tallies = {name: Tally(**known) for name, known in data["tallies"].items()}
+                tallies = {name: CoverageTally(**known) for name, known in data["tallies"].items()}
                 self.done, self.tallies = int(data["done"]), tallies
         except (OSError, ValueError, KeyError, TypeError):
             pass  # begins anew
@@ -100,5 +100,5 @@ class Cell:
         return folder / f"{self.name.replace(' ', '').replace('=', '')}.json"
 
 
-def _fields(tally: Tally) -> dict[str, Any]:
-    return {name: getattr(tally, name) for name in Tally.__slots__}
+def _fields(tally: CoverageTally) -> dict[str, Any]:
+    return {name: getattr(tally, name) for name in CoverageTally.__slots__}

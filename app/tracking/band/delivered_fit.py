@@ -310,7 +310,7 @@ def _solve(
     return True
 
 
-class Place(NamedTuple):
+class FitPlace(NamedTuple):
     """What the moves have come to."""
 
     shift: FloatArray
@@ -422,7 +422,7 @@ def fit_delivered(
     levels = pixels.colours * noise0
     observed, size, places = observe(image, outline, pixels)
     m = len(observed.luma)
-    place = Place(np.zeros(2), np.ones(2), np.array([blur0, blur0]), np.array([gamma0]))
+    place = FitPlace(np.zeros(2), np.ones(2), np.array([blur0, blur0]), np.array([gamma0]))
     covariance, colour, sigma = np.zeros((2, 2)), np.zeros(3), np.array([noise0, noise0])
     solved, moved = _no_solution(pixels, observed), no_moves(m, len(observed.chroma))
     prior, off, steps, enough = np.zeros(MOVES), np.zeros(MOVES), 0, m >= 40
