@@ -26,6 +26,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
 from app.core.parameters import Stage, numbered, packed
+from app.device.control.vectors import snapped
 from app.device.faults import Fault
 from app.mechanisms.profile import DeviceProfile
 
@@ -52,9 +53,6 @@ _ROUNDING: Final = 1e-9  # [s]
 _LEAST_BITS: Final = 8
 _MOST_BITS: Final = 32
 _NEAR: Final = 0.02  # share of a power of two, or of a turn, within which a jump is one
-
-_STILL: Final = 1e-12
-"""Speed that counts as none [rad/s]."""
 
 # Compiled code takes plain integers as constants.
 _WRAPPED = int(Fault.ENCODER_WRAPPED)
@@ -103,8 +101,7 @@ def is_wrap(jump: float, count: float) -> bool:
 @njit
 def _smoothed(before: float, speed: float) -> float:
     """Return the smoothed speed [rad/s]; one that fades away ends at zero, not at a subnormal."""
-    smooth = before + _SMOOTHING * (speed - before)
-    return smooth if abs(smooth) > _STILL else 0.0
+    return snapped(before + _SMOOTHING * (speed - before))
 
 
 @njit
