@@ -256,9 +256,10 @@ class DiscrepancyMonitor:
         rms = float(np.sqrt(np.mean(np.sum(beside**2, axis=1))))
         epipolar = float(np.median([e.epipolar for e in evidence]))
         far = float(np.quantile(np.linalg.norm(beside, axis=1), _OFTEN))
-        if far > LARGEST_BEND and (encoder := _encoder(evidence, rms)) is not None:
+        agree = abs(epipolar) <= EPIPOLAR_LIMIT  # pictures that disagree tell nothing of the robot
+        if agree and far > LARGEST_BEND and (encoder := _encoder(evidence, rms)) is not None:
             return encoder
-        if abs(epipolar) > EPIPOLAR_LIMIT or rms > LARGEST_BEND:
+        if not agree or rms > LARGEST_BEND:
             return Discrepancy(DiscrepancyCause.BUMPED_CAMERA, rms, rms, BUMPED)
         if np.mean(np.sum(beside**2, axis=1) / (2.0 * sigma**2)) < BESIDE_LIMIT**2:
             return Discrepancy(beside=rms)

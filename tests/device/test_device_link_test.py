@@ -45,6 +45,7 @@ def test_replies_and_losses_are_all_commands_whatever_the_board_does(tmp_path, o
     finally:
         board._process.stdin.close()
         board._process.wait(20)
+        board._process.stdout.close()
         time.sleep(0.1)
     assert found.replies + found.lost == found.commands
     assert found.good is good, found.verdict

@@ -449,16 +449,35 @@ class ModelFit(Extractor):
         uv = self.model.pixel(self.model.T_world_camera @ start)
         if uv is None:
             return Miss(MissReason.WRONG_SHAPE)
-        if keeps_all_colour(read_only(image[:]), uv[0], uv[1], _HALF):
-            fit = self.fitter.fit(image, start, axis)
-            judged = None if fit is None else self._judged(image, fit, start, axis)
-            if isinstance(judged, MarkerFix) and fit is not None:
-                left = fit.misfit * self.coarse.noise_grey**2
-                least = (0.5 * self.coarse.noise_grey) ** 2
-                if left <= _AS_NOISY * max(least, noise_variance(image, uv, _HALF)):
-                    return judged
+        full = keeps_all_colour(read_only(image[:]), uv[0], uv[1], _HALF)
+        light = self._as_light(image, uv, start, axis) if full else None
+        if isinstance(light, MarkerFix):
+            return light
         self.tone.age += 1
-        return self._delivered(image, start, axis) or Miss(MissReason.PARTLY_HIDDEN, uv)
+        delivered = self._delivered(image, start, axis)
+        if isinstance(delivered, MarkerFix):
+            return delivered
+        if not full:  # smooth colours without noise look as if a decoder had filled them in
+            light = self._as_light(image, uv, start, axis)
+            if isinstance(light, MarkerFix):
+                return light
+        return (light if full else delivered) or Miss(MissReason.PARTLY_HIDDEN, uv)
+
+    def _as_light(
+        self, image: Image, uv: FloatArray, start: FloatArray, axis: FloatArray
+    ) -> MarkerFix | Miss | None:
+        """Fit as light that adds up; None where that leaves more than the picture's noise."""
+        fit = self.fitter.fit(image, start, axis)
+        if fit is None:
+            return None
+        judged = self._judged(image, fit, start, axis)
+        left = fit.misfit * self.coarse.noise_grey**2
+        least = (0.5 * self.coarse.noise_grey) ** 2
+        if isinstance(judged, MarkerFix) and left > _AS_NOISY * max(
+            least, noise_variance(image, uv, _HALF)
+        ):
+            return None
+        return judged
 
     def _delivered(
         self, image: Image, start: FloatArray, axis: FloatArray
