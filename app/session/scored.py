@@ -83,8 +83,10 @@ def trajectory(
     placed_at: NDArray[np.bool_] = (
         samples.valid & np.isfinite(samples.tip).all(axis=1) & np.isfinite(samples.depth)
     )
-    pointed: NDArray[np.bool_] = np.isfinite(samples.axis).all(axis=1)
-    keep = rising & (pointed if only_pointed else np.ones_like(rising))
+    pointed: NDArray[np.bool_] = np.asarray(np.isfinite(samples.axis).all(axis=1))
+    keep = rising.copy()
+    if only_pointed:
+        keep &= pointed
     if not (keep & pointed).any():
         raise SessionError("no sample of this attempt has a direction of the needle")
     tip, depth = samples.tip, samples.depth
