@@ -222,7 +222,8 @@ class DiscrepancyMonitor:
     def verdict(self) -> Discrepancy:
         """Say what the evidence so far means."""
         evidence = [one for one in self._evidence if not one.exchanged]
-        if len(self._evidence) - len(evidence) >= ENOUGH:
+        exchanged = len(self._evidence) - len(evidence)
+        if exchanged >= ENOUGH or exchanged >= max(ENOUGH // 2, len(evidence)):
             return Discrepancy(DiscrepancyCause.SWAPPED_CAMERAS, words=SWAPPED)
         if len(evidence) >= ENOUGH:
             found = self._turned(self._beside(evidence))
@@ -256,8 +257,10 @@ class DiscrepancyMonitor:
         rms = float(np.sqrt(np.mean(np.sum(beside**2, axis=1))))
         epipolar = float(np.median([e.epipolar for e in evidence]))
         far = float(np.quantile(np.linalg.norm(beside, axis=1), _OFTEN))
-        agree = abs(epipolar) <= EPIPOLAR_LIMIT  # pictures that disagree tell nothing of the robot
-        if agree and far > LARGEST_BEND and (encoder := _encoder(evidence, rms)) is not None:
+        # Pictures that disagree, or fit when they are exchanged, tell nothing of the robot.
+        agree = abs(epipolar) <= EPIPOLAR_LIMIT
+        whole = agree and len(evidence) == len(self._evidence)
+        if whole and far > LARGEST_BEND and (encoder := _encoder(evidence, rms)) is not None:
             return encoder
         if not agree or rms > LARGEST_BEND:
             return Discrepancy(DiscrepancyCause.BUMPED_CAMERA, rms, rms, BUMPED)
