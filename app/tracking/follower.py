@@ -8,6 +8,7 @@ not where they were; where each is what the other camera should see, they are ex
 """
 
 from dataclasses import replace
+from functools import partial
 from typing import Final
 
 import numpy as np
@@ -142,6 +143,9 @@ class MarkerFollower:
             for m, f in zip(markers, frames, strict=True)
         ):
             markers = self._search(frames, markers, axis, time)
+            bands = [isinstance(m, MarkerFix) and m.centre is Centre.BAND for m in markers]
+            if axis is not None and self._distance is None and not (all(bands) or self._exchanged):
+                markers = self._uncovered(frames, markers, axis, time)
         for frame, marker, track in zip(frames, markers, self._tracks, strict=True):
             if frame is not None:
                 track.add(frame.time, marker if isinstance(marker, MarkerFix) else None)
@@ -206,6 +210,25 @@ class MarkerFollower:
             else self._closer(i, frames, one, None, axis)
             for i, (one, marker) in enumerate(zip(best, markers, strict=True))
         ]
+
+    def _uncovered(
+        self, frames: Pair, markers: list[Found], axis: FloatArray, time: float
+    ) -> list[Found]:
+        """Return both cameras' markers where something hides a part of them, if they agree."""
+        seen: list[MarkerFix] = []
+        for i, (frame, marker) in enumerate(zip(frames, markers, strict=True)):
+            if frame is None:
+                return markers
+            nearest = partial(self._solver.nearest, i, axis=axis)
+            hidden = self._extractors[i].partly_hidden(frame.image, axis, nearest)
+            if isinstance(hidden, MarkerFix):  # what hides little may pass for the band's own end
+                seen.append(hidden)
+            elif isinstance(marker, MarkerFix) and marker.centre is Centre.BAND:
+                seen.append(marker)
+            else:
+                return markers
+        fix = self._solver.solve((SeenMarker.of(seen[0]), SeenMarker.of(seen[1])), axis, time)
+        return [*seen] if fix.status is FixStatus.VALID else markers
 
     def _wrong(
         self, candidates: list[list[Found]], frames: Pair, axis: FloatArray | None

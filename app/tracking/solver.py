@@ -17,10 +17,11 @@ from app.tracking.confidence import chi_square_quantile
 from app.tracking.fix import GATE, FixStatus, NeedleFix, without_point
 from app.tracking.markers.extractor import Centre, MarkerFix
 from app.tracking.markers.silhouette import outline_shift
-from app.tracking.one_camera_fix import OneCameraSolver
+from app.tracking.one_camera_fix import LEAST_ANGLE, OneCameraSolver
 from app.tracking.optics.packed import normalise, packed
 from app.tracking.optics.rig import RigProfile
 from app.tracking.stereo.calibration_uncertainty import CalibrationUncertainty
+from app.tracking.stereo.closed_form import closest, ray
 from app.tracking.stereo.epipolar import essential_matrix
 from app.tracking.stereo.kernels import BEHIND, DEGENERATE, FOUND, NEAREST, inverse3, meet, optimum
 from app.tracking.stereo.triangulation import StereoStatus, Triangulation, triangulation
@@ -278,6 +279,20 @@ class FixSolver:
     def pixel(self, camera: int, p_world: FloatArray) -> FloatArray | None:
         """Where a camera sees a point [px], shape (2,); None if it does not."""
         return self._models[camera].pixel(p_world)
+
+    def nearest(self, camera: int, uv: FloatArray, axis: FloatArray) -> FloatArray | None:
+        """Point of the needle's line that is nearest to a camera's ray [m], shape (3,).
+
+        None where the ray runs along the line, or a pixel has none.
+        """
+        model, direction = self._models[camera], unit(axis)
+        seen = model.ray(uv)
+        if seen is None:
+            return None
+        sight = ray(model.T_camera_world, seen)
+        if float(np.linalg.norm(np.cross(sight[1], direction))) < np.sin(LEAST_ANGLE):
+            return None
+        return closest((self._fulcrum, direction), sight)[0]
 
     def _solve(
         self, sightings: tuple[SeenMarker, SeenMarker], axis: FloatArray, time: float

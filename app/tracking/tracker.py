@@ -298,7 +298,9 @@ class Tracker:
         axis = self._axis(time)
         fix, markers = self._measured(frames, axis, time)
         fix = with_cause(fix, markers, self._names)
-        certain = all(isinstance(m, MarkerFix) and m.centre is Centre.BAND for m in markers)
+        certain = all(
+            isinstance(m, MarkerFix) and m.centre is Centre.BAND and not m.hidden for m in markers
+        )
         fix = self._health.judge(fix, axis, certain, self._follower.exchanged)
         found = [one for one in markers if isinstance(one, MarkerFix)]
         fix = self._hiding.judge(self._continuity.judge(fix, found))

@@ -375,12 +375,26 @@ def _keep_groups(observed: Any, usable: Any, kept: Any) -> None:
 
 
 @njit
-def _about_band(rows: Any, good: Any, moved: Any, colour: Any) -> Any:
-    """Fill the band's mean colour; return its mean square residual, what is left out, its area."""
+def _leave_out_hidden(hidden: Any, places: Any, usable: Any) -> Any:
+    """Mark what is hidden as not usable; return where nothing stands before the scene, (m,)."""
+    open_to_view = np.ones(len(usable), np.bool_)
+    if hidden.size:
+        for i in range(len(usable)):
+            open_to_view[i] = not hidden[places[1, i], places[0, i]]
+            usable[i] = usable[i] and open_to_view[i]
+    return open_to_view
+
+
+@njit
+def _about_band(rows: Any, good: Any, open_to_view: Any, moved: Any, colour: Any) -> Any:
+    """Fill the band's mean colour; return its mean square residual, what is left out, its area.
+
+    All of these are of what is `open_to_view`, (m,).
+    """
     area, kept, total, number = 0.0, 0.0, 0.0, 0.0
     colour[:] = 0.0
     for i in range(len(good)):
-        if not rows.seen[i]:
+        if not rows.seen[i] or not open_to_view[i]:
             continue
         share = rows.values[i, 0, 0]
         area += share
@@ -405,6 +419,7 @@ def fit_delivered(
     stretch_prior: float,
     gamma0: float,
     shading: Any,
+    hidden: Any,
 ) -> Any:
     """Fit the band near its outline in a delivered picture: whether there is one, and the minimum.
 
@@ -417,10 +432,13 @@ def fit_delivered(
         stretch_prior: inverse variance of width and length, relative.
         gamma0: of the tone curve, about.
         shading: `MATT` or `GLOSSY`.
+        hidden: where something stands before needle and background, bool (H, W); (0, 0) for
+            nowhere.
     """
     pixels = gather(image, outline, blur0, noise0)
     levels = pixels.colours * noise0
     observed, size, places = observe(image, outline, pixels)
+    open_to_view = _leave_out_hidden(hidden, places, pixels.usable)
     m = len(observed.luma)
     place = FitPlace(np.zeros(2), np.ones(2), np.array([blur0, blur0]), np.array([gamma0]))
     covariance, colour, sigma = np.zeros((2, 2)), np.zeros(3), np.array([noise0, noise0])
@@ -459,7 +477,9 @@ def fit_delivered(
         turn = np.array([[outline.ev, -outline.eu], [-outline.eu, -outline.ev]])
         place_covariance(observed, places, size, solved.cross, solved, moved, prior, covariance)
         covariance = turn @ covariance @ turn.T
-        misfit, outliers, area, enough = _about_band(solved.rows, solved.good, moved, colour)
+        misfit, outliers, area, enough = _about_band(
+            solved.rows, solved.good, open_to_view, moved, colour
+        )
     return enough, DeliveredMinimum(
         place.shift,
         covariance,

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any, Final, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, read_only
 from app.core.compiled import njit
@@ -34,6 +35,9 @@ _RIDGE = 1e-4
 
 SHADING_PRIOR = np.array([0.0, 1.0, 1.0, *[0.15**-2] * 2, *[0.03**-2] * 2])
 """Prior of the paint's shading, relative to its mean: inverse squares of standard deviations."""
+
+NOWHERE: Final = read_only(np.zeros((0, 0), dtype=np.bool_))
+"""No pixel of a picture hidden."""
 
 STRETCH_SD = 0.03
 """How well width and length are known beforehand, relative."""
@@ -154,6 +158,8 @@ class BandFitter:
         axis_camera: FloatArray,
         gamma: float,
         glossy: bool = False,
+        hidden: NDArray[np.bool_] = NOWHERE,
+        stretch_sd: float | None = None,
     ) -> BandFit | None:
         """Like `fit`, in a picture as a camera delivers it.
 
@@ -163,7 +169,10 @@ class BandFitter:
             axis_camera: likewise.
             gamma: of the tone curve, see `tone`, about.
             glossy: whether highlights on the band are reckoned with.
+            hidden: where something stands before the needle, shape (H, W).
+            stretch_sd: see `BandFitter`, where the place is known better than usual.
         """
+        prior = self._prior if stretch_sd is None else 1.0 / stretch_sd**2
         camera = self._model
         count = strips(p_camera, self._shape, camera.intrinsics, self._blur)
         seen, outline = trace(
@@ -177,9 +186,10 @@ class BandFitter:
             self._shape,
             self._blur,
             3.0,
-            self._prior,
+            prior,
             gamma,
             GLOSSY if glossy else MATT,
+            hidden,
         )
         if not found:
             return None
@@ -192,7 +202,7 @@ class BandFitter:
             area=best.area,
             paint=best.paint,
             outline=outline,
-            cost=_cost(best, self._prior),
+            cost=_cost(best, prior),
             blur=(float(best.blur[0]), float(best.blur[1])),
         )
 

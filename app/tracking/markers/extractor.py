@@ -1,6 +1,7 @@
 """What an extractor finds in a picture, why it finds nothing, and what it has to be."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -93,6 +94,7 @@ class MarkerFix:
         quality: 0 to 1; share of the outline that is as a band's should be.
         centre: which point of the band `uv` is.
         alone: whether it can be nothing but the marker, so that it counts without another picture.
+        hidden: whether something in front hides a part of it.
     """
 
     uv: FloatArray
@@ -101,6 +103,7 @@ class MarkerFix:
     quality: float
     centre: Centre = Centre.OUTLINE
     alone: bool = True
+    hidden: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "uv", frozen(self.uv, (2,), "marker pixel"))
@@ -141,6 +144,11 @@ class ExtractorSetup:
     colour: ColourModel = RED
 
 
+Nearest = Callable[[FloatArray], FloatArray | None]
+"""From a pixel, shape (2,), to the point of the needle's line that is nearest to its ray [m], shape
+(3,); None where the ray runs along the line."""
+
+
 class Extractor(ABC):
     """Finds the marker in one camera's pictures; holds no memory of earlier ones.
 
@@ -157,6 +165,18 @@ class Extractor(ABC):
     @abstractmethod
     def search(self, image: Image) -> tuple[MarkerFix | Miss, ...]:
         """All that may be the marker in the whole picture: finds, the best first, then misses."""
+
+    def partly_hidden(
+        self, image: Image, axis_world: FloatArray, nearest: Nearest
+    ) -> MarkerFix | Miss:
+        """Marker of which something in front hides a part, where an extractor can tell its place.
+
+        Args:
+            image: the picture.
+            axis_world: needle's direction by the robot, shape (3,).
+            nearest: point of the robot's line that a pixel shows.
+        """
+        return Miss(MissReason.PARTLY_HIDDEN)
 
     @abstractmethod
     def mask(self, image: Image) -> Mask:

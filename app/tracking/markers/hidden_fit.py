@@ -1,0 +1,177 @@
+"""Fit of a band of which something in front hides a part (see `hidden`).
+
+What may stand before it is tried side by side; a fit counts if the bare shaft is seen where the
+band's visible end or flank is, if it lies on the robot's line as well as that is known, and if no
+other side says anything else.
+"""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.tracking.band.fit import BandFit, BandFitter
+from app.tracking.band.outline import Outline, strips, trace
+from app.tracking.cameras.camera import Image
+from app.tracking.markers.bare_shaft import differences
+from app.tracking.markers.extractor import Centre, MarkerFix, Miss, MissReason, Nearest
+from app.tracking.markers.hidden import Cover, Side, covers, glimpses
+from app.tracking.markers.outline_centroid import OutlineCentroid
+from app.tracking.optics.camera_model import CameraModel
+from app.tracking.optics.rig import NeedleShape
+
+_STRETCH_SD: Final = 0.01
+"""How well width and length are known on the robot's line, relative."""
+
+_STRETCHED: Final = 0.025
+_BLURRED_PX: Final = 0.35
+_MISFIT: Final = 2.6
+_OUTLIERS: Final = 0.06
+"""Limits of a fit: of its width and length, its blur beyond the lens' own, its residual and what is
+left out. What hides a moving band is not told from its blur."""
+
+_PROOF: Final = 10.0
+"""Second largest difference across the shaft [variances] beside what is seen of the band."""
+
+_ACROSS_PX: Final = 1.5
+"""How far beside the robot's line a band may be."""
+
+_ALIKE_PX: Final = 0.5
+"""By how much fits with something on one side or another may differ."""
+
+_MORE: Final = 3.5
+_FLOOR_PX: Final = 0.1
+"""The covariance is so many times that of the noise, and this squared: the edge of what hides the
+band is no straight line, and its blur reaches farther than is left out in some pictures."""
+
+_OTHER_TONE: Final = 0.25
+"""Share of the squared difference to the place by another tone curve that the picture may have: an
+edge of which the other side is not seen moves with it."""
+
+_QUALITY: Final = 0.5
+
+
+@dataclass(frozen=True)
+class HiddenBandFit:
+    """Finds a partly hidden band in one camera's pictures.
+
+    Attributes:
+        model: the camera.
+        shape: of the needle.
+        fitter: of the band.
+        coarse: what the marker looks like: colour, area, noise and blur.
+    """
+
+    model: CameraModel
+    shape: NeedleShape
+    fitter: BandFitter
+    coarse: OutlineCentroid
+
+    def find(
+        self, image: Image, axis: FloatArray, nearest: Nearest, gammas: tuple[float, ...]
+    ) -> MarkerFix | Miss:
+        """Return the first thing in the marker's colour that is a band behind something.
+
+        Args:
+            image: the picture.
+            axis: unit vector from hub to tip in the camera frame, shape (3,).
+            nearest: see `Extractor.partly_hidden`.
+            gammas: tone curves that the picture may have, the likeliest first.
+        """
+        for uv in glimpses(image, self.coarse.colour, self.coarse.area_max):
+            p_world = nearest(uv)
+            if p_world is None:
+                continue
+            fix = self._at(image, self.model.T_camera_world @ p_world, axis, gammas)
+            if fix is not None:
+                return fix
+        return Miss(MissReason.PARTLY_HIDDEN)
+
+    def _at(
+        self, image: Image, p_camera: FloatArray, axis: FloatArray, gammas: tuple[float, ...]
+    ) -> MarkerFix | None:
+        """Fit with each thing that may stand before the band about a point [m], shape (3,)."""
+        camera = self.model
+        count = strips(p_camera, self.shape, camera.intrinsics, self.coarse.blur_px)
+        seen, outline = trace(
+            p_camera, axis, self.shape, camera.intrinsics, camera.distortion, count
+        )
+        if not seen:
+            return None
+        fits = []
+        candidates = covers(image, outline, self.coarse.colour)
+        for cover in sorted(candidates, key=lambda cover: cover.mixed):
+            if not self._proves(image, outline, cover):
+                continue
+            fit = self._fit(image, outline, cover, float(p_camera[2]), axis, gammas)
+            if fit is not None:
+                fits.append(fit)
+        if not fits or any(np.abs(fit.uv - fits[0].uv).max() > _ALIKE_PX for fit in fits):
+            return None
+        return fits[0]
+
+    def _proves(self, image: Image, outline: Outline, cover: Cover) -> bool:
+        """Tell whether the shaft is bare beyond the visible end, or along the visible flank."""
+        steps = differences(
+            image,
+            outline,
+            np.array([*cover.shift, 1.0, 1.0]),
+            self.shape,
+            self.coarse.colour.weights,
+            cover.strength,
+            self.coarse.blur_px,
+            self.coarse.noise_grey,
+        )
+        ends = {Side.HUB: steps[1], Side.TIP: steps[0]}
+        largest = np.sort(ends.get(cover.side, steps).ravel())
+        return float(largest[-3 if cover.side is Side.NOWHERE else -2]) >= _PROOF
+
+    def _fit(
+        self,
+        image: Image,
+        outline: Outline,
+        cover: Cover,
+        depth: float,
+        axis: FloatArray,
+        gammas: tuple[float, ...],
+    ) -> MarkerFix | None:
+        """Fit what a thing leaves visible of the band; None where that is not what the band is."""
+        seen = self.model.ray(np.array([outline.u, outline.v]) + cover.shift)
+        if seen is None:
+            return None
+        start = depth * np.array([seen[0], seen[1], 1.0])
+        fits = []
+        for gamma in gammas:
+            matt, glossy = (
+                self.fitter.fit_delivered(
+                    image, start, axis, gamma, shines, cover.pixels, _STRETCH_SD
+                )
+                for shines in (False, True)
+            )
+            fits.append(next((f for f in (matt, glossy) if self._is_band(f, outline)), None))
+        fit = fits[0]
+        if fit is None:
+            return None
+        covariance = _MORE * fit.covariance + _FLOOR_PX**2 * np.eye(2)
+        for other in fits[1:]:
+            if other is not None:
+                apart = other.uv - fit.uv
+                covariance = covariance + _OTHER_TONE * np.outer(apart, apart)
+        return MarkerFix(
+            fit.uv, covariance, fit.area, _QUALITY, Centre.BAND, alone=False, hidden=True
+        )
+
+    def _is_band(self, fit: BandFit | None, outline: Outline) -> bool:
+        if fit is None:
+            return False
+        du, dv = (fit.uv - [outline.u, outline.v]).tolist()
+        across = dv * outline.eu - du * outline.ev
+        return (
+            self.coarse.colour.is_marker(fit.paint)
+            and fit.misfit <= _MISFIT
+            and fit.outliers <= _OUTLIERS
+            and float(np.abs(fit.stretch - 1.0).max()) <= _STRETCHED
+            and abs(across) <= _ACROSS_PX
+            and max(fit.blur) <= self.coarse.blur_px + _BLURRED_PX
+        )
