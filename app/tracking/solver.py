@@ -79,7 +79,7 @@ def locate(
         if status != FOUND or attempt:
             break
         for i in range(2):
-            if outlines[i] and not outline_shift(cameras[i], needle, point, axis, shift[i]):
+            if outlines[i] and outline_shift(cameras[i], needle, point, axis, shift[i]) <= 0.0:
                 return NO_OUTLINE, 0.0
     return status, square
 

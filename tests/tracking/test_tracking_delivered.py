@@ -39,6 +39,7 @@ LEAST = {
     "motion": 0.8,
     "defocus": 0.8,
     "lowlight": 0.8,
+    "occlude": 0.6,
 }
 
 

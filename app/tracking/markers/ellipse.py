@@ -30,6 +30,7 @@ from app.tracking.markers.extractor import (
     MissReason,
 )
 from app.tracking.markers.outline_centroid import OutlineCentroid, outline_of
+from app.tracking.markers.shown import as_shown
 
 DECLARATION: Final[dict[str, Any]] = {"title": "Centre of an ellipse through the contour on rays"}
 
@@ -69,8 +70,14 @@ class EllipseMarker(Extractor):
 
     def find(self, image: Image, hint: Hint) -> MarkerFix | Miss:
         """See `Extractor.find`."""
-        found = self.coarse.find(image, hint)
-        return found if isinstance(found, Miss) else self._fit(image, found)
+        outline = self.coarse.find(image, hint)
+        if isinstance(outline, Miss) or self.coarse.model is None or self.coarse.shape is None:
+            return outline if isinstance(outline, Miss) else self._fit(image, outline)
+        shown = as_shown(outline, self.coarse.model, self.coarse.shape, hint)
+        fit = shown if isinstance(shown, Miss) else self._fit(image, outline)
+        if isinstance(shown, Miss) or isinstance(fit, Miss):
+            return fit
+        return fit.with_covariance(fit.covariance + shown.covariance - outline.covariance)
 
     def search(self, image: Image) -> tuple[MarkerFix | Miss, ...]:
         """Fit an ellipse to all that the coarse search finds."""

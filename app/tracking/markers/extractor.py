@@ -2,7 +2,7 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -108,6 +108,10 @@ class MarkerFix:
     def __post_init__(self) -> None:
         object.__setattr__(self, "uv", frozen(self.uv, (2,), "marker pixel"))
         object.__setattr__(self, "covariance", frozen(self.covariance, (2, 2), "covariance"))
+
+    def with_covariance(self, covariance: FloatArray) -> "MarkerFix":
+        """Return the same find with another covariance [px²], shape (2, 2)."""
+        return replace(self, covariance=covariance)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -31,6 +31,8 @@ from app.tracking.markers.extractor import (
     MissReason,
 )
 from app.tracking.markers.rim import outline_moments
+from app.tracking.markers.shown import as_shown
+from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape
 
 DECLARATION: Final[dict[str, Any]] = {"title": "Mask, then the centroid of the covered shares"}
@@ -269,6 +271,7 @@ class OutlineCentroid(Extractor):
         blur_px: standard deviation of the point spread.
         focal_px: of the camera, for the band's perspective; without it there is none.
         shape: of the needle, for what its point looks like behind the band; None: a plain shaft.
+        model: the camera, which tells how large a whole band is; None: any size is believed.
         optics: of all these, see `rim.outline_moments`.
     """
 
@@ -283,6 +286,7 @@ class OutlineCentroid(Extractor):
     blur_px: float = 0.7
     focal_px: float = np.inf
     shape: NeedleShape | None = None
+    model: CameraModel | None = None
     optics: FloatArray = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -303,7 +307,10 @@ class OutlineCentroid(Extractor):
         """See `Extractor.find`."""
         if not hint.finite:
             return Miss(MissReason.NOTHING_RED)
-        return self._in_region(image, hint.uv)
+        outline = self._in_region(image, hint.uv)
+        if isinstance(outline, Miss) or self.rough or self.model is None or self.shape is None:
+            return outline
+        return as_shown(outline, self.model, self.shape, hint)
 
     def search(self, image: Image) -> tuple[MarkerFix | Miss, ...]:
         """Look at every second pixel for red patches of the right size, then closely at each."""
@@ -427,6 +434,7 @@ def outline_of(setup: ExtractorSetup, rough: bool = False) -> OutlineCentroid:
         blur_px=setup.blur_px,
         focal_px=float(np.sqrt(np.prod(setup.model.intrinsics[:2]))),
         shape=setup.shape,
+        model=setup.model,
         rough=rough,
     )
 

@@ -147,14 +147,23 @@ def centroid_shift(
 
     None where the band has no picture (behind the camera, beyond the fold).
     """
-    shift = np.empty(2)
+    shift, point = np.empty(2), np.array(p_world, dtype=np.float64)
+    axis = np.array(axis_world, dtype=np.float64)
+    area = outline_shift(packed(model), np.array(needle), point, axis, shift)
+    return shift if area > 0.0 else None
+
+
+def visible_area(
+    model: CameraModel, needle: NeedleShape, p_world: FloatArray, axis_world: FloatArray
+) -> float:
+    """Return the area of the band's outline that its own shaft does not hide [px²]; 0 without."""
     point, axis = np.array(p_world, dtype=np.float64), np.array(axis_world, dtype=np.float64)
-    return shift if outline_shift(packed(model), np.array(needle), point, axis, shift) else None
+    return float(outline_shift(packed(model), np.array(needle), point, axis, np.empty(2)))
 
 
 @njit
-def outline_shift(camera: Any, needle: Any, p_world: Any, axis_world: Any, shift: Any) -> bool:
-    """Fill the shift of `centroid_shift`; False where the band has no picture.
+def outline_shift(camera: Any, needle: Any, p_world: Any, axis_world: Any, shift: Any) -> float:
+    """Fill the shift of `centroid_shift`; return the visible area, 0 where there is no picture.
 
     Args:
         camera: see `optics.packed`.
@@ -172,7 +181,7 @@ def outline_shift(camera: Any, needle: Any, p_world: Any, axis_world: Any, shift
     rings = 2 + _circles(needle, along > 0.0, circles)
     points = np.empty((rings * _CORNERS, 2))
     if not (seen and _rings(camera, centre, axis, circles[:rings], u, v, points)):
-        return False
+        return 0.0
     outline, corners = hull_of(points[: 2 * _CORNERS])
     shaft, edges = hull_of(points[2 * _CORNERS :])
     visible, mu, mv = moments(outline, corners)
@@ -182,9 +191,9 @@ def outline_shift(camera: Any, needle: Any, p_world: Any, axis_world: Any, shift
         hidden, hu, hv = moments(common, count)
         visible, mu, mv = visible - hidden, mu - hu, mv - hv
     if not visible > 0.0:
-        return False
+        return 0.0
     shift[0], shift[1] = mu / visible, mv / visible
-    return True
+    return float(visible)
 
 
 @njit
