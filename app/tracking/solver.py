@@ -289,7 +289,7 @@ class FixSolver:
         seen = model.ray(uv)
         if seen is None:
             return None
-        sight = ray(model.T_camera_world, seen)
+        sight = ray(model.T_camera_world, np.array(seen))
         if float(np.linalg.norm(np.cross(sight[1], direction))) < np.sin(LEAST_ANGLE):
             return None
         return closest((self._fulcrum, direction), sight)[0]
