@@ -28,6 +28,7 @@ from typing import Any, Final, Generic, NamedTuple, TypeVar
 
 from app.core import paths
 from app.core.errors import AcusError
+from app.core.files import read_at_most
 from app.core.state_vector import INDEX, VECTORS, slots_named
 
 ENERGIES: Final = ("potential", "dissipative", "active")
@@ -209,7 +210,7 @@ class PluginKind(Generic[D]):
             AcusError: made by `error`, with file, line, field, value and what would be valid.
         """
         try:
-            found: D = _read(self, path, path.read_text(encoding="utf-8"))
+            found: D = _read(self, path, read_at_most(path).decode("utf-8"))
         except (OSError, SyntaxError, ValueError) as reason:
             if isinstance(reason, AcusError):
                 raise
@@ -284,7 +285,7 @@ class PluginKind(Generic[D]):
     def _counts(self, path: Path) -> bool:
         if not self.marks:
             return True
-        content = path.read_bytes()
+        content = read_at_most(path)
         return any(mark in content for mark in self.marks)
 
     def _known(self) -> str:
@@ -311,7 +312,7 @@ def read_statements(path: Path) -> list[ast.stmt]:
     Raises:
         OSError, SyntaxError, ValueError: if it cannot be read as Python.
     """
-    return ast.parse(path.read_text(encoding="utf-8"), str(path)).body
+    return ast.parse(read_at_most(path).decode("utf-8"), str(path)).body
 
 
 @lru_cache(maxsize=512)
