@@ -1,4 +1,4 @@
-"""Somebody else's metric runs when the attempt is closed and sealed; what it does changes neither."""
+"""Metrics of others run when the attempt is closed and sealed, and change neither."""
 
 import json
 from pathlib import Path
