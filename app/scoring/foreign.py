@@ -40,7 +40,7 @@ _MOST_WARM: Final = 4
 
 
 @dataclass(frozen=True, slots=True)
-class Measured:
+class MetricOutcome:
     """What a file gave for an attempt.
 
     Attributes:
@@ -57,7 +57,7 @@ class Measured:
 
 
 _LOAD: Final[Job[None]] = Job("app.scoring.foreign:load", None)
-_MEASURE: Final[Job[Measured]] = Job("app.scoring.foreign:measure", Measured)
+_MEASURE: Final[Job[MetricOutcome]] = Job("app.scoring.foreign:measure", MetricOutcome)
 
 
 class _Processes:
@@ -68,12 +68,12 @@ class _Processes:
         self._costly: dict[tuple[Path, int], str] = {}
         self._lock = threading.Lock()
 
-    def measured(self, path: Path, trajectory: Trajectory) -> Measured:
+    def measured(self, path: Path, trajectory: Trajectory) -> MetricOutcome:
         """Compute a metric; what a file did to its process is remembered until it is changed."""
         try:
             key = path, path.stat().st_mtime_ns
         except OSError as error:
-            return Measured(None, None, f"{path} cannot be read: {error.strerror or error}")
+            return MetricOutcome(None, None, f"{path} cannot be read: {error.strerror or error}")
         with self._lock:
             if key not in self._costly:
                 try:
@@ -81,15 +81,15 @@ class _Processes:
                 except WorkerLostError as lost:
                     self._costly[key] = f"{path}: the process that computes it {lost.reason}"
                 except (ImagingError, OSError) as error:
-                    return Measured(None, None, f"{path} cannot be computed: {error}")
-            return Measured(None, None, self._costly[key])
+                    return MetricOutcome(None, None, f"{path} cannot be computed: {error}")
+            return MetricOutcome(None, None, self._costly[key])
 
     def close(self) -> None:
         """End all of them; idempotent."""
         while self._warm:
             self._warm.popitem()[1].close()
 
-    def _call(self, path: Path, trajectory: Trajectory) -> Measured:
+    def _call(self, path: Path, trajectory: Trajectory) -> MetricOutcome:
         worker = self._warm.pop(path, None)
         if worker is None:
             worker = ImagingWorker(most=1)
@@ -110,7 +110,7 @@ _processes = _Processes()
 atexit.register(_processes.close)
 
 
-def measured(path: Path, trajectory: Trajectory) -> Measured:
+def measured(path: Path, trajectory: Trajectory) -> MetricOutcome:
     """Compute the metric of somebody else's file in a process of its own; never raises.
 
     Args:
@@ -126,7 +126,7 @@ def load(progress: Progress) -> None:
     importlib.import_module("app.scoring.trajectory")
 
 
-def measure(path: Path, packed: NDArray[np.uint8], progress: Progress) -> Measured:
+def measure(path: Path, packed: NDArray[np.uint8], progress: Progress) -> MetricOutcome:
     """Import a file, and ask it for an attempt.
 
     Args:
@@ -138,18 +138,18 @@ def measure(path: Path, packed: NDArray[np.uint8], progress: Progress) -> Measur
     try:
         module = _module(path)
     except BaseException as error:
-        return Measured(None, None, f"{path} cannot be imported: {_named(error)}")
+        return MetricOutcome(None, None, f"{path} cannot be imported: {_named(error)}")
     try:
         value = float(module.compute(trajectory))
     except MetricNotAskedError as error:
-        return Measured(None, None, str(error), asked=False)
+        return MetricOutcome(None, None, str(error), asked=False)
     except MetricUnavailableError as error:
-        return Measured(None, None, str(error))
+        return MetricOutcome(None, None, str(error))
     except BaseException as error:
-        return Measured(None, None, f"{path}: compute() fails: {_named(error)}")
+        return MetricOutcome(None, None, f"{path}: compute() fails: {_named(error)}")
     if not isfinite(value):
-        return Measured(None, None, "the value is too large to be written as a number")
-    return Measured(value, _deviation(module, trajectory), "")
+        return MetricOutcome(None, None, "the value is too large to be written as a number")
+    return MetricOutcome(value, _deviation(module, trajectory), "")
 
 
 def _module(path: Path) -> Any:

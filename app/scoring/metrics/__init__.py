@@ -32,7 +32,7 @@ from app.scoring.errors import (
     MetricUnavailableError,
     UnknownMetricError,
 )
-from app.scoring.foreign import Measured, measured
+from app.scoring.foreign import MetricOutcome, measured
 
 if TYPE_CHECKING:
     from app.scoring.trajectory import Trajectory
@@ -65,23 +65,23 @@ class Metric(Declaration):
         """Whether it is one of the program's own."""
         return KIND.is_own(self.path)
 
-    def measured(self, trajectory: Trajectory) -> Measured:
+    def measured(self, trajectory: Trajectory) -> MetricOutcome:
         """Return its value of an attempt and how far that is known, or why there is none.
 
         Raises:
             Exception: if one of the program's own files fails; none of somebody else's does.
         """
         if self.fault:
-            return Measured(None, None, self.fault)
+            return MetricOutcome(None, None, self.fault)
         if not self.is_own:
             return measured(self.path, trajectory)
         try:
             value = float(KIND.load(self).compute(trajectory))
         except MetricUnavailableError as error:
-            return Measured(None, None, str(error), not isinstance(error, MetricNotAskedError))
+            return MetricOutcome(None, None, str(error), not isinstance(error, MetricNotAskedError))
         if not isfinite(value):
-            return Measured(None, None, "the value is too large to be written as a number")
-        return Measured(value, self.deviation(trajectory), "")
+            return MetricOutcome(None, None, "the value is too large to be written as a number")
+        return MetricOutcome(value, self.deviation(trajectory), "")
 
     def compute(self, trajectory: Trajectory) -> float:
         """Return the value of an attempt; never NaN.
