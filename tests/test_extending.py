@@ -76,11 +76,11 @@ def test_an_effect_is_simulated(save):
 
 
 def test_a_metric_is_scored(save):
-    from app.scoring.score import score
+    from app.scoring.score import score, with_shown
 
     save("How to add a metric", "metrics")
     trajectory = Attempt(depth=0.003).trajectory()
-    row = score(trajectory).row("deepest_point")
+    row = with_shown(score(trajectory), trajectory).row("deepest_point")
     assert (row.label, row.unit) == ("Deepest point", "mm")
     assert row.value == pytest.approx(trajectory.placed.length * 1e3 + 3.0)
 

@@ -46,7 +46,7 @@ def test_a_file_that_has_the_name_of_another_is_refused(folders):
     path.write_text("x = 1\n")
     (found,) = refused_files()
     assert found.path == path
-    assert "rename one" in found.refused
+    assert "is a name of the program's own; rename the file" in found.refused
 
 
 def test_the_list_ends_with_code_3_where_a_file_is_refused_and_with_0_where_none_is(folders):

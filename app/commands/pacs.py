@@ -57,6 +57,10 @@ def add(
         str, typer.Option(help="Address on which C-MOVE's pictures come; the one towards it.")
     ] = "",
     own_port: Annotated[int, typer.Option(help="Port on which C-MOVE's pictures come.")] = 11112,
+    sender: Annotated[
+        list[str] | None,
+        typer.Option(help="Name or address beside the host that C-MOVE's pictures may come from."),
+    ] = None,
     retrieve: Annotated[str, typer.Option(help="get or move.")] = "get",
     timeout_s: Annotated[float, typer.Option(help="Longest silence that is borne [s].")] = 30.0,
     tls: Annotated[bool, typer.Option("--tls", help="Encrypt the connections.")] = False,
@@ -79,6 +83,7 @@ def add(
         "own_title": own_title,
         "own_host": own_host,
         "own_port": own_port,
+        "senders": tuple(sender or ()),
         "retrieve": retrieve,
         "timeout_s": timeout_s,
     }

@@ -140,16 +140,12 @@ def roster(
     student who is there already keeps the PIN unless the roster has one. If a row is wrong nothing
     is taken, unless --partly is given, and it ends with code 3.
     """
-    from app.session.errors import PeopleError
     from app.session.people import People
-    from app.session.roster import read_roster
+    from app.session.roster import roster_in
 
     people = People()
     instructor(people)
-    try:
-        lines, errors = read_roster(file.read_bytes())
-    except OSError as error:
-        raise PeopleError(f"cannot read {file}: {error.strerror or error}") from error
+    lines, errors = roster_in(file)
     if errors and not partly:
         facts = {"added": [], "updated": [], "pins": {}, "errors": errors}
         return Answer(facts, [*errors, "nothing was taken"], yes=False)

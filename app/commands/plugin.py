@@ -4,7 +4,10 @@ import typer
 
 from app.commands.answer import Answer, Commands
 
-app = Commands(help="Your own laws, effects, metrics, studies, machines.")
+app = Commands(
+    help="Your own laws, effects, metrics, studies, machines. They run with all your rights: take "
+    "none from people whom you do not trust."
+)
 
 
 def register(root: typer.Typer) -> None:
@@ -16,11 +19,12 @@ def register(root: typer.Typer) -> None:
 def list_plugins() -> Answer:
     """List your own files of every kind, and why one is refused.
 
-    File and line of what is wrong are told. Ends with code 3 if one is refused. Where there are
-    none, the folders for them are listed. Nothing is run or deleted; `acus law list --try` also
-    tries force laws.
+    File and line of what is wrong are told. Each is imported once, in a process of its own, which
+    it may end; what it does there it does with all your rights. Ends with code 3 if one is refused.
+    Where there are none, the folders for them are listed. Nothing is deleted; `acus law list --try`
+    also runs force laws.
     """
-    from app.compose.plugins import plugin_files, plugin_folders
+    from app.compose.plugins import RIGHTS, plugin_files, plugin_folders
 
     rows = [
         {
@@ -30,7 +34,7 @@ def list_plugins() -> Answer:
             "file": str(f.path),
             "refused": f.refused,
         }
-        for f in plugin_files()
+        for f in plugin_files(tried=True)
     ]
     lines = [
         f"{'✖' if row['refused'] else '✔'} {row['kind']} {row['name']}: "
@@ -42,4 +46,5 @@ def list_plugins() -> Answer:
     if not rows:
         lines = ["no files of your own yet; save them in these folders (make what is missing):"]
         lines += [f"  {kind}: {folder}" for kind, folder in folders.items()]
+    lines.append(RIGHTS)
     return Answer({"plugins": rows, "folders": folders}, lines, yes=fine)

@@ -1,7 +1,8 @@
 """Files of others: laws, effects, metrics, marker extractors and studies, and which are refused.
 
-They are read and not run, so that the answer costs little and harms nobody; what only running them
-would find is said by the one who uses them.
+They are read and not run, so that the answer costs little and harms nobody. Asked to, they are
+imported too, each in a process of its own, which it may end. What only using them would find is
+said by the one who uses them.
 """
 
 from __future__ import annotations
@@ -10,10 +11,12 @@ import ast
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
+from app import mechanisms
 from app.core import paths
 from app.core.plugins import PluginKind, read_statements
+from app.mechanisms.profile.device import machine_fault
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,27 +41,42 @@ class PluginFile:
         return self.path.stem
 
 
-def plugin_files() -> tuple[PluginFile, ...]:
-    """List the files of others of every kind, by kind and path."""
+RIGHTS: Final = (
+    "files of your own run with all your rights, as any program that you start: take none from "
+    "people whom you do not trust"
+)
+
+
+def plugin_files(tried: bool = False) -> tuple[PluginFile, ...]:
+    """List the files of others of every kind, by kind and path.
+
+    Args:
+        tried: whether each is also imported, in a process of its own.
+    """
     found = []
     for kind, refused in _kinds():
         reasons = refused()
         for path in kind.files():
             if kind.is_own(path):
                 continue
-            reason = reasons.get(path, "")
+            reason = reasons.get(path) or (kind.fault(path) if tried else "")
             title = "" if reason else kind.read(path).title
             found.append(PluginFile(kind.word, path, title, reason))
-    return (*found, *_machines())
+    return (*found, *_machines(tried))
 
 
-def _machines() -> list[PluginFile]:
+def _machines(tried: bool) -> list[PluginFile]:
     """List the user's own machines: folders, read as text as the files of the other kinds are."""
     found = []
+    own = {path.name for path in Path(mechanisms.__file__ or "").parent.iterdir()}
     for folder in sorted(paths.plugins("mechanisms").glob("*/")):
         if folder.name.startswith(("_", ".")):
             continue
         title, reason = "", ""
+        if folder.name in own:
+            reason = f"{folder}: {folder.name!r} is a name of the program's own; rename the folder"
+            found.append(PluginFile("machine", folder, "", reason))
+            continue
         for name, wanted in (("profile.py", "PROFILE"), ("machine.py", "machine")):
             try:
                 body = read_statements(folder / name)
@@ -67,6 +85,8 @@ def _machines() -> list[PluginFile]:
                 break
             if wanted not in _defined(body):
                 reason = f"{folder / name} does not define {wanted}; see 'How to add a machine'"
+                break
+            if tried and (reason := machine_fault(folder.name, Path(name).stem)):
                 break
             title = (ast.get_docstring(ast.Module(body, [])) or folder.name).split("\n")[0]
         found.append(PluginFile("machine", folder, "" if reason else title, reason))

@@ -1,10 +1,13 @@
-"""Writing files so that nothing is ever half-written: beside, then rename.
+"""Files: read whole only up to a limit, written so that nothing is ever half-written.
+
+What is written stands beside first and is renamed then.
 
 Every change of the store's files goes through here, and is told to who watches (`watched`) before
 it happens: a test ends programs at each of them in turn. What a killed program had under a
 temporary name is told by that name (`core.temporary`) and swept by the next.
 """
 
+import errno
 import os
 import shutil
 from collections.abc import Callable, Iterator
@@ -33,6 +36,23 @@ def step(what: str, path: Path) -> None:
     """Tell who watches that something is about to be done."""
     for watch in _watches:
         watch(what, path)
+
+
+def read_at_most(path: Path, most: int = 1 << 20) -> bytes:
+    """Read a whole file that somebody else may have written, if it is no larger than it may be.
+
+    Args:
+        path: the file.
+        most: bytes that it may have.
+
+    Raises:
+        OSError: if it cannot be read; with EFBIG if it is larger.
+    """
+    with path.open("rb") as stream:
+        content = stream.read(most + 1)
+    if len(content) > most:
+        raise OSError(errno.EFBIG, f"it is larger than {most / (1 << 20):g} MB", str(path))
+    return content
 
 
 def beside(path: Path) -> Path:

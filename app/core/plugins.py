@@ -5,6 +5,10 @@ that is not chosen is never imported. A `Kind` says for one sort of plug-in what
 where its files lie (the program's folder, folders appended to its package's `__path__`, the user's
 own folder) and which error is raised. Every message has file, line, field, value and what would be
 valid. See docs/extending.md.
+
+Names of the program's own cannot be taken. A file of somebody else's is imported only after a
+process of its own has shown that it can be (`core.plugin_trial`), and whatever it raises is an
+error of that file alone: it runs with all rights of the program.
 """
 
 from __future__ import annotations
@@ -15,7 +19,8 @@ import importlib.util
 import math
 import sys
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import lru_cache
@@ -28,6 +33,8 @@ from typing import Any, Final, Generic, NamedTuple, TypeVar
 
 from app.core import paths
 from app.core.errors import AcusError
+from app.core.files import read_at_most
+from app.core.plugin_trial import import_fault
 from app.core.state_vector import INDEX, VECTORS, slots_named
 
 ENERGIES: Final = ("potential", "dissipative", "active")
@@ -195,6 +202,9 @@ class PluginKind(Generic[D]):
         found = self.files(escape(name)) if Path(name).name == name else []
         if not found:
             raise self.error(f"there is no {self.word} {name!r}; there are {self._known()}")
+        found = [path for path in found if self.is_own(path)] or found
+        if reason := self.taken(found[0]):
+            raise self.error(reason)
         if len(found) > 1:
             raise self.error(
                 f"two files are the {self.word.split()[-1]} {name!r}:"
@@ -209,7 +219,7 @@ class PluginKind(Generic[D]):
             AcusError: made by `error`, with file, line, field, value and what would be valid.
         """
         try:
-            found: D = _read(self, path, path.read_text(encoding="utf-8"))
+            found: D = _read(self, path, read_at_most(path).decode("utf-8"))
         except (OSError, SyntaxError, ValueError) as reason:
             if isinstance(reason, AcusError):
                 raise
@@ -226,14 +236,56 @@ class PluginKind(Generic[D]):
         """
         found = {}
         for path in self.files():
+            if self.is_own(path):
+                continue
+            if reason := self.taken(path):
+                found[path] = reason
+                continue
             try:
-                if not self.is_own(path):
-                    declared = self.find(path.stem)
-                    if check is not None:
-                        check(declared)
+                declared = self.find(path.stem)
+                if check is not None:
+                    check(declared)
             except AcusError as error:
                 found[path] = str(error)
         return found
+
+    def taken(self, path: Path) -> str:
+        """Say that the name of somebody else's file is one of the program's own; else nothing.
+
+        Imported, it would stand in the place of a plug-in, of another module or of a name of the
+        package.
+        """
+        if self.is_own(path) or not self.package:
+            return ""
+        package, name = importlib.import_module(self.package), path.stem
+        folder = Path(package.__file__ or "").parent
+        standing = vars(package).get(name)
+        loaded = getattr(standing, "__name__", "") == f"{self.package}.{name}"
+        its_own = (folder / f"{name}.py").exists() or (folder / name).is_dir()
+        if not its_own and (standing is None or loaded):
+            return ""
+        return f"{path}: {name!r} is a name of the program's own; rename the file"
+
+    def fault(self, path: Path) -> str:
+        """Say why somebody else's file cannot be imported, as a process of its own found; or ""."""
+        found = "" if self.is_own(path) else import_fault(path, self.package)
+        return f"{self.word} file {path} cannot be imported: {found}" if found else ""
+
+    @contextmanager
+    def blamed(self, path: Path, doing: str) -> Iterator[None]:
+        """Turn whatever a file raises, `SystemExit` too, into the kind's error, which names it.
+
+        Args:
+            path: of the file.
+            doing: what fails, as in "parameters() does not work".
+        """
+        try:
+            yield
+        except (AcusError, KeyboardInterrupt):
+            raise
+        except BaseException as reason:
+            text = f"{type(reason).__name__}: {reason}".rstrip(": ")
+            raise self.error(f"{path}: {doing}: {text}") from reason
 
     def is_own(self, path: Path) -> bool:
         """Whether a file is one of the program's own."""
@@ -263,6 +315,8 @@ class PluginKind(Generic[D]):
                 return known
             if before is not None:
                 before(declared)
+            if fault := self.fault(declared.path):
+                raise self.error(fault)
             specification = importlib.util.spec_from_file_location(name, declared.path)
             if specification is None or specification.loader is None:
                 raise self.error(f"{self.word} file {declared.path} cannot be imported")
@@ -273,10 +327,11 @@ class PluginKind(Generic[D]):
                     after(module)
             except BaseException as reason:  # whatever somebody's file does: no half of it stays
                 sys.modules.pop(name, None)
-                if isinstance(reason, AcusError) or not isinstance(reason, Exception):
+                if isinstance(reason, AcusError | KeyboardInterrupt):
                     raise
+                text = str(reason) if isinstance(reason, Exception) else type(reason).__name__
                 raise self.error(
-                    f"{self.word} file {declared.path} cannot be imported: {reason}"
+                    f"{self.word} file {declared.path} cannot be imported: {text}"
                 ) from reason
             setattr(sys.modules[self.package], declared.name, module)
         return module
@@ -284,7 +339,7 @@ class PluginKind(Generic[D]):
     def _counts(self, path: Path) -> bool:
         if not self.marks:
             return True
-        content = path.read_bytes()
+        content = read_at_most(path)
         return any(mark in content for mark in self.marks)
 
     def _known(self) -> str:
@@ -311,7 +366,7 @@ def read_statements(path: Path) -> list[ast.stmt]:
     Raises:
         OSError, SyntaxError, ValueError: if it cannot be read as Python.
     """
-    return ast.parse(path.read_text(encoding="utf-8"), str(path)).body
+    return ast.parse(read_at_most(path).decode("utf-8"), str(path)).body
 
 
 @lru_cache(maxsize=512)

@@ -15,7 +15,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.disclaimer import DISCLAIMER
-from app.core.files import write_atomically
+from app.core.files import read_at_most, write_atomically
 from app.exchange.errors import ExportError, MarkupsError
 from app.planning.errors import PlanError
 from app.planning.plan import Plan
@@ -89,7 +89,7 @@ def read_plan(path: Path) -> Plan:
         MarkupsError: naming file, field and value, and what would be valid.
     """
     try:
-        document = json.loads(path.read_text(encoding="utf-8"), parse_constant=float)
+        document = json.loads(read_at_most(path), parse_constant=float)
     except OSError as error:
         raise MarkupsError(f"cannot read {path}: {error.strerror or error}") from error
     except (ValueError, RecursionError) as error:

@@ -17,6 +17,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.errors import NumericalError
+from app.core.files import read_at_most
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.exchange.errors import TransformError
@@ -65,7 +66,7 @@ def read_tfm(path: Path) -> RigidTransform:
         TransformError: naming the file and what is wrong.
     """
     try:
-        text = path.read_text(encoding="utf-8")[: _LONGEST + 1]
+        text = read_at_most(path).decode("utf-8")[: _LONGEST + 1]
     except (OSError, UnicodeDecodeError) as error:
         why = getattr(error, "strerror", None) or "it is not text"
         raise TransformError(f"cannot read {path}: {why}") from error

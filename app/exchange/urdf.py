@@ -33,6 +33,7 @@ from typing import Any
 import numpy as np
 
 from app.core.configuration import parse
+from app.core.files import read_at_most
 from app.exchange.errors import UrdfError
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.pantograph import inverse, passive_angles
@@ -188,11 +189,9 @@ def _number(text: str, what: str) -> float:
 
 def _root(path: Path) -> ET.Element:
     try:
-        content = path.read_bytes()
+        content = read_at_most(path, _LARGEST)
     except OSError as error:
         raise UrdfError(f"cannot read {path}: {error.strerror or error}") from error
-    if len(content) > _LARGEST:
-        raise UrdfError(f"{path} has {len(content)} bytes; a URDF has at most {_LARGEST}")
     parser = ET.XMLParser(target=_NoDoctype())
     try:
         parser.feed(content)

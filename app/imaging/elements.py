@@ -6,7 +6,7 @@ Quick: without pydicom's conversions and their warnings. `element_reading` reads
 import math
 import re
 import struct
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, BinaryIO, Final
 
@@ -102,11 +102,42 @@ def parts(header: Elements, tag: int) -> tuple[str, ...]:
     return tuple(part.strip(" \0") for part in whole.split("\\")) if whole else ()
 
 
+FURTHEST_MM: Final = 1e5
+"""Nothing that is shown lies further from the origin of its coordinates."""
+
+_SIZES: Final[Mapping[str, tuple[float, float, str]]] = {
+    "ImagePositionPatient": (0.0, FURTHEST_MM, " mm"),
+    "PixelSpacing": (1e-4, 1e3, " mm"),
+    "SliceThickness": (0.0, 1e4, " mm"),
+    "RescaleSlope": (1e-9, 1e6, ""),
+    "RescaleIntercept": (0.0, 1e7, ""),
+}
+"""Sizes between which a number of a picture lies: no scanner comes near them, and what lies beyond
+is finite until something is computed of it."""
+
+_ANY_SIZE: Final = (0.0, 1e12, "")
+
+
+def require_size(name: str, values: Sequence[float]) -> None:
+    """Refuse a number of which nothing can be computed; zeros are judged by who uses them.
+
+    Raises:
+        FileDamagedError: naming the field, the value and what would be valid.
+    """
+    least, most, unit = _SIZES.get(name, _ANY_SIZE)
+    for value in values:
+        if value != 0.0 and not least <= abs(value) <= most:
+            raise FileDamagedError(
+                f"{name} is {value:g}{unit}; its size must lie between {least:g} and {most:g}{unit}"
+            )
+
+
 def numbers(header: Elements, tag: int, name: str, count: int | None = None) -> tuple[float, ...]:
     """Values of a decimal string; empty where absent.
 
     Raises:
-        FileDamagedError: if one is not a finite number, or there are not `count` of them.
+        FileDamagedError: if one is not a finite number, or of no size that can be computed with, or
+            there are not `count` of them.
     """
     strings = parts(header, tag)
     if not strings:
@@ -118,6 +149,7 @@ def numbers(header: Elements, tag: int, name: str, count: int | None = None) -> 
     wanted = f" (needs {count})" if count else ""
     if not all(map(math.isfinite, values)) or (count and len(values) != count):
         raise FileDamagedError(f"{name} does not hold finite numbers{wanted}{_quoted(strings)}")
+    require_size(name, values)
     return values
 
 

@@ -5,6 +5,7 @@ frame's own group goes first. A frame whose values are no Hounsfield units (perf
 maps) is refused by the name that the file gives it.
 """
 
+import math
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -13,7 +14,7 @@ from typing import Any, BinaryIO
 import pydicom
 from pydicom.dataset import Dataset
 
-from app.imaging.elements import check_orientation
+from app.imaging.elements import check_orientation, require_size
 from app.imaging.errors import FileDamagedError, brief
 from app.imaging.header import MULTI_FRAME, ImagePlane, Rescale, SliceHeader
 from app.imaging.units import another_unit
@@ -68,8 +69,9 @@ class _Group:
             return ()
         many = value if isinstance(value, Sequence | pydicom.multival.MultiValue) else [value]
         found = tuple(float(one) for one in many)
-        if len(found) != count or not all(abs(one) < 1e12 for one in found):  # NaN fails too
+        if len(found) != count or not all(map(math.isfinite, found)):
             raise FileDamagedError(f"{keyword} of a frame is not {count} finite numbers")
+        require_size(keyword, found)
         return found
 
 

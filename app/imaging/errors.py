@@ -25,7 +25,16 @@ class NotExactError(Exception):
 
 
 class WorkerLostError(FileDamagedError):
-    """A file made the process that reads it crash or hang; that process was replaced."""
+    """A file made the process that reads it crash or hang; that process was replaced.
+
+    Args:
+        message: for whoever wanted the file.
+        reason: what the process did, as in "was ended by SIGSEGV".
+    """
+
+    def __init__(self, message: str, reason: str = "") -> None:
+        super().__init__(message)
+        self.reason = reason
 
 
 class WorkerError(ImagingError, RuntimeError):

@@ -14,11 +14,13 @@ from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
 from app.core.progress import Progress
+from app.imaging.elements import FURTHEST_MM
 from app.imaging.errors import FileDamagedError
 from app.imaging.structures.extras import extra
 
 _UNITS_MM = {"mm": 1.0, "unknown": 1.0, "meter": 1000.0, "micron": 0.001}
 _SQUARE_MM = 0.01
+_MOST_VALUE = 1e12
 _TO_LPS = np.diag([-1.0, -1.0, 1.0, 1.0])
 _SLAB_BYTES = 1 << 25
 
@@ -104,6 +106,11 @@ def nifti_values(path: Path, progress: Progress) -> NiftiValues:
         progress.report(start / size[2], f"slice {start + 1} of {size[2]}")
         if not np.isfinite(slab).all():
             raise FileDamagedError("it holds values that are no numbers (NaN or infinite)")
+        largest = max(abs(float(slab.min())), abs(float(slab.max())))
+        if largest > _MOST_VALUE:
+            raise FileDamagedError(
+                f"it holds the value {largest:g}; {_MOST_VALUE:g} is the most that is read"
+            )
         if values.dtype == np.int16 and not _fits(slab):
             values = values.astype(np.float32)
         values[start : start + len(slab)] = slab
@@ -132,6 +139,9 @@ def _placed(image: Any) -> tuple[FloatArray, str]:
     affine: FloatArray = np.array(sform if s_code else qform, np.float64)
     affine[:3] *= _UNITS_MM[header.get_xyzt_units()[0]]
     affine = _TO_LPS @ affine
+    furthest = float(np.abs(affine).max())  # NaN is not above
+    if furthest > FURTHEST_MM:
+        return np.eye(4), f"lies {furthest:g} mm away; {FURTHEST_MM:g} mm are the most"
     if not np.isfinite(affine).all() or abs(np.linalg.det(affine[:3, :3])) < 1e-9:
         return np.eye(4), "its axes span no volume"
     across, down = affine[:3, 0], affine[:3, 1]

@@ -1,23 +1,21 @@
-"""Scoring an attempt: every metric, judged by the exercise's tolerances."""
+"""Scoring an attempt: every metric, judged by the exercise's tolerances.
+
+Metrics of somebody else's that an exercise does not count are no part of the score that is recorded
+and sealed: they are computed after that, by `with_shown`, for whoever looks at the attempt.
+"""
 
 from collections.abc import Mapping
-from math import isfinite
+from dataclasses import replace
 
 from app.scoring.defaults import DEFAULT_TOLERANCES
-from app.scoring.errors import (
-    MetricError,
-    MetricNotAskedError,
-    MetricUnavailableError,
-    ToleranceError,
-    UnknownMetricError,
-)
+from app.scoring.errors import MetricError, ToleranceError, UnknownMetricError
 from app.scoring.metrics import Metric, available
 from app.scoring.result import Score, judge
 from app.scoring.rows import Row, ScoreRules
 from app.scoring.tolerance import Tolerance
 from app.scoring.trajectory import Trajectory
 
-__all__ = ["DEFAULT_TOLERANCES", "Row", "Score", "ScoreRules", "check_names", "score"]
+__all__ = ["DEFAULT_TOLERANCES", "Row", "Score", "ScoreRules", "check_names", "score", "with_shown"]
 
 
 def score(
@@ -25,19 +23,31 @@ def score(
     tolerances: Mapping[str, Tolerance] = DEFAULT_TOLERANCES,
     rules: ScoreRules | None = None,
 ) -> Score:
-    """Compute every metric of an attempt and judge it.
+    """Compute every metric of the program's own, and those that count, and judge the attempt.
 
     Raises:
         UnknownMetricError: for a tolerance of a metric that does not exist; lists those that do.
     """
     metrics = available()
     check_names(tolerances, metrics)
-    names = [*tolerances, *(name for name in metrics if name not in tolerances)]
+    own = [name for name, metric in metrics.items() if metric.is_own]
+    names = [*tolerances, *(name for name in own if name not in tolerances)]
     rows = tuple(
         row for name in names if (row := _row(metrics[name], trajectory, tolerances.get(name)))
     )
     rules = rules or ScoreRules()
     return judge(rows, rules, _attempt_void(trajectory, rules))
+
+
+def with_shown(scored: Score, trajectory: Trajectory) -> Score:
+    """Add a row of each metric of somebody else's that the exercise does not count.
+
+    Whatever their files do, the rows that are there stay as they are.
+    """
+    there = {row.name for row in scored.rows}
+    others = [m for name, m in available().items() if not m.is_own and name not in there]
+    rows = [row for metric in others if (row := _row(metric, trajectory, None))]
+    return replace(scored, rows=(*scored.rows, *rows)) if rows else scored
 
 
 def check_names(
@@ -66,19 +76,10 @@ def check_names(
 
 def _row(metric: Metric, trajectory: Trajectory, limits: Tolerance | None) -> Row | None:
     """Row of one metric; None where the exercise has nothing that it could measure."""
-    note = ""
-    try:
-        value: float | None = float(metric.compute(trajectory))
-    except MetricNotAskedError as error:
-        if limits is None:
-            return None
-        value, note = None, str(error)
-    except MetricUnavailableError as error:
-        value, note = None, str(error)
-    if value is not None and not isfinite(value):
-        value, note = None, "the value is too large to be written as a number"
-    sd = None if value is None else metric.deviation(trajectory)
-    return Row(metric.name, metric.title, metric.unit, value, note, limits, sd)
+    found = metric.measured(trajectory)
+    if limits is None and not found.asked:
+        return None
+    return Row(metric.name, metric.title, metric.unit, found.value, found.note, limits, found.sd)
 
 
 def _attempt_void(trajectory: Trajectory, rules: ScoreRules) -> str:

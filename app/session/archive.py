@@ -20,10 +20,9 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Final
 
-import yaml
-
 from app import __version__
 from app.core import paths
+from app.core.configuration import read_yaml
 from app.core.disclaimer import DISCLAIMER
 from app.core.files import beside, remove, replace, step, sweep
 from app.core.progress import Progress
@@ -86,13 +85,13 @@ def left_out() -> list[str]:
     lines, data = [], paths.data()
     for path in sorted((data / "exercises").glob("*.yaml")):
         try:
-            document = yaml.safe_load(path.read_text(encoding="utf-8"))
+            document = read_yaml(path)
             ct, parts = document.get("ct") or {}, document.get("structures") or ()
             files = [Path(str(part["file"])) for part in parts]
             if ct.get("folder"):
                 where = ct.get("digest") or f"without a digest, in {ct['folder']}"
                 scans[str(where)].append(path.stem)
-        except (OSError, ValueError, yaml.YAMLError, AttributeError, LookupError, TypeError):
+        except (OSError, ValueError, AttributeError, LookupError, TypeError):
             continue  # a file that is no exercise goes in as it is
         for file in files:
             places = ((room / file).resolve() for room in (path.parent, data / "structures"))

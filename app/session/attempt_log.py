@@ -10,6 +10,7 @@ from app.core.events import Event
 from app.core.json_values import finite
 from app.planning.placement import PlacedPlan
 from app.scoring.result import Score
+from app.scoring.score import with_shown
 from app.scoring.trajectory import Trajectory
 from app.session import sample as encoding
 from app.session.conditions import conditions_of
@@ -107,6 +108,8 @@ class AttemptLog:
             unscored = str(error)
         files = self._files(score, samples)
         summary = self._finish_record(attempt, score, samples, files)
+        if score is not None and path is not None:  # not before the record is closed and sealed
+            score = with_shown(score, path)
         status = self.recorder.status()
         return AttemptResult(
             summary=summary,

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from app.core import state_vector as slots
 from app.core.arrays import FloatArray, read_only
 from app.session import columns
+from app.session.budget import ReadingBudget
 from app.session.digest import digests
 from app.session.errors import BrokenRecordingError
 
@@ -116,11 +117,12 @@ def pack(rows: FloatArray, lost: int) -> bytes:
     return head + columns.encode(values) + checks
 
 
-def unpack(data: bytes) -> TickBlock:
+def unpack(data: bytes, budget: ReadingBudget) -> TickBlock:
     """Read a block.
 
     Raises:
-        BrokenRecordingError: if magic, version or length are not those of a block.
+        BrokenRecordingError: if magic, version or length are not those of a block, or it holds more
+            than may be taken.
     """
     if len(data) < _HEADER.size or data[:4] != MAGIC:
         raise BrokenRecordingError(
@@ -136,7 +138,7 @@ def unpack(data: bytes) -> TickBlock:
         return _plain(body, count, rows, lost, first)
     if rows > len(body):  # a digest alone takes four bytes a row
         raise BrokenRecordingError(f"a block of {rows} rows has {len(data)} bytes")
-    values, place = columns.decode(body, rows, count)
+    values, place = columns.decode(body, rows, count, budget)
     if count <= _TICK:
         raise BrokenRecordingError(f"a block of {count} columns has no tick numbers")
     where = _state_rows(values[:, _TICK])

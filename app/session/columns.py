@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.session.budget import ReadingBudget
 from app.session.errors import BrokenRecordingError
 
 Bits = NDArray[np.uint64]
@@ -48,12 +49,14 @@ def encode(values: FloatArray) -> bytes:
     return b"".join(_encode(column, k, seen) for k, column in enumerate(bits))
 
 
-def decode(data: bytes, rows: int, columns: int) -> tuple[FloatArray, int]:
+def decode(data: bytes, rows: int, columns: int, budget: ReadingBudget) -> tuple[FloatArray, int]:
     """Read columns back: the array, shape (rows, columns), and how many bytes it took.
 
     Raises:
-        BrokenRecordingError: if a way is not known or bytes are missing.
+        BrokenRecordingError: if a way is not known, bytes are missing, or the array is larger than
+            what may be taken: nine bytes can stand for a column of any length.
     """
+    budget.take(8 * rows * columns)
     read = _Reader(data)
     bits = np.empty((columns, rows), dtype="<u8")
     for k in range(columns):

@@ -31,6 +31,10 @@ class BrokenRecordingError(SessionError):
     """A file that is not a readable record of an attempt; the message says why."""
 
 
+class BudgetExceededError(BrokenRecordingError):
+    """A record that would take more memory than one of its size may; nothing of it is used."""
+
+
 class SessionNotFoundError(SessionError):
     """No session, or more than one, has this id."""
 

@@ -2,6 +2,7 @@
 
 import json
 import math
+from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
@@ -13,9 +14,10 @@ from app.core.arrays import read_only
 from app.core.events import Event
 from app.planning.placement import PlacedPlan
 from app.scoring.trajectory import Trajectory
+from app.session.budget import LONGEST_WORD
 from app.session.control_scan import ControlScan, scan_marks, scans_of
 from app.session.ct_facts import CtFacts
-from app.session.errors import BrokenRecordingError
+from app.session.errors import BrokenRecordingError, BudgetExceededError
 from app.session.facts import PLAN, placed_plan
 from app.session.risks import risk_marks
 from app.session.sample_columns import SAMPLES_FILE, same, unpack
@@ -28,6 +30,9 @@ from app.session.touching import touches_of
 from app.session.transitions import excused
 
 Metadata = MappingProxyType[str, dict[str, str]]
+
+WORDS = ("state", "depth_source")
+"""What becomes a column of texts."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -233,18 +238,27 @@ def _recording(
 def _documents(content: FileContents, topic: str, problems: list[str]) -> list[dict[str, Any]]:
     """Messages of a JSON channel that are as its schema says."""
     schema = CHANNELS[topic].schema or {}
-    documents = []
+    documents, odd = [], Counter[str]()
     for data in content.messages.get(topic, []):
+        content.budget.take_json(data)
         try:
             document = json.loads(data)
-        except (ValueError, RecursionError) as error:
-            problems.append(f"a message of {topic} is not JSON and left out: {error}")
+        except (ValueError, RecursionError):
+            odd["is not JSON"] += 1
             continue
-        if conforms(document, schema):
+        if conforms(document, schema) and _has_short_words(document):
             documents.append(document)
         else:
-            problems.append(f"a message of {topic} lacks a field or has a wrong one: left out")
+            odd["lacks a field or has a wrong one"] += 1
+    for why, count in odd.items():
+        times = f" ({count} times)" if count > 1 else ""
+        problems.append(f"a message of {topic} {why}: left out{times}")
     return documents
+
+
+def _has_short_words(document: dict[str, Any]) -> bool:
+    """Whether what becomes a column of texts is short: a column is as wide as its longest."""
+    return all(len(str(document.get(name, ""))) <= LONGEST_WORD for name in WORDS)
 
 
 def _event(document: dict[str, Any]) -> Event:
@@ -257,9 +271,11 @@ def _event(document: dict[str, Any]) -> Event:
 def _columns(content: FileContents, problems: list[str]) -> Samples | None:
     """Return the samples by the attachment; None without one that can be read."""
     try:
-        return unpack(content.attachments[SAMPLES_FILE])
+        return unpack(content.attachments[SAMPLES_FILE], content.budget)
     except KeyError:
         return None
+    except BudgetExceededError:
+        raise
     except BrokenRecordingError as error:
         problems.append(str(error))
         return None

@@ -13,10 +13,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Final
 from uuid import uuid4
 
 from app.core import paths
-from app.core.files import write_atomically
+from app.core.files import read_at_most, write_atomically
 from app.core.progress import Progress
 from app.session.backup_file import ArchiveError, Manifest, read_manifest, unpack
 from app.session.erasing import finish_erasing
@@ -37,6 +38,9 @@ from app.session.sidecar import file_digest
 from app.session.signature import signature_file
 from app.session.station import StationKey, key_file, this_station
 from app.session.store import SUFFIX, settled
+
+_LARGEST_NAMES: Final = 1 << 24
+"""No list of names is larger [bytes]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -263,9 +267,9 @@ def _names(at: _Restoring) -> dict[str, str]:
     if name not in at.manifest.files:
         return {}
     try:
-        document = json.loads(at.stage(name, at.people.folder).read_text(encoding="utf-8"))
+        document = json.loads(read_at_most(at.stage(name, at.people.folder), _LARGEST_NAMES))
         return {str(key): str(text) for key, text in document.items()}
-    except (ValueError, AttributeError, RecursionError) as error:
+    except (OSError, ValueError, AttributeError, RecursionError) as error:
         raise ArchiveError(f"the names in {at.source} are damaged; nothing was changed") from error
 
 

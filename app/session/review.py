@@ -20,6 +20,7 @@ from app.planning.placement import PlacedPlan
 from app.scoring.conditions import Conditions
 from app.scoring.result import Score
 from app.scoring.risks import RiskMark
+from app.scoring.score import with_shown
 from app.session.calibration_flag import CalibrationFlags
 from app.session.conditions import EXERCISE_FILE
 from app.session.control_scan import ControlScan
@@ -39,7 +40,7 @@ from app.session.scored import renders_force
 from app.session.summary import derive
 from app.session.timeline import Span, TimeMark, marks, spans
 from app.session.touching import KIND, TASK, TargetMarks, marks_at, radius_of
-from app.session.verify import verify
+from app.session.verify import Verification, verify
 from app.simulation.scene import Binding
 
 __all__ = [
@@ -278,7 +279,7 @@ def review(recording: Recording) -> Review:
         scans=summary.scans,
         software=summary.software,
         problems=summary.problems,
-        score=found.standing,
+        score=_shown(recording, found),
         conditions=summary.conditions,
         curves=figures,
         spans=spans(figures.time, samples.state),
@@ -322,6 +323,14 @@ def review_of_result(result: AttemptResult) -> Review:
             result.unscored or result.reason or "the attempt left nothing to show: no valid pose"
         )
     return review(recording)
+
+
+def _shown(recording: Recording, found: Verification) -> Score | None:
+    """Return the score that stands, with the metrics of others that no exercise counts."""
+    standing = found.standing
+    if standing is None or standing is not found.recomputed:
+        return standing
+    return with_shown(standing, recording.trajectory())
 
 
 def _force_limit(recording: Recording) -> float:

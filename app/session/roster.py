@@ -7,8 +7,10 @@ import io
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Final
 
+from app.core.files import read_at_most
 from app.session.errors import PeopleError
 from app.session.header import LONGEST_PSEUDONYM
 
@@ -65,6 +67,18 @@ def looks_like_a_key(text: str) -> bool:
     return _KEY.fullmatch(text) is not None
 
 
+def roster_in(path: Path) -> tuple[list[RosterLine], list[str]]:
+    """Read a roster's file, as `read_roster`; one that is larger than any course is refused.
+
+    Raises:
+        PeopleError: if the file cannot be read, or is larger.
+    """
+    try:
+        return read_roster(read_at_most(path))
+    except OSError as error:
+        raise PeopleError(f"cannot read {path}: {error.strerror or error}") from error
+
+
 def read_roster(data: bytes) -> tuple[list[RosterLine], list[str]]:
     """Read a roster: CSV with a heading, separated by commas, semicolons or tabs.
 
@@ -97,7 +111,7 @@ def read_roster(data: bytes) -> tuple[list[RosterLine], list[str]]:
         for name in names
         if name and name not in _FIELDS
     ]
-    found: list[RosterLine] = []
+    found: dict[str, RosterLine] = {}
     for number, row in table[1:]:
         if not any(row):
             errors.append(f"line {number}: the row is empty: delete it")
@@ -111,11 +125,11 @@ def read_roster(data: bytes) -> tuple[list[RosterLine], list[str]]:
         wrong = judged_lines([line])[1]
         if wrong:
             errors.append(f"line {number}: {wrong[0]}")
-        elif line.pseudonym.casefold() in {one.pseudonym.casefold() for one in found}:
+        elif line.pseudonym.casefold() in found:
             errors.append(f"line {number}: {line.pseudonym!r} stands there twice: delete one row")
         else:
-            found.append(line)
-    return found, errors
+            found[line.pseudonym.casefold()] = line
+    return list(found.values()), errors
 
 
 def judged_lines(lines: Sequence[RosterLine]) -> tuple[list[RosterLine], list[str]]:

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, read_only
 from app.session import columns
+from app.session.budget import LONGEST_WORD, ReadingBudget, decompressed
 from app.session.errors import BrokenRecordingError
 from app.session.header import Attachment
 from app.session.samples import Samples
@@ -35,8 +36,6 @@ _UNREADABLE: Final = (
     *(zstandard.ZstdError, ValueError, LookupError),
     *(TypeError, RecursionError, MemoryError, OverflowError),
 )
-_LARGEST: Final = 1 << 31
-"""A text or a table of more bytes is no attempt."""
 
 
 def attachment(samples: Samples) -> Attachment:
@@ -67,11 +66,12 @@ def pack(samples: Samples) -> bytes:
     return _HEADER.pack(MAGIC, VERSION, len(text), crc32(packed)) + packed
 
 
-def unpack(data: bytes) -> Samples:
+def unpack(data: bytes, budget: ReadingBudget) -> Samples:
     """Read them back.
 
     Raises:
         BrokenRecordingError: if they cannot be read; says why.
+        BudgetExceededError: if they hold more than a record of its size may.
     """
     if len(data) < _HEADER.size or data[:4] != MAGIC:
         raise BrokenRecordingError(f"{SAMPLES_FILE} does not begin with {MAGIC.decode()}")
@@ -81,12 +81,14 @@ def unpack(data: bytes) -> Samples:
     if crc32(data[_HEADER.size :]) != checksum:
         raise BrokenRecordingError(f"{SAMPLES_FILE} is damaged: its checksum is another")
     try:
-        body = zstandard.ZstdDecompressor().decompress(
-            data[_HEADER.size :], max_output_size=_LARGEST
-        )
+        packed = data[_HEADER.size :]
+        size = zstandard.frame_content_size(packed)  # -1 where it does not say: that is not ours
+        budget.take(max(0, size))
+        body = decompressed(packed, max(0, size))
+        budget.take_json(body[:length])
         document = json.loads(body[:length])
-        return _read(document, body[length:])
-    except BrokenRecordingError:
+        return _read(document, body[length:], budget)
+    except BrokenRecordingError:  # also that it is too large
         raise
     except _UNREADABLE as error:
         raise BrokenRecordingError(f"{SAMPLES_FILE} cannot be read: {error}") from error
@@ -109,12 +111,13 @@ def same(a: Samples, b: Samples) -> str:
     return ""
 
 
-def _read(document: dict[str, Any], data: bytes) -> Samples:
+def _read(document: dict[str, Any], data: bytes, budget: ReadingBudget) -> Samples:
     rows, known = int(document["rows"]), document["fields"]
     count = sum(int(width) for _, _, width in known)
-    if not 0 <= rows <= _LARGEST // 8 or not 0 <= count <= 1000 or (rows and not data):
+    if rows < 0 or min((int(w) for *_, w in known), default=0) < 0 or (rows and not data):
         raise ValueError(f"{rows} rows of {count} columns in {len(data)} bytes")
-    table = columns.decode(data, rows, count)[0] if rows else np.zeros((0, count))
+    budget.take(4 * LONGEST_WORD * rows * sum(kind == "word" for _, kind, _ in known))
+    table = columns.decode(data, rows, count, budget)[0] if rows else np.zeros((0, count))
     values, at = {}, 0
     for name, kind, width in known:
         part = table[:, at : at + int(width)]
@@ -130,6 +133,8 @@ def _read(document: dict[str, Any], data: bytes) -> Samples:
 def _array(part: FloatArray, kind: str, words: list[str]) -> NDArray[Any]:
     flat = part[:, 0] if part.shape[1] == 1 else part
     if kind == "word":
+        if any(len(str(word)) > LONGEST_WORD for word in words):
+            raise ValueError(f"a word of more than {LONGEST_WORD} characters")
         texts = np.array([str(word) for word in words], dtype=np.str_)
         return read_only(texts[flat.astype(np.int64)] if len(flat) else texts[:0])
     if kind == "flag":

@@ -1,13 +1,17 @@
-"""Reads an MCAP file that may be cut off or damaged: a linear scan that keeps what is whole."""
+"""Reads an MCAP file that may be cut off, damaged or hostile.
+
+A linear scan keeps what is whole. Whatever is unpacked is paid for before (`session.budget`).
+"""
 
 import struct
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
-from typing import IO, Final
+from typing import IO, Final, NamedTuple
 from zlib import crc32
 
+from mcap.data_stream import ReadDataStream
 from mcap.exceptions import EndOfFile, McapError
 from mcap.opcode import Opcode
 from mcap.records import (
@@ -24,13 +28,22 @@ from mcap.records import (
 )
 from mcap.stream_reader import StreamReader
 from mcap.writer import MCAP0_MAGIC
-from zstandard import ZstdDecompressor, ZstdError
+from zstandard import ZstdError
 
+from app.core.configuration import LARGEST_FILE
+from app.session.budget import OBJECT_BYTES, RECORD_BYTES, ReadingBudget, decompressed
 from app.session.errors import BrokenRecordingError
+from app.session.sample_columns import SAMPLES_FILE
 
 _FRAME: Final = struct.Struct("<BQ")
 _FOOTER: Final = 9 + 20
 _MESSAGE: Final = struct.Struct("<HIQQ")
+_UNREADABLE: Final = (
+    *(McapError, ZstdError, ValueError, LookupError, struct.error),
+    *(MemoryError, RuntimeError, OverflowError),
+)
+_MOST_DAMAGED: Final = 100
+"""A file with more damaged records is given up there: no fault of a disk makes so many."""
 
 
 @dataclass(slots=True)
@@ -44,8 +57,10 @@ class FileContents:
         channels: channel metadata by topic.
         complete: whether the file was finished.
         problems: what is cut off or damaged, one line each.
+        budget: what whoever reads on in it may take.
     """
 
+    budget: ReadingBudget
     metadata: dict[str, dict[str, str]] = field(default_factory=dict)
     attachments: dict[str, bytes] = field(default_factory=dict)
     messages: dict[str, list[bytes]] = field(default_factory=dict)
@@ -58,17 +73,18 @@ def scan(path: Path) -> FileContents:
     """Read all records that are whole.
 
     Raises:
-        BrokenRecordingError: if the file cannot be read or does not begin as an MCAP file.
+        BrokenRecordingError: if the file cannot be read, does not begin as an MCAP file, or takes
+            more than a file of its size may.
     """
-    result = FileContents()
+    result = FileContents(ReadingBudget.of(path))
     topics: dict[int, str] = {}
     payloads: dict[int, list[bytes]] = {}
     try:
         size = path.stat().st_size
         with path.open("rb") as stream:
             _check_magic(stream, path)
-            for record in _records(stream, size, result.problems):
-                if isinstance(record, Message):
+            for record in _records(stream, size, result):
+                if isinstance(record, ChunkedMessage | Message):
                     payloads.setdefault(record.channel_id, []).append(record.data)
                 else:
                     _sort(record, topics, result)
@@ -86,38 +102,47 @@ def scan_by_index(path: Path, topic: str) -> FileContents | None:
     of this is not as it should be: then `scan` says what. Damage to other messages is not seen.
 
     Raises:
-        BrokenRecordingError: if the file cannot be read.
+        BrokenRecordingError: if the file cannot be read, or takes more than a file of its size may.
     """
     try:
         with path.open("rb") as stream:
-            return _indexed(stream, path.stat().st_size, topic)
+            return _indexed(stream, path, topic)
     except OSError as error:
         raise BrokenRecordingError(f"cannot read {path}: {error.strerror or error}") from error
-    except (_UnsoundError, ZstdError, ValueError, struct.error, MemoryError, OverflowError):
+    except (_UnsoundError, *_UNREADABLE):
         return None
+
+
+class ChunkedMessage(NamedTuple):
+    """A message out of a chunk: its channel and what it says."""
+
+    channel_id: int
+    data: bytes
 
 
 class _UnsoundError(Exception):
     """The index, or something that it points to, is not as it should be."""
 
 
-def _indexed(stream: IO[bytes], size: int, topic: str) -> FileContents:
-    summary = _summary(stream, size)
-    result, ids = FileContents(complete=True), []
+def _indexed(stream: IO[bytes], path: Path, topic: str) -> FileContents:
+    summary = _summary(stream, path.stat().st_size)
+    result, ids = FileContents(ReadingBudget.of(path), complete=True), []
     for record in summary:
         if isinstance(record, Channel):
             result.channels[record.topic] = record.metadata
             if record.topic == topic:
                 ids.append(record.id)
-    result.messages[topic] = []
+    messages = result.messages[topic] = []
     for record in summary:
         if isinstance(record, AttachmentIndex | MetadataIndex):
-            for found in _at(stream, record.offset, record.length):
+            for found in _at(stream, record.offset, record.length, result.budget):
                 _sort(found, {}, result)
         elif isinstance(record, ChunkIndex) and any(i in record.message_index_offsets for i in ids):
-            for found in _at(stream, record.chunk_start_offset, record.chunk_length, chunk=True):
+            place, length = record.chunk_start_offset, record.chunk_length
+            for found in _at(stream, place, length, result.budget):
                 if isinstance(found, Chunk):
-                    result.messages[topic] += _messages(found, ids)
+                    parts = _chunked(found, result.budget, frozenset(ids))
+                    messages += [part.data for part in parts if isinstance(part, ChunkedMessage)]
     return result
 
 
@@ -138,36 +163,58 @@ def _summary(stream: IO[bytes], size: int) -> list[McapRecord]:
     return _parsed(data)
 
 
-def _at(stream: IO[bytes], offset: int, length: int, chunk: bool = False) -> list[McapRecord]:
+def _at(stream: IO[bytes], offset: int, length: int, budget: ReadingBudget) -> list[McapRecord]:
+    """Read what an index points to; it may point to the same again and again."""
     stream.seek(offset)
-    return _parsed(stream.read(length), chunk)
+    data = stream.read(length)
+    budget.take(len(data) + RECORD_BYTES)
+    return _parsed(data)
 
 
-def _parsed(data: bytes, chunk: bool = False) -> list[McapRecord]:
+def _parsed(data: bytes) -> list[McapRecord]:
     problems: list[str] = []
-    records = _parse(data, 0, problems, chunk)
+    records = _parse(data, 0, problems)
     if problems or not records:
         raise _UnsoundError
     return records
 
 
-def _messages(chunk: Chunk, ids: list[int]) -> list[bytes]:
-    """Messages of some channels of a chunk, without a look at the others."""
-    data = chunk.data
-    if chunk.compression == "zstd":
-        data = ZstdDecompressor().decompress(data, max_output_size=chunk.uncompressed_size)
-    elif chunk.compression:
-        raise _UnsoundError
-    if chunk.uncompressed_crc and crc32(data) != chunk.uncompressed_crc:
-        raise _UnsoundError
-    found, place = [], 0
+def _chunked(
+    chunk: Chunk, budget: ReadingBudget, ids: frozenset[int] | None = None
+) -> Iterator[Channel | ChunkedMessage]:
+    """Yield channels and messages of a chunk; with `ids` those of some channels only."""
+    data = _unpacked(chunk, budget)
+    place = 0
     while place < len(data):
         opcode, length = _FRAME.unpack_from(data, place)
         body = place + _FRAME.size
         place = body + length
-        if opcode == Opcode.MESSAGE and _MESSAGE.unpack_from(data, body)[0] in ids:
-            found.append(data[body + _MESSAGE.size : place])
-    return found
+        if place > len(data):
+            raise ValueError("a record in it is cut off")
+        if opcode == Opcode.MESSAGE:
+            channel_id = _MESSAGE.unpack_from(data, body)[0]
+            if ids is None or channel_id in ids:
+                text = data[body + _MESSAGE.size : place]
+                budget.take(OBJECT_BYTES + len(text))
+                yield ChunkedMessage(channel_id, text)
+        elif opcode == Opcode.CHANNEL and ids is None:
+            budget.take(RECORD_BYTES + length)
+            yield Channel.read(ReadDataStream(BytesIO(data[body:place])))
+
+
+def _unpacked(chunk: Chunk, budget: ReadingBudget) -> bytes:
+    """Return what a chunk holds, never more than it says that it does."""
+    data, size = chunk.data, chunk.uncompressed_size
+    if chunk.compression == "zstd":
+        budget.take(size)
+        data = decompressed(data, size)
+    elif chunk.compression:
+        raise ValueError(f"a chunk is compressed by {chunk.compression[:20]!r}, not zstd")
+    if len(data) != size:
+        raise ValueError(f"a chunk does not hold the {size} bytes that it says")
+    if chunk.uncompressed_crc and crc32(data) != chunk.uncompressed_crc:
+        raise ValueError("its crc is another")
+    return data
 
 
 def _check_magic(stream: IO[bytes], path: Path) -> None:
@@ -177,8 +224,11 @@ def _check_magic(stream: IO[bytes], path: Path) -> None:
         raise BrokenRecordingError(f"{path.name} is not an MCAP file: it begins with {found}")
 
 
-def _records(stream: IO[bytes], size: int, problems: list[str]) -> Iterator[McapRecord]:
+def _records(
+    stream: IO[bytes], size: int, result: FileContents
+) -> Iterator[McapRecord | ChunkedMessage]:
     """Frame by frame; a frame that is not whole ends the file, one that is damaged is skipped."""
+    problems = result.problems
     while True:
         offset = stream.tell()
         head = stream.read(_FRAME.size)
@@ -191,36 +241,46 @@ def _records(stream: IO[bytes], size: int, problems: list[str]) -> Iterator[Mcap
                 f"the file is cut off at byte {size}, inside the record at byte {offset}"
             )
             return
+        result.budget.take(RECORD_BYTES)
         for record in _parse(head + stream.read(length), offset, problems):
-            yield record
+            if isinstance(record, Chunk):
+                yield from _whole_chunk(record, offset, result)
+            else:
+                yield record
             if isinstance(record, Footer):
                 return
+        if len(problems) > _MOST_DAMAGED:
+            problems.append(f"what follows byte {stream.tell()} is left out: too much is damaged")
+            return
 
 
-def _parse(frame: bytes, offset: int, problems: list[str], chunk: bool = False) -> list[McapRecord]:
-    """Return the records of one frame; of a chunk, its messages unless `chunk` wants it itself."""
+def _whole_chunk(chunk: Chunk, offset: int, result: FileContents) -> list[Channel | ChunkedMessage]:
+    """Return all of a chunk, or nothing of one that is damaged."""
+    try:
+        return list(_chunked(chunk, result.budget))
+    except _UNREADABLE as error:
+        result.problems.append(_damaged(offset, error))
+        return []
+
+
+def _parse(frame: bytes, offset: int, problems: list[str]) -> list[McapRecord]:
+    """Return the records of one frame; a chunk as it is."""
     records: list[McapRecord] = []
     try:
-        reader = StreamReader(
-            BytesIO(frame), skip_magic=True, emit_chunks=chunk, validate_crcs=True
-        )
+        reader = StreamReader(BytesIO(frame), skip_magic=True, emit_chunks=True, validate_crcs=True)
         for record in reader.records:
             records.append(record)
     except EndOfFile:
         pass  # the frame's own end
-    except (
-        McapError,
-        ZstdError,
-        ValueError,
-        struct.error,
-        MemoryError,
-        RuntimeError,
-        OverflowError,
-    ) as error:
-        text = " ".join(str(error).split()) or type(error).__name__
-        problems.append(f"the record at byte {offset} is damaged and left out: {text}")
+    except _UNREADABLE as error:
+        problems.append(_damaged(offset, error))
         return []
     return records
+
+
+def _damaged(offset: int, error: Exception) -> str:
+    text = " ".join(str(error).split()) or type(error).__name__
+    return f"the record at byte {offset} is damaged and left out: {text}"
 
 
 def _sort(record: McapRecord, topics: dict[int, str], result: FileContents) -> None:
@@ -230,6 +290,13 @@ def _sort(record: McapRecord, topics: dict[int, str], result: FileContents) -> N
     elif isinstance(record, Metadata):
         result.metadata[record.name] = record.metadata
     elif isinstance(record, Attachment):
-        result.attachments[record.name] = record.data
+        if len(record.data) > LARGEST_FILE and record.name != SAMPLES_FILE:
+            name, size = record.name[:40], len(record.data) / 1e6
+            result.problems.append(
+                f"the attached file {name} is left out: it has {size:.1f} MB, "
+                f"{LARGEST_FILE >> 20} MB are the most"
+            )
+        else:
+            result.attachments[record.name] = record.data
     elif isinstance(record, Footer):
         result.complete = True

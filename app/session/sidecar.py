@@ -18,7 +18,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Final
 
-from app.core.files import write_atomically
+from app.core.files import read_at_most, write_atomically
 from app.core.json_values import finite
 from app.session.errors import BrokenRecordingError
 from app.session.recording import messages_agree, open_recording, read_recording
@@ -84,7 +84,7 @@ def write_summary(path: Path, summary: Summary) -> None:
 def cached(path: Path) -> Cached | None:
     """Return what stands beside a record; None if nothing readable does."""
     try:
-        document = json.loads(sidecar(path).read_text(encoding="utf-8"))
+        document = json.loads(read_at_most(sidecar(path)))
         written, record = document.pop("digest", ""), document["record"]
         digest = _digest(document, this_station())  # raises for what cannot be printed: not ours
         return Cached(

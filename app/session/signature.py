@@ -19,6 +19,7 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Any, Final
 
+from app.core.files import read_at_most
 from app.session.conditions import EXERCISE_FILE
 from app.session.recording import open_recording
 from app.session.sidecar import Cached, file_digest
@@ -130,7 +131,7 @@ def judged(path: Path, kept: Cached, key: StationKey | None) -> Summary:
 def _read(path: Path, key: StationKey | None) -> dict[str, Any] | SignatureCheck:
     """Return the signed document, or what can be said without it."""
     try:
-        document: dict[str, Any] = json.loads(signature_file(path).read_text(encoding="ascii"))
+        document: dict[str, Any] = json.loads(read_at_most(signature_file(path)).decode("ascii"))
         seal = str(document.pop("hmac"))
         station, fields = str(document["station"]), (document["record"], document["shown"].items())
     except FileNotFoundError:

@@ -9,7 +9,7 @@ from app.core.arrays import FloatArray, read_only
 from app.session import blocks, checkpoint_file
 from app.session.blocks import TickBlock
 from app.session.checkpoint_file import RecordedCheckpoint
-from app.session.errors import BrokenRecordingError
+from app.session.errors import BrokenRecordingError, BudgetExceededError
 from app.session.scan import FileContents
 
 
@@ -58,7 +58,11 @@ class Inputs:
 
 
 def read_inputs(content: FileContents, problems: list[str]) -> Inputs:
-    """Read all blocks of a record; what cannot be read is told in `problems`."""
+    """Read all blocks of a record; what cannot be read is told in `problems`.
+
+    Raises:
+        BudgetExceededError: if they hold more than a record of its size may.
+    """
     channel = content.channels.get("/loop/inputs", {})
     columns = _names(channel.get("slots", "")) or blocks.COLUMNS
     slots = blocks.slots_of_record(_names(channel.get("state", "")))
@@ -81,7 +85,9 @@ def _blocks(content: FileContents, columns: int, problems: list[str]) -> list[Ti
     parts = []
     for data in content.messages.get("/loop/inputs", []):
         try:
-            block = blocks.unpack(data)
+            block = blocks.unpack(data, content.budget)
+        except BudgetExceededError:
+            raise
         except BrokenRecordingError as error:
             problems.append(str(error))
             continue

@@ -16,6 +16,7 @@ from app.core.errors import AcusError
 from app.scoring.conditions import Conditions
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import ScoreFormatError
+from app.scoring.metrics import available
 from app.scoring.result import FIRST_OVER_ATTEMPT, FIRST_OVER_PAUSES, SCORING_VERSION, Score
 from app.scoring.rows import ScoreRules
 from app.scoring.score import score
@@ -240,12 +241,15 @@ def _changes(written: Score | None, now: Score | None, unscored: str) -> list[Ch
         ("void", written.void_reason, now.void_reason),
         ("pass mark", written.rules.pass_mark, now.rules.pass_mark),
     ]
+    own = {name for name, metric in available().items() if metric.is_own}
     before = {row.name: row for row in written.rows}
     after = {row.name: row for row in now.rows}
     for name in dict.fromkeys((*before, *after)):
         a, b = before.get(name), after.get(name)
         if a is None and b is not None and b.tolerance is None:
             continue  # a metric that came later and counts nothing
+        if b is None and a is not None and a.tolerance is None and name not in own:
+            continue  # one of somebody else's, from when those were recorded too
         pairs.append((name, a.value if a else "no such metric", b.value if b else "no such metric"))
         if a and b and a.sd is not None and not _alike(a.sd, b.sd):
             pairs.append((f"uncertainty of {name}", a.sd, b.sd))

@@ -91,10 +91,12 @@ def test_what_is_wrong_in_a_law_is_named(own: Path, old: str, new: str, message:
     assert "upright_spring.py" in str(caught.value)
 
 
-def test_a_law_with_the_name_of_another_is_refused(own: Path) -> None:
+def test_a_law_with_the_name_of_one_of_the_programs_own_is_refused_and_takes_nothing(
+    own: Path,
+) -> None:
     (own / "fixture.py").write_text("", encoding="utf-8")
-    with pytest.raises(LawError, match="two files are the law 'fixture'"):
-        laws.declaration("fixture")
+    assert laws.is_own(laws.declaration("fixture"))
+    assert "'fixture' is a name of the program's own" in laws.refused()[own / "fixture.py"]
 
 
 def test_unknown_laws_and_parameters_are_refused_with_the_known_ones() -> None:

@@ -203,7 +203,7 @@ def test_a_file_that_is_not_there_or_far_too_large_is_named(tmp_path):
     path = tmp_path / "large.urdf"
     path.write_bytes(b"")
     os.truncate(path, 6_000_000)
-    with pytest.raises(UrdfError, match="6000000 bytes"):
+    with pytest.raises(UrdfError, match="larger than"):
         read_geometry(path)
 
 

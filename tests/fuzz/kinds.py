@@ -249,10 +249,10 @@ def _pacs(folder: Path, seed: Seed) -> Kind:
     def read(at: Path) -> str:
         incoming = Incoming(settings, SERIES).open()
         try:
-            status = incoming.take(kind, instance, (at / "sent").read_bytes())
+            status = incoming.take(kind, instance, at / "sent")
             if (status == ACCEPTED) != incoming.has(instance) or incoming.count() > 1:
                 return "kept what it refused, or the other way round"
-            if list(incoming.folder.glob("*.part")):
+            if len(list(incoming.folder.iterdir())) > 1:
                 return "left a part behind"
         finally:
             incoming.forget()

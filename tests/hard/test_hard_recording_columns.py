@@ -11,10 +11,15 @@ from hypothesis import strategies as st
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.session import blocks, checkpoint_file, columns
+from app.session.budget import ReadingBudget
 from app.session.digest import digests
 from app.session.errors import BrokenRecordingError
 
 ANY_FLOAT = st.floats(allow_nan=True, allow_infinity=True, allow_subnormal=True, width=64)
+
+
+def budget() -> ReadingBudget:
+    return ReadingBudget("a.mcap", 1 << 20)
 
 
 def bits(values: FloatArray) -> np.ndarray:
@@ -27,7 +32,7 @@ def test_any_numbers_stored_as_columns_come_back_with_every_bit(rows: list[tuple
     values = np.array(rows, dtype=np.float64)
     values = np.hstack((values, values[:, :1], np.full((len(values), 1), -0.0)))
     data = columns.encode(values)
-    again, taken = columns.decode(data, *values.shape)
+    again, taken = columns.decode(data, *values.shape, budget())
     assert taken == len(data)
     np.testing.assert_array_equal(bits(again), bits(values))
 
@@ -41,7 +46,7 @@ def test_times_of_a_clock_in_nanoseconds_come_back_with_every_bit(
     start: int, jitter: list[int]
 ) -> None:
     values = (start + np.cumsum(jitter))[:, None] * 1e-9
-    again, _ = columns.decode(columns.encode(values), *values.shape)
+    again, _ = columns.decode(columns.encode(values), *values.shape, budget())
     np.testing.assert_array_equal(bits(again), bits(values))
 
 
@@ -54,11 +59,11 @@ def test_a_block_that_is_cut_or_changed_is_refused_or_read_and_never_crashes(
     rows[:, sv.TICK] = np.arange(1, 31)
     good = blocks.pack(rows, 0)
     with pytest.raises(BrokenRecordingError):
-        blocks.unpack(good[: int(cut * len(good))])
+        blocks.unpack(good[: int(cut * len(good))], budget())
     changed = bytearray(good)
     changed[min(int(at * len(good)), len(good) - 1)] ^= flip
     with suppress(BrokenRecordingError):
-        assert blocks.unpack(bytes(changed)).values.shape[1] == len(blocks.COLUMNS)
+        assert blocks.unpack(bytes(changed), budget()).values.shape[1] == len(blocks.COLUMNS)
 
 
 @settings(derandomize=True, deadline=None, max_examples=100)
@@ -74,14 +79,14 @@ def test_one_changed_bit_of_any_slot_changes_the_digest(slot: int, bit: int) -> 
 def test_a_number_that_is_none_in_the_encoders_stays_one_in_the_record() -> None:
     rows = np.zeros((5, sv.SLOTS))
     rows[2, sv.Q_LEFT] = math.nan
-    values = blocks.unpack(blocks.pack(rows, 0)).values
+    values = blocks.unpack(blocks.pack(rows, 0), budget()).values
     assert np.isnan(values[:, blocks.COLUMNS.index("q_left")]).tolist() == [0, 0, 1, 0, 0]
 
 
 def test_a_block_of_version_1_still_reads() -> None:
     values = np.arange(12.0).reshape(4, 3)
     head = blocks._HEADER.pack(b"ACUB", 1, 3, 4, 2, 17)
-    block = blocks.unpack(head + np.ascontiguousarray(values.T).tobytes())
+    block = blocks.unpack(head + np.ascontiguousarray(values.T).tobytes(), budget())
     np.testing.assert_array_equal(block.values, values)
     assert (block.first_tick, block.lost, len(block.digests), len(block.states)) == (17, 2, 0, 0)
 

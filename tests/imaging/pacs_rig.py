@@ -55,7 +55,7 @@ class FakePacs:
         self.files = [pydicom.dcmread(path) for path in sorted(folder.glob("*"))]
         self.ill, self.asked, self.sent = ill, [], []
         self.port, self.own_port = free_port(), free_port()
-        self._over = threading.Event()
+        self._over, self._sockets = threading.Event(), []
         self._ae = AE("FAKE")
         self._ae.require_called_aet = True
         self._ae.require_calling_aet = list(calling)
@@ -72,6 +72,7 @@ class FakePacs:
 
     def __enter__(self):
         handlers = [
+            (evt.EVT_CONN_OPEN, self._opened),
             (evt.EVT_C_ECHO, self._echo), (evt.EVT_C_FIND, self._find),
             (evt.EVT_C_GET, self._get), (evt.EVT_C_MOVE, self._move),
         ]  # fmt: skip
@@ -84,6 +85,11 @@ class FakePacs:
     def __exit__(self, *_):
         self._over.set()
         self._server.shutdown()
+        for one in self._sockets:  # pynetdicom forgets to close where the other end has gone
+            one.close()
+
+    def _opened(self, event):
+        self._sockets.append(event.assoc.dul.socket.socket)
 
     def settings(self, **changed) -> PacsSettings:
         given = {
@@ -179,6 +185,7 @@ class FakePacs:
         if self.ill == "unknown destination" or event.move_destination != "ACUS":
             yield None, None
             return
-        tls = {} if self._tls is None else {"tls_args": (self._tls[1], "127.0.0.1")}
-        yield "127.0.0.1", self.own_port, tls
+        given = {} if self._tls is None else {"tls_args": (self._tls[1], "127.0.0.1")}
+        given["evt_handlers"] = [(evt.EVT_CONN_OPEN, self._opened)]
+        yield "127.0.0.1", self.own_port, given
         yield from self._send(event)

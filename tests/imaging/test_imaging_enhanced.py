@@ -100,6 +100,17 @@ def test_encapsulated_frames_are_found_in_their_file(tmp_path):
         np.testing.assert_array_equal(volume.hu[k], slices.stored(k) - 1024 - k)
 
 
+def test_a_frame_whose_number_is_beyond_any_scanner_is_refused_by_name_and_value(tmp_path):
+    path = write_enhanced(tmp_path / "e", Slices())
+    file = pydicom.dcmread(path)
+    group = file.PerFrameFunctionalGroupsSequence[2]
+    group.PixelValueTransformationSequence[0].RescaleSlope = "1e308"
+    file.save_as(path)
+    (series,) = scan_folder(tmp_path / "e").series
+    assert not series.usable
+    assert "RescaleSlope is 1e+308; its size must lie between 1e-09 and 1e+06" in series.reason
+
+
 def test_a_pixel_of_a_frame_is_found_by_its_number(tmp_path):
     slices = Slices()
     write_enhanced(tmp_path / "e", slices)

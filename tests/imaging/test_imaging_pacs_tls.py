@@ -1,6 +1,8 @@
 """A PACS over TLS: both ways of retrieving, and what goes wrong said with the file's name."""
 
+import socket
 import ssl
+import time
 from pathlib import Path
 
 import pytest
@@ -150,3 +152,28 @@ def test_the_command_line_adds_an_encrypted_archive_with_whole_paths(encrypted, 
     assert one.tls == TlsSettings(**OURS)
     assert "TLS" in CliRunner().invoke(command_line(), ["pacs", "list"]).output
     assert "answers in" in CliRunner().invoke(command_line(), ["pacs", "echo"]).output
+
+
+def test_a_stranger_who_connects_and_says_nothing_keeps_nobody_waiting(stored):
+    """The network library shakes hands with whoever connects, one after the other."""
+    silent = []
+
+    def connect(pacs):
+        silent.append(
+            socket.create_connection(("127.0.0.1", pacs.own_port), source_address=("127.0.0.2", 0))
+        )
+
+    class Meddling(FakePacs):
+        def _move(self, event):
+            connect(self)
+            yield from super()._move(event)
+
+    with Meddling(stored, tls=contexts(wants_ours=True)) as pacs:
+        settings = pacs.settings(retrieve="move", tls=TlsSettings(**OURS), timeout_s=10.0)
+        started = time.monotonic()
+        client = Pacs(settings)
+        study = client.find_studies(Query(patient_id="SECRET*"))[0]
+        series = client.find_series(study)[0]
+        assert take(client, study.uid, series.uid, CtLibrary(), Progress()).entry.files == 5
+        assert time.monotonic() - started < 8.0
+    silent[0].close()

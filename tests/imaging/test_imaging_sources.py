@@ -235,6 +235,7 @@ def test_a_nifti_volume_lies_where_its_affine_says(tmp_path, mirrored, unit, sca
         (VALUES, np.array([[1, 0.1, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]]), 1,
          "not perpendicular"),
         (np.zeros((4, 5, 6), np.complex64), np.eye(4), 1, "not one number"),
+        (VALUES, np.diag([1.0, 1.0, 1e30, 1.0]), 1, "lies 1e+30 mm away; 100000 mm are the most"),
     ],
 )  # fmt: skip
 def test_a_nifti_file_that_is_no_volume_is_refused_by_name(tmp_path, values, affine, code, words):
@@ -248,6 +249,12 @@ def test_a_nifti_file_that_is_no_volume_is_refused_by_name(tmp_path, values, aff
 def test_values_that_are_no_numbers_are_never_passed_on(tmp_path):
     nifti(tmp_path / "a.nii", np.full((4, 5, 6), np.nan, np.float32), np.eye(4))
     with pytest.raises(ValueError, match="no numbers"):
+        load_ct(tmp_path)
+
+
+def test_a_value_of_which_nothing_can_be_computed_is_named(tmp_path):
+    nifti(tmp_path / "a.nii", np.full((4, 5, 6), 1e300, np.float64), np.eye(4))
+    with pytest.raises(ValueError, match=r"holds the value 1e\+300; 1e\+12 is the most"):
         load_ct(tmp_path)
 
 

@@ -9,7 +9,7 @@ from scoring_attempts import Attempt
 
 from app.scoring import metrics
 from app.scoring.errors import MetricError
-from app.scoring.score import check_names, score
+from app.scoring.score import check_names, score, with_shown
 from app.scoring.tolerance import Tolerance
 
 FORM_BEFORE = """\"\"\"Largest depth that the tip reached in the body.\"\"\"
@@ -45,7 +45,7 @@ def added(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.Mo
 def test_the_metric_of_the_page_is_found_shown_and_scored(added: str) -> None:
     trajectory = Attempt(depth=0.003).trajectory()
     deepest = trajectory.placed.length * 1e3 + 3.0
-    row = score(trajectory).row(added)
+    row = with_shown(score(trajectory), trajectory).row(added)
     assert row.value == pytest.approx(deepest)
     assert row.tolerance is None
 
@@ -57,7 +57,8 @@ def test_the_metric_of_the_page_is_found_shown_and_scored(added: str) -> None:
 
 def test_the_metric_of_the_page_says_why_it_has_no_value(added: str) -> None:
     phase = ["aligning"] * 2251
-    row = score(Attempt().trajectory(phase=phase)).row(added)
+    trajectory = Attempt().trajectory(phase=phase)
+    row = with_shown(score(trajectory), trajectory).row(added)
     assert row.value is None
     assert row.note == "the needle was never inserted"
 
@@ -69,7 +70,8 @@ def test_a_metric_of_the_users_own_that_is_broken_breaks_no_score_and_says_why(
     good = example("How to add a metric")[1]
     (tmp_path / "upside.py").write_text(good.replace("False", "3"), encoding="utf-8")
     (tmp_path / "raises.py").write_text(good.replace("    return", "    1 / 0\n    return"))
-    result = score(Attempt().trajectory())
+    trajectory = Attempt().trajectory()
+    result = with_shown(score(trajectory), trajectory)
     assert result.row("target_error").value == pytest.approx(0.0, abs=1e-9)
     assert "line 11: higher_is_better is 3; give True or False" in result.row("upside").note
     assert "raises.py: compute() fails: ZeroDivisionError" in result.row("raises").note
@@ -78,10 +80,24 @@ def test_a_metric_of_the_users_own_that_is_broken_breaks_no_score_and_says_why(
         check_names({"upside": limits})
 
 
-def test_a_metric_with_the_name_of_another_is_refused(
+def test_two_files_of_one_name_are_one_metric_that_cannot_be_used(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for folder in ("own", "appended"):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "deepest_point.py").write_text(example("How to add a metric")[1])
+    monkeypatch.setenv("ACUS_METRICS", str(tmp_path / "own"))
+    monkeypatch.setattr(metrics, "__path__", [*metrics.__path__, str(tmp_path / "appended")])
+    trajectory = Attempt().trajectory()
+    result = with_shown(score(trajectory), trajectory)
+    assert "two files are the metric 'deepest_point'" in result.row("deepest_point").note
+    assert result.row("target_error").value is not None
+
+
+def test_a_metric_with_the_name_of_one_of_the_programs_own_is_none(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ACUS_METRICS", str(tmp_path))
     (tmp_path / "target_error.py").write_text(example("How to add a metric")[1], encoding="utf-8")
-    with pytest.raises(MetricError, match="two files are the metric 'target_error'"):
-        metrics.available()
+    assert metrics.find("target_error").is_own
+    assert metrics.available()["target_error"].title == "Target error"

@@ -22,12 +22,17 @@ from app.core.disclaimer import DISCLAIMER
 from app.core.events import Event
 from app.core.rotation import rotation_exp
 from app.session import blocks
+from app.session.budget import ReadingBudget
 from app.session.errors import BrokenRecordingError, RecordingError, SessionError
 from app.session.header import SessionHeader, new_id, pseudonym
 from app.session.recorder import Recorder
 from app.session.recording import read_recording
 from app.session.sample import quaternion
 from app.session.schemas import CHANNELS
+
+
+def budget() -> ReadingBudget:
+    return ReadingBudget("a.mcap", 1 << 20)
 
 
 def header(session_id: str = "a-1", **values: object) -> SessionHeader:
@@ -114,13 +119,13 @@ def test_blocks_give_back_every_bit() -> None:
     rng = np.random.default_rng(2)
     rows = rng.normal(size=(101, sv.SLOTS))
     rows[:, sv.TICK] = np.arange(7, 108)
-    block = blocks.unpack(blocks.pack(rows, 5))
+    block = blocks.unpack(blocks.pack(rows, 5), budget())
     assert (block.first_tick, block.lost) == (7, 5)
     indices = [sv.INDEX[name] for name in blocks.COLUMNS]
     acts = (rows[:, sv.TRAINEE_PHASE] > 0.0) & (rows[:, sv.ENABLED] > 0.0)
     rows[np.ix_(acts, [sv.INDEX[name] for name in blocks.TRAINEE])] = np.nan
     np.testing.assert_array_equal(block.values, rows[:, indices])
-    assert blocks.unpack(blocks.pack(np.empty((0, sv.SLOTS)), 0)).values.shape[0] == 0
+    assert blocks.unpack(blocks.pack(np.empty((0, sv.SLOTS)), 0), budget()).values.shape[0] == 0
 
 
 def test_a_block_holds_every_input_and_the_encoders() -> None:
@@ -141,7 +146,7 @@ def test_a_block_holds_every_input_and_the_encoders() -> None:
 def test_a_spoilt_block_is_refused(spoil: Callable[[bytes], bytes], said: str) -> None:
     good = blocks.pack(np.zeros((3, sv.SLOTS)), 0)
     with pytest.raises(BrokenRecordingError, match=said):
-        blocks.unpack(spoil(good))
+        blocks.unpack(spoil(good), budget())
 
 
 def test_the_thread_records_while_the_loop_runs(tmp_path: Path) -> None:

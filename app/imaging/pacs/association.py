@@ -1,134 +1,43 @@
 """Connections to a PACS: opened for one request, watched for a cancel, always closed.
 
-Encrypted ones (DICOM PS3.15 annex B: TLS) are checked before they are used. The other end of C-MOVE
-is here too: a storage service that stands only while a retrieval lasts.
+Encrypted ones are checked before they are used (`encryption`). The other end of C-MOVE is here too:
+a storage service that stands only while a retrieval lasts.
 """
 
 import logging
 import socket
-import ssl
 import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
 from app.core.errors import ConfigurationError
 from app.core.extras import not_installed
 from app.core.progress import Cancelled, Progress
-from app.imaging.pacs.errors import PacsError, PacsRefusedError, PacsUnreachableError
+from app.imaging.pacs.encryption import client_context, server_context, shake_hands
+from app.imaging.pacs.errors import (
+    PacsDataError,
+    PacsError,
+    PacsRefusedError,
+    PacsUnreachableError,
+)
 from app.imaging.pacs.incoming import COMPRESSED, PLAIN, STORAGE_CLASSES, Incoming, handler
-from app.imaging.pacs.settings import PacsSettings, TlsSettings
+from app.imaging.pacs.limits import RequestLimits, spool_to_own_folder
+from app.imaging.pacs.settings import PacsSettings
 from app.imaging.pacs.statuses import rejected, words
 
 
-def client_context(settings: PacsSettings) -> ssl.SSLContext | None:
-    """Context of the connections that we open; None where they are not encrypted.
-
-    Raises:
-        ConfigurationError: naming the file that cannot be used.
-    """
-    tls = settings.tls
-    if tls is None:
-        return None
-    context = ssl.create_default_context(ssl.Purpose.SERVER_AUTH)
-    context.minimum_version = ssl.TLSVersion.TLSv1_2
-    context.check_hostname = tls.check_name
-    _trust(context, tls)
-    if tls.certificate:
-        _own(context, tls)
-    return context
-
-
-def server_context(settings: PacsSettings) -> ssl.SSLContext | None:
-    """Context of the connections that C-MOVE makes the PACS open to us.
-
-    Who connects must show a certificate that the same authority has signed.
-
-    Raises:
-        ConfigurationError: if we have no certificate of our own; or naming the file.
-    """
-    tls = settings.tls
-    if tls is None:
-        return None
-    if not tls.certificate:
-        raise ConfigurationError(
-            f"{settings.name}: C-MOVE with TLS needs a certificate of our own "
-            "(tls: certificate, key); or retrieve with C-GET"
-        )
-    context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
-    context.minimum_version = ssl.TLSVersion.TLSv1_2
-    context.verify_mode = ssl.CERT_REQUIRED
-    _trust(context, tls)
-    _own(context, tls)
-    return context
-
-
-def shake_hands(connection: socket.socket, settings: PacsSettings) -> str:
-    """Try the encryption on an open connection; return why it fails, empty where it does not.
-
-    The network library would only say that there is no association.
-    """
-    context = client_context(settings)
-    if context is None:
-        return ""
-    try:
-        with context.wrap_socket(connection, server_hostname=settings.host):
-            return ""
-    except ssl.SSLCertVerificationError as error:
-        return f"its certificate is not trusted: {error.verify_message}"
-    except ssl.SSLError as error:
-        why = (error.reason or "").replace("_", " ").lower()
-        return f"no encrypted connection comes about ({why or 'TLS error'}); is that its TLS port?"
-    except TimeoutError:
-        return "it does not answer to TLS; is that its TLS port?"
-    except OSError:
-        return "it closes the connection when TLS begins; is that its TLS port?"
-
-
-def _trust(context: ssl.SSLContext, tls: TlsSettings) -> None:
-    if not tls.authority:
-        context.load_default_certs()
-        return
-    _readable(tls.authority, "authority")
-    try:
-        context.load_verify_locations(cafile=tls.authority)
-    except (ssl.SSLError, OSError):
-        raise _unusable(tls.authority, "authority", "it holds no certificate in PEM") from None
-
-
-def _own(context: ssl.SSLContext, tls: TlsSettings) -> None:
-    _readable(tls.certificate, "certificate")
-    if tls.key:
-        _readable(tls.key, "key")
-    try:
-        # An empty password: OpenSSL would ask for one on the terminal and wait.
-        context.load_cert_chain(tls.certificate, tls.key or None, password="")
-    except ssl.SSLError as error:
-        file, name = (tls.key, "key") if tls.key else (tls.certificate, "certificate")
-        if error.reason == "KEY_VALUES_MISMATCH":
-            why = f"it does not belong to the certificate {tls.certificate}"
-        else:
-            why = "certificate and key must be PEM, the key without a password"
-        raise _unusable(file, name, why) from None
-
-
-def _readable(file: str, name: str) -> None:
-    try:
-        with Path(file).open("rb"):
-            pass
-    except (OSError, ValueError) as error:
-        why = getattr(error, "strerror", None) or "no such file"
-        raise _unusable(file, name, f"it cannot be read: {why}") from None
-
-
-def _unusable(file: str, name: str, why: str) -> ConfigurationError:
-    return ConfigurationError(f"tls {name} {file}: {why}")
-
-
 @contextmanager
-def receiving(settings: PacsSettings, incoming: Incoming, counter: Any) -> Iterator[None]:
+def receiving(
+    settings: PacsSettings, incoming: Incoming, counter: Any, limits: RequestLimits
+) -> Iterator[None]:
     """Listen on our own port for what the PACS sends; only it may, and only to our title.
+
+    Args:
+        settings: of the PACS.
+        incoming: takes the pictures.
+        counter: told of each.
+        limits: of the request.
 
     Raises:
         PacsError: if the port cannot be used.
@@ -141,9 +50,14 @@ def receiving(settings: PacsSettings, incoming: Incoming, counter: Any) -> Itera
     for kind in STORAGE_CLASSES:
         made.add_supported_context(kind, [*PLAIN, *COMPRESSED])
     address, context = own_address(settings), server_context(settings)
-    handlers = [(pynetdicom.evt.EVT_C_STORE, handler(incoming, counter))]
+    if context is not None:
+        context.limits, context.settings = limits, settings
+    handlers = [
+        (pynetdicom.evt.EVT_CONN_OPEN, limits.accept),
+        (pynetdicom.evt.EVT_C_STORE, handler(incoming, counter, limits)),
+    ]
     try:
-        server = made.start_server(
+        made.start_server(
             (address, settings.own_port), block=False, evt_handlers=handlers, ssl_context=context
         )
     except OSError as error:
@@ -154,7 +68,8 @@ def receiving(settings: PacsSettings, incoming: Incoming, counter: Any) -> Itera
     try:
         yield
     finally:
-        server.shutdown()
+        limits.end()
+        made.shutdown()  # whoever is still connected is let go
 
 
 _LOOK_S = 0.2
@@ -171,8 +86,10 @@ def network() -> Any:
     except ImportError as error:
         what = "pynetdicom, which talks to a PACS,"
         raise not_installed(ConfigurationError, what, "pacs") from error
-    from pynetdicom import _config
+    from pynetdicom import _config, dimse_messages
 
+    _config.STORE_RECV_CHUNKED_DATASET = True  # pictures to the disk, not to memory
+    spool_to_own_folder(dimse_messages)
     _config.LOG_HANDLER_LEVEL = "none"
     _config.LOG_REQUEST_IDENTIFIERS = _config.LOG_RESPONSE_IDENTIFIERS = False
     log = logging.getLogger("pynetdicom")
@@ -196,6 +113,7 @@ def association(
     progress: Progress,
     roles: Sequence[Any] = (),
     handlers: Sequence[Any] = (),
+    limits: RequestLimits | None = None,
 ) -> Iterator[Any]:
     """Open an association; released afterwards, or aborted after an error or a cancel.
 
@@ -205,13 +123,16 @@ def association(
         progress: looked at five times a second; a cancel aborts at once.
         roles: role selections, for C-GET.
         handlers: pynetdicom's event handlers.
+        limits: of the request; of this connection alone if left out.
 
     Raises:
         PacsUnreachableError: no connection, or it was lost.
+        PacsDataError: it sent too much, or too slowly.
         PacsRefusedError: it does not accept this program.
         ConfigurationError: a file of the encryption cannot be used.
         Cancelled: if `progress` was cancelled.
     """
+    limits = limits or RequestLimits(settings, progress)
     made = entity(settings)
     for abstract, transfer in contexts:
         made.add_requested_context(abstract, list(transfer) or None)
@@ -225,22 +146,22 @@ def association(
         settings.port,
         ae_title=settings.title,
         ext_neg=list(roles),
-        evt_handlers=[*handlers, opened],
+        evt_handlers=[*handlers, opened, (network().evt.EVT_CONN_OPEN, limits.bind)],
         tls_args=None if context is None else (context, settings.host),
     )
-    with _closed(own), _watched(linked, progress) as cancelled:
+    with _closed(own), _watched(linked, progress, limits) as cancelled:
         if not linked.is_established:
-            raise _refused(settings, linked)
+            raise _too_much(settings, limits) or _refused(settings, linked)
         try:
             yield linked
             if cancelled.is_set():
                 raise Cancelled("cancelled")
-        except Exception:
+        except Exception as error:
             if linked.is_established:
                 linked.abort()
             if cancelled.is_set():
                 raise Cancelled("cancelled") from None
-            raise
+            raise _too_much(settings, limits) or error from None
         if linked.is_established:
             linked.release()
 
@@ -255,17 +176,24 @@ def _closed(sockets: list[socket.socket]) -> Iterator[None]:
             one.close()
 
 
+def _too_much(settings: PacsSettings, limits: RequestLimits) -> PacsDataError | None:
+    if not limits.problem:
+        return None
+    return PacsDataError(f"{settings.name}: {limits.problem}; nothing was taken into the library")
+
+
 @contextmanager
-def _watched(linked: Any, progress: Progress) -> Iterator[threading.Event]:
-    """Abort the association as soon as the user cancels, even while the PACS is silent."""
+def _watched(linked: Any, progress: Progress, limits: RequestLimits) -> Iterator[threading.Event]:
+    """Abort the association as soon as the user cancels or it is too much, even in silence."""
     over, cancelled = threading.Event(), threading.Event()
 
     def watch() -> None:
         while not over.wait(_LOOK_S):
-            try:
-                progress.check()
-            except Cancelled:
-                cancelled.set()
+            if limits.over():
+                try:
+                    progress.check()
+                except Cancelled:
+                    cancelled.set()
                 linked.abort()
                 linked.dimse.msg_queue.put((None, None))  # wakes whoever waits for an answer
                 return

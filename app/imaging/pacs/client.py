@@ -2,14 +2,22 @@
 
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
+from contextlib import closing, suppress
 from typing import Any
 
 from app.core.progress import Cancelled, Progress
 from app.imaging.pacs import statuses
 from app.imaging.pacs.association import association, lost, network, receiving, require
 from app.imaging.pacs.errors import PacsDataError, PacsError
-from app.imaging.pacs.incoming import COMPRESSED, PLAIN, STORAGE_CLASSES, Incoming, handler
+from app.imaging.pacs.incoming import (
+    COMPRESSED,
+    MOST_PICTURES,
+    PLAIN,
+    STORAGE_CLASSES,
+    Incoming,
+    handler,
+)
+from app.imaging.pacs.limits import RequestLimits
 from app.imaging.pacs.query import (
     FoundSeries,
     FoundStudy,
@@ -83,14 +91,20 @@ class Pacs:
             found = [found_series(answer, study) for answer in answers]
         return sorted(found, key=lambda series: (len(series.number), series.number))
 
-    def instances(self, study_uid: str, series_uid: str, progress: Progress) -> tuple[str, ...]:
+    def instances(
+        self,
+        study_uid: str,
+        series_uid: str,
+        progress: Progress,
+        limits: RequestLimits | None = None,
+    ) -> tuple[str, ...]:
         """Return the SOPInstanceUIDs of a series; empty where the PACS does not list them.
 
         Raises:
-            PacsDataError: if it has no such series.
+            PacsDataError: if it has no such series, or lists more than any has.
             PacsError: see `association`.
         """
-        with association(self.settings, [(_FIND, ())], progress) as linked:
+        with association(self.settings, [(_FIND, ())], progress, limits=limits) as linked:
             keys = image_keys(study_uid, series_uid)
             answers = self._answers(linked, keys, "listing the pictures")
             found = [str(answer.get("SOPInstanceUID", "")) for answer in answers]
@@ -110,7 +124,19 @@ class Pacs:
                 come stays in `incoming`, and the next call fetches the rest only.
             Cancelled: if `progress` was cancelled; likewise.
         """
-        listed = self.instances(study_uid, series_uid, progress.part(0.0, 0.05))
+        limits = RequestLimits(self.settings, progress, incoming.folder)
+        with closing(limits):
+            self._retrieve(study_uid, series_uid, incoming, progress, limits)
+
+    def _retrieve(
+        self,
+        study_uid: str,
+        series_uid: str,
+        incoming: Incoming,
+        progress: Progress,
+        limits: RequestLimits,
+    ) -> None:
+        listed = self.instances(study_uid, series_uid, progress.part(0.0, 0.05), limits)
         incoming.expect(listed)
         missing = tuple(uid for uid in listed if not incoming.has(uid))
         if listed and not missing:
@@ -118,26 +144,33 @@ class Pacs:
         part = () if len(missing) == len(listed) else missing
         counter = _Counter(progress.part(0.05, 1.0), len(listed), incoming)
         keys = wanted_keys(study_uid, series_uid, part)
-        failed = self._move(keys, counter) if self._moves() else self._get(keys, counter)
-        self._check(listed, incoming, failed)
+        fetch = self._move if self._moves() else self._get
+        try:
+            failed = fetch(keys, counter, limits)
+        except PacsError:
+            self._require_right(incoming)  # what was wrong says more than that it was ended
+            raise
+        self._check(listed, incoming, failed, tuple(limits.strangers))
 
     def _moves(self) -> bool:
         return self.settings.retrieve == "move"
 
-    def _get(self, keys: Any, counter: "_Counter") -> int:
+    def _get(self, keys: Any, counter: "_Counter", limits: RequestLimits) -> int:
         pynetdicom = network()
         contexts: list[tuple[str, Sequence[str]]] = [(_GET, ())]
         contexts += [(kind, PLAIN) for kind in STORAGE_CLASSES]
         contexts += [(kind, (one,)) for kind in STORAGE_CLASSES[:1] for one in COMPRESSED]
         roles = [pynetdicom.build_role(kind, scp_role=True) for kind in STORAGE_CLASSES]
-        handlers = [(pynetdicom.evt.EVT_C_STORE, handler(counter.incoming, counter))]
-        with association(self.settings, contexts, counter.progress, roles, handlers) as linked:
+        handlers = [(pynetdicom.evt.EVT_C_STORE, handler(counter.incoming, counter, limits))]
+        asked = (self.settings, contexts, counter.progress, roles, handlers, limits)
+        with association(*asked) as linked:
             return self._follow(linked.send_c_get(keys, _GET), linked, counter)
 
-    def _move(self, keys: Any, counter: "_Counter") -> int:
+    def _move(self, keys: Any, counter: "_Counter", limits: RequestLimits) -> int:
+        asked = (self.settings, [(_MOVE, ())], counter.progress)
         with (
-            receiving(self.settings, counter.incoming, counter),
-            association(self.settings, [(_MOVE, ())], counter.progress) as linked,
+            receiving(self.settings, counter.incoming, counter, limits),
+            association(*asked, limits=limits) as linked,
         ):
             own = self.settings.own_title
             return self._follow(linked.send_c_move(keys, own, _MOVE), linked, counter)
@@ -152,26 +185,42 @@ class Pacs:
                 return int(status.get("NumberOfFailedSuboperations", 0) or 0)
         raise lost(self.settings, "sending the pictures")
 
-    def _check(self, listed: tuple[str, ...], incoming: Incoming, failed: int) -> None:
-        name = self.settings.name
+    def _require_right(self, incoming: Incoming) -> None:
         if incoming.problems:
             raise PacsDataError(
-                f"{name}: {incoming.problems[0]} ({len(incoming.problems)} times); nothing was "
-                "taken into the library"
+                f"{self.settings.name}: {incoming.problems[0]}; nothing was taken into the library"
+            ) from None
+
+    def _check(
+        self, listed: tuple[str, ...], incoming: Incoming, failed: int, strangers: tuple[str, ...]
+    ) -> None:
+        name = self.settings.name
+        self._require_right(incoming)
+        refused = ""
+        if strangers:
+            refused = (
+                f"; a connection from {', '.join(strangers)} was refused: pictures are taken from "
+                f"{self.settings.host} only; list it under senders if it is the archive's"
             )
         missing = sum(not incoming.has(uid) for uid in listed)
         if missing or failed:
             raise PacsDataError(
                 f"{name} did not send {max(missing, failed)} of {len(listed) or 'the'} pictures; "
-                "repeat the retrieval: only those are fetched"
+                f"repeat the retrieval: only those are fetched{refused}"
             )
         if incoming.count() == 0:
-            raise PacsDataError(f"{name} sent nothing")
+            raise PacsDataError(f"{name} sent nothing{refused}")
 
     def _answers(self, linked: Any, keys: Any, doing: str) -> Iterator[Any]:
+        given = 0
         for status, answer in linked.send_c_find(keys, _FIND):
             code = require(linked, status, self.settings, doing)
             if code in statuses.PENDING and answer is not None:
+                given += 1
+                if given > MOST_PICTURES:
+                    raise PacsDataError(
+                        f"{self.settings.name} gave more than {MOST_PICTURES} answers while {doing}"
+                    )
                 yield answer
 
 

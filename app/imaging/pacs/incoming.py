@@ -4,6 +4,7 @@ They still carry the patient's data, so their folder is readable by its owner on
 digest, and is deleted as soon as the series is in the library, or after a day.
 """
 
+import filecmp
 import os
 import shutil
 import threading
@@ -18,6 +19,7 @@ from app.core import paths
 from app.core.files import sync
 from app.core.progress import Progress
 from app.imaging.errors import FileDamagedError, WorkerError
+from app.imaging.pacs.limits import LARGEST_PICTURE, SPARE_BYTES, SPOOLED, RequestLimits
 from app.imaging.pacs.settings import PacsSettings
 from app.imaging.privacy.key import derived, installation_key
 from app.imaging.worker.jobs import IDENTIFY, Identity
@@ -65,10 +67,8 @@ COMPRESSED = (
     "1.2.840.10008.1.2.2",
 )
 _KEPT_S = 24 * 3600.0
-_LARGEST = 2 * 1024**3
-_SPARE_BYTES = 256 * 1024**2
-_MOST = 20_000
-"""Pictures of one series that the PACS has not listed; no scanner makes more."""
+MOST_PICTURES = 20_000
+"""Pictures of one series; no scanner makes more."""
 
 
 class Incoming:
@@ -88,6 +88,7 @@ class Incoming:
         self._patient: str | None = None  # of the first picture; the others must be of the same
         self.folder = _root() / name
         self._key, self._lock = key, threading.Lock()
+        self._again = 0
         self.problems: list[str] = []
 
     def open(self) -> "Incoming":
@@ -95,6 +96,8 @@ class Incoming:
         sweep()
         self.folder.mkdir(parents=True, exist_ok=True, mode=0o700)
         os.utime(self.folder)
+        for path in self.folder.glob(f"*{SPOOLED}"):  # of a program that was killed
+            path.unlink(missing_ok=True)
         for path in sorted(self.folder.glob("*.dcm"))[:1]:
             self._patient = self._said(path)[4]
         return self
@@ -111,18 +114,25 @@ class Incoming:
         """How many instances have come."""
         return sum(1 for _ in self.folder.glob("*.dcm"))
 
-    def take(self, sop_class: str, sop_uid: str, encoded: bytes) -> int:
+    def take(self, sop_class: str, sop_uid: str, file: Path) -> int:
         """Check one file and keep it; returns the status to answer with.
+
+        What was not asked for is refused before it is looked at. After a problem nothing more is
+        taken; a picture that has come already stays as it is.
 
         Args:
             sop_class: as the request names it.
             sop_uid: as the request names it.
-            encoded: the whole file.
+            file: the whole file, in any folder of the same disk; it is moved, or left there.
         """
         with self._lock:
-            status, problem = self._room(sop_class, len(encoded))
-            if not problem:
-                status, problem = self._kept(sop_class, sop_uid, encoded)
+            if self.problems:
+                return NOT_UNDERSTOOD
+            status, problem = self._room(sop_class, sop_uid, file)
+            if not problem and self.has(sop_uid):
+                status, problem = self._repeated(sop_uid, file)
+            elif not problem:
+                status, problem = self._kept(sop_class, sop_uid, file)
             if problem:
                 self.problems.append(problem)
         return status
@@ -131,31 +141,38 @@ class Incoming:
         """Delete everything that has come; idempotent."""
         shutil.rmtree(self.folder, ignore_errors=True)
 
-    def _room(self, sop_class: str, size: int) -> tuple[int, str]:
+    def _room(self, sop_class: str, sop_uid: str, file: Path) -> tuple[int, str]:
         if sop_class not in STORAGE_CLASSES:
             return WRONG_CLASS, "it sent an object that is no CT or MR picture"
-        if size > _LARGEST:
-            return NO_ROOM, f"it sent a file of more than {_LARGEST // 1024**3} GB"
-        if shutil.disk_usage(self.folder).free < size + _SPARE_BYTES:
+        if self._listed and sop_uid not in self._listed:
+            return WRONG_CLASS, "it sent a picture that it had not listed"
+        if not self._listed and self.count() >= MOST_PICTURES:
+            return WRONG_CLASS, f"it sent more than {MOST_PICTURES} pictures"
+        if size_of(file) > LARGEST_PICTURE:
+            return NO_ROOM, f"it sent a file of more than {LARGEST_PICTURE // 1024**3} GB"
+        if shutil.disk_usage(self.folder).free < SPARE_BYTES:
             return NO_ROOM, "the disk is full"
         return ACCEPTED, ""
 
-    def _kept(self, sop_class: str, sop_uid: str, encoded: bytes) -> tuple[int, str]:
-        """Write a file beside its place, have it looked at, and put it there if it is right."""
-        path = self._path(sop_uid)
-        beside = path.with_suffix(".part")
+    def _repeated(self, sop_uid: str, file: Path) -> tuple[int, str]:
+        """Leave what has come as it is; the same once more is no harm, another one is."""
+        self._again += 1
+        if not filecmp.cmp(file, self._path(sop_uid), shallow=False):
+            return WRONG_CLASS, "it sent two different pictures under one name"
+        if self._again > max(len(self._listed), self.count()):
+            return WRONG_CLASS, "it sent the same pictures again and again"
+        return ACCEPTED, ""
+
+    def _kept(self, sop_class: str, sop_uid: str, file: Path) -> tuple[int, str]:
+        """Have a file looked at, and move it to its place if it is right."""
         try:
-            with open(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600), "wb") as file:
-                file.write(encoded)
-            status, problem = self._judged(beside, sop_class, sop_uid)
+            status, problem = self._judged(file, sop_class, sop_uid)
             if not problem:
-                sync(beside)
-                os.replace(beside, path)
+                sync(file)
+                os.replace(file, self._path(sop_uid))
             return status, problem
         except OSError as error:
             return NO_ROOM, f"a picture cannot be kept: {error.strerror or 'disk error'}"
-        finally:
-            beside.unlink(missing_ok=True)
 
     def _judged(self, path: Path, sop_class: str, sop_uid: str) -> tuple[int, str]:
         try:
@@ -181,10 +198,6 @@ class Incoming:
             return "it sent a picture of another study"
         if self._patient not in (None, said[4]):
             return "it sent pictures of several patients"
-        if self._listed and sop_uid not in self._listed:
-            return "it sent a picture that it had not listed"
-        if not self._listed and self.count() >= _MOST:
-            return f"it sent more than {_MOST} pictures"
         self._patient = said[4]
         return ""
 
@@ -201,16 +214,20 @@ def sweep(now: float | None = None) -> int:
     return len(old)
 
 
-def handler(incoming: Incoming, progress: Any) -> Any:
-    """Return pynetdicom's handler of a C-STORE request."""
+def handler(incoming: Incoming, progress: Any, limits: RequestLimits) -> Any:
+    """Return pynetdicom's handler of a C-STORE request; the first problem ends the request."""
 
     def store(event: Any) -> int:
         request = event.request
-        status = incoming.take(
-            str(request.AffectedSOPClassUID),
-            str(request.AffectedSOPInstanceUID),
-            event.encoded_dataset(),
-        )
+        file = Path(event.dataset_path)
+        try:
+            status = incoming.take(
+                str(request.AffectedSOPClassUID), str(request.AffectedSOPInstanceUID), file
+            )
+        finally:
+            file.unlink(missing_ok=True)
+        if incoming.problems:
+            limits.fail(incoming.problems[0])
         progress.arrived()
         return status
 

@@ -1,7 +1,7 @@
 """Which PACS there are: `pacs.yaml` in the settings folder."""
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import yaml
 from pydantic import Field
@@ -12,6 +12,7 @@ from app.core.errors import ConfigurationError
 from app.core.files import write_atomically
 
 Port = Annotated[int, Field(ge=1, le=65535)]
+Host = Annotated[str, Field(min_length=1, max_length=253)]
 Title = Annotated[str, Field(pattern=r"^[A-Za-z0-9_. -]{1,16}$")]
 
 
@@ -43,18 +44,21 @@ class PacsSettings(Strict):
         own_host: address on which C-MOVE's pictures are received; where empty, the one of this
             computer that the way to the PACS leads out of.
         own_port: port of the same.
-        timeout_s: longest silence that is borne [s].
+        senders: names or addresses beside `host` that C-MOVE's pictures may come from.
+        timeout_s: longest silence that is borne [s]; a request as a whole may take four of them,
+            and more for what comes.
         retrieve: `get` over the same connection, or `move` to `own_port`.
         tls: encryption; none where absent.
     """
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]{1,32}$")]
-    host: Annotated[str, Field(min_length=1, max_length=253)]
+    host: Host
     port: Port
     title: Title
     own_title: Title = "ACUS"
     own_host: Annotated[str, Field(max_length=253)] = ""
     own_port: Port = 11112
+    senders: Annotated[tuple[Host, ...], Field(max_length=32)] = ()
     timeout_s: Annotated[float, Field(gt=0.0, le=600.0)] = 30.0
     retrieve: Literal["get", "move"] = "get"
     tls: TlsSettings | None = None
@@ -104,5 +108,11 @@ def chosen(name: str | None) -> PacsSettings:
 
 def keep(servers: tuple[PacsSettings, ...]) -> None:
     """Write the configuration."""
-    document = {"servers": [server.model_dump(exclude_none=True) for server in servers]}
+    document = {"servers": [_written(server) for server in servers]}
     write_atomically(pacs_path(), yaml.safe_dump(document, sort_keys=False))
+
+
+def _written(server: PacsSettings) -> dict[str, Any]:
+    """Return the settings as plain values; an empty list is left out."""
+    found = server.model_dump(mode="json", exclude_none=True)
+    return {name: value for name, value in found.items() if value != []}

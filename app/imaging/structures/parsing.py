@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from app.core.progress import Progress
+from app.imaging.elements import FURTHEST_MM
 from app.imaging.errors import brief
 from app.imaging.header_reading import starts_like_dicom
 from app.imaging.privacy.key import installation_key
@@ -80,6 +81,8 @@ def _affine(image: Any, path: Path) -> Any:
     affine = np.array(sform if s_code else qform, np.float64)
     affine[:3] *= unit
     affine[:2] *= -1.0  # RAS -> LPS
+    if (np.abs(affine) > FURTHEST_MM).any():
+        raise StructureFileError(f"{path.name} lies further away than {FURTHEST_MM:g} mm")
     if not np.isfinite(affine).all() or abs(np.linalg.det(affine[:3, :3])) < 1e-9:
         raise StructureFileError(f"{path.name}: its axes span no volume")
     return affine

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.imaging.elements import FURTHEST_MM
 from app.imaging.errors import brief
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.placing import Found, Labelled
@@ -23,9 +24,6 @@ from app.imaging.volume import Volume
 
 CLOSED, CLOSED_XOR = "CLOSED_PLANAR", "CLOSEDPLANAR_XOR"
 OPEN = ("POINT", "OPEN_PLANAR", "OPEN_NONPLANAR")
-
-FURTHEST_MM = 1e5
-"""Coordinates beyond are no places in a patient."""
 
 _LEAST_AREA_MM2 = 1e-4
 _KINDS = {

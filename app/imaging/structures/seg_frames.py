@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.imaging.elements import FURTHEST_MM
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.structure import Mask
 from app.imaging.volume import Volume
@@ -113,7 +114,7 @@ def _frame(index: int, groups: Sequence[Any], numbers: set[int], labels: bool) -
     row, column = (float(v) for v in measures.PixelSpacing)
     lengths = np.linalg.norm(turn, axis=0)
     if position.shape != (3,) or not (
-        np.isfinite(position).all()
+        np.abs(position).max() < FURTHEST_MM  # NaN is not
         and np.abs(lengths - 1.0).max() < 0.01
         and abs(float(turn[:, 0] @ turn[:, 1])) < 0.01
         and 0.0 < min(row, column) < max(row, column) + 1.0 < 1e4

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.imaging.elements import FURTHEST_MM
 from app.imaging.errors import brief
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.extras import extra
@@ -96,6 +97,8 @@ def _geometry(header: Any, values: NDArray[Any], path: Path) -> tuple[FloatArray
     affine = np.eye(4)
     affine[:3, :3] = (directions[spatial] * signs).T
     affine[:3, 3] = origin * signs
+    if np.abs(affine).max() > FURTHEST_MM:
+        raise StructureFileError(f"{path.name} lies further away than {FURTHEST_MM:g} mm")
     if abs(np.linalg.det(affine[:3, :3])) < 1e-9:
         raise StructureFileError(f"{path.name}: its axes span no volume")
     return affine, values.transpose(0, 3, 2, 1)

@@ -75,7 +75,8 @@ def lost(reason: str) -> WorkerLostError:
     Args:
         reason: what the child did, as in "was ended by SIGSEGV".
     """
-    return WorkerLostError(f"damaged or hostile file: the process that read it {reason}")
+    text = f"damaged or hostile file: the process that read it {reason}"
+    return WorkerLostError(text, reason)
 
 
 def _error(word: str, name: Any, text: Any) -> Exception:

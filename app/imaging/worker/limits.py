@@ -48,15 +48,17 @@ class Allowance:
         seconds: of processor time: a file is judged by what it makes the machine do, not by what
             else the machine has to do.
         bytes: of memory, beside what the child has anyway.
+        clock: what may pass on the clock meanwhile [s]; 0 for what `seconds` make of it.
     """
 
     seconds: float
     bytes: int = MEMORY_BYTES
+    clock: float = 0.0
 
     @property
     def clock_seconds(self) -> float:
         """What may pass on the clock meanwhile."""
-        return max(LEAST_CLOCK_SECONDS, CLOCK_FACTOR * self.seconds)
+        return self.clock or max(LEAST_CLOCK_SECONDS, CLOCK_FACTOR * self.seconds)
 
 
 def for_file(size: int, pixels: int = 0, least: float = FILE_SECONDS) -> Allowance:

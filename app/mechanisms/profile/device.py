@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from importlib import import_module
 from math import radians
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING, Any, Final
 
 from pydantic import model_validator
@@ -15,6 +16,7 @@ from app.core import paths
 from app.core.arrays import FloatArray, frozen
 from app.core.configuration import Strict, parse, parse_yaml, read_text
 from app.core.errors import ConfigurationError
+from app.core.plugin_trial import import_fault
 from app.mechanisms.profile.control import (
     DEFAULT_VELOCITY,
     LET_GO_UNSTATED,
@@ -87,9 +89,12 @@ class DeviceProfile(Strict):
 
     @property
     def machine(self) -> RemoteCentre:
-        """What the robot is, to be asked about poses, forces and stages; loads compiled code."""
-        module = import_module(f"{mechanisms.__name__}.{self.kind}.machine")
-        found: RemoteCentre = module.machine(self)
+        """What the robot is, to be asked about poses, forces and stages; loads compiled code.
+
+        Raises:
+            ConfigurationError: if a file of the user's own cannot be used; names it.
+        """
+        found: RemoteCentre = _part(self.kind, "machine", f"device {self.name}").machine(self)
         return found
 
     @property
@@ -231,12 +236,44 @@ def profile_class(kind: object, origin: str) -> type[DeviceProfile]:
             f"{origin}: kind: there is no machine of kind {kind!r}; valid kinds:"
             f" {', '.join(kinds())}"
         )
-    try:
-        module = import_module(f"{mechanisms.__name__}.{kind}.profile")
-        found: type[DeviceProfile] = module.PROFILE
-    except Exception as error:  # whatever somebody's file does
-        raise ConfigurationError(f"{origin}: machine {kind!r} cannot be used: {error}") from error
+    module = _part(str(kind), "profile", origin)
+    found: type[DeviceProfile] | None = getattr(module, "PROFILE", None)
+    if found is None:
+        raise ConfigurationError(f"{origin}: machine {kind!r}: {module.__file__} has no PROFILE")
     return found
+
+
+def _part(kind: str, name: str, origin: str) -> ModuleType:
+    """Import a file of a machine; one of the user's own only where that was seen to go well."""
+    fault, reason = machine_fault(kind, name), None
+    if not fault:
+        try:
+            return import_module(f"{mechanisms.__name__}.{kind}.{name}")
+        except KeyboardInterrupt:
+            raise
+        except BaseException as error:  # whatever somebody's file does
+            if (_OWN / kind).is_dir():
+                raise
+            fault, reason = str(error) or type(error).__name__, error
+    raise ConfigurationError(f"{origin}: machine {kind!r} cannot be used: {fault}") from reason
+
+
+def machine_fault(kind: str, name: str) -> str:
+    """Say why a file of a machine of the user's own cannot be imported; else nothing.
+
+    Args:
+        kind: folder of the machine.
+        name: `profile` or `machine`.
+    """
+    folder = paths.plugins("mechanisms")
+    path = folder / kind / f"{name}.py"
+    if (_OWN / kind).is_dir() or not path.is_file():
+        return ""
+    fault = import_fault(path, mechanisms.__name__, folder)
+    return f"{path}: {fault}" if fault else ""
+
+
+_OWN: Final = Path(mechanisms.__file__ or "").parent
 
 
 def parse_profile(document: Any, origin: str, text: str = "") -> DeviceProfile:

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray, frozen
 from app.core.configuration import read_yaml
+from app.core.files import read_at_most
 from app.core.units import MILLIMETRE
 from app.imaging.errors import BeadError, OutsideImageError
 from app.imaging.volume import Volume
@@ -207,7 +208,7 @@ _Row = tuple[str, list[float], float]
 
 def _from_csv(path: Path) -> list[_Row]:
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        text = read_at_most(path).decode("utf-8-sig")
     except OSError as error:
         raise RegistrationError(f"cannot read {path}: {error.strerror or error}") from error
     except UnicodeDecodeError as error:

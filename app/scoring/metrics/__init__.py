@@ -1,7 +1,8 @@
 """Metrics, one file each. See 'How to add a metric' in docs/extending.md.
 
-They are listed and read as text (`core.plugins`); a metric is imported when it is computed. One of
-the user's own that is broken breaks no score: it has no value, and says why.
+They are listed and read as text (`core.plugins`); a metric is imported when it is computed, one of
+somebody else's in a process of its own (`scoring.foreign`). Whatever such a file does breaks no
+score: it has no value, and says why.
 
 In the form before, a metric said NAME, LABEL, UNIT, HIGHER_IS_BETTER and READS in constants of
 their own. Such files are still read.
@@ -11,11 +12,11 @@ from __future__ import annotations
 
 import ast
 from dataclasses import dataclass
+from glob import escape
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from app.core import paths
 from app.core.plugins import (
     FLAG,
     SLOTS,
@@ -25,7 +26,13 @@ from app.core.plugins import (
     PluginText,
     read_statements,
 )
-from app.scoring.errors import MetricError, MetricUnavailableError, UnknownMetricError
+from app.scoring.errors import (
+    MetricError,
+    MetricNotAskedError,
+    MetricUnavailableError,
+    UnknownMetricError,
+)
+from app.scoring.foreign import MetricOutcome, measured
 
 if TYPE_CHECKING:
     from app.scoring.trajectory import Trajectory
@@ -53,26 +60,41 @@ class Metric(Declaration):
         """What is measured, in words: the text at the top of its file."""
         return ast.get_docstring(ast.Module(read_statements(self.path), [])) or ""
 
+    @property
+    def is_own(self) -> bool:
+        """Whether it is one of the program's own."""
+        return KIND.is_own(self.path)
+
+    def measured(self, trajectory: Trajectory) -> MetricOutcome:
+        """Return its value of an attempt and how far that is known, or why there is none.
+
+        Raises:
+            Exception: if one of the program's own files fails; none of somebody else's does.
+        """
+        if self.fault:
+            return MetricOutcome(None, None, self.fault)
+        if not self.is_own:
+            return measured(self.path, trajectory)
+        try:
+            value = float(KIND.load(self).compute(trajectory))
+        except MetricUnavailableError as error:
+            return MetricOutcome(None, None, str(error), not isinstance(error, MetricNotAskedError))
+        if not isfinite(value):
+            return MetricOutcome(None, None, "the value is too large to be written as a number")
+        return MetricOutcome(value, self.deviation(trajectory), "")
+
     def compute(self, trajectory: Trajectory) -> float:
         """Return the value of an attempt; never NaN.
 
         Raises:
-            MetricUnavailableError: if the attempt does not allow it, or a file of the user's own
+            MetricUnavailableError: if the attempt does not allow it, or a file of somebody else's
                 cannot be used or fails; says why.
             MetricError: if one of the program's own files cannot be used.
         """
-        if self.fault:
-            raise MetricUnavailableError(self.fault)
-        try:
-            return float(KIND.load(self).compute(trajectory))
-        except MetricUnavailableError:
-            raise
-        except Exception as error:  # whatever somebody's file does: the other metrics stand
-            if KIND.is_own(self.path):
-                raise
-            raise MetricUnavailableError(
-                f"{self.path}: compute() fails: {type(error).__name__}: {error}"
-            ) from error
+        found = self.measured(trajectory)
+        if found.value is None:
+            raise (MetricUnavailableError if found.asked else MetricNotAskedError)(found.note)
+        return found.value
 
     def deviation(self, trajectory: Trajectory) -> float | None:
         """Return the standard deviation of `compute`, in the same unit; None if it is not known.
@@ -82,16 +104,14 @@ class Metric(Declaration):
         Raises:
             Exception: if one of the program's own files fails.
         """
-        own = None if self.fault else getattr(KIND.load(self), "deviation", None)
+        if self.fault or not self.is_own:
+            return self.measured(trajectory).sd
+        own = getattr(KIND.load(self), "deviation", None)
         if own is None:
             return None
         try:
             sd = float(own(trajectory))
         except MetricUnavailableError:
-            return None
-        except Exception:  # whatever somebody's file does: the value stands
-            if KIND.is_own(self.path):
-                raise
             return None
         return sd if isfinite(sd) and sd >= 0.0 else None
 
@@ -99,17 +119,17 @@ class Metric(Declaration):
 def available() -> dict[str, Metric]:
     """Every metric by name: the program's own, appended folders', then the user's.
 
+    Somebody else's file that takes a name of the program's own is none; one that cannot be used is
+    listed with its fault.
+
     Raises:
-        MetricError: if a file that is not the user's is no metric, or two files have one name;
-            names the file and what it lacks.
+        MetricError: if one of the program's own files is no metric.
     """
     found: dict[str, list[Path]] = {}
     for path in KIND.files():  # the folders are looked through once, not once for each metric
-        found.setdefault(path.stem, []).append(path)
-    return {
-        name: _readable(files[0] if len(files) == 1 else KIND.file(name))
-        for name, files in sorted(found.items())
-    }
+        if not KIND.taken(path):
+            found.setdefault(path.stem, []).append(path)
+    return {name: _readable(files) for name, files in sorted(found.items())}
 
 
 def find(name: str) -> Metric:
@@ -117,18 +137,20 @@ def find(name: str) -> Metric:
 
     Raises:
         UnknownMetricError: listing the metrics that exist.
-        MetricError: as `available`.
+        MetricError: if one of the program's own files is no metric.
     """
-    if name not in (names := KIND.names()):
-        raise UnknownMetricError(f"no metric {name!r}; there are {', '.join(names)}")
-    return _readable(KIND.file(name))
+    files = KIND.files(escape(name)) if Path(name).name == name else []
+    if not (usable := [path for path in files if not KIND.taken(path)]):
+        raise UnknownMetricError(f"no metric {name!r}; there are {', '.join(KIND.names())}")
+    return _readable(usable)
 
 
-def _readable(path: Path) -> Metric:
+def _readable(files: list[Path]) -> Metric:
+    path = files[0]
     try:
-        return KIND.read(path)
+        return KIND.read(path) if len(files) == 1 else KIND.find(path.stem)
     except MetricError as error:
-        if path.parent != paths.plugins("metrics"):
+        if KIND.is_own(path):
             raise
         return Metric(
             name=path.stem,

@@ -9,6 +9,7 @@ the array, and (unit, least, most, meaning) in the declaration. Such files are s
 
 import ast
 from collections.abc import Mapping
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
@@ -82,6 +83,8 @@ class Effect(StageDeclaration):
         return asked or next(iter(self.models))
 
 
+_PARAMETERS = "parameters() does not work"
+
 PICTURES: Final = "pictures"
 """What an effect on pictures gives, and who measures in them reads; no slot of the state."""
 
@@ -123,10 +126,12 @@ def array_of(declared: Effect, values: Mapping[str, float], binding: Binding) ->
         model = list(declared.models).index(declared.model(binding.model))
         return np.array([model, *(values[key] for key in declared.parameters)], dtype=float)
     module = load(declared)
-    if hasattr(module, "parameters"):
-        array: FloatArray = module.parameters(values, binding)
-    else:
-        array = getattr(module, _class_name(name))(**values).parameters(binding)
+    own = nullcontext() if KIND.is_own(declared.path) else KIND.blamed(declared.path, _PARAMETERS)
+    with own:
+        if hasattr(module, "parameters"):
+            array: FloatArray = module.parameters(values, binding)
+        else:
+            array = getattr(module, _class_name(name))(**values).parameters(binding)
     if (needed := _needed(declared)) > len(array):
         raise SimulationError(
             f"effect {name}: step() uses {needed} parameters, parameters() gives {len(array)}"

@@ -71,20 +71,22 @@ def extractors(
     Raises:
         TrackingError: for an unknown name, listing the known ones, or a file that cannot be used.
     """
-    build = KIND.load(KIND.find(name or rig.extractor)).extractor
-    first, second = (
-        build(
-            ExtractorSetup(
-                model,
-                rig.needle.shape,
-                _areas(model, rig.needle.shape, _distances(rig, model)),
-                rig.noise_grey,
-                rig.blur_px,
-                colour,
+    declared = KIND.find(name or rig.extractor)
+    build = KIND.load(declared).extractor
+    with KIND.blamed(declared.path, "extractor() does not work"):
+        first, second = (
+            build(
+                ExtractorSetup(
+                    model,
+                    rig.needle.shape,
+                    _areas(model, rig.needle.shape, _distances(rig, model)),
+                    rig.noise_grey,
+                    rig.blur_px,
+                    colour,
+                )
             )
+            for model in rig.models
         )
-        for model in rig.models
-    )
     return first, second
 
 

@@ -32,7 +32,7 @@ from app.session.course import (
 from app.session.errors import PeopleError
 from app.session.index import Index, Indexed
 from app.session.people import PEOPLE, People, Person, RosterReport, people_folder
-from app.session.roster import RosterLine, read_roster
+from app.session.roster import RosterLine, roster_in
 from app.views.kit.access import ACCESS, Known
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.menu_entries import add_entries
@@ -335,7 +335,7 @@ class PeopleFeature(Feature):
             return
 
         def read(_: Progress) -> RosterReport:
-            lines, errors = read_roster(path.read_bytes())
+            lines, errors = roster_in(path)
             if errors:
                 return RosterReport(errors=tuple(errors))
             return self._people.take_roster(lines)

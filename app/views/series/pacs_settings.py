@@ -49,9 +49,13 @@ _DEFAULTS: Values = {
     "own_title": "ACUS",
     "own_host": "",
     "own_port": 11112,
+    "senders": (),
     "timeout_s": 30.0,
     "retrieve": "get",
 }
+
+
+_TEXTS = ("name", "host", "title", "own_title", "own_host")
 
 
 class PacsForm(QWidget):
@@ -63,9 +67,8 @@ class PacsForm(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.fields = {
-            name: QLineEdit(self) for name in ("name", "host", "title", "own_title", "own_host")
-        }
+        self.fields = {name: QLineEdit(self) for name in _TEXTS}
+        self.senders = QLineEdit(self)
         self.port, self.own_port = _port(self), _port(self)
         self.timeout, self.retrieve = QDoubleSpinBox(self), QComboBox(self)
         self.timeout.setRange(1.0, 600.0)
@@ -91,6 +94,10 @@ class PacsForm(QWidget):
         values = _DEFAULTS | dict(given)
         for name, field in self.fields.items():
             field.setText(str(values[name]))
+        senders = values["senders"]
+        self.senders.setText(
+            ", ".join(map(str, senders if isinstance(senders, list | tuple) else ()))
+        )
         self.port.setValue(int(str(values["port"])))
         self.own_port.setValue(int(str(values["own_port"])))
         self.timeout.setValue(float(str(values["timeout_s"])))
@@ -109,6 +116,7 @@ class PacsForm(QWidget):
         values |= {
             "port": self.port.value(),
             "own_port": self.own_port.value(),
+            "senders": tuple(self.senders.text().replace(",", " ").split()),
             "timeout_s": self.timeout.value(),
             "retrieve": self.retrieve.currentData(),
         }
@@ -120,6 +128,7 @@ class PacsForm(QWidget):
     def _enable(self) -> None:
         moves = self.retrieve.currentData() == "move"
         self.fields["own_host"].setEnabled(moves)
+        self.senders.setEnabled(moves)
         self.own_port.setEnabled(moves)
         for widget in self._rows:
             widget.setEnabled(self.tls.isChecked())
@@ -138,6 +147,7 @@ class PacsForm(QWidget):
             (tr("Retrieve by"), self.retrieve, ""),
             (tr("Own address"), fields["own_host"], tr("empty: the one that leads to the archive")),
             (tr("Own port"), self.own_port, ""),
+            (tr("Other senders"), self.senders, tr("empty: pictures come from the host alone")),
             (tr("Longest silence"), self.timeout, ""),
         ):
             if isinstance(widget, QLineEdit):

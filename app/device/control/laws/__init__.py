@@ -76,10 +76,8 @@ def files() -> list[Path]:
 def _stage(name: str, given: Mapping[str, float], profile: DeviceProfile) -> Stage:
     law = declaration(name)
     values, module = law.checked(given, profile), _implementation(law)
-    try:
+    with KIND.blamed(law.path, "parameters() does not work"):
         array = np.ascontiguousarray(module.parameters(values, profile), dtype=np.float64)
-    except (TypeError, ValueError, KeyError, IndexError) as error:
-        raise LawError(f"{law.path}: parameters() does not work: {error}") from error
     if (needed := _needed(law)) > array.size or array.ndim != 1:
         raise LawError(
             f"{law.path}: step() uses {needed} parameters, and parameters() gives an array of the"
@@ -90,7 +88,9 @@ def _stage(name: str, given: Mapping[str, float], profile: DeviceProfile) -> Sta
 
 def _bound(name: str, given: Mapping[str, float], profile: DeviceProfile) -> float:
     law = declaration(name)
-    bound = float(_implementation(law).energy_bound(law.checked(given, profile), profile))
+    module, values = _implementation(law), law.checked(given, profile)
+    with KIND.blamed(law.path, "energy_bound() does not work"):
+        bound = float(module.energy_bound(values, profile))
     if not 0.0 <= bound < math.inf:
         raise LawError(f"{law.path}: energy_bound is {bound} J; give a finite number of 0 or more")
     return bound
