@@ -7,6 +7,7 @@ marker. Where either picture shows one such thing, and the two are not one point
 not where they were; where each is what the other camera should see, they are exchanged.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from typing import Final
@@ -28,23 +29,29 @@ Extractors = tuple[Extractor, Extractor]
 
 
 def certain_pair(
-    extractors: Extractors, frames: Pair, candidates: list[list[Found]], axis: FloatArray
+    extractors: Extractors,
+    solver: FixSolver,
+    frames: Pair,
+    candidates: list[list[Found]],
+    axis: FloatArray,
 ) -> tuple[MarkerFix, MarkerFix] | None:
     """Return what can be nothing but the marker, where either picture shows one such thing.
 
     Args:
         extractors: of both cameras.
+        solver: of the rig.
         frames: their pictures.
         candidates: what a search found in either.
         axis: needle's direction by the robot, shape (3,).
     """
-    first = _bands(extractors[0], frames, 0, candidates, axis)
-    second = _bands(extractors[1], frames, 1, candidates, axis)
+    first = _bands(extractors[0], partial(solver.nearest, 0), frames, 0, candidates, axis)
+    second = _bands(extractors[1], partial(solver.nearest, 1), frames, 1, candidates, axis)
     return (first[0], second[0]) if len(first) == len(second) == 1 else None
 
 
 def fits_exchanged(
     extractors: Extractors,
+    solver: FixSolver,
     gate: EpipolarGate,
     frames: Pair,
     candidates: list[list[Found]],
@@ -54,6 +61,7 @@ def fits_exchanged(
 
     Args:
         extractors: see `certain_pair`.
+        solver: likewise.
         gate: of the rig.
         frames: as above.
         candidates: as above.
@@ -62,15 +70,19 @@ def fits_exchanged(
     left, right = frames
     if left is None or right is None or left.image.shape != right.image.shape:
         return False
-    first = _bands(extractors[0], frames, 1, candidates, axis)
-    second = _bands(extractors[1], frames, 0, candidates, axis)
+    first = _bands(extractors[0], partial(solver.nearest, 0), frames, 1, candidates, axis)
+    second = _bands(extractors[1], partial(solver.nearest, 1), frames, 0, candidates, axis)
     if not len(first) == len(second) == 1:
         return False
-    return gate.pairings(first, second, left.time - right.time)[0].agrees
+    if not gate.pairings(first, second, left.time - right.time)[0].agrees:
+        return False
+    fix = solver.solve((SeenMarker.of(first[0]), SeenMarker.of(second[0])), axis, left.time)
+    return fix.status is FixStatus.VALID
 
 
 def _bands(
     extractor: Extractor,
+    nearest: Callable[[FloatArray, FloatArray], FloatArray | None],
     frames: Pair,
     picture: int,
     candidates: list[list[Found]],
@@ -83,7 +95,7 @@ def _bands(
     for one in candidates[picture]:
         if not isinstance(one, MarkerFix):
             continue
-        found = extractor.find(frame.image, Hint(one.uv, None, axis))
+        found = extractor.find(frame.image, Hint(one.uv, nearest(one.uv, axis), axis))
         if not isinstance(found, MarkerFix) or found.centre is not Centre.BAND:
             continue
         if all(np.abs(other.uv - found.uv).max() >= _SAME_PX for other in sure):
@@ -183,6 +195,10 @@ class MarkerFollower:
             pairings = self._pairings(candidates, frames)
         agreeing = [pair for pair in pairings if pair.agrees]
         if agreeing:
+            if axis is not None and not self._allowed(agreeing, axis, time):
+                exchanged = self._as_exchanged(candidates, frames, axis)
+                if exchanged is not None:
+                    return exchanged
             chosen = self._chosen(agreeing, markers, frames, axis, time)
             if any(isinstance(one, MarkerFix) for one in chosen) or self._distance is not None:
                 return chosen
@@ -236,13 +252,26 @@ class MarkerFollower:
         """Look for signs of a camera that was moved, or of left and right exchanged."""
         if self._distance is not None or axis is None:
             return None
-        certain = certain_pair(self._extractors, frames, candidates, axis)
+        certain = certain_pair(self._extractors, self._solver, frames, candidates, axis)
         if certain is not None:
             return list(certain)
-        if not fits_exchanged(self._extractors, self._gate, frames, candidates, axis):
+        return self._as_exchanged(candidates, frames, axis)
+
+    def _as_exchanged(
+        self, candidates: list[list[Found]], frames: Pair, axis: FloatArray
+    ) -> list[Found] | None:
+        """Return two misses if the pictures fit with left and right exchanged."""
+        extractors, solver = self._extractors, self._solver
+        if self._distance is not None or not fits_exchanged(
+            extractors, solver, self._gate, frames, candidates, axis
+        ):
             return None
         self._exchanged = True
         return [Miss(MissReason.EXCHANGED), Miss(MissReason.EXCHANGED)]
+
+    def _allowed(self, agreeing: list[Pairing], axis: FloatArray, time: float) -> bool:
+        """Tell whether the robot's line allows any of the pairings."""
+        return any(self._solved(pair, axis, time).status is FixStatus.VALID for pair in agreeing)
 
     def _pairings(self, candidates: list[list[Found]], frames: Pair) -> list[Pairing]:
         firsts, seconds = (

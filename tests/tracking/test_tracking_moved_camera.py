@@ -69,7 +69,6 @@ def test_cameras_that_are_exchanged_while_they_run_are_named(wide, wide_renderer
     assert "swapped" in fixes[-1].reason
 
 
-@pytest.mark.xfail(reason="the fit of delivered pictures takes the other camera's band too seldom")
 def test_cameras_that_are_exchanged_while_they_run_are_the_cause(wide, wide_renderers, scene_at):
     fixes, said = _run(wide, wide_renderers, scene_at, lambda pictures: pictures[::-1], 5, 66)
     assert fixes[-1].discrepancy.cause is DiscrepancyCause.SWAPPED_CAMERAS
