@@ -16,13 +16,13 @@ from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.exchange.results import Results, ResultsFormat, results_text, write_results
 from app.exercises.schema import Exercise
+from app.session.access import Known
 from app.session.archive import Erased, backup, erase_person, left_out
 from app.session.board import ProgressBoard, board_of
 from app.session.course import (
     Course,
     CourseError,
     CourseStanding,
-    assessed_by,
     course_standings,
     courses,
     not_void,
@@ -33,7 +33,7 @@ from app.session.errors import PeopleError
 from app.session.index import Index, Indexed
 from app.session.people import PEOPLE, People, Person, RosterReport, people_folder
 from app.session.roster import RosterLine, read_roster
-from app.views.kit.access import ACCESS, Known
+from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
@@ -201,16 +201,14 @@ class PeopleFeature(Feature):
 
         def find(_: Progress) -> Known:
             people = self._people
-            given = courses()[0]
-            assessed = {name: held[0].title for name, held in assessed_by(given).items()}
-            known = Known(people.has_instructor(), people.pseudonyms(), people.keys(), {}, assessed)
+            known = Known.of(people)
             if student is None:
                 return known
             index = Index(self._folder)
             index.refresh()
             texts = [text for text, key in known.keys.items() if key == student.key]
             own, today = not_void(index.attempts(texts), people.remarks()), _today()
-            return replace(known, refused=refusals(given, student, own, today, titles))
+            return replace(known, refused=refusals(courses()[0], student, own, today, titles))
 
         self._learning += 1
         asked = self._learning
