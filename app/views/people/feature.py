@@ -37,7 +37,8 @@ from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
-from app.views.kit.text import counted, tr
+from app.views.kit.parts import message_box
+from app.views.kit.text import counted, literal, tr
 from app.views.people.pages import (
     GROUP_PDF,
     STUDENT_PDF,
@@ -379,7 +380,7 @@ class PeopleFeature(Feature):
         words = tr("Attempts that name this text are {name}'s:", name=person.pseudonym)
         dialog = QInputDialog(self._shell.dialog_parent)
         dialog.setWindowTitle(tr("Assign old attempts"))
-        dialog.setLabelText(words)
+        dialog.setLabelText(literal(words))
         dialog.setComboBoxItems(typed)
 
         def take(text: str) -> None:
@@ -396,16 +397,16 @@ class PeopleFeature(Feature):
         person = self.page.students.chosen()
         if person is None:
             return
-        box = QMessageBox(self._shell.dialog_parent)
-        box.setWindowTitle(tr("Erase"))
-        box.setIcon(QMessageBox.Icon.Warning)
-        box.setText(tr("Erase {name} for good?", name=person.pseudonym))
-        box.setInformativeText(
+        box = message_box(
+            self._shell.dialog_parent,
+            tr("Erase"),
+            tr("Erase {name} for good?", name=person.pseudonym),
             tr(
                 "Name, PIN, groups and comments go, and no backup brings them back. The records of "
                 "attempts hold a random key only: they can stay as nobody's, or go too."
-            )
+            ),
         )
+        box.setIcon(QMessageBox.Icon.Warning)
         role = QMessageBox.ButtonRole
         keep = box.addButton(tr("Erase, keep the records"), role.DestructiveRole)
         box.addButton(tr("Erase with all records"), role.DestructiveRole)
@@ -467,13 +468,13 @@ class PeopleFeature(Feature):
         if not self._may():
             return
         ids = list(self._look.waiting.get(course.id, ())) if self._look is not None else []
-        box = QMessageBox(self._shell.dialog_parent)
-        box.setWindowTitle(tr("Release results"))
         many = tr("Release {n} results of {title}?", n=len(ids), title=course.title)
         one = tr("Release 1 result of {title}?", title=course.title)
-        box.setText(counted(len(ids), one, many))
-        box.setInformativeText(
-            tr("Their students see score, replay and your comments then. Each can be held back.")
+        box = message_box(
+            self._shell.dialog_parent,
+            tr("Release results"),
+            counted(len(ids), one, many),
+            tr("Their students see score, replay and your comments then. Each can be held back."),
         )
         release = box.addButton(tr("Release"), QMessageBox.ButtonRole.AcceptRole)
         box.setDefaultButton(box.addButton(QMessageBox.StandardButton.Cancel))

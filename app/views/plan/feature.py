@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from PySide6.QtCore import QSignalBlocker, Qt, Signal, SignalInstance
+from PySide6.QtCore import QSignalBlocker, Signal, SignalInstance
 from PySide6.QtWidgets import (
     QComboBox,
     QDoubleSpinBox,
@@ -27,7 +27,8 @@ from app.views.kit import theme
 from app.views.kit.coordinates import lps_words
 from app.views.kit.menu_entries import add_entries, add_recent
 from app.views.kit.names import NAMES
-from app.views.kit.text import tr
+from app.views.kit.parts import PlainLabel
+from app.views.kit.text import literal, tr
 from app.views.plan.editor import PlanEditor, PlanFiles, Point
 from app.views.shell.feature import Context, Feature
 from app.views.shell.settings import Recents
@@ -94,9 +95,8 @@ class PlanPanel(QWidget):
         self.place_target.setToolTip(tr("Then click inside the patient in any view (key T)"))
         self.orientation = _orientation_box()
         self.turns = tuple(_angle_box(axis) for axis in "xyz")
-        self.verdict = QLabel(self)
+        self.verdict = PlainLabel(self)
         self.verdict.setWordWrap(True)
-        self.verdict.setTextFormat(Qt.TextFormat.PlainText)
         self.remedy = _button(tr("Apply suggested rotation"))
         self._files = tuple(
             _button(text) for text in (tr("New"), tr("Open…"), tr("Save"), tr("Save as…"))
@@ -199,7 +199,7 @@ class PlanPanel(QWidget):
             (theme.TARGET, "◉", tr("Target"), self.target, self.place_target),
         )
         for row, (mark, symbol, name, value, button) in enumerate(rows):
-            head = QLabel(f"{symbol}  {name}")
+            head = PlainLabel(f"{symbol}  {name}")
             head.setStyleSheet(f"color: {theme.now(mark.colour)}; font-weight: 600;")
             grid.addWidget(head, 2 * row, 0)
             grid.addWidget(button, 2 * row, 1)
@@ -251,14 +251,15 @@ def _angle_box(axis: str) -> QDoubleSpinBox:
     box.setSuffix(" °")
     box.setKeyboardTracking(False)
     box.setMinimumSize(70, theme.CONTROL_HEIGHT)
-    box.setToolTip(tr("Free rotation about the robot's {axis} axis (rotation vector)", axis=axis))
+    box.setToolTip(
+        literal(tr("Free rotation about the robot's {axis} axis (rotation vector)", axis=axis))
+    )
     return box
 
 
 def _label(role: str = "") -> QLabel:
-    label = QLabel()
+    label = PlainLabel()
     label.setProperty("role", role)
-    label.setTextFormat(Qt.TextFormat.PlainText)
     return label
 
 
