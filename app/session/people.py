@@ -25,7 +25,7 @@ from uuid import uuid4
 
 from app.core import paths
 from app.core.files import beside, step
-from app.session.database import BUSY_SECONDS, Database
+from app.session.database import BUSY_SECONDS, Database, number, words
 from app.session.errors import PeopleError
 from app.session.journal import Journal, Step, move, removal, settle
 from app.session.roster import RosterLine, checked_pin, judged_lines
@@ -593,12 +593,12 @@ def _failures() -> Table:
 
 @cache
 def _tables() -> MetaData:
-    from sqlalchemy import Boolean, Column, Float, Integer, MetaData, String, Table
+    from sqlalchemy import Boolean, Column, MetaData, Table
 
     known = MetaData()
 
     def text(name: str, **options: Any) -> Column[str]:
-        return Column(name, String, nullable=False, **options)
+        return Column(name, words(), nullable=False, **options)
 
     key = text("key", primary_key=True)
     Table("persons", known, key, text("pseudonym"), text("pin"), text("created"))
@@ -611,8 +611,8 @@ def _tables() -> MetaData:
         "failures",
         known,
         text("account", primary_key=True),
-        Column("wrong", Integer, nullable=False),
-        Column("last", Float, nullable=False),
+        Column("wrong", number(whole=True), nullable=False),
+        Column("last", number(whole=False), nullable=False),
     )
     Table(
         "remarks",

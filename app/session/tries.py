@@ -100,7 +100,7 @@ def matches(known: str, given: str) -> bool:
     nobodys = _nobodys_hash()
     try:
         return PasswordHasher().verify(known or nobodys, given) and bool(known)
-    except (VerificationError, InvalidHashError):
+    except (VerificationError, InvalidHashError, UnicodeError):
         return False
 
 

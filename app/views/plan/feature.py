@@ -72,6 +72,22 @@ def verdict_words(editor: PlanEditor) -> VerdictWords:
     return VerdictWords("bad", text, measures, remedy=True)
 
 
+def left_slice_words(editor: PlanEditor, viewing: Viewing) -> str:
+    """Say how far the entry lies out of the slice in which it was clicked; empty for within it."""
+    moved, pane = editor.from_click_mm, viewing.clicked_pane
+    plane = None if pane is None else viewing.plane(pane)
+    if moved is None or plane is None:
+        return ""
+    out = abs(sum(a * b for a, b in zip(moved, plane.ahead, strict=True)))
+    if out <= max(plane.half_slab_mm, plane.step_mm / 2.0):
+        return ""
+    return tr(
+        "The skin next to your click is {distance:.1f} mm out of the slice you clicked in: the "
+        "entry lies in another one.",
+        distance=out,
+    )
+
+
 class PlanPanel(QWidget):
     """Shows the editor's plan and turns clicks into edits.
 
@@ -89,6 +105,8 @@ class PlanPanel(QWidget):
         self._editor, self._viewing = editor, viewing
         self.title = _label("heading")
         self.entry, self.target, self.length = _label(), _label(), _label("dim")
+        self.left_slice = _label("dim")
+        self.left_slice.setWordWrap(True)
         self.place_entry = _button(tr("Place  E"), checkable=True)
         self.place_target = _button(tr("Place  T"), checkable=True)
         self.place_entry.setToolTip(tr("Then click near the skin in any view (key E)"))
@@ -117,6 +135,8 @@ class PlanPanel(QWidget):
         self.title.setText(f"{name} •" if editor.dirty else name)
         self.title.setToolTip(tr("• unsaved changes") if editor.dirty else "")
         self.entry.setText(_point_text(draft.entry_mm))
+        self.left_slice.setText(left_slice_words(editor, self._viewing))
+        self.left_slice.setVisible(bool(self.left_slice.text()))
         self.target.setText(_point_text(draft.target_mm))
         self._show_placement(placement)
         words = verdict_words(editor)
@@ -185,6 +205,7 @@ class PlanPanel(QWidget):
             files.addWidget(button)
         column.addLayout(files)
         column.addLayout(self._points())
+        column.addWidget(self.left_slice)
         column.addWidget(self.length)
         column.addLayout(self._position())
         column.addWidget(self.verdict)

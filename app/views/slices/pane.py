@@ -310,7 +310,7 @@ class PaneActions:
         viewing = self._pane.viewing
         if viewing.tool is Tool.NAVIGATE:
             return False
-        viewing.point_refused = False
+        viewing.point_refused, viewing.clicked_pane = False, self._pane.pane
         viewing.point_placed.emit(viewing.tool, as_point(viewing.cursor_mm), True)
         if not viewing.point_refused:
             viewing.set_tool(Tool.NAVIGATE)
