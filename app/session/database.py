@@ -254,7 +254,7 @@ class Database:
             yield
         except Refused as error:
             raise self._error(_reason(str(error.orig), self._busy)) from error
-        except (sqlite3.DatabaseError, OSError) as error:
+        except (sqlite3.DatabaseError, UnicodeError, OSError) as error:
             raise self._error(_reason(str(error), self._busy)) from error
 
     def _error(self, why: str) -> DatabaseError:

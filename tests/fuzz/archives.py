@@ -85,7 +85,7 @@ def _outside(file: str) -> Callable[[Path, bytes], None]:
 
 def _exercises(folder: Path) -> Iterator[Made]:
     exercise = load_exercise("first-insertion")
-    folder.mkdir()
+    folder.mkdir(parents=True)
     path = folder / "a.acusx"
     seed = exercise.ct.phantom.seed if exercise.ct.phantom else 1
     pack(path, exercise, load_phantom(seed, Progress()).volume)
