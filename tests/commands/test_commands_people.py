@@ -193,6 +193,7 @@ OPEN_TO_ALL = {
 """Of these nouns, what needs no instructor: `session list` lists what is nobody's."""
 
 
+@pytest.mark.promise("docs/people.md: The window and the command line ask the same answer")
 def test_what_the_window_closes_is_closed_on_the_command_line(acus, tmp_path):
     key = acus("people", "add", "Ada", "--pin", "1843")["key"]
     attempts(key, key)
@@ -237,6 +238,10 @@ def test_what_the_window_closes_is_closed_on_the_command_line(acus, tmp_path):
         assert commands_of(noun) - OPEN_TO_ALL <= closed, noun
 
 
+@pytest.mark.promise(
+    "docs/people.md: it shows records by key, without pseudonyms and names, verifies none, "
+    "and counts none as a student's"
+)
 def test_another_data_folder_opens_records_by_key_without_names_and_verifies_none(
     acus, monkeypatch, tmp_path
 ):

@@ -221,6 +221,7 @@ def test_the_scale_may_be_read_for_as_long_as_it_takes(parts):
     assert report.failure == ""
 
 
+@pytest.mark.promise("docs/hardware.md: Ctrl-C ends at zero torque at any moment")
 @pytest.mark.parametrize(
     "step", [RoutineName.SIGNS, RoutineName.FRICTION, RoutineName.LATENCY, RoutineName.FORCE]
 )
@@ -301,6 +302,7 @@ def test_nothing_can_be_answered_while_nothing_is_asked(parts):
         parts[1].routine(RoutineName.HOMING).answer()
 
 
+@pytest.mark.promise("README.md: no force before homing and sign check")
 @pytest.mark.parametrize(
     "step", [RoutineName.SIGNS, RoutineName.FRICTION, RoutineName.LATENCY, RoutineName.FORCE]
 )

@@ -97,6 +97,10 @@ def compared(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return given
 
 
+@pytest.mark.promise(
+    "docs/people.md: Signing in says the same and takes the same time whether or not there "
+    "is such a student"
+)
 def test_signing_in_tells_nobody_who_is_known_here(
     people: People, wall: Wall, compared: list[str]
 ) -> None:
@@ -132,6 +136,7 @@ def test_strangers_who_try_names_fill_no_list(people: People, monkeypatch) -> No
         assert there.execute("SELECT count(*) FROM failures").fetchone() == (3,)
 
 
+@pytest.mark.promise("docs/people.md: of many wrong ones three")
 def test_of_many_tries_at_one_moment_three_are_compared(
     people: People, compared: list[str]
 ) -> None:
@@ -187,6 +192,7 @@ def test_the_instructor_has_a_password_and_a_recovery_key(people: People, wall: 
     assert StationKey.unwrapped(people.wrapped_key(), recovery) == StationKey.of(people.folder)
 
 
+@pytest.mark.promise("docs/people.md: Passwords and PINs are kept as Argon2id hashes only")
 def test_neither_names_nor_secrets_stand_in_the_list_of_people(people: People) -> None:
     people.add(RosterLine("Ada", "Ada Lovelace", "184318"))
     people.set_instructor("correct horse")
@@ -258,6 +264,7 @@ def test_each_fault_of_a_roster_is_one_line(data: bytes, said: str) -> None:
     assert "\n" not in errors[0]
 
 
+@pytest.mark.promise("docs/people.md: Then nothing is taken, unless `--partly` is given")
 def test_a_roster_with_a_wrong_row_takes_nothing_unless_asked(people: People) -> None:
     lines = [RosterLine("Ada"), RosterLine("../x"), RosterLine("Bob")]
     report = people.take_roster(lines)
@@ -270,6 +277,7 @@ def test_a_roster_of_excel_in_utf_16_is_read() -> None:
     assert (errors, lines) == ([], [RosterLine("Ada", "Élève")])
 
 
+@pytest.mark.promise("docs/people.md: the records themselves are never changed")
 def test_typed_names_of_old_records_are_nobodys_until_assigned(people: People) -> None:
     people.add(RosterLine("Ada"))
     key = people.find("Ada").key

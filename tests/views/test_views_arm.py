@@ -329,6 +329,7 @@ def test_no_place_is_offered_for_a_plan_that_changed(planned, services, settle) 
     assert settle(arm.bar.isHidden)
 
 
+@pytest.mark.promise("docs/mechanism.md: It is a simulation only and never drives a real arm")
 def test_a_real_robot_is_left_alone_and_comes_back(planned, services, settle) -> None:
     window, arm = planned
     window.conductor.set_robot(RobotChoice(port="/dev/ttyACM0"))

@@ -252,6 +252,7 @@ def test_without_its_ct_it_says_so_offers_to_open_it_and_replays_the_rest(window
     assert settle(lambda: page.views.has_ct)
 
 
+@pytest.mark.promise("docs/user-guide.md: another patient's is never shown")
 def test_another_patients_ct_is_never_shown_under_an_attempt(window, patient, settle):
     window.show_patient(patient)
     feature = window.feature(DebriefFeature)
