@@ -35,7 +35,6 @@ def test_an_unhomed_device_is_no_fault_while_disarmed(rig):
     assert rig.loop.latest().fault is Fault.NONE
 
 
-@pytest.mark.promise("README.md: 1 N until the force scale is verified")
 def test_a_sign_check_lets_only_a_small_force_pass(rig):
     rig.write(homed=0.5)
     rig.arm()

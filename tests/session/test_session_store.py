@@ -78,7 +78,6 @@ def test_a_killed_attempt_is_listed_as_unfinished(store: Path) -> None:
     assert summary.problems
 
 
-@pytest.mark.promise("docs/sessions.md: NaN never stands in a file")
 def test_summaries_carry_the_disclaimer_and_no_nan(store: Path) -> None:
     for file in store.glob("*.json"):
         document = json.loads(file.read_text(), parse_constant=pytest.fail)
