@@ -43,7 +43,7 @@ def register(app: typer.Typer) -> None:
 def board(
     course: CourseOption = "", group: GroupOption = "", folder: FolderOption = None
 ) -> Answer:
-    """Show best, last, trend and time since, of students and exercises (instructor).
+    """Show best, last, trend and time since, by exercise (instructor).
 
     Only comparable attempts count, none of a scripted trainee or an emulated board.
     """
