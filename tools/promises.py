@@ -116,7 +116,8 @@ def sentences(page: str) -> list[str]:
 
 def unheld(known: list[Promise]) -> list[str]:
     """Return every absolute sentence of the watched pages that no test holds and no list has."""
-    listed = [Promise(*key.split(": ", 1), "") for key in NOT_PROMISED]
+    keys = (key.partition(": ") for key in NOT_PROMISED)
+    listed = [Promise(page, sentence, "") for page, _, sentence in keys]
     return [
         f"{page}: {one}"
         for page in WATCHED
