@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constr
 TRAINER := $(VENV)/.trainer
 TESTS := $(VENV)/.tests
 
-.PHONY: setup demo run test by-hand careless soak check bench trial fuzz kills accuracy docs docs-pictures wheel clean
+.PHONY: setup extra demo run test by-hand careless soak check bench trial fuzz kills accuracy promises docs docs-pictures wheel clean
 
 setup: $(TESTS)  ## make .venv with all that tests and checks need, and install what the system lacks
 
@@ -21,6 +21,9 @@ $(TESTS): $(TRAINER)
 	./tools/install-system tests
 	$(PIP) --editable '.[dev]'
 	touch $@
+
+extra: $(TRAINER)  ## the packages of one extra, such as NAME=arm
+	$(PIP) --editable '.[$(NAME)]'
 
 demo: $(TRAINER)  ## the trainer on the built-in patient; with no display a whole exercise, written to out/demo
 	$(BIN)/acus demo $(DEMO)
@@ -81,6 +84,9 @@ docs-pictures: setup  ## the pictures of README and docs
 
 accuracy: setup  ## docs/accuracy from the tables that `acus study all --write` keeps
 	$(BIN)/python -m tools.accuracy_pages
+
+promises: setup  ## docs/promises.md from the marks of the tests that hold them
+	$(BIN)/python -m tools.promises
 
 docs: setup  ## the user guide as a site, in app/site: Help and F1 open it
 	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict

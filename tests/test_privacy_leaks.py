@@ -35,6 +35,7 @@ def spoilt(source: Path, target: Path) -> Path:
     return target
 
 
+@pytest.mark.promise("docs/sessions.md: A record holds pseudonyms, never a patient's data")
 @pytest.mark.timeout(900)
 def test_no_identifier_of_a_ct_reaches_anything_that_is_written(tmp_path, capfd, source, words):
     assert len(TEXTS) == 40
@@ -84,6 +85,7 @@ def test_no_identifier_reaches_the_log_of_the_window_or_what_it_writes(
     assert leaks(acus.said.encode(), words) == []
 
 
+@pytest.mark.promise("docs/reading.md: Messages never quote a header")
 def test_errors_of_an_import_quote_neither_values_nor_paths(tmp_path, capfd, source, words):
     annotated = shutil.copytree(source, tmp_path / "outside" / FOLDER)
     acus = Acus(tmp_path / "inside", capfd)

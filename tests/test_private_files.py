@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from app.core import paths
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -19,6 +21,7 @@ write_atomically(paths.settings() / "a" / "settings.yaml", b"x")
 """
 
 
+@pytest.mark.promise("docs/people.md: another account of the computer")
 def test_what_the_program_writes_is_for_its_account_alone():
     os.umask(0o022)
     subprocess.run([sys.executable, "-c", WRITE], cwd=ROOT, check=True)

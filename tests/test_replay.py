@@ -109,6 +109,7 @@ def other_build(recording: Recording, **values: str) -> Recording:
     return replace(recording, metadata=MappingProxyType(changed))
 
 
+@pytest.mark.promise("docs/sessions.md: On the same build it never differs")
 def test_a_whole_scripted_attempt_is_recomputed_to_the_last_bit(virtual: Recording) -> None:
     report = replay_recording(virtual)
     assert report.identical

@@ -22,6 +22,8 @@ WRITTEN = "<!-- written by python -m tools.accuracy_pages; do not edit -->"
 WIDTH = 118
 MOST_ROWS = 40
 """Longer tables of a study's own are left to `acus study NAME --out`."""
+MOST_SETTINGS, MOST_WAYS = 12, 8
+"""Larger tables of errors by setting are left to it too."""
 
 HEAD = f"""# What accuracy costs
 {WRITTEN}
@@ -76,6 +78,7 @@ def page(name: str) -> str:
     failing = failure_lines(found.result)
     if failing:
         lines += ["", "Ways that fail:", "", *(_item(line) for line in failing)]
+    lines += _by_setting(found)
     if found.result.findings is not None:
         for sheet in found.result.findings.sheets:
             lines += _sheet(name, sheet)
@@ -86,6 +89,31 @@ def page(name: str) -> str:
         f"{found.repeats}."
     )
     return "\n".join([*lines, "", told]) + "\n"
+
+
+def _by_setting(found: Kept) -> list[str]:
+    """Return the table of every way's error in each setting, where it is not too large."""
+    points = found.result.points
+    settings = list(dict.fromkeys(point.setting for point in points))
+    ways = list(dict.fromkeys(point.way for point in points))
+    if not (1 < len(settings) <= MOST_SETTINGS and len(ways) <= MOST_WAYS):
+        return []
+    errors = {(point.setting, point.way): f"{point.error:.2g}" for point in points}
+    rows = [
+        f"| {_cell(setting)} | "
+        + " | ".join(errors.get((setting, way), "-") for way in ways)
+        + " |"
+        for setting in settings
+    ]
+    head = " | ".join(_cell(way) for way in ways)
+    return [
+        "",
+        "Error in each setting:",
+        "",
+        f"| | {head} |",
+        "|---" * (len(ways) + 1) + "|",
+        *rows,
+    ]
 
 
 def _row(name: str, found: Kept) -> str:

@@ -25,16 +25,20 @@ def sessions(incomplete: str) -> list[str]:
 
 
 def courses(incomplete: str) -> list[str]:
-    """Return the courses that begin so."""
+    """Return the courses that begin so; none where they are the instructor's to see."""
     from app.session.course import courses as known
 
+    if _guarded():
+        return []
     return _fitting([course.id for course in known()[0]], incomplete)
 
 
 def students(incomplete: str) -> list[str]:
-    """Return the pseudonyms that begin so."""
+    """Return the pseudonyms that begin so; none where they are the instructor's to see."""
     from app.session.people import People
 
+    if _guarded():
+        return []
     return _fitting([person.pseudonym for person in People().everybody()], incomplete)
 
 
@@ -43,6 +47,13 @@ def profiles(incomplete: str) -> list[str]:
     from app.mechanisms.profile import profile_names
 
     return _fitting(profile_names(), incomplete)
+
+
+def _guarded() -> bool:
+    """Whether an instructor's password is set."""
+    from app.session.people import People
+
+    return People().has_instructor()
 
 
 def _fitting(names: Iterable[str], incomplete: str) -> list[str]:

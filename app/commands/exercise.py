@@ -8,6 +8,7 @@ import typer
 
 from app.commands import completion
 from app.commands.answer import Answer, Commands
+from app.commands.doors import instructor
 
 if TYPE_CHECKING:
     from app.compose.trial import SkillOutcome
@@ -86,13 +87,14 @@ def new(
         Path | None, typer.Option(metavar="FILE", help="Where to write; your folder otherwise.")
     ] = None,
 ) -> Answer:
-    """Begin an exercise as a copy of another. On another CT and plan, if they are given."""
+    """Begin an exercise as a copy of another (instructor). On another CT and plan, if given."""
     from app.core.configuration import parse
     from app.core.errors import ConfigurationError
     from app.exercises.library import folders, load_exercise
     from app.exercises.schema import Exercise
     from app.exercises.writing import exercise_document, free_id, save, taken_ids, write_exercise
 
+    instructor()
     if ct is not None and plan is None:
         raise ConfigurationError("--ct DIR needs --plan FILE: entry and target lie in that CT")
     document = exercise_document(load_exercise(like))
@@ -186,13 +188,14 @@ def pack(
         bool, typer.Option("--with-ct", help="Put the CT in too, de-identified.")
     ] = False,
 ) -> Answer:
-    """Make one file of an exercise. Plan, structures, the CT's digest, on request the CT."""
+    """Make one file of an exercise (instructor). Plan, structures, CT's digest or the CT."""
     from app.commands.calibrate_parts import with_progress
     from app.compose.exercise_ct import read_ct
     from app.exchange.acusx import SUFFIX
     from app.exchange.acusx import pack as write
     from app.exercises.library import load_exercise
 
+    instructor()
     chosen = load_exercise(exercise)
     target = out or Path(f"{chosen.id}{SUFFIX}")
 
@@ -226,9 +229,11 @@ def unpack(
         bool, typer.Option("--replace", help="As a new version of the one of its name.")
     ] = False,
 ) -> Answer:
-    """Take an exercise in from its file. Its CT must be the same, by its digest."""
+    """Take an exercise in from its file (instructor). Its CT must be the same, by its digest."""
     from app.commands.calibrate_parts import with_progress
     from app.exchange.acusx import unpack as read
+
+    instructor()
 
     def work(progress: "Progress") -> "UnpackedExercise":
         return read(file, ct, series, name, replace, progress)
@@ -250,11 +255,12 @@ def trial(
     exercise: Name,
     seeds: Annotated[int, typer.Option(min=1, help="Attempts of each skill.")] = 20,
 ) -> Answer:
-    """Try an exercise: what five scripted skills score. In virtual time; nothing is recorded."""
+    """Try an exercise: what five scripted skills score (instructor). Nothing is recorded."""
     from app.commands.calibrate_parts import with_progress
     from app.compose.trial import ordered_seeds, ordered_share, risks_of, run_trial
     from app.exercises.library import load_exercise
 
+    instructor()
     chosen = load_exercise(exercise)
 
     def work(progress: "Progress") -> "tuple[SkillOutcome, ...]":

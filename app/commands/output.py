@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Final, TextIO
 
@@ -63,8 +63,14 @@ def printable_output() -> Iterator[None]:
 
 
 def console(**options: Any) -> Console:
-    """Return a console for tables and bars: it may set colours, so its texts must be printable."""
+    """Return a console for tables and bars: it sets colours itself, and its texts are printable."""
     from rich.console import Console
+    from rich.segment import Segment
+
+    class Printable(Console):
+        def render(self, *what: Any, **how: Any) -> Iterable[Segment]:
+            for piece in super().render(*what, **how):
+                yield piece if piece.control else Segment(printable(piece.text), piece.style)
 
     stream = sys.stderr if options.pop("stderr", False) else sys.stdout
-    return Console(file=getattr(stream, "stream", stream), **options)
+    return Printable(file=getattr(stream, "stream", stream), **options)

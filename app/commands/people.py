@@ -1,17 +1,13 @@
 """`acus people` and `acus course`: students, groups, the instructor; exercises for them."""
 
-import os
-from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated
 
 import typer
 
 from app.commands import completion
 from app.commands.answer import Answer, Commands
-
-if TYPE_CHECKING:
-    from app.session.summary import Summary
+from app.commands.doors import instructor
 
 Pseudonym = Annotated[
     str,
@@ -21,7 +17,6 @@ CourseId = Annotated[
     str, typer.Argument(metavar="COURSE", help="Its id.", autocompletion=completion.courses)
 ]
 FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
-PASSWORD = "ACUS_INSTRUCTOR_PASSWORD"
 
 
 def register(app: typer.Typer) -> None:
@@ -43,52 +38,14 @@ def register(app: typer.Typer) -> None:
     app.add_typer(course, name="course")
 
 
-def instructor(people: Any) -> None:
-    """Let only the instructor go on, where one is set: the password is asked for.
-
-    A program gives it in the variable `ACUS_INSTRUCTOR_PASSWORD`.
-    """
-    if not people.has_instructor():
-        return
-    given = os.environ.get(PASSWORD)
-    if given is None:
-        given = typer.prompt("Instructor's password", hide_input=True, err=True)
-    people.check_instructor(given)
-
-
-def held(summaries: "Iterable[Summary]", ask: bool = False) -> dict[str, str]:
-    """Return which of these results a course holds back from who runs the command.
-
-    By id, the title of the course. None where no instructor is set, and none for the instructor:
-    his password stands in `ACUS_INSTRUCTOR_PASSWORD`, or is asked for if `ask`.
-
-    Raises:
-        PeopleError: for a wrong password.
-    """
-    from app.session.course import held_back
-    from app.session.people import People
-
-    asked = (
-        (one.id, one.student, one.exercise_id, one.conditions.version if one.conditions else 0)
-        for one in summaries
-    )
-    people = People()
-    found = held_back(asked) if people.has_instructor() else {}
-    if not found or (not ask and PASSWORD not in os.environ):
-        return found
-    instructor(people)
-    return {}
-
-
 def list_(
-    names: Annotated[bool, typer.Option("--names", help="Names too (instructor).")] = False,
+    names: Annotated[bool, typer.Option("--names", help="Names too.")] = False,
 ) -> Answer:
-    """List students, groups, and whose old records are."""
+    """List students, groups, and whose old records are (instructor)."""
     from app.session.people import People
 
     people = People()
-    if names:
-        instructor(people)
+    instructor(people)
     found = people.everybody(names)
     assigned = people.assigned()
     shown = {person.key: person.pseudonym for person in found}
@@ -298,12 +255,13 @@ def remark(
 
 
 def list_courses() -> Answer:
-    """List the courses.
+    """List the courses (instructor).
 
     Files that cannot be used are told with the reason; it ends with code 3 then.
     """
     from app.session.course import courses, courses_folder
 
+    instructor()
     found, broken = courses()
     facts = {
         "folder": courses_folder(),
@@ -316,12 +274,13 @@ def list_courses() -> Answer:
 
 
 def show_course(name: CourseId) -> Answer:
-    """Show a course, and whether its exercises are there.
+    """Show a course, and whether its exercises are there (instructor).
 
     Code 3 if one is not in the library in the version that is pinned.
     """
     from app.session.course import find_course, pinned_problems
 
+    instructor()
     course = find_course(name)
     problems = pinned_problems(course)
     lines = [f"{course.title} ({', '.join(course.groups) or 'everybody'})"]
@@ -344,9 +303,8 @@ def save_course(
     An exercise without a version is pinned to the newest one; with an unknown one nothing is saved.
     """
     from app.session.course import newest_versions, pinned_problems, read_course
-    from app.session.people import People
 
-    instructor(People())
+    instructor()
     known = newest_versions()
     course = read_course(file).pinned(known)
     problems = pinned_problems(course)

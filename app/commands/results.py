@@ -1,17 +1,20 @@
 """`acus results`: who stands where, and tables that leave."""
 
-import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from app.commands import completion
 from app.commands.answer import Answer, Commands
+from app.commands.doors import instructor
 from app.commands.people import Pseudonym
 
 if TYPE_CHECKING:
     from app.exchange.results import Results
+    from app.session.board import ProgressBoard
+    from app.session.index import Indexed
+    from app.session.people import People
 
 CourseOption = Annotated[
     str,
@@ -40,12 +43,13 @@ def register(app: typer.Typer) -> None:
 def board(
     course: CourseOption = "", group: GroupOption = "", folder: FolderOption = None
 ) -> Answer:
-    """Show best, last, trend and time since, of students and exercises.
+    """Show best, last, trend and time since, by exercise (instructor).
 
     Only comparable attempts count, none of a scripted trainee or an emulated board.
     """
     from app.exchange.results import board_rows
 
+    instructor()
     found, _, _ = _board(course, group, folder)
     rows = board_rows(found)
     lines = [
@@ -68,9 +72,10 @@ def curve(
     course: CourseOption = "",
     folder: FolderOption = None,
 ) -> Answer:
-    """Show a student's points with best and moving median."""
+    """Show a student's points with best and moving median (instructor)."""
     from app.session.people import People
 
+    instructor()
     person = People().find(pseudonym)
     found, _, _ = _board(course, "", folder)
     points = found.curve(person.key, exercise)
@@ -117,17 +122,15 @@ def export(
     of one student. Ctrl-C cancels; a file is written whole or not at all.
     """
     from app.commands.calibrate_parts import with_progress
-    from app.commands.people import instructor
     from app.exchange.results import Results, ResultsFormat, results_text, write_results
-    from app.session.people import People
 
     forms = [*(one.value for one in ResultsFormat), PDF]
     if form not in forms:
         raise typer.BadParameter(f"{form}: the forms are {', '.join(forms)}")
     if student and form != PDF:
         raise typer.BadParameter("--student is for pdf; the tables hold everybody")
-    instructor(People())
-    found, attempts, people = _board(course, group, folder, asked=True)
+    instructor()
+    found, attempts, people = _board(course, group, folder)
     everybody = {person.key: person for person in people.everybody(names)}
     known = {text: everybody[key] for text, key in people.keys().items()}
     if course or group:
@@ -171,29 +174,19 @@ def _write_report(results: "Results", out: Path, student: str, course: str, grou
 
 
 def _board(
-    course: str, group: str, folder: Path | None, asked: bool = False
-) -> tuple[Any, list[Any], Any]:
-    """Return board, attempts and people.
-
-    Results that a course holds back are left out, but for the instructor: his password stands in
-    the environment, or has been `asked` for.
-    """
+    course: str, group: str, folder: Path | None
+) -> tuple["ProgressBoard", list["Indexed"], "People"]:
+    """Return board, attempts and people, as the instructor sees them."""
     from app.commands.calibrate_parts import with_progress
-    from app.commands.people import PASSWORD, instructor
     from app.session.board import board_of
     from app.session.course import find_course
     from app.session.people import People
     from app.session.store import records_folder
 
     people, chosen = People(), find_course(course) if course else None
-    known = not people.has_instructor() or PASSWORD in os.environ
-    if known:
-        instructor(people)  # a wrong password is said, not passed over
     place = records_folder(folder)
     found, attempts = with_progress(
-        lambda progress: board_of(
-            place, people, chosen, group, progress=progress, released=not known and not asked
-        )
+        lambda progress: board_of(place, people, chosen, group, progress=progress)
     )
     return found, attempts, people
 

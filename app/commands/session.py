@@ -8,6 +8,7 @@ import typer
 
 from app.commands import completion
 from app.commands.answer import Answer, Commands
+from app.commands.doors import PASSWORD, instructor, see
 
 Id = Annotated[
     str,
@@ -19,10 +20,6 @@ FolderOption = Annotated[
     Path | None,
     typer.Option("--folder", help="Folder of the records."),
 ]
-
-
-HELD = "the instructor has not released the result yet"
-"""Stands in the list in place of a score that a course holds back."""
 
 
 def register(app: typer.Typer) -> None:
@@ -41,18 +38,27 @@ def register(app: typer.Typer) -> None:
 
 
 def list_(folder: FolderOption = None) -> Answer:
-    """List all attempts, newest first. Broken records with the reason."""
-    from app.commands.people import held
+    """List attempts, newest first. Broken records with the reason.
+
+    Those of students are listed for the instructor alone, once one is set: his password stands in
+    the variable ACUS_INSTRUCTOR_PASSWORD.
+    """
+    from app.commands.doors import visitor
     from app.session.store import list_sessions
 
-    place = _folder(folder)
-    summaries = list_sessions(place)
-    kept = held(summaries)
-    summaries = [replace(s, score=None, reason=HELD) if s.id in kept else s for s in summaries]
-    facts = {"folder": str(place), "sessions": [s.document() for s in summaries]}
+    place, here = _folder(folder), visitor()
+    every = list_sessions(place)
+    summaries = [one for one in every if here.may_see(one.student)]
+    hidden = len(every) - len(summaries)
+    facts = {
+        "folder": str(place),
+        "sessions": [s.document() for s in summaries],
+        "hidden": hidden,
+    }
+    note = f"{hidden} attempts of students are for the instructor: {PASSWORD} holds the password"
     if not summaries:
-        return Answer(facts, [f"no sessions in {place}"])
-    return Answer(facts, lambda: _print_table(summaries))
+        return Answer(facts, [note if hidden else f"no sessions in {place}"])
+    return Answer(facts, lambda: _print_table(summaries, note if hidden else ""))
 
 
 def show(
@@ -60,7 +66,6 @@ def show(
     folder: FolderOption = None,
 ) -> Answer:
     """Show one attempt: score, events, what its record holds."""
-    from app.commands.people import held
     from app.session.calibration_flag import CalibrationFlags
     from app.session.recording import read_recording
     from app.session.sidecar import fresh_summary
@@ -69,7 +74,7 @@ def show(
     path = find(_folder(folder), session_id)
     recording = read_recording(path)
     summary = CalibrationFlags.read().flagged(fresh_summary(path))
-    held([summary], ask=True)
+    see([summary])
     document = _details(recording, summary.document())
     return Answer(document, _detail_lines(document, _nobodys(summary.conditions)))
 
@@ -85,17 +90,16 @@ def replay(
     folder: FolderOption = None,
 ) -> Answer:
     """Say what a record holds of the robot's loop. --check computes it anew and compares."""
-    from app.commands.people import held
     from app.session.recording import read_recording
     from app.session.replay import contents
     from app.session.store import find
     from app.session.summary import derive
 
     recording = read_recording(find(_folder(folder), session_id))
+    see([derive(recording)])
     if not check:
         content = contents(recording)
         return Answer(content.document(), list(content.sentences()))
-    held([derive(recording)], ask=True)
     from app.compose.trainer import replay_recording  # loads kernels
     from app.session.verify import verify as verified
 
@@ -117,7 +121,6 @@ def verify(
     if one of them differs or the record was altered after it was signed. *verified* means: written
     by this station, not that the owner of its disk could not forge it.
     """
-    from app.commands.people import held
     from app.session.admission import admissions, with_admission
     from app.session.index import Index
     from app.session.recording import open_recording
@@ -128,7 +131,7 @@ def verify(
     from app.session.summary import derive
 
     path = find(_folder(folder), session_id)
-    held([derive(open_recording(path))], ask=True)  # nothing beside the record is written anew
+    see([derive(open_recording(path))])  # nothing beside the record is written anew
     found, signed = verify_record(path), judge_whole(path, this_station())
     index, admitted = Index(path.parent).problems_of(path), admissions().get(path.stem)
     verdict = with_admission(signed.verdict.value, file_digest(path), admitted)
@@ -156,13 +159,12 @@ def compare(
     folder: FolderOption = None,
 ) -> Answer:
     """Say whether two scores may be compared. Code 3 with the reasons if not."""
-    from app.commands.people import held
     from app.scoring.conditions import Conditions, comparable
     from app.session.sidecar import fresh_summary
     from app.session.store import find
 
     pair = [fresh_summary(find(_folder(folder), name)) for name in (first, second)]
-    held(pair, ask=True)
+    see(pair)
     a, b = (s.conditions or Conditions(s.exercise_id) for s in pair)
     reasons = comparable(a, b)
     facts = {
@@ -177,11 +179,9 @@ def compare(
 
 def delete(session_id: Id, folder: FolderOption = None) -> Answer:
     """Delete an attempt (instructor); restore it within 30 days."""
-    from app.commands.people import instructor
     from app.session import store
-    from app.session.people import People
 
-    instructor(People())
+    instructor()
     path = store.delete(_folder(folder), session_id)
     return Answer(
         {"id": path.stem, "file": path},
@@ -194,11 +194,9 @@ def restore(
     folder: FolderOption = None,
 ) -> Answer:
     """Bring a deleted attempt back (instructor)."""
-    from app.commands.people import instructor
     from app.session import store
-    from app.session.people import People
 
-    instructor(People())
+    instructor()
     path = store.restore(_folder(folder), session_id)
     return Answer({"id": path.stem, "file": path}, [f"{path.stem} is back"])
 
@@ -217,6 +215,7 @@ def recover(
     It is listed as unfinished then and never scored as finished. One that a running program
     writes is none of them.
     """
+    from app.commands.doors import visitor
     from app.session import interrupted
     from app.session.store import find
 
@@ -228,7 +227,11 @@ def recover(
         closed = f"{path.stem} was closed as it stands: listed as unfinished"
         whole = f"{path.stem} has its end: there was nothing to recover, and nothing was changed"
         return Answer(facts, [closed if cut else whole])
-    found, _ = interrupted.interrupted(place)
+    here = visitor()
+    found = [
+        one if here.may_see(one.student) else replace(one, student="a student")
+        for one in interrupted.interrupted(place)[0]
+    ]
     lines = [
         f"{one.id}  {one.student}  {one.exercise_id}  {one.duration:.0f} s: `acus session recover "
         f"{one.id}` keeps it"
@@ -249,9 +252,10 @@ def export(
         bool, typer.Option("--trajectory", help="One attempt over time instead of the scores.")
     ] = False,
 ) -> Answer:
-    """Export scores, or one attempt over time, as CSV."""
+    """Export scores, or one attempt over time, as CSV (instructor)."""
     from app.exchange.csv_export import write_csv
 
+    instructor()
     place = _folder(folder)
     text, rows = _trajectory(place, ids) if trajectory else _scores(place, ids)
     if out.suffix.lower() != ".csv":
@@ -267,26 +271,21 @@ def _folder(folder: Path | None) -> Path:
 
 
 def _scores(folder: Path, ids: list[str] | None) -> tuple[str, int]:
-    from app.commands.people import held
     from app.exchange.csv_export import score_table
     from app.session.store import computed
 
     summaries = computed(folder, list(dict.fromkeys(ids or [])))
-    held(summaries, ask=True)
     return score_table(summaries), len(summaries)
 
 
 def _trajectory(folder: Path, ids: list[str] | None) -> tuple[str, int]:
-    from app.commands.people import held
     from app.exchange.csv_export import trajectory_table
     from app.session.recording import read_recording
     from app.session.store import find
-    from app.session.summary import derive
 
     if ids is None or len(ids) != 1:
         raise typer.BadParameter("--trajectory takes exactly one session id")
     recording = read_recording(find(folder, ids[0]))
-    held([derive(recording)], ask=True)
     return trajectory_table(recording), len(recording.samples.time)
 
 
@@ -314,7 +313,7 @@ def _details(recording: Any, summary: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def _print_table(summaries: list[Any]) -> None:
+def _print_table(summaries: list[Any], note: str) -> None:
     from rich.table import Table
 
     from app.commands.output import console as open_console
@@ -342,6 +341,8 @@ def _print_table(summaries: list[Any]) -> None:
     if not console.is_terminal:  # a file or a pipe has no width to wrap to
         console.width = console.measure(table, options=console.options.update(width=10**4)).maximum
     console.print(table)
+    if note:
+        typer.echo(note)
 
 
 def _plain(text: str) -> Any:

@@ -80,7 +80,7 @@ def backup(
     instructor's password is set, encrypted by the recovery key that was printed then.
     """
     from app.commands.calibrate_parts import with_progress
-    from app.commands.people import instructor
+    from app.commands.doors import instructor
     from app.session import archive
     from app.session.people import People
     from app.session.store import records_folder
@@ -116,7 +116,7 @@ def restore(
     who was erased. Says what of it is not taken, and ends with code 3 if anything is not.
     """
     from app.commands.calibrate_parts import with_progress
-    from app.commands.people import instructor
+    from app.commands.doors import instructor
     from app.session import archive
     from app.session.people import People
     from app.session.store import records_folder
@@ -154,11 +154,10 @@ def empty(
     folder: FolderOption = None,
 ) -> Answer:
     """Delete what was deleted 30 days ago for good (instructor)."""
-    from app.commands.people import instructor
+    from app.commands.doors import instructor
     from app.session.archive import empty_trash
-    from app.session.people import People
     from app.session.store import records_folder
 
-    instructor(People())
+    instructor()
     gone = empty_trash(records_folder(folder), days)
     return Answer({"deleted": gone}, [f"{len(gone)} attempts deleted for good"])

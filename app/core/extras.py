@@ -1,6 +1,14 @@
-"""What is said where a package that not every installation has is missing."""
+"""What is said where a package that not every installation has is missing.
 
+Acus is published nowhere, so that no package index knows its extras: in a source folder make
+installs one, elsewhere its packages are named.
+"""
+
+import re
+from importlib.metadata import PackageNotFoundError, requires
 from typing import TypeVar
+
+from app.core.paths import in_checkout
 
 _Family = TypeVar("_Family", bound=Exception)
 
@@ -16,10 +24,22 @@ def not_installed(family: type[_Family], what: str, extra: str, instead: str = "
         extra: that brings it.
         instead: what can be done without it.
     """
-    said = f"{what} is not installed; install the extra `{extra}`: {pip_command(extra)}"
+    said = f"{what} is not installed; install the extra `{extra}`: {install_command(extra)}"
     return family(f"{said}, or {instead}" if instead else said)
 
 
-def pip_command(extra: str) -> str:
-    """Return the command that installs an extra."""
-    return f"pip install 'acus[{extra}]'"
+def install_command(extra: str) -> str:
+    """Return the command that installs an extra: in the source folder, or beside the program."""
+    if in_checkout():
+        return f"make extra NAME={extra}"
+    return "pip install " + (" ".join(f"'{name}'" for name in packages(extra)) or extra)
+
+
+def packages(extra: str) -> list[str]:
+    """Return the packages of an extra with their versions, as pip takes them."""
+    try:
+        known = requires("acus") or []
+    except PackageNotFoundError:
+        return []
+    marked = re.compile(rf"(.*?)\s*;\s*extra == ['\"]{re.escape(extra)}['\"]")
+    return [found[1] for one in known if (found := marked.fullmatch(one))]

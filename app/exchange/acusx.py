@@ -15,6 +15,7 @@ import shutil
 import stat
 import zipfile
 import zlib
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
@@ -58,6 +59,11 @@ _MOST_GROWTH: Final = 60.0
 _FREE_GROWTH: Final = 256 << 20
 """Up to so many bytes a file may grow as it likes: masks are packed a thousandfold."""
 _CHUNK: Final = 1 << 20
+_DAMAGED: Final = (
+    *(zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, ValueError),
+    OSError,  # of a place before the file's beginning; nothing else is read or written meanwhile
+)
+"""What `zipfile` raises while it reads a damaged archive; NotImplementedError is a RuntimeError."""
 
 
 class PackageError(ExchangeError):
@@ -425,7 +431,17 @@ def _bytes(archive: zipfile.ZipFile, name: str, path: Path) -> bytes:
     try:
         with archive.open(name) as stream:
             return stream.read(LARGEST_FILE + 1)
-    except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
+    except _DAMAGED as error:
+        raise PackageError(f"{path} is damaged at {name}: have it sent again") from error
+
+
+def _chunks(archive: zipfile.ZipFile, name: str, path: Path) -> Iterator[bytes]:
+    """Read a member piece by piece, no more of it than the size that was checked."""
+    try:
+        with archive.open(name) as packed:
+            while chunk := packed.read(_CHUNK):
+                yield chunk
+    except _DAMAGED as error:
         raise PackageError(f"{path} is damaged at {name}: have it sent again") from error
 
 
@@ -443,13 +459,10 @@ def _extract(
         target = folder / name
         target.parent.mkdir(parents=True, exist_ok=True)
         found = hashlib.sha256()
-        try:
-            with archive.open(name) as packed, target.open("xb") as plain:
-                while chunk := packed.read(_CHUNK):  # no more than the size that was checked
-                    found.update(chunk)
-                    plain.write(chunk)
-        except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError) as error:
-            raise PackageError(f"{path} is damaged at {name}: have it sent again") from error
+        with target.open("xb") as plain:
+            for chunk in _chunks(archive, name, path):
+                found.update(chunk)
+                plain.write(chunk)
         if found.hexdigest() != wanted:
             raise PackageError(f"{path}: {name} was altered after it was packed")
 

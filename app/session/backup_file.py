@@ -7,6 +7,7 @@ import json
 import os
 import re
 import zipfile
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -91,11 +92,14 @@ def unpack(archive: zipfile.ZipFile, name: str, digest: str, target: Path, sourc
     target.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
     step("unpack", target)
     sha = hashlib.sha256()
-    with archive.open(name) as packed, target.open("xb") as stream:
-        while block := packed.read(1 << 20):
-            sha.update(block)
-            stream.write(block)
-        stream.flush()
-        os.fsync(stream.fileno())
+    try:
+        with archive.open(name) as packed, target.open("xb") as stream:
+            while block := packed.read(1 << 20):
+                sha.update(block)
+                stream.write(block)
+            stream.flush()
+            os.fsync(stream.fileno())
+    except (zlib.error, ValueError) as error:
+        raise ArchiveError(f"{source} is damaged at {name}: {error}") from error
     if sha.hexdigest() != digest:
         raise ArchiveError(f"{source} is damaged: {name} is not what was packed")

@@ -236,6 +236,7 @@ class Database:
             return there == schema_of(connection)
 
     def _prepare(self, connection: Any, _: object) -> None:
+        connection.text_factory = _as_text  # of a file that may hold anything
         connection.isolation_level = None  # transactions begin where `_begin` and `write` say so
         connection.execute(f"PRAGMA busy_timeout = {round(1e3 * self._busy)}")
         if self.path is not None:
@@ -253,11 +254,47 @@ class Database:
             yield
         except Refused as error:
             raise self._error(_reason(str(error.orig), self._busy)) from error
-        except (sqlite3.DatabaseError, OSError) as error:
+        except (sqlite3.DatabaseError, UnicodeError, OSError) as error:
             raise self._error(_reason(str(error), self._busy)) from error
 
     def _error(self, why: str) -> DatabaseError:
         return DatabaseError(f"the {self._what} {self.path or 'in memory'} {why}")
+
+
+@cache
+def words() -> Any:
+    """Return the type of a column of text that reads as text whatever a file holds there.
+
+    SQLite keeps any value in any column: bytes are read as UTF-8 with what is none of it replaced,
+    numbers as they are printed. Nothing stays nothing.
+    """
+    from sqlalchemy import String, TypeDecorator
+
+    class Words(TypeDecorator[str]):
+        impl, cache_ok = String, True
+
+        def process_result_value(self, value: Any, dialect: object) -> str | None:
+            return _as_text(value) if isinstance(value, bytes) else value and str(value)
+
+    return Words()
+
+
+@cache
+def number(whole: bool) -> Any:
+    """Return the type of a column of numbers, whole ones or any: what is none reads as 0."""
+    from sqlalchemy import BigInteger, Float, TypeDecorator
+
+    class Number(TypeDecorator[float]):
+        impl, cache_ok = BigInteger if whole else Float, True
+
+        def process_result_value(self, value: Any, dialect: object) -> float | None:
+            return value if value is None or isinstance(value, int | float) else 0
+
+    return Number()
+
+
+def _as_text(data: bytes) -> str:
+    return data.decode("utf-8", "replace")
 
 
 def copied_to_memory(path: Path) -> sqlite3.Connection:
@@ -267,6 +304,7 @@ def copied_to_memory(path: Path) -> sqlite3.Connection:
         sqlite3.DatabaseError, OSError: if it cannot be read.
     """
     taken = sqlite3.connect(":memory:", check_same_thread=False)
+    taken.text_factory = _as_text
     log = path.with_name(f"{path.name}-wal")
     with tempfile.TemporaryDirectory() as place:  # for this user only
         mine = Path(place) / path.name

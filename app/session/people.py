@@ -25,28 +25,30 @@ from uuid import uuid4
 
 from app.core import paths
 from app.core.files import beside, step
-from app.session.database import BUSY_SECONDS, Database
+from app.session.database import BUSY_SECONDS, Database, number, words
 from app.session.errors import PeopleError
 from app.session.journal import Journal, Step, move, removal, settle
 from app.session.roster import RosterLine, checked_pin, judged_lines
 from app.session.station import StationKey, new_recovery_key
+from app.session.tries import (
+    INSTRUCTOR,
+    NO_SIGN_IN,
+    Tries,
+    WrongPasswordError,
+    hashed_secret,
+    matches,
+    stranger,
+)
 
 if TYPE_CHECKING:
     from sqlalchemy import Connection, MetaData, Table
 
 PEOPLE: Final = "people.sqlite"
 NAMES_FILE: Final = "names.json"
-INSTRUCTOR: Final = "the instructor"
 
 VERSION: Final = 2
 """Of the tables; a file of a later one is left alone."""
 _SHORTEST_PASSWORD: Final = 8
-_FREE_TRIES: Final = 3
-_FIRST_DELAY, _LONGEST_DELAY = 5.0, 300.0
-
-
-class WrongPasswordError(PeopleError):
-    """A PIN or password is wrong, or it is too early for another try."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,7 +142,7 @@ class People:
         with self.database.write() as connection:
             if _setting(connection, "password"):
                 raise PeopleError("there is an instructor already: change the password instead")
-            _set(connection, "password", _hashed(password))
+            _set(connection, "password", hashed_secret(password))
             _set(connection, "wrapped", json.dumps(wrapped))
         return recovery
 
@@ -154,7 +156,7 @@ class People:
         known = self._setting("password")
         if not known:
             raise PeopleError("no instructor is set: `acus people instructor` sets a password")
-        self._try(INSTRUCTOR, known, password)
+        self._tries().compare(INSTRUCTOR, known, password)
 
     def change_password(self, old: str, new: str) -> None:
         """Change the password; the recovery key stays.
@@ -165,7 +167,7 @@ class People:
         _checked_password(new)
         self.check_instructor(old)
         with self.database.write() as connection:
-            _set(connection, "password", _hashed(new))
+            _set(connection, "password", hashed_secret(new))
 
     def recover(self, recovery: str, new: str) -> None:
         """Set another password with the recovery key.
@@ -180,7 +182,7 @@ class People:
             raise PeopleError("no instructor is set: `acus people instructor` sets a password")
         StationKey.unwrapped(json.loads(wrapped), recovery)
         with self.database.write() as connection:
-            _set(connection, "password", _hashed(new))
+            _set(connection, "password", hashed_secret(new))
             connection.execute(_failures().delete())
 
     def wrapped_key(self) -> dict[str, str]:
@@ -263,7 +265,7 @@ class People:
         for line in good:  # outside the transaction: a hash takes its time on purpose
             if line.pin or line.pseudonym.casefold() not in there:
                 pin = line.pin or f"{secrets.randbelow(10**6):06d}"
-                hashed[line.pseudonym] = _hashed(pin)
+                hashed[line.pseudonym] = hashed_secret(pin)
                 pins |= {} if line.pin else {line.pseudonym: pin}
         with self._as_one() as (connection, write_names):
             known = {
@@ -303,7 +305,7 @@ class People:
         from sqlalchemy import update
 
         person, table = self.find(pseudonym), _tables().tables["persons"]
-        hashed = _hashed(checked_pin(pin))
+        hashed = hashed_secret(checked_pin(pin))
         with self.database.write() as connection:
             connection.execute(update(table).where(table.c.key == person.key).values(pin=hashed))
             connection.execute(_failures().delete().where(_failures().c.account == person.key))
@@ -317,16 +319,20 @@ class People:
         """
         from sqlalchemy import select
 
+        if not (self.folder / PEOPLE).exists():
+            matches("", pin)
+            raise WrongPasswordError(f"{NO_SIGN_IN}: try again")  # and no file is made of it
+        table = _tables().tables["persons"].c
+        with self.database.read() as connection:
+            pins = {str(k): str(p) for k, p in connection.execute(select(table.key, table.pin))}
         try:
             person = self.find(pseudonym)
         except PeopleError:
-            raise WrongPasswordError(_NO_SIGN_IN) from None
-        table = _tables().tables["persons"]
-        with self.database.read() as connection:
-            known = connection.execute(
-                select(table.c.pin).where(table.c.key == person.key)
-            ).scalar_one()
-        self._try(person.key, known, pin)
+            person = None
+        account = stranger(pseudonym) if person is None else person.key
+        self._tries().compare(account, pins.get(account, ""), pin)
+        if person is None:  # whose PIN nobody knows
+            raise WrongPasswordError(NO_SIGN_IN)
         return person
 
     def pseudonyms(self) -> dict[str, str]:
@@ -479,31 +485,8 @@ class People:
         self.database.shrink()
 
     # --- inside -----------------------------------------------------------------------------------
-    def _try(self, account: str, known: str, given: str) -> None:
-        """Compare under the delay that wrong tries have earned."""
-        from sqlalchemy import insert, select
-
-        table = _failures()
-        now = self._clock()
-        with self.database.read() as connection:
-            row = connection.execute(select(table).where(table.c.account == account)).first()
-        count, last = (row.wrong, row.last) if row is not None else (0, now)
-        wait = _delay(count) - abs(now - last)
-        if row is not None and wait > 0.0:
-            raise WrongPasswordError(f"too many wrong tries: wait {wait:.0f} s, then try again")
-        right = _matches(known, given)
-        with self.database.write() as connection:
-            row = connection.execute(select(table).where(table.c.account == account)).first()
-            count = row.wrong if row is not None else 0
-            connection.execute(table.delete().where(table.c.account == account))
-            if not right:
-                new = {"account": account, "wrong": count + 1, "last": now}
-                connection.execute(insert(table), new)
-        if not right:
-            wait = _delay(count + 1)
-            more = f": wait {wait:.0f} s before the next try" if wait else ": try again"
-            what = "the password is wrong" if account == INSTRUCTOR else _NO_SIGN_IN
-            raise WrongPasswordError(what + more)
+    def _tries(self) -> Tries:
+        return Tries(self.database, _failures(), self._clock)
 
     def _setting(self, name: str) -> str:
         if not (self.folder / PEOPLE).exists():
@@ -583,30 +566,6 @@ def _checked_password(password: str) -> None:
         raise PeopleError(f"a password needs at least {_SHORTEST_PASSWORD} characters")
 
 
-def _delay(failures: int) -> float:
-    """Seconds to wait after so many wrong tries: 5 after the third, then doubled, at most 300."""
-    if failures < _FREE_TRIES:
-        return 0.0
-    return min(_LONGEST_DELAY, _FIRST_DELAY * 2.0 ** min(failures - _FREE_TRIES, 20))
-
-
-def _hashed(secret: str) -> str:
-    """Hash with Argon2id: 19 MiB, 2 passes (the least that OWASP recommends), some 30 ms."""
-    from argon2 import PasswordHasher
-
-    return PasswordHasher(time_cost=2, memory_cost=19456, parallelism=1).hash(secret)
-
-
-def _matches(known: str, given: str) -> bool:
-    from argon2 import PasswordHasher
-    from argon2.exceptions import InvalidHashError, VerificationError
-
-    try:
-        return PasswordHasher().verify(known, given)
-    except (VerificationError, InvalidHashError):
-        return False
-
-
 def _setting(connection: Connection, name: str) -> str:
     from sqlalchemy import select
 
@@ -634,12 +593,12 @@ def _failures() -> Table:
 
 @cache
 def _tables() -> MetaData:
-    from sqlalchemy import Boolean, Column, Float, Integer, MetaData, String, Table
+    from sqlalchemy import Boolean, Column, MetaData, Table
 
     known = MetaData()
 
     def text(name: str, **options: Any) -> Column[str]:
-        return Column(name, String, nullable=False, **options)
+        return Column(name, words(), nullable=False, **options)
 
     key = text("key", primary_key=True)
     Table("persons", known, key, text("pseudonym"), text("pin"), text("created"))
@@ -652,8 +611,8 @@ def _tables() -> MetaData:
         "failures",
         known,
         text("account", primary_key=True),
-        Column("wrong", Integer, nullable=False),
-        Column("last", Float, nullable=False),
+        Column("wrong", number(whole=True), nullable=False),
+        Column("last", number(whole=False), nullable=False),
     )
     Table(
         "remarks",
@@ -683,5 +642,3 @@ OF_PERSON: Final = {
     "failures": "account",
 }
 """Tables that hold something of a person, each with the column of its key."""
-
-_NO_SIGN_IN: Final = "pseudonym or PIN is wrong"

@@ -69,7 +69,7 @@ def read_rows(path: Path, whose: str) -> PeopleRows:
                     if version >= _SINCE.get(name, 1) and _is_table(kinds, name, whose)
                 }
             )
-    except sqlite3.Error as error:
+    except (sqlite3.Error, UnicodeError) as error:  # of a text, or of a name in its definition
         raise ArchiveError(_no_people(whose, str(error))) from error
 
 
@@ -177,7 +177,8 @@ def _is_table(kinds: Mapping[str, str], name: str, whose: str) -> bool:
 
 def _table(source: sqlite3.Connection, name: str, columns: Sequence[str], whose: str) -> Rows:
     """Read the known columns of a table; every value is text or a number."""
-    wanted = ", ".join(f'"{column}"' for column in columns)
+    # by its table: SQLite takes a bare name in quotes that is no column for a text
+    wanted = ", ".join(f'"{name}"."{column}"' for column in columns)
     numbers = {"released": int, "wrong": int, "last": float}
     found = []
     for row in source.execute(f'SELECT {wanted} FROM "{name}"'):

@@ -6,6 +6,7 @@ import hmac
 from functools import cache
 from typing import TYPE_CHECKING, Any, Final
 
+from app.session.database import number, words
 from app.session.station import StationKey
 
 if TYPE_CHECKING:
@@ -43,36 +44,36 @@ class Sealer:
 @cache
 def attempts_table() -> Table:
     """Return the table of attempts."""
-    from sqlalchemy import BigInteger, Boolean, Column, Float, Integer, MetaData, String, Table
+    from sqlalchemy import Boolean, Column, MetaData, Table
 
     known = MetaData()
     Table(
         "seals",
         known,
-        Column("id", String, primary_key=True),
-        Column("record", String, nullable=False),
-        Column("seal", String, nullable=False),
+        Column("id", words(), primary_key=True),
+        Column("record", words(), nullable=False),
+        Column("seal", words(), nullable=False),
     )
     return Table(
         "attempts",
         known,
-        Column("id", String, primary_key=True),
-        Column("size", BigInteger, nullable=False),
-        Column("modified_ns", BigInteger, nullable=False),
-        Column("signed_ns", BigInteger, nullable=False),
-        Column("station", String, nullable=False),
-        Column("started", String, nullable=False, index=True),
-        Column("student", String, nullable=False, index=True),
-        Column("exercise", String, nullable=False),
-        Column("version", Integer, nullable=False),
-        Column("state", String, nullable=False),
-        Column("duration", Float, nullable=False),
-        Column("total", Float),
+        Column("id", words(), primary_key=True),
+        Column("size", number(whole=True), nullable=False),
+        Column("modified_ns", number(whole=True), nullable=False),
+        Column("signed_ns", number(whole=True), nullable=False),
+        Column("station", words(), nullable=False),
+        Column("started", words(), nullable=False, index=True),
+        Column("student", words(), nullable=False, index=True),
+        Column("exercise", words(), nullable=False),
+        Column("version", number(whole=True), nullable=False),
+        Column("state", words(), nullable=False),
+        Column("duration", number(whole=False), nullable=False),
+        Column("total", number(whole=False)),
         Column("passed", Boolean),
-        Column("verdict", String, nullable=False),
+        Column("verdict", words(), nullable=False),
         Column("counts", Boolean, nullable=False),
-        Column("under", String, nullable=False),
-        Column("document", String, nullable=False),
+        Column("under", words(), nullable=False),
+        Column("document", words(), nullable=False),
     )
 
 

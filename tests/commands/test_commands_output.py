@@ -1,14 +1,20 @@
 """What a command prints cannot steer the terminal, whoever chose the words."""
 
+import ast
 import json
+import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from rich.table import Table
+from rich.text import Text
 
-from app.commands.output import printable, printable_output
+import app
+from app.commands.output import console, printable, printable_output
 
 EVIL = "a\x1b]0;owned\x07b\x9b2Jc\rd\u202ee"
 
@@ -35,6 +41,31 @@ def test_the_streams_are_given_back(capsys):
     assert sys.stdout is before
     out, err = capsys.readouterr()
     assert out == err == "a\\u001b]0;owned\\u0007b\\u009b2Jc\\u000dd\\u202ee\n"
+
+
+@pytest.mark.parametrize("colours", [False, True])
+def test_tables_and_bars_set_colours_and_let_no_text_do_it(capsys, colours):
+    table = Table(title=Text("title " + EVIL))
+    table.add_row(Text(EVIL, style="red"), style="bold")
+    with printable_output():
+        shown = console(force_terminal=colours, width=200)
+        shown.print(table)
+        shown.print(Text(EVIL))
+    out = capsys.readouterr().out
+    assert ("\x1b[" in out) is colours
+    assert out.count("\\u001b]0;owned") == 3
+    own = re.sub("\x1b\\[[0-9;]*m", "", out)
+    assert not set(own) & set("\x1b\x07\x9b\r\u202e")
+
+
+def test_nobody_prints_past_the_door():
+    root, past = Path(app.__file__).parent, []
+    for path in sorted(root.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            words = ast.unparse(node) if isinstance(node, ast.Call | ast.Attribute) else ""
+            if re.fullmatch(r"sys\.__std(out|err)__|sys\.std(out|err)\.buffer|Console\(.*", words):
+                past.append(f"{path.relative_to(root).as_posix()}: {words}")
+    assert past == []
 
 
 @pytest.mark.parametrize(

@@ -6,11 +6,14 @@ import sys
 from pathlib import Path
 
 import pytest
+import typer
 
 sys.path.append(str(Path(__file__).parents[1] / "session"))
 from session_fakes import Bench
 
 from app.__main__ import main
+from app.commands import build
+from app.commands.completion import courses, students
 from app.core.paths import sessions
 from app.exercises.library import load_exercise
 from app.session.course import find_course, read_course
@@ -27,7 +30,16 @@ def acus(monkeypatch, capsys):
         assert ended.value.code == code, err
         return json.loads(out)["facts"] if out else err
 
+    def answer_nothing(*_, **__):
+        raise typer.Abort
+
+    monkeypatch.setattr("typer.prompt", answer_nothing)
     return run
+
+
+def commands_of(noun):
+    group = typer.main.get_command(build()).commands[noun]
+    return {f"{noun} {name}" for name in group.commands}
 
 
 def attempts(*students):
@@ -103,7 +115,7 @@ def test_what_changes_people_or_deletes_needs_the_instructor(acus, monkeypatch, 
     for words in refused:
         assert "password is wrong" in acus(*words, code=2)
     assert "too many wrong tries" in acus("people", "add", "Ada", code=2)
-    assert acus("people", "list")["students"] == []
+    assert People().everybody() == []
     assert (sessions() / f"{name}.mcap").exists()
 
 
@@ -164,13 +176,8 @@ def test_results_that_a_course_holds_are_shown_to_the_instructor_alone(acus, mon
     read_course(course).save()  # of an exercise that was removed since
     People().set_instructor("correct horse")
 
-    held = acus("session", "list")["sessions"][0]
-    assert held["score"] is None
-    assert "not released" in held["reason"]
-    cell = acus("results", "board", "--course", "c")["cells"][0]
-    assert (cell["attempts"], cell["best"]) == (0, None)
-    assert cell["why"] == {"not released yet": 1}
-    assert acus("results", "curve", "Ada", "liver-01", "--course", "c")["points"] == []
+    assert acus("session", "list")["hidden"] == 1
+    assert "not answered" in acus("session", "show", name, code=2)
     monkeypatch.setenv("ACUS_INSTRUCTOR_PASSWORD", "wrong")
     assert "password is wrong" in acus("session", "show", name, code=2)
     monkeypatch.setenv("ACUS_INSTRUCTOR_PASSWORD", "correct horse")
@@ -178,10 +185,75 @@ def test_results_that_a_course_holds_are_shown_to_the_instructor_alone(acus, mon
     assert acus("session", "list")["sessions"][0]["score"]["total"] is not None
     assert acus("results", "board", "--course", "c")["cells"][0]["attempts"] == 1
 
-    acus("people", "remark", name, "--release")
-    monkeypatch.delenv("ACUS_INSTRUCTOR_PASSWORD")
-    assert acus("session", "show", name)["score"]["total"] is not None
-    assert acus("results", "board", "--course", "c")["cells"][0]["attempts"] == 1
+
+OPEN_TO_ALL = {
+    *("exercise list", "exercise validate", "exercise schema"),
+    *("session list", "session recover", "store status", "store rebuild"),
+}
+"""Of these nouns, what needs no instructor: `session list` lists what is nobody's."""
+
+
+@pytest.mark.promise("docs/people.md: The window and the command line ask the same answer")
+def test_what_the_window_closes_is_closed_on_the_command_line(acus, tmp_path):
+    key = acus("people", "add", "Ada", "--pin", "1843")["key"]
+    attempts(key, key)
+    first, second = sorted(path.stem for path in sessions().glob("*.mcap"))
+    (tmp_path / "c.yaml").write_text("id: c\ntitle: C\nitems: []\n")
+    acus("course", "save", tmp_path / "c.yaml")
+    People().set_instructor("correct horse")
+    out = tmp_path / "out"
+    doors = [
+        ("session", "show", first),
+        ("session", "replay", first),
+        ("session", "verify", first),
+        ("session", "compare", first, second),
+        ("session", "export", "--out", f"{out}.csv"),
+        ("session", "export", first, "--trajectory", "--out", f"{out}.csv"),
+        ("session", "delete", first),
+        ("session", "restore", first),
+        ("results", "board"),
+        ("results", "curve", "Ada", "liver-01"),
+        ("results", "export", "tidy", "--out", out),
+        ("exercise", "new", "Mine", "--out", out),
+        ("exercise", "pack", "first-insertion", "--out", out),
+        ("exercise", "unpack", out),
+        ("exercise", "trial", "first-insertion", "--seeds", "1"),
+        ("people", "list"),
+        ("people", "remark", first, "--release"),
+        ("course", "list"),
+        ("course", "show", "c"),
+        ("course", "save", tmp_path / "c.yaml"),
+        ("store", "backup", "--out", out),
+        ("store", "restore", out),
+        ("store", "empty-trash"),
+    ]
+    for words in doors:
+        assert "a question was not answered" in acus(*words, code=2), words
+    assert [path.name for path in tmp_path.iterdir() if "out" in path.name] == []
+    assert students("A") == courses("c") == []
+    found = acus("session", "list")
+    assert (found["sessions"], found["hidden"]) == ([], 2)
+    closed = {" ".join(words[:2]) for words in doors}
+    for noun in ("session", "results", "exercise", "course", "store"):
+        assert commands_of(noun) - OPEN_TO_ALL <= closed, noun
+
+
+@pytest.mark.promise(
+    "docs/people.md: it shows records by key, without pseudonyms and names, verifies none, "
+    "and counts none as a student's"
+)
+def test_another_data_folder_opens_records_by_key_without_names_and_verifies_none(
+    acus, monkeypatch, tmp_path
+):
+    key = acus("people", "add", "Ada", "--name", "Lovelace", "--pin", "1843")["key"]
+    attempts(key)
+    here = sessions()
+    People().set_instructor("correct horse")
+    monkeypatch.setenv("ACUS_DATA", str(tmp_path / "another"))
+    (found,) = acus("session", "list", "--folder", here)["sessions"]
+    assert (found["student"], found["signature"]) == (key, "unsigned")
+    assert acus("results", "board", "--folder", here)["cells"] == []
+    assert "Ada" not in json.dumps(acus("people", "list"))
 
 
 def test_a_course_without_versions_pins_the_newest_ones(acus, tmp_path):

@@ -1,6 +1,7 @@
 """Where a package of an extra is missing, the error names package and extra, in one wording."""
 
 import re
+import subprocess
 import sys
 import tomllib
 from functools import partial
@@ -9,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from app.core.errors import AcusError
-from app.core.extras import not_installed
+from app.core.extras import install_command, not_installed
 from app.imaging.pacs.association import network
 from app.imaging.structures.extras import extra
 from app.planning.arm import search, timing
@@ -46,25 +47,58 @@ def test_a_missing_package_is_named_with_its_extra(monkeypatch, module, use, pac
         use()
     said = str(refused.value)
     assert said.startswith(package)
-    assert said.endswith(
-        f" is not installed; install the extra `{name}`: pip install 'acus[{name}]'"
-    )
+    assert said.endswith(f" is not installed; install the extra `{name}`: make extra NAME={name}")
 
 
 def test_what_can_be_done_without_it_is_said_last():
     said = str(not_installed(AcusError, "pygame-ce", "gamepad", "choose mouse or tablet"))
-    assert said.endswith("pip install 'acus[gamepad]', or choose mouse or tablet")
+    assert said.endswith("make extra NAME=gamepad, or choose mouse or tablet")
 
 
-def test_no_other_file_words_it_and_every_extra_that_is_named_exists():
+def test_every_extra_that_is_named_exists():
     known = set(
         tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
     )
     assert {name for *_, name in NEEDED} <= known
-    elsewhere = [
-        str(file.relative_to(ROOT))
-        for file in (ROOT / "app").rglob("*.py")
-        if re.search(r"pip install 'acus\[", file.read_text(encoding="utf-8"))
-        and file.name != "extras.py"
+
+
+def test_nothing_says_that_a_package_index_has_acus():
+    """No distribution of that name is published: `pip install 'acus[arm]'` cannot work."""
+    places = [ROOT / "README.md", ROOT / "Makefile"]
+    for folder, kind in (("app", "*.py"), ("docs", "*.md"), ("resources", "*.yaml")):
+        places += (ROOT / folder).rglob(kind)
+    said = [
+        f"{place.relative_to(ROOT)}: {found}"
+        for place in places
+        for found in re.findall(r"acus\[\w+\]|pip install acus", place.read_text(encoding="utf-8"))
     ]
-    assert elsewhere == []
+    assert said == []
+
+
+def test_make_installs_an_extra_that_is_named():
+    done = subprocess.run(
+        ["make", "--dry-run", "extra", "NAME=arm"], cwd=ROOT, capture_output=True, text=True,
+        check=True,
+    )  # fmt: skip
+    assert "--editable '.[arm]'" in done.stdout
+
+
+def test_outside_a_source_folder_the_packages_of_an_extra_are_named(monkeypatch):
+    monkeypatch.setattr("app.core.extras.in_checkout", lambda: False)
+    monkeypatch.setattr(
+        "app.core.extras.requires",
+        lambda _: [
+            "numpy>=2",
+            'mujoco<4,>=3.3; extra == "arm"',
+            "ompl<3; extra == 'arm'",
+            "x; extra == 'arms'",
+        ],
+    )
+    assert install_command("arm") == "pip install 'mujoco<4,>=3.3' 'ompl<3'"
+    assert install_command("none") == "pip install none"
+
+
+def test_the_versions_of_python_are_those_of_readme():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert project["requires-python"] == ">=3.11,<3.14"
+    assert "Python 3.11, 3.12 or 3.13" in (ROOT / "README.md").read_text()

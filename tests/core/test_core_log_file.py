@@ -21,6 +21,7 @@ def failing():
     raise ValueError("of DOE^JOHN in /home/doe/ct/1.dcm")
 
 
+@pytest.mark.promise("docs/user-guide.md: of an error it keeps kind and place, never its text")
 def test_the_log_tells_where_it_failed_and_nothing_of_files_or_people(log):
     try:
         failing()

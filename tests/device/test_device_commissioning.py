@@ -177,6 +177,7 @@ def test_latency_on_the_simulated_plant_is_within_two_ticks(parts):
     assert result.round_trip == (0.0, 0.0, 0.0)
 
 
+@pytest.mark.promise("README.md: 1 N until the force scale is verified")
 def test_a_right_force_scale_lifts_the_cap(parts):
     _link, bench, person = parts
     commission(bench, person)
@@ -221,6 +222,7 @@ def test_the_scale_may_be_read_for_as_long_as_it_takes(parts):
     assert report.failure == ""
 
 
+@pytest.mark.promise("docs/hardware.md: Ctrl-C ends at zero torque at any moment")
 @pytest.mark.parametrize(
     "step", [RoutineName.SIGNS, RoutineName.FRICTION, RoutineName.LATENCY, RoutineName.FORCE]
 )
@@ -301,6 +303,7 @@ def test_nothing_can_be_answered_while_nothing_is_asked(parts):
         parts[1].routine(RoutineName.HOMING).answer()
 
 
+@pytest.mark.promise("README.md: no force before homing and sign check")
 @pytest.mark.parametrize(
     "step", [RoutineName.SIGNS, RoutineName.FRICTION, RoutineName.LATENCY, RoutineName.FORCE]
 )

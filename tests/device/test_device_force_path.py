@@ -134,6 +134,9 @@ def test_an_effect_that_gives_no_number_holds_the_force_at_zero_and_is_named(rig
     assert np.isfinite(state.row).all()
 
 
+@pytest.mark.promise(
+    "docs/protocol.md: the force fades from 20 ms of encoder age and is zero by 100 ms"
+)
 def test_stale_encoders_fade_the_force_from_20_ms_to_zero_at_100_ms(rig):
     rig.arm()
     full = rig.felt

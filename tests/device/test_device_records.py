@@ -151,6 +151,10 @@ def test_a_scale_of_another_profile_or_out_of_tolerance_keeps_the_cap():
     assert clearance(HOMING, SIGNS, off).force_cap == 1.0
 
 
+@pytest.mark.promise(
+    "docs/hardware.md: A board that does not number its power cycles is never taken as "
+    "homed from its record"
+)
 def test_a_board_that_does_not_number_its_power_cycles_is_never_homed_by_its_record():
     info = BoardInfo("haply-2diy", "", "1", "haply", boot=0)
     readiness = Readiness(homed_boot=0, signs_boot=0, force_factor=1.0)

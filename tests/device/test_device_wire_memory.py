@@ -66,6 +66,10 @@ def test_an_exception_in_the_block_ends_at_zero(name):
     assert rig.link.torque == (0.0, 0.0)
 
 
+@pytest.mark.promise(
+    "docs/protocol.md: torque zero no later than `watchdog_ms` (20 ms) after the last "
+    "valid COMMAND with enable"
+)
 @pytest.mark.parametrize("name", PROFILES)
 @pytest.mark.parametrize("fault", ["cut", "freeze"])
 def test_without_commands_the_board_is_at_zero_after_its_watchdogs_time(name, fault):

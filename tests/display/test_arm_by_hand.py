@@ -30,7 +30,7 @@ PHASES = {
 
 
 def test_the_arm_is_watched_stopped_and_taken_over_by_hand(tmp_path: Path) -> None:
-    pytest.importorskip("mujoco", reason="needs the extra arm: pip install 'acus[arm]'")
+    pytest.importorskip("mujoco", reason="needs the extra arm: make extra NAME=arm")
     with somebody(tmp_path) as user:
         user.wait(lambda seen: seen["page"] == "StartPage", "start page", 60)
         user.press("Not now", "button")

@@ -29,6 +29,7 @@ from app.imaging.structures.files import read_structures, write_structures
 from app.imaging.structures.structure import Structure, StructureSet
 from app.imaging.structures.structure import StructureKind as Meaning
 from app.imaging.volume import Volume
+from tests.fuzz.archives import BINARY, archives
 from tests.fuzz.documents import documents
 from tests.fuzz.seeds import MIDDLE, OFFSETS, SHAPE, Seed, seeds
 from tests.imaging.dicom_factory import SERIES, Slices
@@ -69,6 +70,8 @@ def kinds(folder: Path) -> Iterator[Kind]:
     yield _pacs(folder, plain)
     for name, content, lay, read in documents(folder):
         yield Kind(name, content, lay, read, text=name != "record")
+    for name, content, lay, read in archives(folder):
+        yield Kind(name, content, lay, read, text=name not in BINARY)
 
 
 # --- series of three files, the middle one spoilt

@@ -8,10 +8,12 @@ import numpy as np
 import pydicom
 import pytest
 
+from app.core.errors import AcusError
 from app.imaging.errors import FileDamagedError, WorkerLostError
 from app.imaging.filling import filled
 from app.imaging.header_reading import file_headers
 from app.imaging.reading import load_ct
+from tests.fuzz.archives import archives
 from tests.fuzz.campaign import MOST_CHILD_BYTES, campaign
 from tests.fuzz.documents import documents
 from tests.fuzz.seeds import MIDDLE, Seed, bomb, seeds
@@ -115,3 +117,37 @@ def test_compressed_pixels_cut_short_are_told_at_the_scan(tmp_path, known):
         assert header.damage
         with pytest.raises(FileDamagedError):
             filled([header], np.dtype(np.int16))
+
+
+def test_archives_and_records_of_the_programs_own_have_their_place(tmp_path):
+    names = {name for name, *_ in archives(tmp_path)}
+    assert names == {
+        "acusx", "list of an acusx", "exercise of an acusx", "backup", "list of a backup",
+        "people of a backup", "names of a backup", "block of a record", "event of a record",
+        "metadata of a record",
+    }  # fmt: skip
+
+
+def test_a_piece_that_is_cut_out_of_an_exercises_file_anywhere_is_a_named_error(tmp_path):
+    kind = next(one for one in archives(tmp_path / "made") if one[0] == "acusx")
+    _, whole, lay, read = kind
+    seen = set()
+    for start in range(0, len(whole), max(1, len(whole) // 60)):
+        at = tmp_path / str(start)
+        at.mkdir()
+        lay(at, whole[:start] + whole[start + 100 :])
+        with pytest.raises(AcusError) as error:
+            read(at)
+        seen.add(str(error.value).split(" (")[0].rpartition(":")[2])
+    assert seen
+
+
+def test_a_backup_whose_list_of_people_is_no_utf_8_is_a_named_error(tmp_path):
+    kind = next(one for one in archives(tmp_path / "made") if one[0] == "people of a backup")
+    _, whole, lay, read = kind
+    for number, name in enumerate((b"persons", b"pseudonym", b"Ada")):
+        at = tmp_path / str(number)
+        at.mkdir()
+        lay(at, whole.replace(name, b"\xff" * len(name)))
+        with pytest.raises(AcusError):
+            read(at)

@@ -33,6 +33,7 @@ def assert_safe(rows: np.ndarray) -> None:
     assert set(rows[..., sv.FAULT].ravel().astype(int)) <= {int(fault) for fault in Fault}
 
 
+@pytest.mark.promise("README.md: at most 5 N at the hand")
 @settings(derandomize=True, deadline=None, max_examples=150)
 @given(
     st.lists(st.tuples(st.sampled_from(range(sv.INPUTS)), anything), max_size=6),

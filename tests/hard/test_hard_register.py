@@ -71,7 +71,7 @@ def test_what_is_no_number_or_a_named_error_counts_as_infinitely_wrong():
 def test_a_case_whose_extra_is_missing_is_skipped_and_says_which(monkeypatch):
     case = next(case for case in cases() if case.needs)
     monkeypatch.setattr("app.studies.hard_cases.case.find_spec", lambda name: None)
-    assert tried(case).skipped == "needs mujoco: pip install 'acus[physics]'"
+    assert tried(case).skipped == "needs mujoco: make extra NAME=physics"
 
 
 @pytest.mark.parametrize("name", sorted(ENTRIES))

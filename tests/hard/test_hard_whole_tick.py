@@ -46,6 +46,8 @@ INPUTS = {
 }
 
 
+@pytest.mark.promise("README.md: zero force on any fault")
+@pytest.mark.promise("docs/troubleshooting.md: With any fault they are zero")
 @pytest.mark.parametrize("fault", [*INPUTS, Fault.LINK_LOST, Fault.BOARD_ERROR, Fault.LET_GO])
 def test_every_fault_is_zero_force_in_its_tick_and_after_closing(fault):
     rig = held()

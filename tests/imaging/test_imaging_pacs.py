@@ -1,9 +1,11 @@
 """A PACS: asking, finding, retrieving; refusals, wrong data, silence and cuts in words."""
 
 import logging
+import re
 import socket
 import threading
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ from pacs_rig import FakePacs, free_port
 
 from app.core.errors import ConfigurationError
 from app.core.progress import Cancelled, Progress
+from app.imaging import pacs
 from app.imaging.errors import SeriesRefusedError
 from app.imaging.library import CtLibrary
 from app.imaging.pacs import statuses
@@ -153,6 +156,10 @@ def test_silence_ends_after_the_configured_time(stored):
 # --- retrieving goes wrong
 
 
+@pytest.mark.promise(
+    "docs/pacs.md: nothing enters the library; what came is kept aside for a day; the same "
+    "command again fetches only the rest"
+)
 @pytest.mark.parametrize("way", ["get", "move"])
 def test_a_cut_in_the_middle_leaves_nothing_and_is_resumed(stored, way):
     with FakePacs(stored, "cut") as pacs:
@@ -188,6 +195,7 @@ def test_a_picture_of_another_series_is_refused_and_nothing_is_kept(stored, way)
         assert not incoming(settings).folder.exists()
 
 
+@pytest.mark.promise("docs/pacs.md: refused; all of it is deleted")
 @pytest.mark.parametrize("way", ["get", "move"])
 @pytest.mark.parametrize(
     ("ill", "words"),
@@ -280,6 +288,7 @@ def test_what_was_never_finished_is_deleted_after_a_day(stored):
     assert not incoming(settings).folder.exists()
 
 
+@pytest.mark.promise("docs/pacs.md: names are never logged or stored, and not in the JSON")
 def test_no_patient_reaches_the_log(stored, caplog):
     caplog.set_level(logging.DEBUG)
     with FakePacs(stored) as pacs:
@@ -340,3 +349,15 @@ def test_every_status_has_words_and_its_number(status):
     text = statuses.words(status)
     assert f"0x{status:04X}" in text
     assert len(text) > 15
+
+
+@pytest.mark.promise("docs/pacs.md: it never stores, changes or deletes anything there")
+def test_an_archive_is_asked_for_nothing_that_changes_it():
+    """What changes an archive are C-STORE, and N-CREATE, N-SET, N-DELETE and N-ACTION (PS3.7)."""
+    folder = Path(pacs.__file__).parent
+    asked = {
+        found
+        for path in folder.rglob("*.py")
+        for found in re.findall(r"\bsend_[cn]_\w+", path.read_text(encoding="utf-8"))
+    }
+    assert asked == {"send_c_echo", "send_c_find", "send_c_get", "send_c_move"}

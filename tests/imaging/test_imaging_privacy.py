@@ -77,6 +77,9 @@ def test_a_series_comes_back_with_the_same_voxels_in_the_same_places(tmp_path):
     assert after.series.windows == series.windows
 
 
+@pytest.mark.promise(
+    "docs/privacy.md: Text that somebody could have typed is never kept, wherever it stands"
+)
 def test_names_identifiers_and_free_text_are_gone_and_it_is_said_what_was_done(tmp_path):
     tags = {"OperatorsName": "Op^Erator", "PatientBirthDate": "19500101", "StudyTime": "101112"}
     imported = CtLibrary().import_series(series_of(tmp_path / "in", **tags))
@@ -226,6 +229,10 @@ def test_a_number_that_repeats_an_identifier_is_taken_out(tmp_path):
     assert imported.report.unfit["KVP"] == 5
 
 
+@pytest.mark.promise(
+    "docs/privacy.md: No kept number may be a date of the patient in any usual order, or "
+    "the digits of an identifier"
+)
 @pytest.mark.parametrize(
     ("keyword", "value"),
     [

@@ -95,6 +95,10 @@ def test_one_name_in_several_spellings_is_one_patient(tmp_path, names):
     assert parts(tmp_path) == {"": (COUNT, True)}
 
 
+@pytest.mark.promise(
+    "docs/privacy.md: files of two patients or studies are never taken together, whatever "
+    "SeriesInstanceUID they share"
+)
 def test_an_import_never_joins_two_patients(tmp_path):
     written(tmp_path / "in", halves(PatientID=("A-1", "B-2")))
     library = CtLibrary(tmp_path / "library")

@@ -47,6 +47,7 @@ def test_the_worse_an_attempt_the_lower_its_score(name: str, amounts: list[float
     assert all(a > b for a, b in pairwise(numbers))
 
 
+@pytest.mark.promise("docs/exercises.md: a worse value never scores more")
 def test_worse_in_everything_at_once_is_monotone_too() -> None:
     totals = []
     for step in np.linspace(0.0, 1.0, 8):

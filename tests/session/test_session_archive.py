@@ -130,6 +130,10 @@ def test_erasing_leaves_the_record_anonymous_or_takes_it_too(one: Place) -> None
     assert one.people.everybody(names=True) == []
 
 
+@pytest.mark.promise(
+    "docs/people.md: A backup that is restored later brings back neither the person nor "
+    "these records"
+)
 def test_a_backup_brings_nobody_back_who_was_erased(one: Place, tmp_path: Path) -> None:
     one.people.assign("typed ada", "Ada")
     one.people.add(RosterLine("Bob"))
@@ -153,6 +157,10 @@ def test_a_kill_while_erasing_is_finished_later(one: Place) -> None:
     assert own not in [s.id for s in list_sessions(one.folder)]
 
 
+@pytest.mark.promise(
+    "docs/people.md: for at least 30 days: `acus store empty-trash` deletes for good what "
+    "was deleted earlier, and nothing else does"
+)
 def test_what_was_deleted_can_be_undone_for_thirty_days(one: Place) -> None:
     name = list_sessions(one.folder)[0].id
     path = delete(one.folder, name)
@@ -198,6 +206,10 @@ def test_an_archive_that_would_write_elsewhere_is_refused(
         restore_backup(tmp_path / "b", one.folder)
 
 
+@pytest.mark.promise(
+    "docs/people.md: a backup that is damaged, empty, of a newer version or of another "
+    "program changes nothing"
+)
 def test_a_damaged_or_newer_backup_is_refused(one: Place, tmp_path: Path) -> None:
     for version, match in ((1, "is not what was packed"), (2, "newer version of Acus")):
         manifest = {

@@ -71,6 +71,7 @@ for _ in range(programs):
 """
 
 
+@pytest.mark.promise("docs/sessions.md: so that one under its own name can always be replayed")
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
 def test_every_record_that_a_killed_program_leaves_can_be_replayed(tmp_path: Path) -> None:
     rng = random.Random(7)

@@ -1,5 +1,6 @@
 """The fused pose: orientation from the robot, depth from the cameras."""
 
+import json
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,9 @@ from app.core.staleness import ENCODER_ZERO, TRACKER_HOLD
 from app.device.state import DeviceState
 from app.session.fusion import DIRECTION_SIGMA as ORIENTATION_SIGMA
 from app.session.fusion import MODEL_SIGMA, fuse, tip_covariance
+from app.session.machine import State
 from app.session.needle import DepthSource
+from app.session.sample import Sample, messages
 from app.tracking.motion.depth_filter import HAND_SPEED
 
 
@@ -96,6 +99,20 @@ def test_without_any_fix_the_model_is_said_to_be_the_source() -> None:
     assert pose.depth_source is DepthSource.MODEL
     assert not pose.measured
     assert pose.covariance[2, 2] == pytest.approx(MODEL_SIGMA**2)
+
+
+@pytest.mark.promise(
+    "docs/sessions.md: in the record it is never `valid`, tip and depth are null and the direction "
+    "stays"
+)
+def test_a_depth_that_nothing_measured_is_recorded_as_none_with_its_direction() -> None:
+    pose = fuse(device(), None, 10.0)
+    sample = Sample(10.0, State.INSERTING, pose, None, np.zeros(3))
+    written = {topic: json.loads(text) for topic, text in messages(sample, {"sec": 1, "nsec": 0})}
+    attempt = written["/attempt"]
+    assert (attempt["valid"], attempt["tip"], attempt["depth"]) == (False, None, None)
+    assert list(attempt["axis"].values()) == pytest.approx(pose.axis.tolist())
+    assert not {"/tf", "/needle/tip"} & set(written)
 
 
 def test_encoders_older_than_their_limit_make_the_pose_invalid() -> None:

@@ -176,6 +176,7 @@ def _paused(source: DepthSource, state: State, status: str = "") -> bool:
     )
 
 
+@pytest.mark.promise("docs/sessions.md: never a pause")
 def test_only_a_loss_in_the_body_pauses() -> None:
     assert _paused(DepthSource.MODEL, State.INSERTING)
     assert _paused(DepthSource.MODEL, State.HOLDING)
@@ -310,6 +311,7 @@ def test_a_depth_that_no_camera_measured_is_not_predicted(source: DepthSource) -
     assert predicted(other, DepthMotion(10.03, 0.09, 0.5, 1e-9)) is other
 
 
+@pytest.mark.promise("docs/sessions.md: Record, score and force never use a prediction")
 def test_the_window_sees_the_prediction_and_the_record_the_measurement(bench: Bench) -> None:
     bench.trainer.begin()
     bench.run(0.5, -0.02)

@@ -1,10 +1,13 @@
 """Students, PINs and the instructor; rosters with every fault that rosters have."""
 
 import json
+import sqlite3
 import stat
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from threading import Barrier
 
 import pytest
 
@@ -79,6 +82,94 @@ def test_wrong_tries_cost_time_and_the_right_pin_too_meanwhile(people: People, w
         people.sign_in("Ada", "0000")
 
 
+@pytest.fixture
+def compared(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """What is compared with a hash, by the library that does it."""
+    from argon2 import PasswordHasher
+
+    verify, given = PasswordHasher.verify, []
+
+    def counted(self: PasswordHasher, known: str, secret: str) -> bool:
+        given.append(secret)
+        return verify(self, known, secret)
+
+    monkeypatch.setattr(PasswordHasher, "verify", counted)
+    return given
+
+
+@pytest.mark.promise(
+    "docs/people.md: Signing in says the same and takes the same time whether or not there "
+    "is such a student"
+)
+def test_signing_in_tells_nobody_who_is_known_here(
+    people: People, wall: Wall, compared: list[str]
+) -> None:
+    people.add(RosterLine("Ada", pin="1843"))
+
+    def tries(pseudonym: str) -> list[tuple[str, int]]:
+        told = []
+        for seconds in (0.0, 0.0, 0.0, 1.0, 5.0, 1.0, 10.0):
+            wall.now += seconds
+            before = len(compared)
+            with pytest.raises(WrongPasswordError) as error:
+                people.sign_in(pseudonym, "0000")
+            told.append((str(error.value), len(compared) - before))
+        return told
+
+    known, unknown = tries("Ada"), tries("Bob")
+    assert known == unknown == tries("Cy")
+    assert [work for _, work in known] == [1, 1, 1, 0, 1, 0, 1]
+    wall.now += 100.0
+    people.sign_in("Ada", "1843")
+    stored = (people.folder / PEOPLE).read_bytes()
+    assert b"bob" not in stored.lower()  # it may be a name
+
+
+def test_strangers_who_try_names_fill_no_list(people: People, monkeypatch) -> None:
+    monkeypatch.setattr("app.session.tries._STRANGERS", 3)
+    monkeypatch.setattr("app.session.tries.matches", lambda known, given: False)
+    people.add(RosterLine("Ada", pin="1843"))
+    for number in range(8):
+        with pytest.raises(WrongPasswordError):
+            people.sign_in(f"somebody {number}", "0000")
+    with sqlite3.connect(people.folder / PEOPLE) as there:
+        assert there.execute("SELECT count(*) FROM failures").fetchone() == (3,)
+
+
+@pytest.mark.promise("docs/people.md: of many wrong ones three")
+def test_of_many_tries_at_one_moment_three_are_compared(
+    people: People, compared: list[str]
+) -> None:
+    people.add(RosterLine("Ada", pin="1843"))
+    begin = Barrier(40)
+
+    def sign_in(number: int) -> str:
+        alone = People(people.folder, people._clock)
+        begin.wait()
+        with pytest.raises(WrongPasswordError) as error:
+            alone.sign_in("Ada", f"{number:04d}")
+        alone.database.close()
+        return str(error.value)
+
+    with ThreadPoolExecutor(40) as pool:
+        told = list(pool.map(sign_in, range(40)))
+    assert len(compared) == 3
+    assert sum("too many wrong tries" in text for text in told) == 37
+
+
+def test_right_passwords_at_one_moment_keep_nobody_out(people: People) -> None:
+    people.set_instructor("correct horse")
+    begin = Barrier(6)
+
+    def check(_: int) -> None:
+        alone = People(people.folder, people._clock)
+        begin.wait()
+        alone.check_instructor("correct horse")
+
+    with ThreadPoolExecutor(6) as pool:
+        list(pool.map(check, range(6)))
+
+
 def test_the_instructor_has_a_password_and_a_recovery_key(people: People, wall: Wall) -> None:
     recovery = people.set_instructor("correct horse")
     assert people.has_instructor()
@@ -101,6 +192,7 @@ def test_the_instructor_has_a_password_and_a_recovery_key(people: People, wall: 
     assert StationKey.unwrapped(people.wrapped_key(), recovery) == StationKey.of(people.folder)
 
 
+@pytest.mark.promise("docs/people.md: Passwords and PINs are kept as Argon2id hashes only")
 def test_neither_names_nor_secrets_stand_in_the_list_of_people(people: People) -> None:
     people.add(RosterLine("Ada", "Ada Lovelace", "184318"))
     people.set_instructor("correct horse")
@@ -172,6 +264,7 @@ def test_each_fault_of_a_roster_is_one_line(data: bytes, said: str) -> None:
     assert "\n" not in errors[0]
 
 
+@pytest.mark.promise("docs/people.md: Then nothing is taken, unless `--partly` is given")
 def test_a_roster_with_a_wrong_row_takes_nothing_unless_asked(people: People) -> None:
     lines = [RosterLine("Ada"), RosterLine("../x"), RosterLine("Bob")]
     report = people.take_roster(lines)
@@ -184,6 +277,7 @@ def test_a_roster_of_excel_in_utf_16_is_read() -> None:
     assert (errors, lines) == ([], [RosterLine("Ada", "Élève")])
 
 
+@pytest.mark.promise("docs/people.md: the records themselves are never changed")
 def test_typed_names_of_old_records_are_nobodys_until_assigned(people: People) -> None:
     people.add(RosterLine("Ada"))
     key = people.find("Ada").key

@@ -125,6 +125,7 @@ def test_people_that_cannot_be_taken_change_nothing(one: Place, tmp_path: Path, 
     People().check_instructor("correct horse")
 
 
+@pytest.mark.promise("docs/people.md: a password is never taken away")
 def test_triggers_and_settings_of_a_foreign_list_are_not_taken_over(
     one: Place, tmp_path: Path
 ) -> None:
@@ -314,6 +315,10 @@ def test_names_and_persons_change_together_or_not_at_all(
     assert {summary.signature for summary in list_sessions(one.folder)} == {"verified"}
 
 
+@pytest.mark.promise(
+    "README.md: no finished attempt is lost or unsigned, and nothing is left over after "
+    "the next start"
+)
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
 def test_a_kill_at_every_step_of_delete_restore_and_backup_leaves_all_or_nothing(
     tmp_path: Path,

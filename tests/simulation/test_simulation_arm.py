@@ -31,7 +31,7 @@ from app.simulation.arm import (
 from app.simulation.arm.mjcf import finger_joint, write_scene
 from app.simulation.errors import SimulationError
 
-mujoco = pytest.importorskip("mujoco", reason="needs the extra arm: pip install 'acus[arm]'")
+mujoco = pytest.importorskip("mujoco", reason="needs the extra arm: make extra NAME=arm")
 
 SCENE = ArmScene.seeded(3)
 DOWN = np.array([0.0, 0.0, -1.0])

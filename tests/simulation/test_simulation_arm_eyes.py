@@ -37,7 +37,7 @@ from app.tracking.simulated.tool import ToolRenderer, ToolScene, eyes
 ROOT = Path(__file__).resolve().parents[2]
 needs_the_extra = pytest.mark.skipif(
     any(find_spec(name) is None for name in ("mujoco", "ompl", "ruckig")),
-    reason="needs the extra arm: pip install 'acus[arm]'",
+    reason="needs the extra arm: make extra NAME=arm",
 )
 MODELS = cameras()
 SCENE = ArmScene.seeded(1)
@@ -291,7 +291,7 @@ def test_it_can_be_cancelled_at_any_time_and_says_how_far_it_is():
 
 
 def test_the_pictures_of_the_arm_show_it():
-    pytest.importorskip("mujoco", reason="needs the extra arm: pip install 'acus[arm]'")
+    pytest.importorskip("mujoco", reason="needs the extra arm: make extra NAME=arm")
     with RunningScene(ArmScene.seeded(1)) as running:
         try:
             image = running.picture((320, 240))
@@ -314,7 +314,7 @@ def test_without_the_extra_the_command_says_which_to_install():
     found = acus(code=code)
     assert found.returncode == 2
     assert found.stdout.strip() == "Simulation only: nothing here drives a real arm."
-    assert "pip install 'acus[arm]'" in found.stderr
+    assert "make extra NAME=arm" in found.stderr
     assert len(found.stderr.strip().splitlines()) == 1
 
 

@@ -1,5 +1,7 @@
 """docs/accuracy says what the kept tables say."""
 
+import re
+
 import pytest
 
 from app.studies.kept import kept, kept_names
@@ -31,3 +33,32 @@ def test_a_diagram_shows_every_family_of_ways_and_both_limits():
         for family in {way.family for way in study.ways}:
             measured = any(point.family == family for point in kept(name).points)
             assert not measured or family.replace("&", "&amp;") in text, (name, family)
+
+
+def sections(name):
+    text = (FOLDER.parent / name).read_text(encoding="utf-8")
+    for part in re.split(r"(?m)^## ", text)[1:]:
+        title, _, body = part.partition("\n")
+        yield title.strip(), body
+
+
+def test_figures_of_ways_stand_in_docs_accuracy_alone():
+    """`docs/studies.md` says what follows; it had times and errors of other measurements beside."""
+    names, told = set(kept_names()), []
+    for title, body in sections("studies.md"):
+        if title not in names:
+            continue
+        assert f"[The figures](accuracy/{title}.md)" in body.replace("\n", " "), title
+        ways = {way.name for way in kept(title).result.study.ways}
+        for row in re.findall(r"(?m)^\|(.*)\|$", body):
+            cells = [cell.strip().strip("`") for cell in row.split("|")]
+            if cells[0] in ways or "time" in cells:
+                told.append((title, row))
+    assert told == []
+
+
+def test_a_page_has_every_ways_error_in_every_setting_where_that_is_short():
+    page = pages()["contact.md"]
+    point = next(p for p in kept("contact").points if p.setting == "1000 N/m")
+    (row,) = (line for line in page.splitlines() if line.startswith("| 1000 N/m |"))
+    assert f" {point.error:.2g} " in row

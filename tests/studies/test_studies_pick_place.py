@@ -67,7 +67,7 @@ def test_it_needs_the_joined_arm_and_eyes_lent():
 
 @pytest.mark.skipif(
     any(find_spec(name) is None for name in ("mujoco", "ompl", "ruckig")),
-    reason="needs the extra arm: pip install 'acus[arm]'",
+    reason="needs the extra arm: make extra NAME=arm",
 )
 def test_the_quick_study_inserts_its_tools_by_pictures_alone():
     found = examine("pick_place", quick=True, lend=lent).findings

@@ -95,6 +95,9 @@ def test_an_id_is_found_by_its_beginning(history: CalibrationHistory) -> None:
         history.find("2026")
 
 
+@pytest.mark.promise(
+    "docs/calibration.md: Files are written whole or not at all, once, and never deleted"
+)
 def test_a_calibration_is_never_overwritten(history: CalibrationHistory) -> None:
     history.keep(made("a"))
     history.keep(made("a"))  # the same again is no harm

@@ -102,10 +102,10 @@ def test_an_assessment_is_done_by_the_student(planned) -> None:
 
 def test_a_missing_extra_is_named(planned, services, settle) -> None:
     _window, arm = planned
-    services.cannot = SimulationError("MuJoCo is not installed: pip install 'acus[arm]'")
+    services.cannot = SimulationError("MuJoCo is not installed: make extra NAME=arm")
     arm.watch()
     assert settle(lambda: arm.said)
-    assert "acus[arm]" in arm.said[0]
+    assert "make extra NAME=arm" in arm.said[0]
     assert not arm.is_busy
     assert arm.bar.isHidden()
 
@@ -329,6 +329,7 @@ def test_no_place_is_offered_for_a_plan_that_changed(planned, services, settle) 
     assert settle(arm.bar.isHidden)
 
 
+@pytest.mark.promise("docs/mechanism.md: It is a simulation only and never drives a real arm")
 def test_a_real_robot_is_left_alone_and_comes_back(planned, services, settle) -> None:
     window, arm = planned
     window.conductor.set_robot(RobotChoice(port="/dev/ttyACM0"))
@@ -525,7 +526,7 @@ def test_stopped_in_the_body_the_attempt_is_kept_as_broken_off_and_no_debrief_op
 
 def test_the_arm_of_the_scene_does_it_to_the_end(real, settle) -> None:
     for package in ("mujoco", "ompl", "ruckig"):
-        pytest.importorskip(package, reason="needs the extra arm: pip install 'acus[arm]'")
+        pytest.importorskip(package, reason="needs the extra arm: make extra NAME=arm")
     real.services.carry_out = real.services.desktop.carry_out
     arm, said, results = real.feature(ArmFeature), [], []
     arm.failed.connect(said.append)

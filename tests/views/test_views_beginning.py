@@ -116,6 +116,7 @@ def test_f5_on_an_exercise_taken_from_the_list_shows_its_briefing_first(window, 
     assert settle(lambda: state(window) is State.ALIGNING)
 
 
+@pytest.mark.promise("docs/user-guide.md: an assessment always has its briefing")
 def test_do_not_show_again_holds_for_that_exercise_and_never_for_an_assessment(
     window, beginning, settle
 ):

@@ -14,8 +14,9 @@ from app.planning.placement import PatientOrientation, Placement
 from app.planning.plan import Plan
 from app.views.kit import theme
 from app.views.plan.editor import PlanEditor, PlanFiles
-from app.views.plan.feature import PlanPanel, verdict_words
+from app.views.plan.feature import PlanFeature, PlanPanel, verdict_words
 from app.views.shell.settings import Recents, open_settings
+from app.views.slices.plane import PaneId
 from app.views.slices.presets import default_window
 from app.views.slices.viewing import Tool, Viewing
 
@@ -242,3 +243,28 @@ def test_a_target_that_the_exercise_gives_cannot_be_moved_nor_lost(application):
     assert editor.edit.draft.complete
     editor.start(None)
     assert editor.edit.draft == DraftPlan(None, (0.0, 0.0, 50.0), "own")
+
+
+def test_an_entry_that_leaves_its_clicked_slice_says_so(window, patient):
+    window.show_patient(patient)
+    viewing, panel = window.workspace.viewing, window.feature(PlanFeature).panel
+    volume = patient.volume
+    beyond, within = volume.lps_mm((30.0, 30.0, 39.0)), volume.lps_mm((30.0, 11.0, 20.0))
+    for pane, point, far in (
+        (PaneId.AXIAL, beyond, True),
+        (PaneId.AXIAL, within, False),
+        (PaneId.CORONAL, beyond, False),
+        (PaneId.AXIAL, within, False),
+        (PaneId.AXIAL, beyond, True),
+    ):
+        viewing.clicked_pane = pane
+        viewing.point_placed.emit(Tool.ENTRY, tuple(map(float, point)), True)
+        entry = window.editor.edit.draft.entry_mm
+        away = abs(entry[2] - point[2])
+        assert (away > 2.0) == (point is beyond)
+        assert bool(panel.left_slice.text()) == far
+        assert panel.left_slice.isHidden() != far
+        if far:
+            assert f"{away:.1f} mm out of the slice" in panel.left_slice.text()
+    window.editor.undo()
+    assert not panel.left_slice.text()

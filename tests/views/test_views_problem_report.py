@@ -1,5 +1,6 @@
 import logging
 
+import pytest
 from PySide6.QtWidgets import QApplication
 
 from app import __version__
@@ -8,6 +9,7 @@ from app.views.kit.names import NAMES
 from app.views.shell.help import ProblemReport
 
 
+@pytest.mark.promise("docs/user-guide.md: names no patient, student, path or file")
 def test_a_report_holds_versions_and_the_log_and_nobody_is_named(application, tmp_path):
     log = LogFile()
     log.open()

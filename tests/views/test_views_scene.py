@@ -488,6 +488,7 @@ def test_the_background_is_light_and_marks_are_dark_on_it(stage):
     assert stage.render(orbit, SIZE, False)[2, 2, :3].max() == 0
 
 
+@pytest.mark.promise("docs/reading.md: needle, path and target are never hidden")
 def test_in_an_x_ray_the_needle_is_never_hidden_and_three_pixels_wide(stage, surfaces):
     size = (420, 330)  # the 3D view of a window of 1366 × 768
     orbit = Orbit.from_side("A", np.full(3, 14.5), 300.0)

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.errors import AcusError
-from app.core.extras import pip_command
+from app.core.extras import install_command
 from app.studies.errors import StudyError
 
 REFERENCES: Final = Path(__file__).with_name("references.json")
@@ -213,7 +213,7 @@ class HardCase:
     def missing(self) -> str:
         """Why the case cannot be tried here; empty if it can."""
         lacking = [package for package in self.needs if find_spec(package) is None]
-        return ", ".join(f"needs {p}: {pip_command(EXTRAS[p])}" for p in lacking)
+        return ", ".join(f"needs {p}: {install_command(EXTRAS[p])}" for p in lacking)
 
 
 @dataclass(frozen=True, slots=True)

@@ -65,7 +65,7 @@ class Diagram(QWidget):
         self._most = _BEYOND * study.perception.value
         self.plot.clear()
         self._fit(points, study.perception.value, study.deadline.value)
-        self.plot.setLabel("bottom", study.error_label)
+        self.plot.setLabel("bottom", escape(study.error_label))
         self.plot.setLabel("left", tr("Processor time of one call"))
         titles, symbols = [], list(SYMBOLS)
         families = dict.fromkeys(way.family for way in study.ways)

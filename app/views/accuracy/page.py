@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 from app.views.accuracy.diagram import Diagram
 from app.views.kit import theme
 from app.views.kit.parts import button, label, table
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 from app.views.kit.verdict import Verdict, tell
 
 if TYPE_CHECKING:
@@ -83,7 +83,9 @@ class HardCasesTab(QWidget):
                 value = values[place]
                 text = f"{value:.2g}" if isinstance(value, float) else str(value)
                 item = QTableWidgetItem(text)
-                item.setToolTip(f"{values[2]}\n{values[3]}")  # the input, and what is right
+                item.setToolTip(
+                    literal(f"{values[2]}\n{values[3]}")
+                )  # the input, and what is right
                 self.cases.setItem(row, column, item)
         verdict = Verdict.GOOD if findings.passed else Verdict.BAD
         tell(self.said, verdict, findings.lines[0])
@@ -174,7 +176,7 @@ class AccuracyPage(QWidget):
         why = tr("Something is being measured: wait, or cancel it at the top") if on else ""
         for one in (self.measure, self.hard.run):
             one.setEnabled(not on)
-            one.setToolTip(why)
+            one.setToolTip(literal(why))
 
     @property
     def name(self) -> str:

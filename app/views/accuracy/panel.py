@@ -13,7 +13,7 @@ from app.session.snapshot import Snapshot
 from app.views.accuracy.budget import EffectCost, SceneCost, advice, in_words, lowering, too_much
 from app.views.kit import theme
 from app.views.kit.parts import button, label
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 from app.views.kit.verdict import Verdict, tell
 from app.views.kit.wheel import wheel_scrolls
 
@@ -74,7 +74,7 @@ class ShareLine(QWidget):
         super().__init__(parent)
         self._words = words
         self._said, self._bar = label("", "dim"), BudgetBar(self)
-        self.setToolTip(tip)
+        self.setToolTip(literal(tip))
         rows = QVBoxLayout(self)
         rows.setContentsMargins(0, 0, 0, 0)
         rows.setSpacing(2)
@@ -117,18 +117,22 @@ class EffectRow(QFrame):
             cost = f" · {in_words(effect.costs[name])}" if name in effect.costs else ""
             self.models.addItem(f"{name}{cost}", name)
             tip = effect.models[name]
-            self.models.setItemData(self.models.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
+            self.models.setItemData(
+                self.models.count() - 1, literal(tip), Qt.ItemDataRole.ToolTipRole
+            )
         self.models.setCurrentIndex(max(self.models.findData(effect.model), 0))
         self.models.setEnabled(len(effect.models) > 1 and not locked and bool(effect.costs))
         on_pictures = tr(
             "Acts on the cameras' pictures: nothing of a tick; chosen before it begins"
         )
         self.models.setToolTip(
-            locked
-            or (on_pictures if not effect.costs else "")
-            or tr(
-                "By which model it is computed, and its time in a tick on this computer; another "
-                "one applies at once"
+            literal(
+                locked
+                or (on_pictures if not effect.costs else "")
+                or tr(
+                    "By which model it is computed, and its time in a tick on this computer; "
+                    "another one applies at once"
+                )
             )
         )
         self.models.currentIndexChanged.connect(

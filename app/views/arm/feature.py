@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, ClassVar, Final
 
 from PySide6.QtCore import Qt, SignalInstance
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
 from app.exercises.guidance import Purpose
 from app.planning.placement import PlacedPlan
@@ -15,8 +15,8 @@ from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.menu_entries import add_entries
-from app.views.kit.parts import button
-from app.views.kit.text import tr
+from app.views.kit.parts import PlainLabel, button
+from app.views.kit.text import literal, tr
 from app.views.shell.feature import Context, Feature
 
 if TYPE_CHECKING:
@@ -41,8 +41,7 @@ class ArmBar(QFrame):
     def __init__(self, window: QWidget) -> None:
         super().__init__(window)
         self.setProperty("role", "panel")
-        self.words = QLabel(self)
-        self.words.setTextFormat(Qt.TextFormat.PlainText)
+        self.words = PlainLabel(self)
         self.words.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.words.setWordWrap(True)
         self.words.setAccessibleName(tr("What the arm does"))
@@ -56,7 +55,7 @@ class ArmBar(QFrame):
             (self.take, tr("You go on with mouse or keys from where the needle is now")),
             (self.stop, tr("The attempt is broken off; everything is as it was before")),
         ):
-            one.setToolTip(tip)
+            one.setToolTip(literal(tip))
         row = QHBoxLayout(self)
         row.setContentsMargins(theme.MARGIN, 2, theme.SPACING, 2)
         row.addWidget(self.words, 1)
@@ -80,7 +79,7 @@ class ArmBar(QFrame):
         """Say this, and offer these buttons."""
         if words != self.words.text():
             self.words.setText(words)
-            self.words.setToolTip(f"{words}\n{only_simulated()}")
+            self.words.setToolTip(literal(f"{words}\n{only_simulated()}"))
         for one in self.buttons:
             one.setVisible(one in shown)
 
@@ -152,7 +151,9 @@ class ArmFeature(Feature):
             [(tr("Watch the arm do my plan"), "Ctrl+Shift+F5", self.watch)],
         )
         entry.setToolTip(
-            tr("A simulated arm carries out the plan on screen. {only}", only=only_simulated())
+            literal(
+                tr("A simulated arm carries out the plan on screen. {only}", only=only_simulated())
+            )
         )
         self._connect()
 

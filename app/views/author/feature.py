@@ -81,7 +81,7 @@ from app.views.kit.field_words import problem_words
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.parts import button, label
 from app.views.kit.side_panel import scrolled
-from app.views.kit.text import counted, tr
+from app.views.kit.text import counted, literal, tr
 from app.views.kit.verdict import Verdict
 from app.views.kit.wizard import Wizard
 from app.views.shell.feature import Context, Feature
@@ -188,7 +188,7 @@ class ExerciseDialog(Wizard):
         self.redo.setEnabled(self.editor.can_redo)
         for one in (self.keep, self.attempt, self.export):
             one.setEnabled(fine)
-            one.setToolTip(self.first_problem())
+            one.setToolTip(literal(self.first_problem()))
         title = self.editor.get("title", default="") or tr("Exercise")
         self.setWindowTitle(f"{title} •" if self.editor.dirty else str(title))
 
@@ -404,7 +404,7 @@ class AuthorFeature(Feature):
         answer = QMessageBox.question(
             self.dialog or self._shell.dialog_parent,
             tr("Exercise not kept"),
-            tr("Keep {what}?", what=self.unsaved()),
+            literal(tr("Keep {what}?", what=self.unsaved())),
             box.Save | box.Discard | box.Cancel,
             box.Save,
         )

@@ -44,8 +44,8 @@ from app.views.author.editing import DRAWN, ExerciseEditor, Where, bone_words
 from app.views.kit import theme
 from app.views.kit.coordinates import lps_words
 from app.views.kit.field_words import place_words, problem_words
-from app.views.kit.parts import button, column, label, table
-from app.views.kit.text import tr
+from app.views.kit.parts import PlainLabel, add_row, button, column, label, table
+from app.views.kit.text import literal, tr
 from app.views.kit.wheel import wheel_scrolls
 from app.views.reading.lock_words import view_title
 
@@ -105,7 +105,7 @@ class Form(QWidget):
     def add(self, where: Where, name: str, widget: QWidget, load: Callable[[], None]) -> None:
         """Add a field with its name, and the line that says what is wrong with it."""
         if name:
-            self.names[where] = QLabel(name, self)
+            self.names[where] = PlainLabel(name, self)
             self.rows.addWidget(self.names[where])
             widget.setAccessibleName(name)
         self.rows.addWidget(widget)
@@ -254,7 +254,7 @@ class Form(QWidget):
 def _hold(box: QCheckBox, on: bool | None, why: str) -> None:
     """Let a box stand on or off, whatever was chosen, and say why; None sets it free."""
     box.setEnabled(on is None)
-    box.setToolTip("" if on is None else why)
+    box.setToolTip(literal("" if on is None else why))
     if on is not None:
         with QSignalBlocker(box):
             box.setChecked(on)
@@ -883,7 +883,7 @@ class PartsBox(QWidget):
         rows = QVBoxLayout(self)
         rows.setContentsMargins(0, 0, 0, 0)
         if title:
-            rows.addWidget(QLabel(title))
+            rows.addWidget(PlainLabel(title))
         self.boxes: dict[str, QCheckBox] = {}
         self.values: dict[tuple[str, str], QLineEdit] = {}
         self.organs: dict[str, QLineEdit] = {}
@@ -902,9 +902,9 @@ class PartsBox(QWidget):
         for key, one in declared.parameters.items():
             line = self.values[name, key] = QLineEdit(frame)
             line.setPlaceholderText(_plain(one.default))
-            line.setToolTip(f"{one.meaning}; {one.minimum:g} … {one.maximum:g} {one.unit}")
+            line.setToolTip(literal(f"{one.meaning}; {one.minimum:g} … {one.maximum:g} {one.unit}"))
             line.textEdited.connect(lambda text, at=(name, key): self._set(at, text))
-            form.addRow(f"{key} [{one.unit}]", line)
+            add_row(form, f"{key} [{one.unit}]", line)
         if isinstance(declared, effects.Effect):
             self._add_words(form, name, declared)
         for widget in (box, why, frame):
@@ -920,7 +920,7 @@ class PartsBox(QWidget):
                     self._field, name, "organ", value=text.strip() or None, typed=True
                 )
             )
-            form.addRow(tr("acts on"), organ)
+            add_row(form, tr("acts on"), organ)
         if len(declared.models) < 2:
             return
         way = self.ways[name] = QComboBox(self)
@@ -930,7 +930,7 @@ class PartsBox(QWidget):
         way.activated.connect(
             lambda _: self._editor.put(self._field, name, "model", value=way.currentData())
         )
-        form.addRow(tr("computed by"), way)
+        add_row(form, tr("computed by"), way)
 
     def load(self) -> None:
         """Show which are on, why each is simulated or not, and what their parameters are."""
@@ -1093,7 +1093,7 @@ class ScorePage(Form):
             self.bands,
             self._show,
         )
-        self.rows.addWidget(QLabel(tr("What scripted skills would score")))
+        self.rows.addWidget(PlainLabel(tr("What scripted skills would score")))
         self.skills = SkillsPlot(self)
         self.rows.addWidget(self.skills)
         self.tried = label("", "dim")

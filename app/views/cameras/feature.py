@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QHBoxLayout,
-    QLabel,
     QMenu,
     QVBoxLayout,
     QWidget,
@@ -32,9 +31,9 @@ from app.views.cameras.live import AimPort, LiveCamera, LivePreview
 from app.views.cameras.settings_dialog import CameraSettingsDialog
 from app.views.kit import theme
 from app.views.kit.background import run_in_background
-from app.views.kit.parts import size_dialog
+from app.views.kit.parts import PlainLabel, size_dialog
 from app.views.kit.progress_strip import ProgressStrip
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 from app.views.shell.feature import Context, Feature
 
 if TYPE_CHECKING:
@@ -70,9 +69,9 @@ class AimDialog(QDialog):
         super().__init__(parent)
         self.setWindowTitle(tr("Aim the cameras"))
         self.previews = tuple(LivePreview(self) for _ in SIDES)
-        self.share, self.losses = QLabel(self), QLabel(self)
+        self.share, self.losses = PlainLabel(self), PlainLabel(self)
         self.waiting = ProgressStrip(self)
-        self.titles = tuple(QLabel(title, self) for title in (tr("Left"), tr("Right")))
+        self.titles = tuple(PlainLabel(title, self) for title in (tr("Left"), tr("Right")))
         self._lay_out()
         for side, preview in zip(SIDES, self.previews, strict=True):
             preview.open(_opener(services, settings, side, free))
@@ -127,7 +126,7 @@ class AimDialog(QDialog):
         self.share.setText(f"{symbol} {error}")
 
     def _lay_out(self) -> None:
-        words = QLabel(
+        words = PlainLabel(
             tr(
                 "The green line surrounds every place the marker can be at. It should lie within "
                 "both pictures. The line follows from the calibration, not from the picture: after "
@@ -318,7 +317,7 @@ class CamerasMenu:
             (self.aim, tr("Where the needle can be, drawn into both live pictures")),
             (self.calibrate, tr("Lenses and places of the cameras, from pictures of a board")),
         ):
-            action.setToolTip(help_)
+            action.setToolTip(literal(help_))
         self._add(latency, tr("Left camera…"), lambda: cameras.measure_latency("left"))
         self._add(latency, tr("Right camera…"), lambda: cameras.measure_latency("right"))
         self._equipment.changed.connect(self.refresh)

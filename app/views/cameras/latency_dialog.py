@@ -15,7 +15,6 @@ from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QHBoxLayout,
-    QLabel,
     QProgressBar,
     QPushButton,
     QVBoxLayout,
@@ -27,7 +26,7 @@ from app.tracking.cameras.settings import CameraSettings
 from app.views.cameras.live import LiveCamera, LivePreview
 from app.views.kit import theme
 from app.views.kit.background import run_in_background
-from app.views.kit.parts import size_dialog
+from app.views.kit.parts import PlainLabel, size_dialog
 from app.views.kit.progress_strip import ProgressStrip
 from app.views.kit.text import tr
 
@@ -130,7 +129,7 @@ class LatencyDialog(QDialog):
         self.setWindowTitle(tr("Latency of the {name} camera", name=name))
         self._side, self._seconds, self._rate = side, seconds, settings.rate_hz
         self.patch, self.preview = BlinkPatch(self), LivePreview(self)
-        self.bar, self.outcome = QProgressBar(self), QLabel(self)
+        self.bar, self.outcome = QProgressBar(self), PlainLabel(self)
         self.waiting = ProgressStrip(self)
         self.start = QPushButton(tr("Start"))
         self.keep = QPushButton(tr("Keep"))
@@ -211,7 +210,7 @@ class LatencyDialog(QDialog):
             self.measured.emit(self._side, latency)
 
     def _lay_out(self) -> None:
-        words = QLabel(
+        words = PlainLabel(
             tr(
                 "Point the camera at the patch, a hand's breadth away, so that the patch fills a "
                 "good part of the picture. The patch blinks at random for {seconds:.0f} s. The "

@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Protocol
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QImage, QPainter, QPaintEvent, QPen, QPolygonF
-from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QSizePolicy, QVBoxLayout, QWidget
 
 from app.core.progress import Progress
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, Indicator, run_in_background
+from app.views.kit.parts import PlainLabel
 from app.views.kit.text import tr
 from app.views.kit.themes import DARK
 
@@ -245,7 +246,7 @@ class LivePreview(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.picture, self.note = PictureView(self), QLabel(self)
+        self.picture, self.note = PictureView(self), PlainLabel(self)
         self.note.setWordWrap(True)
         self.note.setMinimumHeight(3 * theme.FONT_PX)
         self.camera: ShownCamera | None = None

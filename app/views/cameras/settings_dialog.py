@@ -11,7 +11,6 @@ from PySide6.QtWidgets import (
     QDoubleSpinBox,
     QFormLayout,
     QHBoxLayout,
-    QLabel,
     QPushButton,
     QVBoxLayout,
     QWidget,
@@ -23,6 +22,7 @@ from app.tracking.cameras.source import SourceKind
 from app.views.cameras.boxes import SizeBox, SourceBox
 from app.views.cameras.live import LiveCamera, LivePreview
 from app.views.kit import theme
+from app.views.kit.parts import PlainLabel, add_row
 from app.views.kit.settings_dialog import SettingsDialog
 from app.views.kit.text import tr
 
@@ -52,11 +52,11 @@ class SideEditor(QWidget):
         self.exposure.setSuffix(tr(" ms"))
         self.exposure.setSpecialValueText(tr("as the camera finds it, then held"))
         self.show_camera(camera)
-        heading = QLabel(title)
+        heading = PlainLabel(title)
         heading.setStyleSheet("font-weight: 600;")
         form = QFormLayout()
-        form.addRow(tr("Source"), self.source)
-        form.addRow(tr("Exposure"), self.exposure)
+        add_row(form, tr("Source"), self.source)
+        add_row(form, tr("Exposure"), self.exposure)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.addWidget(heading)
@@ -219,11 +219,11 @@ class CameraSettingsDialog(SettingsDialog):
                 "No camera is plugged in. Plug both in, then open this dialog again; a folder or "
                 "a video can be typed as source: folder:PATH, video:PATH."
             )
-        explanation = QLabel(words)
+        explanation = PlainLabel(words)
         explanation.setWordWrap(True)
         common = QHBoxLayout()
         for title, widget in ((tr("Size"), self.size_box), (tr("Pictures"), self.rate)):
-            common.addWidget(QLabel(title))
+            common.addWidget(PlainLabel(title))
             common.addWidget(widget)
         common.addStretch(1)
         common.addWidget(self.swap)

@@ -33,7 +33,7 @@ from app.views.cameras.wizard_capture import CapturePage
 from app.views.cameras.wizard_result import ResultPage, WorldPage
 from app.views.cameras.wizard_save import SavePage
 from app.views.kit import theme
-from app.views.kit.parts import button, column, label
+from app.views.kit.parts import PlainLabel, button, column, label
 from app.views.kit.text import tr
 from app.views.kit.verdict import Verdict, tell
 from app.views.kit.wizard import Wizard
@@ -245,7 +245,7 @@ class BoardPage(QWidget):
         counts = QWidget(self)
         both = QHBoxLayout(counts)
         both.setContentsMargins(0, 0, 0, 0)
-        for part in (self.columns, QLabel("×"), self.rows):
+        for part in (self.columns, PlainLabel("×"), self.rows):
             both.addWidget(part)
         both.addStretch(1)
         for row, (name, title, widget) in enumerate(
@@ -258,7 +258,7 @@ class BoardPage(QWidget):
                 ("paper", tr("Paper"), self.paper),
             )
         ):
-            self._titles[name] = QLabel(title, self)
+            self._titles[name] = PlainLabel(title, self)
             grid.addWidget(self._titles[name], row, 0)
             grid.addWidget(widget, row, 1)
         grid.setRowStretch(6, 1)

@@ -15,7 +15,6 @@ from PySide6.QtWidgets import (
     QFileDialog,
     QGridLayout,
     QHBoxLayout,
-    QLabel,
     QTableWidgetItem,
     QWidget,
 )
@@ -41,7 +40,7 @@ from app.views.cameras.wizard_words import (
 )
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
-from app.views.kit.parts import button, column, label, table, thin_bar
+from app.views.kit.parts import PlainLabel, button, column, label, table, thin_bar
 from app.views.kit.text import tr
 from app.views.kit.verdict import Verdict, tell
 
@@ -212,7 +211,7 @@ class WorldPage(QWidget):
         names = ("x", "y", "z", tr("about x"), tr("about y"), tr("about z"))
         for i, (name, spin) in enumerate(zip(names, self.fields, strict=True)):
             row, k = divmod(i, 3)
-            title = QLabel(name, self)
+            title = PlainLabel(name, self)
             title.setProperty("role", "dim")
             grid.addWidget(title, row, 2 * k)
             grid.addWidget(spin, row, 2 * k + 1)
@@ -439,7 +438,7 @@ def _fill_grid(grid: QGridLayout, rows: list[tuple[str, str]]) -> None:
         if (widget := item.widget()) is not None:
             widget.deleteLater()
     for i, (title, value) in enumerate(rows):
-        name = QLabel(title)
+        name = PlainLabel(title)
         name.setProperty("role", "dim")
         grid.addWidget(name, i, 0)
-        grid.addWidget(QLabel(value), i, 1)
+        grid.addWidget(PlainLabel(value), i, 1)

@@ -30,8 +30,8 @@ from app.tracking.calibration.job import CalibrationJob
 from app.tracking.optics.calibration import StereoCalibration
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
-from app.views.kit.parts import button, column, label, table
-from app.views.kit.text import tr
+from app.views.kit.parts import add_row, button, column, label, table
+from app.views.kit.text import literal, tr
 from app.views.kit.verdict import Verdict, tell
 
 
@@ -130,8 +130,8 @@ class ImportDialog(QDialog):
             row.addWidget(one)
         row.addWidget(self.chosen, 1)
         form.addRow(row)
-        form.addRow(tr("Unit of the board's square (--unit)"), self.unit)
-        form.addRow(tr("Size of the pictures (--size)"), self.size_box)
+        add_row(form, tr("Unit of the board's square (--unit)"), self.unit)
+        add_row(form, tr("Size of the pictures (--size)"), self.size_box)
         last = QHBoxLayout()
         last.addStretch(1)
         close = button(tr("Cancel"))
@@ -173,7 +173,7 @@ def show_entry(table: QTableWidget, row: int, entry: KeptCalibration, shown: Det
         colour, state = theme.BAD, tr("✖ found bad: {why}", why=entry.rejected.reason)
     for k, text in enumerate((entry.id, figures, world, state)):
         item = QTableWidgetItem(text)
-        item.setToolTip(text)
+        item.setToolTip(literal(text))
         if k == 3:
             item.setForeground(QColor(colour))
         if k == 0:

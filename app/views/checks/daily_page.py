@@ -13,7 +13,6 @@ from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
     QHBoxLayout,
-    QLabel,
     QProgressBar,
     QPushButton,
     QVBoxLayout,
@@ -31,7 +30,7 @@ from app.tracking.inspection import Inspection
 from app.views.checks.toucher import Toucher, move_there, tell_tracker
 from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
-from app.views.kit.parts import size_dialog
+from app.views.kit.parts import PlainLabel, size_dialog
 from app.views.kit.text import tr
 
 LOOKS = {
@@ -47,8 +46,8 @@ class StepRow:
     """Symbol, title, and what was found above what to do."""
 
     def __init__(self, grid: QGridLayout, row: int, parent: QWidget) -> None:
-        self._symbol, self._title = QLabel(parent), QLabel(parent)
-        self._text = QLabel(parent)
+        self._symbol, self._title = PlainLabel(parent), PlainLabel(parent)
+        self._text = PlainLabel(parent)
         self._text.setWordWrap(True)
         self._title.setProperty("role", "heading")
         for column, label in enumerate((self._symbol, self._title, self._text)):
@@ -106,7 +105,7 @@ class DailyPage(QDialog):
         self.results: tuple[StepResult, ...] = ()
         self._rows: list[StepRow] = []
         self.toucher = Toucher(run, self)
-        self._verdict, self._day = QLabel(self), QLabel(self)
+        self._verdict, self._day = PlainLabel(self), PlainLabel(self)
         self._steps = QGridLayout()
         self.point, self.touch = QComboBox(self), QPushButton(tr("Touch now"), self)
         self.move_tip = QPushButton(tr("Bring the simulated tip there"), self)
@@ -231,7 +230,7 @@ class DailyPage(QDialog):
         self._steps.setHorizontalSpacing(theme.MARGIN)
         self._steps.setVerticalSpacing(theme.SPACING)
         touch = QHBoxLayout()
-        for widget in (QLabel(tr("Known point"), self), self.point, self.touch, self.move_tip):
+        for widget in (PlainLabel(tr("Known point"), self), self.point, self.touch, self.move_tip):
             touch.addWidget(widget)
         touch.addStretch(1)
         last = QHBoxLayout()

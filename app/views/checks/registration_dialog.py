@@ -17,7 +17,6 @@ from PySide6.QtWidgets import (
     QDialog,
     QHBoxLayout,
     QHeaderView,
-    QLabel,
     QProgressBar,
     QPushButton,
     QTableWidget,
@@ -42,7 +41,7 @@ from app.session.touch import Touch
 from app.views.checks.toucher import Toucher, move_there
 from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
-from app.views.kit.parts import size_dialog
+from app.views.kit.parts import PlainLabel, size_dialog
 from app.views.kit.text import tr
 
 _STRETCHED = (1, 3)
@@ -122,7 +121,11 @@ class RegistrationResult(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.student, self.trouble, self.figures = QLabel(self), QLabel(self), QLabel(self)
+        self.student, self.trouble, self.figures = (
+            PlainLabel(self),
+            PlainLabel(self),
+            PlainLabel(self),
+        )
         self.student.setStyleSheet(f"font-size: {theme.TITLE_PX}px;")
         self.trouble.setStyleSheet(f"color: {theme.WARNING};")
         self.figures.setProperty("role", "dim")
@@ -376,7 +379,7 @@ class RegistrationDialog(QDialog):
         self.progress.setTextVisible(False)
         self.progress.setFixedHeight(10)
         head = QHBoxLayout()
-        head.addWidget(QLabel(tr("Plate"), self))
+        head.addWidget(PlainLabel(tr("Plate"), self))
         head.addWidget(self.plates)
         head.addStretch(1)
         page = QVBoxLayout(self)

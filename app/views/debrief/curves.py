@@ -11,7 +11,7 @@ import pyqtgraph as pg
 from pyqtgraph.GraphicsScene.mouseEvents import MouseClickEvent
 from PySide6.QtCore import QEvent, QObject, QPointF, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QPen
-from PySide6.QtWidgets import QGraphicsRectItem, QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGraphicsRectItem, QSizePolicy, QVBoxLayout, QWidget
 
 from app.core.arrays import FloatArray
 from app.session.review import Review
@@ -20,7 +20,8 @@ from app.views.debrief.path_view import FORCE_COLOUR
 from app.views.exercise.felt import origin_word
 from app.views.exercise.steps import state_word
 from app.views.kit import theme
-from app.views.kit.text import tr
+from app.views.kit.parts import PlainLabel
+from app.views.kit.text import literal, tr
 from app.views.kit.themes import DARK
 
 SHORTEST_S: Final = 0.05
@@ -244,7 +245,7 @@ def _mark_text(mark: TimeMark, share: float) -> pg.TextItem:
     fill = QColor(theme.IMAGE_GROUND)
     text = pg.TextItem(mark.sign, color=theme.IMAGE_TEXT, anchor=(across, 2.1), fill=fill)
     text.setZValue(5)
-    text.setToolTip(mark.label)
+    text.setToolTip(literal(mark.label))
     return text
 
 
@@ -304,7 +305,7 @@ class CurvesView(QWidget):
         self._time: float | None = None
         self._turn = QTimer(self, interval=0)
         self._turn.timeout.connect(self._draw_next)
-        self.readout = QLabel(self)
+        self.readout = PlainLabel(self)
         self.readout.setProperty("role", "dim")
         self.readout.setWordWrap(True)
         self.readout.setMinimumHeight(2 * self.readout.fontMetrics().lineSpacing())

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Final
 
-from PySide6.QtCore import QObject, QStandardPaths, Qt, QTimer, Signal, SignalInstance
+from PySide6.QtCore import QObject, QStandardPaths, QTimer, Signal, SignalInstance
 from PySide6.QtWidgets import (
     QApplication,
     QDialog,
@@ -52,7 +52,7 @@ from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, Indicator, run_in_background
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
-from app.views.kit.parts import size_dialog
+from app.views.kit.parts import message_box, size_dialog
 from app.views.kit.text import tr
 from app.views.shell.feature import Context, Feature
 from app.views.structures.layer import draw_in
@@ -637,11 +637,7 @@ class Interruptions(QObject):
         ]
         if len(found) > _NAMED:
             lines.append(tr("and {n} more", n=len(found) - _NAMED))
-        self.box = box = QMessageBox(self._window)
-        box.setWindowTitle(tr("Interrupted attempts"))
-        box.setIcon(QMessageBox.Icon.Information)
-        box.setTextFormat(Qt.TextFormat.PlainText)
-        box.setText(
+        ended_in = (
             tr("The program ended in the middle of an attempt:")
             if len(found) == 1
             else tr("The program ended in the middle of {n} attempts:", n=len(found))
@@ -650,7 +646,9 @@ class Interruptions(QObject):
             "Recover keeps what was recorded: it stays in the list as unfinished, without a score. "
             "Later changes nothing; the list of sessions offers it too."
         )
-        box.setInformativeText("\n".join([*lines, "", keeps]))
+        more = "\n".join([*lines, "", keeps])
+        self.box = box = message_box(self._window, tr("Interrupted attempts"), ended_in, more)
+        box.setIcon(QMessageBox.Icon.Information)
         roles = QMessageBox.ButtonRole
         recovers = box.addButton(tr("Recover"), roles.AcceptRole)
         discards = box.addButton(tr("Discard"), roles.DestructiveRole)

@@ -15,7 +15,6 @@ from PySide6.QtWidgets import (
     QComboBox,
     QHBoxLayout,
     QHeaderView,
-    QLabel,
     QPushButton,
     QSplitter,
     QTableWidget,
@@ -61,7 +60,8 @@ from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.coordinates import axis_words
 from app.views.kit.names import NAMES
-from app.views.kit.text import disclaimer, tr
+from app.views.kit.parts import PlainLabel
+from app.views.kit.text import disclaimer, literal, tr
 
 _ROW_HEIGHT = 24
 _COLUMNS = 5
@@ -180,7 +180,9 @@ class ScoreTable(QTableWidget):
                 colour = texts.colour if column == 2 else theme.TEXT_DIM if dim else theme.TEXT
                 item.setForeground(QColor(theme.now(colour)))
                 # The column of names is the one that is cut where there is little room.
-                item.setToolTip(f"{texts.label}\n{texts.help}" if column == 0 else texts.help)
+                item.setToolTip(
+                    literal(f"{texts.label}\n{texts.help}" if column == 0 else texts.help)
+                )
                 self.setItem(index, column, item)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -247,12 +249,24 @@ class DebriefPage(QWidget):
         self._proposal: Proposal | None = None
         self._ghost: Ghost | None = None
         self._alignment = Alignment.TIME
-        self._title, self._facts, self.conditions = QLabel(self), QLabel(self), QLabel(self)
-        self.whose = QLabel(self)
-        self._verdict, self._total, self._reason = QLabel(self), QLabel(self), QLabel(self)
-        self._problems, self.risks = QLabel(self), QLabel(self)
-        self.ending, self.lessons, self.proposal = QLabel(self), QLabel(self), QLabel(self)
-        self.held, self.comment = QLabel(self), QLabel(self)
+        self._title, self._facts, self.conditions = (
+            PlainLabel(self),
+            PlainLabel(self),
+            PlainLabel(self),
+        )
+        self.whose = PlainLabel(self)
+        self._verdict, self._total, self._reason = (
+            PlainLabel(self),
+            PlainLabel(self),
+            PlainLabel(self),
+        )
+        self._problems, self.risks = PlainLabel(self), PlainLabel(self)
+        self.ending, self.lessons, self.proposal = (
+            PlainLabel(self),
+            PlainLabel(self),
+            PlainLabel(self),
+        )
+        self.held, self.comment = PlainLabel(self), PlainLabel(self)
         self.table = ScoreTable(self)
         self.scans = ScanList(self)
         self.replayer = Replayer(self)
@@ -340,7 +354,7 @@ class DebriefPage(QWidget):
             if len(title) > _AGAIN_LONGEST:
                 title = title[: _AGAIN_LONGEST - 1].rstrip() + "…"
             self.next.setText(tr("Next: {title}", title=title))
-            self.next.setToolTip(words)
+            self.next.setToolTip(literal(words))
         for button, primary in ((self.next, other), (self.retry, not other)):
             button.setProperty("role", "primary" if primary else "")
             button.style().unpolish(button)
@@ -355,7 +369,7 @@ class DebriefPage(QWidget):
         self.conditions.setText(short_words(known))
         self.conditions.setVisible(known is not None)
         lines = [f"{name}: {value}" for name, value in facts_of(known)] if known else []
-        self.conditions.setToolTip("\n".join(lines))
+        self.conditions.setToolTip(literal("\n".join(lines)))
 
     def _show_words(self, review: Review) -> None:
         """Write the verdict and what belongs to it, without names while they are hidden."""
@@ -459,7 +473,6 @@ class DebriefPage(QWidget):
             self.held,
             self.comment,
         ):
-            label.setTextFormat(Qt.TextFormat.PlainText)
             label.setWordWrap(True)
 
     def _lay_out(self) -> None:
@@ -523,7 +536,7 @@ class DebriefPage(QWidget):
 
     def _foot(self) -> QHBoxLayout:
         buttons = QHBoxLayout()
-        note = QLabel(disclaimer(), self)
+        note = PlainLabel(disclaimer(), self)
         note.setProperty("role", "disclaimer")
         note.setWordWrap(True)
         buttons.addWidget(note, 1)

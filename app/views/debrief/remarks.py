@@ -27,7 +27,7 @@ from app.session.people import NOTHING_SAID, People, Remarks
 from app.views.kit.access import ACCESS
 from app.views.kit.parts import label
 from app.views.kit.settings_dialog import SettingsDialog
-from app.views.kit.text import counted, tr
+from app.views.kit.text import counted, literal, tr
 
 
 def said_words(said: Remarks, held: str = "") -> list[str]:
@@ -217,7 +217,7 @@ class RemarkActions(QObject):
         if keys:
             shortcut = QShortcut(QKeySequence(keys), self._page, lambda: self._press(action))
             shortcut.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
-        action.setToolTip(tip)
+        action.setToolTip(literal(tip))
         return action
 
     def _press(self, action: QAction) -> None:

@@ -17,7 +17,6 @@ from PySide6.QtGui import QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QHBoxLayout,
-    QLabel,
     QPushButton,
     QSizePolicy,
     QSlider,
@@ -38,6 +37,7 @@ from app.session.review import Review
 from app.views.debrief.curves import Line, curves_of
 from app.views.debrief.path_view import PathView
 from app.views.kit import theme
+from app.views.kit.parts import PlainLabel
 from app.views.kit.text import tr
 from app.views.reading.layouts import BULLSEYE, IN_PLANE, PROBE, SCENE, Layout, ViewGrid
 from app.views.scene.display import Display
@@ -196,7 +196,7 @@ class ReplayBar(QWidget):
     def __init__(self, replayer: Replayer, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._replayer = replayer
-        self.play, self.slider, self.clock = QPushButton(self), ScrubBar(self), QLabel(self)
+        self.play, self.slider, self.clock = QPushButton(self), ScrubBar(self), PlainLabel(self)
         self.speed, self.along = QComboBox(self), QComboBox(self)
         self.ghost, self.by = QComboBox(self), QComboBox(self)
         self._prepare()
@@ -273,7 +273,7 @@ class ReplayBar(QWidget):
         first, second = QHBoxLayout(), QHBoxLayout()
         for widget, stretch in ((self.play, 0), (self.slider, 1), (self.clock, 0), (self.speed, 0)):
             first.addWidget(widget, stretch)
-        slices, ghost = QLabel(tr("Slices"), self), QLabel(tr("Beside it"), self)
+        slices, ghost = PlainLabel(tr("Slices"), self), PlainLabel(tr("Beside it"), self)
         for label in (slices, ghost):
             label.setProperty("role", "dim")
         for widget, stretch in (
@@ -422,7 +422,7 @@ class ReplayViews(QWidget):
         self.ghosts = tuple(GhostLayer(pane.canvas) for pane in self.panes)
         self.scene: SceneView | None = None
         self.path = PathView(self)
-        self.why, self.open = QLabel(self), QPushButton(tr("Open its CT…"), self)
+        self.why, self.open = PlainLabel(self), QPushButton(tr("Open its CT…"), self)
         self._missing = self._notice()
         self._scene_place = QStackedWidget(self)
         panes: dict[str, QWidget] = {str(pane.pane): pane for pane in self.panes}
@@ -568,7 +568,6 @@ class ReplayViews(QWidget):
         notice = QWidget(self)
         self.why.setWordWrap(True)
         self.why.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self.why.setTextFormat(Qt.TextFormat.PlainText)
         column = QVBoxLayout(notice)
         column.addStretch(1)
         column.addWidget(self.why)

@@ -24,7 +24,6 @@ from PySide6.QtWidgets import (
     QAbstractItemView,
     QHBoxLayout,
     QHeaderView,
-    QLabel,
     QLineEdit,
     QPushButton,
     QTableView,
@@ -50,7 +49,8 @@ from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.background import run_in_background
 from app.views.kit.names import NAMES
-from app.views.kit.text import tr
+from app.views.kit.parts import PlainLabel
+from app.views.kit.text import literal, tr
 
 Index = QModelIndex | QPersistentModelIndex
 SORT_ROLE: Final = Qt.ItemDataRole.UserRole
@@ -191,8 +191,8 @@ class SessionsModel(QAbstractTableModel):
             told: dict[int, Any] = {
                 Qt.ItemDataRole.DisplayRole: tr("held"),
                 SORT_ROLE: -1.0,
-                Qt.ItemDataRole.ToolTipRole: tr(
-                    "The instructor releases this result of the course {course}.", course=course
+                Qt.ItemDataRole.ToolTipRole: literal(
+                    tr("The instructor releases this result of the course {course}.", course=course)
                 ),
             }
             if role in told:
@@ -215,7 +215,8 @@ class SessionsModel(QAbstractTableModel):
                 *summary.problems,
                 *under,
             )
-            return NAMES.without_names("\n".join(line for line in every if line), files=True)
+            lines = [line for line in every if line]
+            return literal(NAMES.without_names("\n".join(lines), files=True))
         if role == Qt.ItemDataRole.TextAlignmentRole and column in _RIGHT:
             return _RIGHTWARDS
         if role == Qt.ItemDataRole.ForegroundRole and column == SCORE and said.void:
@@ -342,7 +343,7 @@ class SessionsPage(QWidget):
         self.proxy.setFilterCaseSensitivity(Qt.CaseSensitivity.CaseInsensitive)
         self.table = QTableView(self)
         self.search = QLineEdit(self)
-        self._count = QLabel(self)
+        self._count = PlainLabel(self)
         self.back = QPushButton(tr("Back"), self)
         self.open_button = QPushButton(tr("Open"), self)
         self.export = QPushButton(tr("Export CSV"), self)
@@ -595,7 +596,7 @@ class SessionsPage(QWidget):
         self.open_button.setProperty("role", "primary")
         self.open_button.setToolTip(tr("Debrief with replay (double click, or Enter)"))
         self.delete_button.setToolTip(
-            tr("To the deleted ones, for {n} days at least (Del)", n=UNDO_DAYS)
+            literal(tr("To the deleted ones, for {n} days at least (Del)", n=UNDO_DAYS))
         )
         self.undo.setToolTip(tr("Bring the last deleted ones back (Ctrl+Z in the table)"))
         self.recover.setToolTip(
@@ -607,7 +608,7 @@ class SessionsPage(QWidget):
         self._count.setProperty("role", "dim")
 
     def _lay_out(self) -> None:
-        title = QLabel(tr("Sessions"), self)
+        title = PlainLabel(tr("Sessions"), self)
         title.setProperty("role", "title")
         top = QHBoxLayout()
         top.addWidget(title)

@@ -14,10 +14,11 @@ from PySide6.QtGui import (
     QPen,
     QWheelEvent,
 )
-from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QSlider, QWidget
+from PySide6.QtWidgets import QGridLayout, QSizePolicy, QSlider, QWidget
 
 from app.views.kit import theme
-from app.views.kit.text import tr
+from app.views.kit.parts import PlainLabel
+from app.views.kit.text import literal, tr
 
 DEAD_ZONE: Final = 0.05
 """Below this share the force laws do nothing; the dial says `off` and shows the zone."""
@@ -39,7 +40,7 @@ class AssistanceDial(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.slider = _Slider(self)
-        self.words = QLabel(self)
+        self.words = PlainLabel(self)
         self.words.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.words.ensurePolished()
         widest = max(self.words.fontMetrics().horizontalAdvance(share_words(s)) for s in (-1, 1))
@@ -77,7 +78,7 @@ class AssistanceDial(QWidget):
     def set_locked(self, why: str) -> None:
         """Keep the dial as it is, because of `why`; empty lets it be turned again."""
         self.slider.setEnabled(not why)
-        self.setToolTip(why or self._help)
+        self.setToolTip(literal(why or self._help))
 
     def _show(self, percent: int) -> None:
         text = share_words(percent / _FULL)

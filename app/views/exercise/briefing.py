@@ -12,7 +12,6 @@ from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
     QHBoxLayout,
-    QLabel,
     QPushButton,
     QScrollArea,
     QSizePolicy,
@@ -28,7 +27,7 @@ from app.exercises.schema import Exercise
 from app.scoring.metrics import available
 from app.scoring.tolerance import Tolerance
 from app.views.kit import theme
-from app.views.kit.parts import button, label
+from app.views.kit.parts import PlainLabel, button, label
 from app.views.kit.text import counted, tr
 from app.views.reading.lock_words import view_title
 from app.views.shell.shortcuts import disclaimer_label
@@ -340,7 +339,7 @@ class BriefingPage(QWidget):
             (tr("What is locked"), self.locked),
             (tr("Attempts"), self.attempts),
         ):
-            named = QLabel(heading)
+            named = PlainLabel(heading)
             named.setProperty("role", "heading")
             column.addSpacing(theme.SPACING)
             column.addWidget(named)

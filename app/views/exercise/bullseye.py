@@ -35,7 +35,8 @@ from app.views.exercise.hands.feed import FeedButton
 from app.views.exercise.hands.source import HandChange
 from app.views.exercise.pad_canvas import PadCanvas
 from app.views.kit import theme
-from app.views.kit.text import tr
+from app.views.kit.parts import PlainLabel
+from app.views.kit.text import literal, tr
 
 _COLUMN = 26
 _TOP, _BOTTOM = 18, 14
@@ -427,7 +428,7 @@ class Bullseye(QWidget):
         self._marks.setVisible(shown and not self._hides_needle)
         self.source.set_wordy(shown)
         self.legend.setToolTip(
-            tr("Legend, shown or hidden") + f"\n\n{marks_words()}\n\n{self.source.words}"
+            literal(tr("Legend, shown or hidden") + f"\n\n{marks_words()}\n\n{self.source.words}")
         )
 
     def _take_brevity(self, brevity: Brevity) -> None:
@@ -564,7 +565,7 @@ class Bullseye(QWidget):
         whole, said = corrections(frame, tilts, hub=hub), corrections(frame, tilts, short, hub)
         for label, text, words in zip(turns, said, whole, strict=True):
             label.setText(text)
-            label.setToolTip(words if short else "")
+            label.setToolTip(literal(words if short else ""))
         self._angles.setText(ct_words(frame, view.direction, scene.frame))
         distance = remaining(view.offset, scene.rings[0], scene.depth_tolerance)
         # A guess is never said as if it were known.
@@ -572,11 +573,11 @@ class Bullseye(QWidget):
         beside = lateral(frame, view.offset)
         said_beside = lateral(frame, view.offset, short)
         self._lateral.setText(said_beside if view.measured else "–")
-        self._lateral.setToolTip(beside if view.measured and short else "")
+        self._lateral.setToolTip(literal(beside if view.measured and short else ""))
         guessed = tr("◇ depth not measured now")
         said_guessed = tr("◇ not measured") if short else guessed
         self._source.setText("" if view.measured else said_guessed)
-        self._source.setToolTip(guessed if not view.measured and short else "")
+        self._source.setToolTip(literal(guessed if not view.measured and short else ""))
 
     def _connect_source(self) -> None:
         self.source.moved.connect(self._move)
@@ -642,9 +643,8 @@ class Bullseye(QWidget):
 
 
 def _label(pixels: int, colour: str = "") -> QLabel:
-    label, colour = QLabel(), colour or theme.TEXT
+    label, colour = PlainLabel(), colour or theme.TEXT
     label.setStyleSheet(_label_style(pixels, colour))
-    label.setTextFormat(Qt.TextFormat.PlainText)
     label.setWordWrap(True)  # in a small cell with large text nothing is cut
     return label
 

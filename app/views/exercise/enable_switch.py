@@ -11,7 +11,7 @@ from app.session.machine import RUNNING, State
 from app.session.snapshot import Snapshot
 from app.views.exercise.readings import fault_text
 from app.views.kit import theme
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 from app.views.kit.verdict import Verdict
 
 DEFAULT_KEY = Qt.Key.Key_H
@@ -262,11 +262,13 @@ class EnableSwitch(QAbstractButton):
 
     def _explain(self) -> None:
         self.setToolTip(
-            tr(
-                "The robot gives force only while {key}, a pedal or this button is held; the force "
-                "rises within a second and is gone when you let go, or when the window loses the "
-                "keyboard. After a fault let go and hold again.",
-                key=key_name(self.key.key),
+            literal(
+                tr(
+                    "The robot gives force only while {key}, a pedal or this button is held; the "
+                    "force rises within a second and is gone when you let go, or when the window "
+                    "loses the keyboard. After a fault let go and hold again.",
+                    key=key_name(self.key.key),
+                )
             )
         )
 

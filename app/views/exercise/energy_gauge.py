@@ -16,7 +16,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from app.core import state_vector as sv
 from app.session.snapshot import Snapshot
 from app.views.kit import theme
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 from app.views.kit.verdict import Verdict
 
 LITTLE = 0.1
@@ -142,7 +142,7 @@ class EnergyGauge(QWidget):
         self._mode, self._real, self._acted = GaugeMode.AUTO, False, False
         self._detailed = True
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setToolTip(gauge_help())
+        self.setToolTip(literal(gauge_help()))
         self.show_energy(None)
         self._appear()
 

@@ -27,7 +27,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from app.session.pad.view import PadScene, PadView
 from app.views.exercise.hands.feed import DEPTH_STEP, FINE_DEPTH_STEP, GONE, SPEED, Feed
 from app.views.kit import theme
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 
 _ANGLES_DEG: Final = (10, 30)
 HAND_COLOUR: Final = "#ffffff"
@@ -417,11 +417,11 @@ class PadCanvas(QWidget):
             return
         if self._hides_needle:
             words = tr("Move the hand here: it is not shown")
-            self.setToolTip(words)
+            self.setToolTip(literal(words))
             paint_hidden(painter, self.area, words)
             return
         unnamed = paint_background(painter, self.area, self._scene, self._view)
-        self.setToolTip(tr("Rings: {sizes}", sizes=", ".join(unnamed)) if unnamed else "")
+        self.setToolTip(literal(tr("Rings: {sizes}", sizes=", ".join(unnamed)) if unnamed else ""))
         if self._view is not None:
             paint_needle(painter, self.area, self._scene, self._view)
             if self._hand is not None:

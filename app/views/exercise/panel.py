@@ -15,7 +15,6 @@ from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
     QHBoxLayout,
-    QLabel,
     QLineEdit,
     QPushButton,
     QSizePolicy,
@@ -38,7 +37,8 @@ from app.views.exercise.scan_view import ScanPanel
 from app.views.exercise.steps import Steps
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
-from app.views.kit.text import tr
+from app.views.kit.parts import PlainLabel, add_row
+from app.views.kit.text import literal, tr
 
 
 class AttemptActions(QWidget):
@@ -71,7 +71,7 @@ class AttemptActions(QWidget):
 
     def set_pedal(self, scans: bool) -> None:
         """Say what the scan's key does: it takes slices, or counts a scan only."""
-        self.scan.setToolTip(_takes() if scans else _counts())
+        self.scan.setToolTip(literal(_takes() if scans else _counts()))
 
     def watch(self, window: QWidget) -> None:
         """Listen for Esc held down anywhere in `window`."""
@@ -91,7 +91,7 @@ class AttemptActions(QWidget):
             why: it cannot start now, if there is more to say than that something is missing.
         """
         running = state in RUNNING
-        self.start.setToolTip(why or _starts())
+        self.start.setToolTip(literal(why or _starts()))
         for button, legal in (
             (self.start, can_start and not running),
             (self.scan, running and state is not State.WITHDRAWING),
@@ -139,7 +139,7 @@ def _takes() -> str:
 
 def _button(text: str, help_text: str) -> QPushButton:
     button = QPushButton(text)
-    button.setToolTip(help_text)
+    button.setToolTip(literal(help_text))
     # A button that keeps the focus would swallow the pad's keys; Space on it would repeat it.
     button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
     return button
@@ -194,7 +194,7 @@ class WithdrawalNote(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._words = QLabel(self)
+        self._words = PlainLabel(self)
         self._words.setWordWrap(True)
         self._words.setStyleSheet(f"color: {theme.WARNING};")
         self.button = QPushButton(tr("The needle is out"), self)
@@ -216,7 +216,7 @@ class WithdrawalNote(QWidget):
         self.button.setVisible(snapshot.may_confirm)
 
 
-class BevelNote(QLabel):
+class BevelNote(PlainLabel):
     """Says which way a bevelled tip cuts, and how to turn it; nothing where there is no bevel."""
 
     def show_roll(self, roll: float | None, commands: bool) -> None:
@@ -228,7 +228,7 @@ class BevelNote(QLabel):
         self.setText(f"{words}  ·  {tr('Q, E in the pad turn it')}" if commands else words)
 
 
-class TouchNote(QLabel):
+class TouchNote(PlainLabel):
     """Says how many targets are touched, how far the next one is, and how the hand moves the tip.
 
     Nothing where there is nothing to touch.
@@ -276,7 +276,7 @@ class BreathCommand(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.button = _button("", tr("Breathe in, breathe out, hold: until you let him breathe"))
-        self._words = QLabel(self)
+        self._words = PlainLabel(self)
         self._wish = False
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
@@ -347,8 +347,8 @@ class ExercisePanel(QWidget):
         self.exercise = QComboBox(self)
         self.student = QLineEdit(self)
         self.assistance = AssistanceDial(self)
-        self._dial_title = QLabel(tr("Assistance"), self)
-        self._note = QLabel(self)
+        self._dial_title = PlainLabel(tr("Assistance"), self)
+        self._note = PlainLabel(self)
         self.steps = Steps(self)
         self.buttons = AttemptActions(self)
         self.withdrawal = WithdrawalNote(self)
@@ -397,7 +397,7 @@ class ExercisePanel(QWidget):
         self.assistance.set_locked(why)
         self._dial_title.setText(tr("Assistance\nfixed") if why else tr("Assistance\nfree to turn"))
         free = tr("Practice: you may turn the dial. Every attempt begins with the exercise's own.")
-        self._dial_title.setToolTip(why or free)
+        self._dial_title.setToolTip(literal(why or free))
 
     def set_ready(self, ready: bool, note: str = "") -> None:
         """Say whether an attempt can start, and if not, why not."""
@@ -487,8 +487,8 @@ class ExercisePanel(QWidget):
         self._form = form = QFormLayout()
         form.setContentsMargins(0, 0, 0, 0)
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.ExpandingFieldsGrow)
-        form.addRow(tr("Exercise"), self.exercise)
-        form.addRow(tr("Student"), self.student)
+        add_row(form, tr("Exercise"), self.exercise)
+        add_row(form, tr("Student"), self.student)
         form.addRow(self._dial_title, self.assistance)
         column = QVBoxLayout(self)
         column.setContentsMargins(theme.MARGIN, theme.SPACING, theme.MARGIN, theme.SPACING)

@@ -12,7 +12,8 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QWidget
 from app.views.exercise.felt import Felt, GuidanceLimit, force_words, origin_help
 from app.views.exercise.live import LiveFigures
 from app.views.kit import theme
-from app.views.kit.text import tr
+from app.views.kit.parts import PlainLabel
+from app.views.kit.text import literal, tr
 
 _HEADROOM = 1.15
 """Length of the bar over the limit: the mark stands inside it."""
@@ -76,7 +77,7 @@ class ForceBar(QWidget):
     def _explain(self) -> None:
         line = tr("The line is the largest force the device may give now.")
         here = f" {self.guidance}." if self._guidance is not None else ""
-        self.setToolTip(f"{origin_help(self._measured, self._at_most)} {line}{here}")
+        self.setToolTip(literal(f"{origin_help(self._measured, self._at_most)} {line}{here}"))
 
     @property
     def words_of_guidance(self) -> str:
@@ -163,7 +164,7 @@ class AttemptReadouts(QWidget):
         for key, (name, help_text) in _rows().items():
             self._add(key, name, help_text)
         row = self._grid.rowCount()
-        self._force_title = QLabel(tr("Force felt"), self)
+        self._force_title = PlainLabel(tr("Force felt"), self)
         self._grid.addWidget(self._force_title, row, 0, 1, 2)
         self._grid.addWidget(self.force, row + 1, 0, 1, 2)
 
@@ -216,12 +217,12 @@ class AttemptReadouts(QWidget):
 
     def _add(self, key: str, name: str, help_text: str) -> None:
         row = self._grid.rowCount()
-        title, value = QLabel(name, self), QLabel(_EMPTY, self)
+        title, value = PlainLabel(name, self), PlainLabel(_EMPTY, self)
         value.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
         value.setStyleSheet(f"font-size: {theme.FONT_PX + 3}px; font-weight: 600;")
         value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         for label in (title, value):
-            label.setToolTip(help_text)
+            label.setToolTip(literal(help_text))
         self._grid.addWidget(title, row, 0)
         self._grid.addWidget(value, row, 1)
         self._values[key], self._titles[key] = value, title

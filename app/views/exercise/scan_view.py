@@ -10,7 +10,6 @@ from PySide6.QtWidgets import (
     QDoubleSpinBox,
     QGridLayout,
     QHBoxLayout,
-    QLabel,
     QProgressBar,
     QSpinBox,
     QStackedLayout,
@@ -27,6 +26,7 @@ from app.planning.plan import Plan
 from app.session.control_scan import TEACHING_ESTIMATE, ControlScan
 from app.views.kit import theme
 from app.views.kit.coordinates import axis_words
+from app.views.kit.parts import PlainLabel
 from app.views.kit.text import tr
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import PaneId
@@ -54,7 +54,7 @@ class ScanPanel(QWidget):
         self.table, self.slices = QDoubleSpinBox(self), QSpinBox(self)
         self.feet, self.head = self._step("−", -1), self._step("+", 1)
         self.here = QToolButton(self)
-        self.range, self.count = QLabel(self), QLabel(self)
+        self.range, self.count = PlainLabel(self), PlainLabel(self)
         self.progress = QProgressBar(self)
         self._prepare()
         self._lay_out()
@@ -177,15 +177,15 @@ class ScanPanel(QWidget):
         table.setSpacing(4)
         for widget, stretch in ((self.feet, 0), (self.table, 1), (self.head, 0), (self.here, 0)):
             table.addWidget(widget, stretch)
-        title = QLabel(tr("Control scan"), self)
+        title = PlainLabel(tr("Control scan"), self)
         title.setProperty("role", "heading")
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setVerticalSpacing(4)
         grid.addWidget(title, 0, 0, 1, 3)
-        grid.addWidget(QLabel(tr("Table"), self), 1, 0)
+        grid.addWidget(PlainLabel(tr("Table"), self), 1, 0)
         grid.addLayout(table, 1, 1, 1, 2)
-        grid.addWidget(QLabel(tr("Slices"), self), 2, 0)
+        grid.addWidget(PlainLabel(tr("Slices"), self), 2, 0)
         grid.addWidget(self.slices, 2, 1)
         grid.addWidget(self.range, 2, 2)
         grid.addWidget(self.count, 3, 0, 1, 3)
@@ -211,7 +211,7 @@ class ScanView(QWidget):
         self.pane.canvas.layers.crosshair.ends_only = True  # a line would lie on the needle
         self.scan: ControlScan | None = None
         self._planning = planning
-        self._caption, self._nothing = QLabel(self), QLabel(self)
+        self._caption, self._nothing = PlainLabel(self), PlainLabel(self)
         self._strip = QVBoxLayout()
         self._thumbs = QButtonGroup(self)
         self._thumbs.idClicked.connect(self._go_to)

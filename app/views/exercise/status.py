@@ -33,7 +33,7 @@ from app.views.exercise.readouts import clock_text
 from app.views.kit import theme
 from app.views.kit.names import NAMES
 from app.views.kit.progress_strip import ElidedLabel
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 from app.views.kit.verdict import StatusItem, Verdict
 
 LONGEST: Final = 200
@@ -132,7 +132,7 @@ class RobotLight(QAbstractButton):
         self._item = item
         self.setAccessibleName(item.title)
         click = tr("Click: with details, or without")
-        self.setToolTip(f"{item.title}\n\n{item.help}\n\n{click}")
+        self.setToolTip(literal(f"{item.title}\n\n{item.help}\n\n{click}"))
         self.updateGeometry()
         self.update()
 
@@ -320,7 +320,7 @@ class StatusCell(QWidget):
         well = plain and item.verdict is Verdict.GOOD and bool(item.plain)
         self._text.set_whole(item.plain if well else item.text)
         self._grow()
-        self.setToolTip(f"{item.title}: {item.text}\n\n{item.help}")
+        self.setToolTip(literal(f"{item.title}: {item.text}\n\n{item.help}"))
         self.setAccessibleName(f"{item.title}: {item.text}")
 
     @property

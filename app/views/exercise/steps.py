@@ -5,7 +5,7 @@ from typing import Final
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPaintEvent, QPen, QResizeEvent
-from PySide6.QtWidgets import QApplication, QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QApplication, QSizePolicy, QWidget
 
 from app.core.units import MILLIMETRE
 from app.session.machine import State
@@ -13,7 +13,8 @@ from app.session.snapshot import BreathHold, NextStep, NextSteps, Snapshot, Step
 from app.session.touching import TouchState
 from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
-from app.views.kit.text import tr
+from app.views.kit.parts import PlainLabel
+from app.views.kit.text import literal, tr
 from app.views.slices.pace import Unhurried
 
 
@@ -250,7 +251,7 @@ def _font_of(pixels: int) -> QFont:
     return font
 
 
-class NextStepLine(QLabel):
+class NextStepLine(PlainLabel):
     """The one line that always says the next step, over the views, to be read at arm's length."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -264,7 +265,6 @@ class NextStepLine(QLabel):
         self._tell.timeout.connect(self._stop_telling)
         self._written = Unhurried(self._write, self)
         self.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self.setTextFormat(Qt.TextFormat.PlainText)
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.setAccessibleName(tr("Next step"))
         self.suit_room()
@@ -342,7 +342,7 @@ class NextStepLine(QLabel):
 
     def _say(self, words: str) -> None:
         self.setText(words)
-        self.setToolTip(words)
+        self.setToolTip(literal(words))
         self.suit_room()
 
     def _ask(self) -> None:

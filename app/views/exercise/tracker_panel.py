@@ -10,7 +10,8 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QToolButton, QVB
 
 from app.views.exercise.camera_view import CameraView, Overlays
 from app.views.kit import theme
-from app.views.kit.text import tr
+from app.views.kit.parts import PlainLabel
+from app.views.kit.text import literal, tr
 from app.views.kit.verdict import StatusItem
 
 if TYPE_CHECKING:
@@ -60,7 +61,7 @@ class TrackerPanel(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.cameras = (CameraView(self), CameraView(self))
-        self._verdict = QLabel(self)
+        self._verdict = PlainLabel(self)
         self._verdict.setWordWrap(True)
         self._figures = _Figures(self)
         self._buttons: dict[str, QToolButton] = {}
@@ -116,7 +117,7 @@ class TrackerPanel(QWidget):
         colour, symbol = figures.item.verdict.colour_and_symbol
         self._verdict.setStyleSheet(f"color: {colour};")
         self._verdict.setText(f"{symbol} {figures.item.text}")
-        self._verdict.setToolTip(figures.item.help)
+        self._verdict.setToolTip(literal(figures.item.help))
         radius = inspection.radius if inspection is not None else None
         known = inspection is None or inspection.uncertainty_known
         self._figures.show_figures(figures, radius, known)
@@ -151,7 +152,7 @@ class TrackerPanel(QWidget):
         ):
             button = QToolButton(self)
             button.setText(title)
-            button.setToolTip(help_)
+            button.setToolTip(literal(help_))
             button.setCheckable(True)
             button.setChecked(getattr(self.overlays, name))
             button.toggled.connect(lambda on, name=name: self.set_overlay(name, on))
@@ -187,10 +188,10 @@ class _Figures(QWidget):
         grid.setVerticalSpacing(0)
         self._values: dict[str, QLabel] = {}
         for number, (name, title, help_) in enumerate(_TITLES):
-            label, value = QLabel(title, self), QLabel("–", self)
+            label, value = PlainLabel(title, self), PlainLabel("–", self)
             label.setProperty("role", "dim")
-            label.setToolTip(help_)
-            value.setToolTip(help_)
+            label.setToolTip(literal(help_))
+            value.setToolTip(literal(help_))
             row, column = divmod(number, 2)
             grid.addWidget(label, row, 2 * column)
             grid.addWidget(value, row, 2 * column + 1)
@@ -220,7 +221,7 @@ class _Figures(QWidget):
                 )
             )
         else:
-            self._values["radius"].setToolTip(_HELP["radius"])
+            self._values["radius"].setToolTip(literal(_HELP["radius"]))
         texts = {
             "residual": residual_text(residual),
             "radius": size,

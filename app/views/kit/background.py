@@ -14,7 +14,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtWidgets import QProgressDialog, QWidget
 
 from app.core.progress import Cancelled, Progress
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 
 T = TypeVar("T")
 POLL_MS = 30
@@ -203,13 +203,13 @@ def run_in_background(
 
 
 def _show_dialog(task: BackgroundTask, title: str, parent: QWidget | None) -> None:
-    dialog = QProgressDialog(title, tr("Cancel"), 0, 1000, parent)
+    dialog = QProgressDialog(literal(title), tr("Cancel"), 0, 1000, parent)
     dialog.setMinimumDuration(DIALOG_AFTER_MS)
     dialog.setAutoReset(False)
     dialog.setWindowTitle(title)
 
     def follow(fraction: float, text: str) -> None:
-        dialog.setLabelText(f"{title}\n{text}" if text else title)
+        dialog.setLabelText(literal(f"{title}\n{text}" if text else title))
         dialog.setValue(int(1000 * fraction))
 
     def end() -> None:

@@ -9,7 +9,7 @@ from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QMenu
 
 from app.views.kit.names import NAMES
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 
 Entry = tuple[str, str, Callable[[], object]]
 """Text, keys separated by ` | ` (empty for none), and what is done."""
@@ -45,7 +45,7 @@ def add_recent(
         recent.clear()
         for path in paths():
             action = recent.addAction(NAMES.shown(path.name))
-            action.setToolTip(NAMES.shown(str(path)))
+            action.setToolTip(literal(NAMES.shown(str(path))))
             action.triggered.connect(lambda _=False, path=path: command(path))
         if recent.isEmpty():
             recent.addAction(tr("none yet")).setEnabled(False)

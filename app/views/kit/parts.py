@@ -5,8 +5,11 @@ from __future__ import annotations
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import (
     QAbstractItemView,
+    QFormLayout,
     QHeaderView,
     QLabel,
+    QLayout,
+    QMessageBox,
     QProgressBar,
     QPushButton,
     QTableWidget,
@@ -15,6 +18,16 @@ from PySide6.QtWidgets import (
 )
 
 from app.views.kit import theme
+from app.views.kit.text import literal
+
+
+class PlainLabel(QLabel):
+    """A label that shows its text as it stands, whoever wrote it: names are no markup."""
+
+    def __init__(self, text: str | QWidget | None = "", parent: QWidget | None = None) -> None:
+        words, place = ("", text) if isinstance(text, QWidget) else (text or "", parent)
+        super().__init__(words, place)
+        self.setTextFormat(Qt.TextFormat.PlainText)
 
 
 def column(page: QWidget, title: str, spacing: int = theme.SPACING) -> QVBoxLayout:
@@ -22,20 +35,38 @@ def column(page: QWidget, title: str, spacing: int = theme.SPACING) -> QVBoxLayo
     rows = QVBoxLayout(page)
     rows.setContentsMargins(theme.MARGIN, 0, 0, 0)
     rows.setSpacing(spacing)
-    heading = QLabel(title, page)
+    heading = PlainLabel(title, page)
     heading.setProperty("role", "title")
     rows.addWidget(heading)
     return rows
 
 
-def label(text: str = "", role: str = "") -> QLabel:
+def label(text: str = "", role: str = "") -> PlainLabel:
     """Return a label of plain text that wraps."""
-    made = QLabel(text)
+    made = PlainLabel(text)
     made.setWordWrap(True)
-    made.setTextFormat(Qt.TextFormat.PlainText)
     if role:
         made.setProperty("role", role)
     return made
+
+
+def add_row(form: QFormLayout, title: str, field: QWidget | QLayout) -> None:
+    """Add a row to a form; its title, which may have a `&`, leads to the field."""
+    named = PlainLabel(title)
+    if isinstance(field, QWidget):
+        named.setBuddy(field)
+        form.addRow(named, field)
+    else:
+        form.addRow(named, field)
+
+
+def message_box(parent: QWidget | None, title: str, words: str, more: str = "") -> QMessageBox:
+    """Return a box that shows its words as they stand, without an icon or buttons."""
+    box = QMessageBox(parent)
+    box.setWindowTitle(title)
+    box.setText(literal(words))
+    box.setInformativeText(literal(more))
+    return box
 
 
 def button(text: str, role: str = "") -> QPushButton:

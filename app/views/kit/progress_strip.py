@@ -6,7 +6,6 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QHBoxLayout,
-    QLabel,
     QProgressBar,
     QSizePolicy,
     QToolButton,
@@ -17,12 +16,13 @@ from PySide6.QtWidgets import (
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask
 from app.views.kit.names import NAMES
-from app.views.kit.text import tr
+from app.views.kit.parts import PlainLabel
+from app.views.kit.text import literal, tr
 
 NARROWEST_PX = 60
 
 
-class ElidedLabel(QLabel):
+class ElidedLabel(PlainLabel):
     """A label of one line that never asks for more room than there is.
 
     Attributes:
@@ -34,7 +34,6 @@ class ElidedLabel(QLabel):
     ) -> None:
         super().__init__(parent)
         self._whole, self.narrowest = "", narrowest
-        self.setTextFormat(Qt.TextFormat.PlainText)
         self.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Preferred)
         self.set_whole(text)
 
@@ -70,7 +69,7 @@ class ElidedLabel(QLabel):
         shown = self.fontMetrics().elidedText(self._whole, Qt.TextElideMode.ElideRight, room)
         if shown != self.text():
             self.setText(shown)
-        self.setToolTip(self._whole if shown != self._whole else "")
+        self.setToolTip(literal(self._whole if shown != self._whole else ""))
 
 
 class ProgressStrip(QWidget):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QWidget
 
 from app.core.errors import AcusError
@@ -85,6 +84,5 @@ class SettingsDialog(QDialog):
         if verdict is not None:
             tell(self.note, verdict, text)
             return
-        self.note.setTextFormat(Qt.TextFormat.PlainText)
         self.note.setStyleSheet(f"color: {theme.TEXT};")
         self.note.setText(text)

@@ -1,8 +1,10 @@
 """Every string the user sees passes through here to Qt's translation."""
 
+from html import escape
 from pathlib import Path
 
 from PySide6.QtCore import QCoreApplication, QLocale, QTranslator
+from PySide6.QtGui import Qt
 
 from app.core import paths
 
@@ -19,6 +21,17 @@ def tr(text: str, **values: object) -> str:
     """
     translated = QCoreApplication.translate(CONTEXT, text)
     return translated.format(**values) if values else translated
+
+
+def literal(text: str) -> str:
+    """Return what lets Qt show a text as it stands where it would look for markup itself.
+
+    Tips, boxes of messages and of progress do: a name such as `<b>` would steer them. A text that
+    holds none comes back as it is.
+    """
+    if not Qt.mightBeRichText(text):
+        return text
+    return f"<qt>{escape(text, quote=False)}</qt>".replace("\n", "<br>")
 
 
 def counted(number: int, one: str, several: str) -> str:

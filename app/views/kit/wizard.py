@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 
 from app.views.kit import theme
 from app.views.kit.parts import button, size_dialog
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 from app.views.kit.verdict import Verdict
 
 
@@ -73,7 +73,7 @@ class Wizard(QDialog):
         lacks = self.lacks(here)
         self.back.setEnabled(here > 0 and not busy)
         self.next.setEnabled(not busy and not lacks)
-        self.next.setToolTip(lacks)
+        self.next.setToolTip(literal(lacks))
         self.next.setText(tr("Close") if here == self.pages.count() - 1 else tr("Next"))
         self.list.setEnabled(not busy)
 

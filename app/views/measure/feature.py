@@ -29,7 +29,7 @@ from app.exchange.csv_export import write_measurements
 from app.planning.measurements import KINDS, Measurement
 from app.views.kit import theme
 from app.views.kit.menu_entries import add_entries
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 from app.views.measure.editor import MeasureEditor, MeasureTool
 from app.views.measure.layer import MeasureGrip, MeasureLayer
 from app.views.shell.feature import Context, Feature
@@ -108,14 +108,16 @@ class MeasurePanel(QWidget):
     def _show_row(self, row: int, item: Measurement) -> None:
         found = self._editor.measured(item)
         name = QTableWidgetItem(item.name)
-        name.setToolTip(tr("{kind}: type to name it", kind=kind_word(item)))
+        name.setToolTip(literal(tr("{kind}: type to name it", kind=kind_word(item))))
         if not item.name:
             name.setText(kind_word(item))
             name.setForeground(Qt.GlobalColor.lightGray)
         value = QTableWidgetItem(found.text)
         value.setFlags(value.flags() & ~Qt.ItemFlag.ItemIsEditable)
         value.setToolTip(
-            "\n".join(f"{q.name}: {q.value:.2f} {q.unit}" for q in found if q.value is not None)
+            literal(
+                "\n".join(f"{q.name}: {q.value:.2f} {q.unit}" for q in found if q.value is not None)
+            )
         )
         self.table.setItem(row, 0, name)
         self.table.setItem(row, 1, value)
@@ -152,7 +154,7 @@ class MeasurePanel(QWidget):
     def _tool_button(self, tool: MeasureTool) -> QPushButton:
         button = QPushButton(tool_title(tool), self)
         button.setCheckable(True)
-        button.setToolTip(tool_help(tool))
+        button.setToolTip(literal(tool_help(tool)))
         button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         button.clicked.connect(lambda _=False, tool=tool: self._choose(tool))
         self._group.addButton(button)
@@ -313,7 +315,7 @@ class MeasureMenu:
         self.tools = {}
         for tool in TOOLS:
             action = menu.addAction(tool_title(tool))
-            action.setToolTip(tool_help(tool))
+            action.setToolTip(literal(tool_help(tool)))
             action.triggered.connect(lambda _=False, tool=tool: editor.set_tool(tool))
             self.tools[tool] = action
         menu.setToolTipsVisible(True)

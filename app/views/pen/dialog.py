@@ -18,7 +18,6 @@ from PySide6.QtWidgets import (
     QFormLayout,
     QGroupBox,
     QHBoxLayout,
-    QLabel,
     QMessageBox,
     QVBoxLayout,
     QWidget,
@@ -32,7 +31,7 @@ from app.views.cameras.boxes import SizeBox, SourceBox
 from app.views.cameras.live import LivePreview
 from app.views.cameras.settings_dialog import QUIET_MS
 from app.views.kit import theme
-from app.views.kit.parts import button, label, size_dialog
+from app.views.kit.parts import PlainLabel, add_row, button, label, message_box, size_dialog
 from app.views.kit.text import tr
 from app.views.kit.verdict import Verdict, tell
 from app.views.pen.net_page import write_pen
@@ -247,13 +246,13 @@ class PenChoice(QWidget):
         form = QFormLayout()
         form.setVerticalSpacing(theme.SPACING)
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        named = QLabel(tr("&Pen"))
+        named = PlainLabel(tr("&Pen"))
         named.setBuddy(self.body)
         form.addRow(named, _beside(self.body, self.edge))
-        form.addRow(tr("&Webcam"), self.source)
-        form.addRow(tr("Pictures"), self.size_box)
-        form.addRow(tr("&Lens"), self.lens)
-        form.addRow(tr("Print"), _beside(self.paper, self.print))
+        add_row(form, tr("&Webcam"), self.source)
+        add_row(form, tr("Pictures"), self.size_box)
+        add_row(form, tr("&Lens"), self.lens)
+        add_row(form, tr("Print"), _beside(self.paper, self.print))
         rows = QVBoxLayout(self)
         rows.setContentsMargins(0, 0, 0, 0)
         rows.addLayout(form)
@@ -403,13 +402,8 @@ class PenDialog(QDialog):
             go_on()
             return
         buttons = QMessageBox.StandardButton
-        box = QMessageBox(
-            QMessageBox.Icon.NoIcon,
-            tr("Measured tip"),
-            tr("Save the measured tip?"),
-            buttons.Save | buttons.Discard | buttons.Cancel,
-            self,
-        )
+        box = message_box(self, tr("Measured tip"), tr("Save the measured tip?"))
+        box.setStandardButtons(buttons.Save | buttons.Discard | buttons.Cancel)
 
         def answered(answer: int) -> None:
             box.deleteLater()

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from app.views.kit import theme
-from app.views.kit.parts import label
+from app.views.kit.parts import PlainLabel, label
 from app.views.kit.text import tr
 from app.views.kit.verdict import tell
 from app.views.pen.words import Line
@@ -50,7 +50,7 @@ class PenStatus(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.accuracy, self.lines = QLabel(self), Lines(5, self)
+        self.accuracy, self.lines = PlainLabel(self), Lines(5, self)
         self.accuracy.setProperty("role", "title")
         self.accuracy.setWordWrap(True)
         self.accuracy.setMinimumHeight(round(2.6 * theme.TITLE_PX))

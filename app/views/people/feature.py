@@ -16,13 +16,13 @@ from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.exchange.results import Results, ResultsFormat, results_text, write_results
 from app.exercises.schema import Exercise
+from app.session.access import Known
 from app.session.archive import Erased, backup, erase_person, left_out
 from app.session.board import ProgressBoard, board_of
 from app.session.course import (
     Course,
     CourseError,
     CourseStanding,
-    assessed_by,
     course_standings,
     courses,
     not_void,
@@ -33,11 +33,12 @@ from app.session.errors import PeopleError
 from app.session.index import Index, Indexed
 from app.session.people import PEOPLE, People, Person, RosterReport, people_folder
 from app.session.roster import RosterLine, roster_in
-from app.views.kit.access import ACCESS, Known
+from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
-from app.views.kit.text import counted, tr
+from app.views.kit.parts import message_box
+from app.views.kit.text import counted, literal, tr
 from app.views.people.pages import (
     GROUP_PDF,
     STUDENT_PDF,
@@ -201,16 +202,14 @@ class PeopleFeature(Feature):
 
         def find(_: Progress) -> Known:
             people = self._people
-            given = courses()[0]
-            assessed = {name: held[0].title for name, held in assessed_by(given).items()}
-            known = Known(people.has_instructor(), people.pseudonyms(), people.keys(), {}, assessed)
+            known = Known.of(people)
             if student is None:
                 return known
             index = Index(self._folder)
             index.refresh()
             texts = [text for text, key in known.keys.items() if key == student.key]
             own, today = not_void(index.attempts(texts), people.remarks()), _today()
-            return replace(known, refused=refusals(given, student, own, today, titles))
+            return replace(known, refused=refusals(courses()[0], student, own, today, titles))
 
         self._learning += 1
         asked = self._learning
@@ -381,7 +380,7 @@ class PeopleFeature(Feature):
         words = tr("Attempts that name this text are {name}'s:", name=person.pseudonym)
         dialog = QInputDialog(self._shell.dialog_parent)
         dialog.setWindowTitle(tr("Assign old attempts"))
-        dialog.setLabelText(words)
+        dialog.setLabelText(literal(words))
         dialog.setComboBoxItems(typed)
 
         def take(text: str) -> None:
@@ -398,16 +397,16 @@ class PeopleFeature(Feature):
         person = self.page.students.chosen()
         if person is None:
             return
-        box = QMessageBox(self._shell.dialog_parent)
-        box.setWindowTitle(tr("Erase"))
-        box.setIcon(QMessageBox.Icon.Warning)
-        box.setText(tr("Erase {name} for good?", name=person.pseudonym))
-        box.setInformativeText(
+        box = message_box(
+            self._shell.dialog_parent,
+            tr("Erase"),
+            tr("Erase {name} for good?", name=person.pseudonym),
             tr(
                 "Name, PIN, groups and comments go, and no backup brings them back. The records of "
                 "attempts hold a random key only: they can stay as nobody's, or go too."
-            )
+            ),
         )
+        box.setIcon(QMessageBox.Icon.Warning)
         role = QMessageBox.ButtonRole
         keep = box.addButton(tr("Erase, keep the records"), role.DestructiveRole)
         box.addButton(tr("Erase with all records"), role.DestructiveRole)
@@ -469,13 +468,13 @@ class PeopleFeature(Feature):
         if not self._may():
             return
         ids = list(self._look.waiting.get(course.id, ())) if self._look is not None else []
-        box = QMessageBox(self._shell.dialog_parent)
-        box.setWindowTitle(tr("Release results"))
         many = tr("Release {n} results of {title}?", n=len(ids), title=course.title)
         one = tr("Release 1 result of {title}?", title=course.title)
-        box.setText(counted(len(ids), one, many))
-        box.setInformativeText(
-            tr("Their students see score, replay and your comments then. Each can be held back.")
+        box = message_box(
+            self._shell.dialog_parent,
+            tr("Release results"),
+            counted(len(ids), one, many),
+            tr("Their students see score, replay and your comments then. Each can be held back."),
         )
         release = box.addButton(tr("Release"), QMessageBox.ButtonRole.AcceptRole)
         box.setDefaultButton(box.addButton(QMessageBox.StandardButton.Cancel))

@@ -26,7 +26,6 @@ from PySide6.QtWidgets import (
     QDialogButtonBox,
     QFormLayout,
     QHBoxLayout,
-    QLabel,
     QLineEdit,
     QPlainTextEdit,
     QSpinBox,
@@ -50,9 +49,9 @@ from app.views.debrief.page import date_text
 from app.views.kit import theme
 from app.views.kit.field_words import problem_words
 from app.views.kit.names import NAMES
-from app.views.kit.parts import button, label, table
+from app.views.kit.parts import PlainLabel, add_row, button, label, table
 from app.views.kit.settings_dialog import SettingsDialog
-from app.views.kit.text import counted, tr
+from app.views.kit.text import counted, literal, tr
 from app.views.kit.verdict import Verdict, tell
 from app.views.kit.wheel import wheel_scrolls
 
@@ -150,9 +149,9 @@ class BoardTab(QWidget):
             tr("Semicolons and decimal commas: as Excel opens them where the comma is the sign")
         )
         top = QHBoxLayout()
-        self._of_group = QLabel(tr("Group"), self)
+        self._of_group = PlainLabel(tr("Group"), self)
         for words, box in (
-            (QLabel(tr("Course"), self), self.course),
+            (PlainLabel(tr("Course"), self), self.course),
             (self._of_group, self.group),
         ):
             box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
@@ -169,7 +168,7 @@ class BoardTab(QWidget):
         below.addWidget(self.hint, 1)
         self.buttons = tuple(button(action.text()) for action in (self.curve, self.attempts))
         for shown, action in zip(self.buttons, (self.curve, self.attempts), strict=True):
-            shown.setToolTip(action.toolTip())
+            shown.setToolTip(literal(action.toolTip()))
             shown.clicked.connect(action.trigger)
             below.addWidget(shown)
         column.addLayout(below)
@@ -215,7 +214,7 @@ class BoardTab(QWidget):
             for place, item in enumerate(board.items, 1):
                 cell = board.cells[person.key, item.exercise]
                 shown = QTableWidgetItem(cell_words(cell))
-                shown.setToolTip(cell_details(cell))
+                shown.setToolTip(literal(cell_details(cell)))
                 if cell.passed:
                     shown.setForeground(QColor(theme.now(theme.GOOD)))
                 self.table.setItem(row, place, shown)
@@ -235,7 +234,7 @@ class BoardTab(QWidget):
         action = QAction(text, self.table)
         action.setShortcut(QKeySequence(keys))
         action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
-        action.setToolTip(tip)
+        action.setToolTip(literal(tip))
         self.table.addAction(action)
         self.table.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
         return action
@@ -456,7 +455,7 @@ class CoursesTab(QWidget):
         title = standing.title if standing is not None else ""
         self.begin.setText(tr("Begin: {title}", title=title) if title else tr("Begin"))
         why = standing.refusal if standing is not None else tr("nothing is left to be begun")
-        self.begin.setToolTip(why or tr("Briefing first, then the attempt (Enter)"))
+        self.begin.setToolTip(literal(why or tr("Briefing first, then the attempt (Enter)")))
 
     def _activate(self) -> None:
         """Do what a double click means: change a course, or begin an exercise."""
@@ -573,7 +572,7 @@ class EntryDialog(SettingsDialog):
         self.lines = [QLineEdit(self) for _ in fields]
         form = QFormLayout()
         for line, (name, hidden) in zip(self.lines, fields, strict=True):
-            form.addRow(name, line)
+            add_row(form, name, line)
             line.setAccessibleName(name)
             if hidden:
                 line.setEchoMode(QLineEdit.EchoMode.Password)
@@ -651,7 +650,7 @@ class CourseDialog(SettingsDialog):
             (tr("Title"), self.title),
             (tr("Groups"), self.groups),
         ):
-            form.addRow(name, field)
+            add_row(form, name, field)
         row = QHBoxLayout()
         row.addWidget(self.offered, 1)
         row.addWidget(self.add)
@@ -689,7 +688,7 @@ class CourseDialog(SettingsDialog):
         self.items.insertRow(row)
         name = QTableWidgetItem(known.title if known else exercise)
         name.setData(Qt.ItemDataRole.UserRole, exercise)
-        name.setToolTip(exercise)
+        name.setToolTip(literal(exercise))
         name.setFlags(name.flags() & ~Qt.ItemFlag.ItemIsEditable)
         self.items.setItem(row, 0, name)
         pinned = QSpinBox()
@@ -863,7 +862,7 @@ class CurvePlot(QWidget):
         """Say which attempt is under the mouse."""
         point = self._under(event.position())
         told = "" if point is None else f"{point.total:.0f} · {date_text(point.started)}"
-        self.setToolTip(told)
+        self.setToolTip(literal(told))
         shape = Qt.CursorShape.ArrowCursor if point is None else Qt.CursorShape.PointingHandCursor
         self.setCursor(shape)
 

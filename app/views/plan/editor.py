@@ -159,6 +159,7 @@ class PlanEditor(QObject):
         self._judge = Judge()
         self.path: Path | None = None
         self.locked = self.keeps_target = False
+        self._clicked: tuple[Point, DraftPlan] | None = None
         self._fresh = True  # the present gesture has changed nothing yet
         self.verdict = PlanVerdict(None)
 
@@ -236,6 +237,18 @@ class PlanEditor(QObject):
         self.path, self._saved = path, self.edit
         self.changed.emit()
 
+    @property
+    def from_click_mm(self) -> tuple[float, float, float] | None:
+        """From where the entry was clicked to where it lies on the skin, LPS [mm].
+
+        None for an entry that was not clicked, or that something else has set since.
+        """
+        clicked, entry = self._clicked, self.edit.draft.entry_mm
+        if clicked is None or entry is None or entry != clicked[1].entry_mm:
+            return None
+        (x, y, z), (a, b, c) = clicked[0], entry
+        return a - x, b - y, c - z
+
     def place(self, tool: Tool, point: Point, starts_step: bool) -> None:
         """Set entry (on the skin next to `point`) or target; one drag is one step to undo.
 
@@ -257,6 +270,8 @@ class PlanEditor(QObject):
         edit = replace(self.edit, draft=draft)
         if edit == self.edit:
             return
+        if tool is Tool.ENTRY:
+            self._clicked = (point, draft)
         if self._fresh:
             self._do(edit)
         else:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from PySide6.QtCore import QSignalBlocker, Qt, Signal, SignalInstance
+from PySide6.QtCore import QSignalBlocker, Signal, SignalInstance
 from PySide6.QtWidgets import (
     QComboBox,
     QDoubleSpinBox,
@@ -27,7 +27,8 @@ from app.views.kit import theme
 from app.views.kit.coordinates import lps_words
 from app.views.kit.menu_entries import add_entries, add_recent
 from app.views.kit.names import NAMES
-from app.views.kit.text import tr
+from app.views.kit.parts import PlainLabel
+from app.views.kit.text import literal, tr
 from app.views.plan.editor import PlanEditor, PlanFiles, Point
 from app.views.shell.feature import Context, Feature
 from app.views.shell.settings import Recents
@@ -71,6 +72,22 @@ def verdict_words(editor: PlanEditor) -> VerdictWords:
     return VerdictWords("bad", text, measures, remedy=True)
 
 
+def left_slice_words(editor: PlanEditor, viewing: Viewing) -> str:
+    """Say how far the entry lies out of the slice in which it was clicked; empty for within it."""
+    moved, pane = editor.from_click_mm, viewing.clicked_pane
+    plane = None if pane is None else viewing.plane(pane)
+    if moved is None or plane is None:
+        return ""
+    out = abs(sum(a * b for a, b in zip(moved, plane.ahead, strict=True)))
+    if out <= max(plane.half_slab_mm, plane.step_mm / 2.0):
+        return ""
+    return tr(
+        "The skin next to your click is {distance:.1f} mm out of the slice you clicked in: the "
+        "entry lies in another one.",
+        distance=out,
+    )
+
+
 class PlanPanel(QWidget):
     """Shows the editor's plan and turns clicks into edits.
 
@@ -88,15 +105,16 @@ class PlanPanel(QWidget):
         self._editor, self._viewing = editor, viewing
         self.title = _label("heading")
         self.entry, self.target, self.length = _label(), _label(), _label("dim")
+        self.left_slice = _label("dim")
+        self.left_slice.setWordWrap(True)
         self.place_entry = _button(tr("Place  E"), checkable=True)
         self.place_target = _button(tr("Place  T"), checkable=True)
         self.place_entry.setToolTip(tr("Then click near the skin in any view (key E)"))
         self.place_target.setToolTip(tr("Then click inside the patient in any view (key T)"))
         self.orientation = _orientation_box()
         self.turns = tuple(_angle_box(axis) for axis in "xyz")
-        self.verdict = QLabel(self)
+        self.verdict = PlainLabel(self)
         self.verdict.setWordWrap(True)
-        self.verdict.setTextFormat(Qt.TextFormat.PlainText)
         self.remedy = _button(tr("Apply suggested rotation"))
         self._files = tuple(
             _button(text) for text in (tr("New"), tr("Open…"), tr("Save"), tr("Save as…"))
@@ -117,6 +135,8 @@ class PlanPanel(QWidget):
         self.title.setText(f"{name} •" if editor.dirty else name)
         self.title.setToolTip(tr("• unsaved changes") if editor.dirty else "")
         self.entry.setText(_point_text(draft.entry_mm))
+        self.left_slice.setText(left_slice_words(editor, self._viewing))
+        self.left_slice.setVisible(bool(self.left_slice.text()))
         self.target.setText(_point_text(draft.target_mm))
         self._show_placement(placement)
         words = verdict_words(editor)
@@ -185,6 +205,7 @@ class PlanPanel(QWidget):
             files.addWidget(button)
         column.addLayout(files)
         column.addLayout(self._points())
+        column.addWidget(self.left_slice)
         column.addWidget(self.length)
         column.addLayout(self._position())
         column.addWidget(self.verdict)
@@ -199,7 +220,7 @@ class PlanPanel(QWidget):
             (theme.TARGET, "◉", tr("Target"), self.target, self.place_target),
         )
         for row, (mark, symbol, name, value, button) in enumerate(rows):
-            head = QLabel(f"{symbol}  {name}")
+            head = PlainLabel(f"{symbol}  {name}")
             head.setStyleSheet(f"color: {theme.now(mark.colour)}; font-weight: 600;")
             grid.addWidget(head, 2 * row, 0)
             grid.addWidget(button, 2 * row, 1)
@@ -251,14 +272,15 @@ def _angle_box(axis: str) -> QDoubleSpinBox:
     box.setSuffix(" °")
     box.setKeyboardTracking(False)
     box.setMinimumSize(70, theme.CONTROL_HEIGHT)
-    box.setToolTip(tr("Free rotation about the robot's {axis} axis (rotation vector)", axis=axis))
+    box.setToolTip(
+        literal(tr("Free rotation about the robot's {axis} axis (rotation vector)", axis=axis))
+    )
     return box
 
 
 def _label(role: str = "") -> QLabel:
-    label = QLabel()
+    label = PlainLabel()
     label.setProperty("role", role)
-    label.setTextFormat(Qt.TextFormat.PlainText)
     return label
 
 

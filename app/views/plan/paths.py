@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
-from PySide6.QtCore import Qt, Signal, SignalInstance
+from PySide6.QtCore import Signal, SignalInstance
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -30,7 +30,8 @@ from app.planning.draft import DraftPlan
 from app.planning.limits import ReachLimits
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
-from app.views.kit.text import tr
+from app.views.kit.parts import PlainLabel
+from app.views.kit.text import literal, tr
 from app.views.plan.entry_map import EntryMap, EntryMapLayer, legend
 from app.views.shell.feature import Context, Feature
 
@@ -61,10 +62,9 @@ class PathsPanel(QWidget):
         self.make = QPushButton(tr("Map entries for this target"))
         self.clear = QPushButton(tr("Clear"))
         self.take = QPushButton(tr("Take this path"))
-        self.note = QLabel(self)
+        self.note = PlainLabel(self)
         self.note.setWordWrap(True)
         self.note.setProperty("role", "dim")
-        self.note.setTextFormat(Qt.TextFormat.PlainText)
         self.table = _table()
         self._numbers: tuple[int, ...] = ()
         self._key = QWidget(self)
@@ -125,7 +125,7 @@ class PathsPanel(QWidget):
         )
         for column, text in enumerate(texts):
             item = QTableWidgetItem(text)
-            item.setToolTip(text)
+            item.setToolTip(literal(text))
             self.table.setItem(row, column, item)
 
     def _poll(self) -> None:
@@ -140,7 +140,7 @@ class PathsPanel(QWidget):
             self.taken.emit(self._numbers[row])
 
     def _lay_out(self) -> None:
-        heading = QLabel(tr("Planning help"))
+        heading = PlainLabel(tr("Planning help"))
         heading.setProperty("role", "heading")
         column = QVBoxLayout(self)
         column.setContentsMargins(0, theme.SPACING, 0, 0)
@@ -154,7 +154,7 @@ class PathsPanel(QWidget):
         grid = QGridLayout(self._key)
         grid.setContentsMargins(0, 0, 0, 0)
         for place, (_, text) in enumerate(legend()):
-            label = QLabel(text)
+            label = PlainLabel(text)
             grid.addWidget(label, place // 3, place % 3)
         column.addWidget(self._key)
         column.addWidget(self.table)

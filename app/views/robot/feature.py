@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QInputDialog,
-    QLabel,
     QMenu,
     QVBoxLayout,
     QWidget,
@@ -26,6 +25,7 @@ from app.views.exercise.enable_switch import DEFAULT_KEY, key_name
 from app.views.exercise.energy_gauge import GaugeMode
 from app.views.kit import theme
 from app.views.kit.background import run_in_background
+from app.views.kit.parts import PlainLabel
 from app.views.kit.text import tr
 from app.views.robot.health_panel import HealthPanel
 from app.views.robot.settings import RobotSettings
@@ -92,12 +92,12 @@ class KeyDialog(QDialog):
         super().__init__(parent)
         self.setWindowTitle(tr("Key for the forces"))
         self._key, self._taken = present, tuple(taken)
-        self._shown, self._note = QLabel(self), QLabel(self)
+        self._shown, self._note = PlainLabel(self), PlainLabel(self)
         self._shown.setStyleSheet(f"font-size: {theme.TITLE_PX + 8}px; font-weight: 600;")
         self._shown.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._note.setWordWrap(True)
         self._note.setMinimumHeight(3 * theme.FONT_PX)
-        words = QLabel(
+        words = PlainLabel(
             tr(
                 "Press the key or pedal that shall switch the forces on while it is held. A pedal "
                 "on USB counts as a keyboard."

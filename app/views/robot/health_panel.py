@@ -13,7 +13,6 @@ from PySide6.QtGui import QColor, QFont, QGuiApplication, QPainter, QPaintEvent,
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
-    QLabel,
     QPushButton,
     QScrollArea,
     QSizePolicy,
@@ -26,7 +25,8 @@ from app.device.wire_watch import WireWatch
 from app.session.snapshot import Snapshot
 from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
-from app.views.kit.text import tr
+from app.views.kit.parts import PlainLabel
+from app.views.kit.text import literal, tr
 from app.views.kit.verdict import StatusItem
 from app.views.robot.health import HealthGroup, Rates, health
 
@@ -140,7 +140,7 @@ class HealthPanel(QWidget):
         self.copy = QPushButton(tr("Copy report"), self)
         self.copy.setToolTip(tr("Copies everything on this page as plain text"))
         self.commission = QPushButton(tr("Commissioning…"), self)
-        self._empty = QLabel(self)
+        self._empty = PlainLabel(self)
         self._empty.setWordWrap(True)
         self._lay_out()
         self.copy.clicked.connect(self.copy_report)
@@ -252,7 +252,7 @@ class _Section(QFrame):
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
-        self._title = QLabel(self)
+        self._title = PlainLabel(self)
         self._title.setProperty("role", "heading")
         self._lines: list[_Line] = []
         self._column = QVBoxLayout(self)
@@ -281,12 +281,11 @@ class _Line(QWidget):
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
         self._item: StatusItem | None = None
-        self._title, self._text, self._help = QLabel(self), QLabel(self), QLabel(self)
+        self._title, self._text, self._help = PlainLabel(self), PlainLabel(self), PlainLabel(self)
         self._title.setFixedWidth(theme.px(TITLE_WIDTH))
         self._title.setAlignment(Qt.AlignmentFlag.AlignTop)
         for label in (self._text, self._help):
             label.setWordWrap(True)
-            label.setTextFormat(Qt.TextFormat.PlainText)
         self._text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._help.setProperty("role", "dim")
         row = QHBoxLayout()
@@ -317,5 +316,5 @@ class _Line(QWidget):
         self._text.setStyleSheet(f"font-size: {theme.SMALL_PX}px;")
         self._help.setText(item.help)
         self._help.setVisible(item.verdict.value in ("warning", "bad"))
-        self.setToolTip(item.help)
+        self.setToolTip(literal(item.help))
         self.setAccessibleName(f"{item.title}: {item.text}")

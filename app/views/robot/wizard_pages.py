@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 
 from app.device.commissioning.results import RoutineName
 from app.views.kit import theme
-from app.views.kit.parts import column, label
+from app.views.kit.parts import PlainLabel, column, label
 from app.views.kit.text import tr
 from app.views.kit.verdict import Verdict, tell
 
@@ -164,7 +164,7 @@ class ConnectionPage(QWidget):
             title = label(role="dim")
             title.setText(name)
             grid.addWidget(title, row, 0)
-            grid.addWidget(QLabel(value), row, 1)
+            grid.addWidget(PlainLabel(value), row, 1)
         rows.addLayout(grid)
         rows.addWidget(self._clearance)
         note = label(role="dim")
@@ -198,7 +198,7 @@ class SummaryPage(QWidget):
         self._rows: dict[RoutineName, tuple[QLabel, QLabel]] = {}
         for row, step in enumerate(steps_of(bench)):
             when, found = label(), label(role="dim")
-            grid.addWidget(QLabel(step_words(step).title), 2 * row, 0)
+            grid.addWidget(PlainLabel(step_words(step).title), 2 * row, 0)
             grid.addWidget(when, 2 * row, 1, 1, 2)
             grid.addWidget(found, 2 * row + 1, 1, 1, 2)
             self._rows[step] = (when, found)
@@ -240,7 +240,7 @@ class RoutinePage(QWidget):
         self.bar.setRange(0, 1000)
         self.bar.setTextVisible(False)
         self.bar.setFixedHeight(10)
-        self.reading, self._unit = QLineEdit(self), QLabel(self)
+        self.reading, self._unit = QLineEdit(self), PlainLabel(self)
         self.confirm, self.start = QPushButton(tr("Confirm"), self), QPushButton(self)
         self.cancel = QPushButton(tr("Cancel: forces off"), self)
         self.undo = QPushButton(tr("Undo the last result"), self)

@@ -12,7 +12,7 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMenu
 
 from app.planning.needle_planes import NeedleFrame, follow, frame_of, in_plane
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 from app.views.scene.display import Display, Section
 from app.views.scene.view import PRESETS, SceneView
 from app.views.shell.feature import Context, Feature
@@ -191,7 +191,7 @@ class SceneMenu:
         found = {}
         for key, text, tip in rows:
             action = menu.addAction(f"{text}\t{key}")  # the key is the 3D view's own
-            action.setToolTip(tip)
+            action.setToolTip(literal(tip))
             action.triggered.connect(lambda _=False, key=key: self._scene.commands[key]())
             found[key] = action
         return found
@@ -211,4 +211,4 @@ class SceneMenu:
         for name, action in self.presets.items():
             action.setChecked(name == display.volume)
             action.setEnabled(not name or not why)
-            action.setToolTip(why if name else "")
+            action.setToolTip(literal(why if name else ""))

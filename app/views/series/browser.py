@@ -29,8 +29,8 @@ from app.imaging.series import Listing, Remedy, Series
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.names import NAMES
-from app.views.kit.parts import size_dialog
-from app.views.kit.text import tr
+from app.views.kit.parts import PlainLabel, size_dialog
+from app.views.kit.text import literal, tr
 
 PICTURE_PX = 112
 _BUTTON_PX = 190
@@ -51,7 +51,7 @@ class SeriesCard(QFrame):
         super().__init__(parent)
         self.series = series
         self.setProperty("role", "panel")
-        self.picture = QLabel(tr("no picture"), self)
+        self.picture = PlainLabel(tr("no picture"), self)
         self.picture.setFixedSize(PICTURE_PX, PICTURE_PX)
         self.picture.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.picture.setStyleSheet(
@@ -149,7 +149,7 @@ def _buttons(series: Series, parent: QWidget, taking: bool) -> list[tuple[QPushB
     for remedy in ways:
         button = QPushButton(tr("Import…") if taking else remedy_words(remedy), parent)
         button.setMinimumWidth(_BUTTON_PX)
-        button.setToolTip(_remedy_tip(remedy))
+        button.setToolTip(literal(_remedy_tip(remedy)))
         if remedy is Remedy.NONE:
             button.setProperty("role", "primary")
         found.append((button, remedy))
@@ -165,8 +165,7 @@ def _without_names(series: Series, text: str) -> str:
 
 
 def _line(text: str, role: str = "", wraps: bool = False) -> QLabel:
-    label = QLabel(text)
-    label.setTextFormat(Qt.TextFormat.PlainText)
+    label = PlainLabel(text)
     label.setWordWrap(wraps)
     if role:
         label.setProperty("role", role)
@@ -257,7 +256,7 @@ class SeriesBrowser(QDialog):
         self._more = QPushButton(self)
         column = QVBoxLayout(self)
         column.setSpacing(theme.SPACING)
-        heading = QLabel(_heading(listing), self)
+        heading = PlainLabel(_heading(listing), self)
         heading.setProperty("role", "heading")
         column.addWidget(heading)
         column.addWidget(self._scrolled(), 1)

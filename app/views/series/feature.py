@@ -17,7 +17,6 @@ from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QFileDialog,
-    QLabel,
     QMenu,
     QPlainTextEdit,
     QVBoxLayout,
@@ -31,6 +30,7 @@ from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, Indicator, run_in_background
 from app.views.kit.menu_entries import add_entries, add_recent
 from app.views.kit.names import NAMES
+from app.views.kit.parts import PlainLabel
 from app.views.kit.text import tr
 from app.views.series.browser import SeriesBrowser
 from app.views.series.mask_dialog import Boxes, MaskDialog
@@ -201,9 +201,9 @@ class ImportReport(QDialog):
         self.resize(760, 460)
         entry, report = imported.entry, imported.report
         words = _words(imported)
-        heading = QLabel(f"{NAMES.shown(entry.name)}\n{NAMES.without_names(words)}", self)
+        heading = PlainLabel(f"{NAMES.shown(entry.name)}\n{NAMES.without_names(words)}", self)
         heading.setProperty("role", "heading")
-        self.warning = QLabel("\n".join(f"⚠  {text}" for text in report.warnings), self)
+        self.warning = PlainLabel("\n".join(f"⚠  {text}" for text in report.warnings), self)
         self.warning.setWordWrap(True)
         self.warning.setVisible(bool(report.warnings))
         lines = [line for line in report.lines() if not line.startswith("look at this")]

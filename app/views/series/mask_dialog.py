@@ -26,7 +26,6 @@ from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QHBoxLayout,
-    QLabel,
     QListWidget,
     QPushButton,
     QSlider,
@@ -37,7 +36,7 @@ from PySide6.QtWidgets import (
 from app.imaging.window import PRESETS, to_grey
 from app.planning.history import UndoHistory
 from app.views.kit import theme
-from app.views.kit.parts import size_dialog
+from app.views.kit.parts import PlainLabel, size_dialog
 from app.views.kit.text import tr
 from app.views.slices.presets import preset_name
 
@@ -222,7 +221,7 @@ class MaskDialog(QDialog):
         self.pictures = pictures
         self._history: UndoHistory[Boxes] = UndoHistory(boxes)
         self.canvas, self.slider = MaskCanvas(self), QSlider(Qt.Orientation.Horizontal, self)
-        self.where, self.windows = QLabel(self), QComboBox(self)
+        self.where, self.windows = PlainLabel(self), QComboBox(self)
         self.brightest = QCheckBox(tr("Brightest of all pictures"), self)
         self.scope, self.list = QComboBox(self), QListWidget(self)
         self.undo_button = QPushButton(tr("Undo"), self)
@@ -235,7 +234,7 @@ class MaskDialog(QDialog):
             tr("Import, de-identified"), QDialogButtonBox.ButtonRole.AcceptRole
         )
         self.take.setProperty("role", "primary")
-        self._note = QLabel(note, self)
+        self._note = PlainLabel(note, self)
         self._fill()
         self._lay_out()
         self._connect()
@@ -403,7 +402,7 @@ class MaskDialog(QDialog):
 
     def _side(self) -> QVBoxLayout:
         self.canvas.may_draw = self.pictures.one_per_file
-        help_ = QLabel(explanation(self.pictures.one_per_file), self)
+        help_ = PlainLabel(explanation(self.pictures.one_per_file), self)
         help_.setWordWrap(True)
         column = QVBoxLayout()
         column.setSpacing(theme.SPACING)
@@ -411,7 +410,7 @@ class MaskDialog(QDialog):
         column.addWidget(self.brightest)
         for title, box in ((tr("Window"), self.windows), (tr("New boxes"), self.scope)):
             row = QHBoxLayout()
-            row.addWidget(QLabel(title, self))
+            row.addWidget(PlainLabel(title, self))
             row.addWidget(box, 1)
             column.addLayout(row)
         column.addWidget(self.list, 1)

@@ -16,7 +16,6 @@ from PySide6.QtWidgets import (
     QFormLayout,
     QHBoxLayout,
     QHeaderView,
-    QLabel,
     QLineEdit,
     QPushButton,
     QTreeWidget,
@@ -31,7 +30,7 @@ from app.core.progress import Progress
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.names import NAMES
-from app.views.kit.parts import size_dialog
+from app.views.kit.parts import PlainLabel, add_row, size_dialog
 from app.views.kit.progress_strip import ProgressStrip
 from app.views.kit.text import tr
 
@@ -60,7 +59,7 @@ class PacsPanel(QDialog):
         size_dialog(self, 980, 620)
         self._task: BackgroundTask | None = None
         self.strip = ProgressStrip(self)  # its own: the window's cannot be clicked meanwhile
-        self.servers, self.note = QComboBox(self), QLabel(self)
+        self.servers, self.note = QComboBox(self), PlainLabel(self)
         self.patient, self.name = QLineEdit(self), QLineEdit(self)
         self.date = QLineEdit(self)
         if NAMES.are_hidden:
@@ -127,14 +126,14 @@ class PacsPanel(QDialog):
         server.addWidget(self.configure)
         self.configure.setAutoDefault(False)
         form = QFormLayout()
-        form.addRow(tr("PACS"), server)
+        add_row(form, tr("PACS"), server)
         for title, field in (
             (tr("Patient ID"), self.patient),
             (tr("Name"), self.name),
             (tr("Date of the study"), self.date),
         ):
-            form.addRow(title, field)
-        private = QLabel(tr("Names are shown here only; nothing of them is stored."), self)
+            add_row(form, title, field)
+        private = PlainLabel(tr("Names are shown here only; nothing of them is stored."), self)
         for label in (self.note, private):
             label.setProperty("role", "dim")
             label.setWordWrap(True)

@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QFileDialog,
     QFormLayout,
     QHBoxLayout,
-    QLabel,
     QLineEdit,
     QListWidget,
     QMessageBox,
@@ -30,9 +29,10 @@ from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
+from app.views.kit.parts import PlainLabel, add_row
 from app.views.kit.progress_strip import ProgressStrip
 from app.views.kit.settings_dialog import SettingsDialog
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 from app.views.kit.verdict import Verdict
 
 if TYPE_CHECKING:
@@ -152,8 +152,8 @@ class PacsForm(QWidget):
         ):
             if isinstance(widget, QLineEdit):
                 widget.setPlaceholderText(hint)
-                widget.setToolTip(hint)
-            form.addRow(title, widget)
+                widget.setToolTip(literal(hint))
+            add_row(form, title, widget)
         form.addRow(self.tls)
         for title, name, hint in (
             (tr("Authority"), "authority", tr("PEM; empty: those that the system trusts")),
@@ -162,13 +162,13 @@ class PacsForm(QWidget):
         ):
             self.files[name].setPlaceholderText(hint)
             self._rows.append(self._file(self.files[name]))
-            form.addRow(title, self._rows[-1])
+            add_row(form, title, self._rows[-1])
         form.addRow("", self.check_name)
         self._rows.append(self.check_name)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.addLayout(form)
-        note = QLabel(
+        note = PlainLabel(
             tr(
                 "Own address and port are where C-MOVE's pictures come; the port is open only "
                 "while a retrieval lasts."

@@ -34,7 +34,6 @@ from PySide6.QtWidgets import (
     QFileDialog,
     QHBoxLayout,
     QHeaderView,
-    QLabel,
     QPlainTextEdit,
     QTableWidget,
     QTableWidgetItem,
@@ -49,8 +48,8 @@ from app.core.identifiers import without_identifiers
 from app.core.log_file import crash_text, tail
 from app.views.kit.background import run_in_background
 from app.views.kit.names import NAMES
-from app.views.kit.parts import size_dialog
-from app.views.kit.text import disclaimer, tr
+from app.views.kit.parts import PlainLabel, size_dialog
+from app.views.kit.text import disclaimer, literal, tr
 from app.views.shell.application import icon
 
 _PROGRAM: Final = "acus"
@@ -135,17 +134,17 @@ class AboutDialog(QDialog):
         self.setWindowTitle(tr("About Acus"))
         layout = QVBoxLayout(self)
         head = QHBoxLayout()
-        picture = QLabel()
+        picture = PlainLabel()
         picture.setPixmap(icon().pixmap(QSize(_ICON_PX, _ICON_PX), self.devicePixelRatioF()))
         head.addWidget(picture, 0, Qt.AlignmentFlag.AlignTop)
         words = QVBoxLayout()
         for text in (f"<h2>{tr('Acus {version}', version=__version__)}</h2>", *_sentences()):
-            label = QLabel(text)
+            label = PlainLabel(text)
             label.setWordWrap(True)
             words.addWidget(label)
         head.addLayout(words, 1)
         layout.addLayout(head)
-        self._head = QLabel(tr("Libraries, as installed (being read):"))
+        self._head = PlainLabel(tr("Libraries, as installed (being read):"))
         layout.addWidget(self._head)
         self.table = _table()
         layout.addWidget(self.table, 1)
@@ -162,7 +161,7 @@ class AboutDialog(QDialog):
         for row, part in enumerate(rows):
             for column, text in enumerate((part.name, part.version, part.licence)):
                 item = QTableWidgetItem(text)
-                item.setToolTip(text)
+                item.setToolTip(literal(text))
                 self.table.setItem(row, column, item)
         self.table.resizeColumnsToContents()
         self.table.horizontalHeader().setSectionResizeMode(2, QHeaderView.ResizeMode.Stretch)
@@ -241,7 +240,7 @@ class ProblemReport(QDialog):
         super().__init__(parent)
         self.setWindowTitle(tr("Report a problem"))
         size_dialog(self, 760, 520)
-        words = QLabel(
+        words = PlainLabel(
             tr(
                 "This is all that a report holds: no names, no pictures, no paths. Look through "
                 "it, say above it what you did and what you expected, and send it to whoever looks "
@@ -256,7 +255,7 @@ class ProblemReport(QDialog):
         self.buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close, self)
         self.copy = self.buttons.addButton(tr("Copy"), QDialogButtonBox.ButtonRole.ActionRole)
         self.save = self.buttons.addButton(tr("Save as…"), QDialogButtonBox.ButtonRole.ActionRole)
-        self.said = QLabel(self)
+        self.said = PlainLabel(self)
         column = QVBoxLayout(self)
         for part in (words, self.text, self.said, self.buttons):
             column.addWidget(part)
@@ -373,7 +372,7 @@ class HelpWindow(QDialog):
         self.browser = _Pages()
         self.browser.setOpenExternalLinks(True)
         self.browser.setSearchPaths([str(SOURCES)])
-        missing = QLabel(self._missing(name))
+        missing = PlainLabel(self._missing(name))
         missing.setWordWrap(True)
         missing.setVisible(not (SOURCES / name).is_file())
         layout.addWidget(missing)

@@ -13,9 +13,7 @@ import traceback
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer
 from PySide6.QtWidgets import (
     QHBoxLayout,
-    QLabel,
     QMainWindow,
-    QMessageBox,
     QToolButton,
     QVBoxLayout,
     QWidget,
@@ -24,6 +22,7 @@ from PySide6.QtWidgets import (
 from app.core.errors import AcusError
 from app.views.kit import theme
 from app.views.kit.names import NAMES
+from app.views.kit.parts import PlainLabel, message_box
 from app.views.kit.text import tr
 
 GAP_PX = 12
@@ -126,9 +125,8 @@ class MessageBar(QWidget):
         self._standing: dict[str, Exception | str] = {}
         self._note = QTimer(self, interval=NOTE_MS, singleShot=True)
         self._note.timeout.connect(self._uncover)
-        self._symbol, self._text = QLabel(self), QLabel(self)
+        self._symbol, self._text = PlainLabel(self), PlainLabel(self)
         self._text.setWordWrap(True)
-        self._text.setTextFormat(Qt.TextFormat.PlainText)
         self._text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._more, self._close = QToolButton(self), QToolButton(self)
         self._more.setText(tr("Details"))
@@ -197,7 +195,7 @@ class MessageBar(QWidget):
 
     def show_details(self) -> None:
         """Open a window with the whole message and where it comes from."""
-        box = QMessageBox(QMessageBox.Icon.NoIcon, tr("Details"), self._text.text(), parent=self)
+        box = message_box(self, tr("Details"), self._text.text())
         box.setDetailedText(NAMES.without_names(self._details))
         box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         box.open()

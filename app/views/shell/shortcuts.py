@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.views.kit import theme
+from app.views.kit.parts import PlainLabel
 from app.views.kit.text import disclaimer, tr
 from app.views.slices.bindings import Scheme, key_rows, mouse_rows
 
@@ -121,7 +122,7 @@ class ShortcutSheet(QDialog):
 
 def disclaimer_label(parent: QWidget | None = None) -> QLabel:
     """Return the sentence as a label."""
-    label = QLabel(disclaimer(), parent)
+    label = PlainLabel(disclaimer(), parent)
     label.setProperty("role", "disclaimer")
     label.setAlignment(Qt.AlignmentFlag.AlignCenter)
     return label
@@ -132,11 +133,11 @@ def _table(group: Group) -> QGridLayout:
     grid = QGridLayout()
     grid.setVerticalSpacing(2)
     grid.setHorizontalSpacing(2 * theme.SPACING)
-    title = QLabel(heading)
+    title = PlainLabel(heading)
     title.setProperty("role", "heading")
     grid.addWidget(title, 0, 0, 1, 2)
     for number, (key, meaning) in enumerate(rows, start=1):
-        pressed, does = QLabel(key), QLabel(meaning)
+        pressed, does = PlainLabel(key), PlainLabel(meaning)
         pressed.setStyleSheet(f"color: {theme.ACCENT};")
         grid.addWidget(pressed, number, 0)
         grid.addWidget(does, number, 1)

@@ -24,7 +24,6 @@ from PySide6.QtGui import QColor, QFont, QFontMetrics, QKeySequence, QPainter, Q
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
-    QLabel,
     QLineEdit,
     QListWidget,
     QListWidgetItem,
@@ -44,7 +43,8 @@ from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.names import NAMES
-from app.views.kit.text import tr
+from app.views.kit.parts import PlainLabel
+from app.views.kit.text import literal, tr
 from app.views.shell.shortcuts import disclaimer_label
 
 if TYPE_CHECKING:
@@ -176,14 +176,13 @@ class StartPage(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.exercises, self.recents = QListWidget(self), QListWidget(self)
-        self.search, self.hint = QLineEdit(self), QLabel(self)
+        self.search, self.hint = QLineEdit(self), PlainLabel(self)
         self.search.setPlaceholderText(tr("Search exercises"))
         self.search.setAccessibleName(tr("Search exercises"))
         self.search.setClearButtonEnabled(True)
         self.hint.setWordWrap(True)
-        self.hint.setTextFormat(Qt.TextFormat.PlainText)
         self.hint.setProperty("role", "dim")
-        self.whose = QLabel(self)
+        self.whose = PlainLabel(self)
         self.whose.setProperty("role", "dim")
         self.begin = QPushButton(tr("Begin exercise"), self)
         self.begin.setProperty("role", "primary")
@@ -221,7 +220,7 @@ class StartPage(QWidget):
         self.exercises.clear()
         for exercise in exercises:
             item = QListWidgetItem(exercise.title)
-            item.setToolTip(exercise.description)
+            item.setToolTip(literal(exercise.description))
             item.setData(Qt.ItemDataRole.UserRole, exercise.id)
             item.setData(_EXERCISE, exercise)
             for role, value in known.get(exercise.id, {}).items():
@@ -258,7 +257,7 @@ class StartPage(QWidget):
         self.recents.clear()
         for path in paths:
             item = QListWidgetItem(NAMES.shown(path.name))
-            item.setToolTip(NAMES.shown(str(path)))
+            item.setToolTip(literal(NAMES.shown(str(path))))
             item.setData(Qt.ItemDataRole.UserRole, path)
             self.recents.addItem(item)
         if not paths:
@@ -325,7 +324,10 @@ class StartPage(QWidget):
             self.exercise_chosen.emit(item.data(Qt.ItemDataRole.UserRole))
 
     def _lay_out(self) -> None:
-        title, what = QLabel("Acus"), QLabel(tr("CT-guided needle insertion, practised by hand"))
+        title, what = (
+            PlainLabel("Acus"),
+            PlainLabel(tr("CT-guided needle insertion, practised by hand")),
+        )
         title.setStyleSheet("font-size: 32px; font-weight: 300; letter-spacing: 3px;")
         what.setProperty("role", "dim")
         head = QHBoxLayout()
@@ -335,7 +337,7 @@ class StartPage(QWidget):
         head.addStretch(1)
         first = QHBoxLayout(self.offer)
         first.setContentsMargins(0, 0, 0, 0)
-        first.addWidget(QLabel(tr("First time here?"), self.offer))
+        first.addWidget(PlainLabel(tr("First time here?"), self.offer))
         first.addWidget(self.tour)
         first.addWidget(self.no_tour)
         head.addWidget(self.offer, 0, Qt.AlignmentFlag.AlignBottom)
@@ -378,7 +380,7 @@ class ColumnTitles(QWidget):
         row.setSpacing(0)
         row.addStretch(1)
         for name, width in COLUMNS:
-            title = QLabel(titles[name], self)
+            title = PlainLabel(titles[name], self)
             title.setProperty("role", "dim")
             title.setFixedWidth(theme.px(width))
             side = Qt.AlignmentFlag.AlignLeft if name == "level" else Qt.AlignmentFlag.AlignRight
@@ -393,7 +395,7 @@ def _card(heading: str, widgets: Sequence[QWidget]) -> QFrame:
     column = QVBoxLayout(card)
     column.setContentsMargins(theme.MARGIN, theme.MARGIN, theme.MARGIN, theme.MARGIN)
     column.setSpacing(theme.SPACING)
-    label = QLabel(heading)
+    label = PlainLabel(heading)
     label.setProperty("role", "heading")
     column.addWidget(label)
     for widget in widgets:

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QMenu
 from app.exercises.locks import Lock
 from app.exercises.parts import ViewName
 from app.views.exercise.conductor import Conductor
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 from app.views.plan.editor import PlanEditor
 from app.views.reading.layouts import LAYOUTS, layout_title
 from app.views.reading.lock_words import view_title, why_locked
@@ -207,7 +207,7 @@ class ViewMenu:
         self._locked.setEnabled(not greys.is_fixed)
         why = why_locked(self._conductor.exercise, Lock.READING)
         for action in (*self.layouts.values(), self._locked):
-            action.setToolTip("" if action.isEnabled() else why)
+            action.setToolTip(literal("" if action.isEnabled() else why))
         self._refresh_views()
         for action, is_on in self._room:
             action.setChecked(is_on())
@@ -237,10 +237,10 @@ class ViewMenu:
             why = conductor.why_view_stays(view)
             action.setChecked(conductor.shown.shows(view))
             action.setEnabled(not why)
-            action.setToolTip(why)
+            action.setToolTip(literal(why))
         why = why_locked(conductor.exercise, Lock.VIEWS)
         self.bullseye.setEnabled(not (workspace.is_cell_fixed and workspace.has_bullseye))
-        self.bullseye.setToolTip("" if self.bullseye.isEnabled() else why)
+        self.bullseye.setToolTip(literal("" if self.bullseye.isEnabled() else why))
 
     def _fill_presets(self, menu: QMenu) -> None:
         """Offer windows for the pane that has the keyboard, or had it last."""

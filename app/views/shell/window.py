@@ -34,7 +34,7 @@ from app.views.kit.access import ACCESS
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.progress_strip import ProgressStrip
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 from app.views.measure.editor import MeasureEditor
 from app.views.people.feature import PeopleFeature
 from app.views.plan.editor import PlanEditor
@@ -142,7 +142,7 @@ class ChangeOfPatient(QObject):
         choices = box.Save | box.Discard | box.Cancel if dirty else box.Open | box.Cancel
         title, default = tr("Open another patient"), box.Save if dirty else box.Open
         parent = self._context.shell.dialog_parent
-        answer = QMessageBox.question(parent, title, text, choices, default)
+        answer = QMessageBox.question(parent, title, literal(text), choices, default)
         if answer == box.Save:
             return all(feature.save() for feature in self._features if feature.unsaved())
         return answer in (box.Discard, box.Open)

@@ -14,7 +14,7 @@ from PySide6.QtGui import QAction, QColor, QHelpEvent, QKeyEvent, QPainter, QPai
 from PySide6.QtWidgets import QFrame, QInputDialog, QMenu, QVBoxLayout, QWidget
 
 from app.views.kit import theme
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 from app.views.slices.bindings import Action, digit
 from app.views.slices.canvas import SliceCanvas
 from app.views.slices.gestures import ZOOM_PER_NOTCH, SliceGestures, thicken
@@ -310,7 +310,7 @@ class PaneActions:
         viewing = self._pane.viewing
         if viewing.tool is Tool.NAVIGATE:
             return False
-        viewing.point_refused = False
+        viewing.point_refused, viewing.clicked_pane = False, self._pane.pane
         viewing.point_placed.emit(viewing.tool, as_point(viewing.cursor_mm), True)
         if not viewing.point_refused:
             viewing.set_tool(Tool.NAVIGATE)
@@ -468,7 +468,7 @@ def _ask_name(pane: SlicePane) -> None:
     dialog = QInputDialog(pane)
     dialog.setWindowTitle(tr("Keep this window"))
     dialog.setLabelText(
-        tr("Name for W {width:.0f}  L {level:.0f}", width=window.width, level=window.level)
+        literal(tr("Name for W {width:.0f}  L {level:.0f}", width=window.width, level=window.level))
     )
     dialog.textValueSelected.connect(
         lambda name: pane.viewing.greys.keep(name.strip()[:40], window) if name.strip() else None

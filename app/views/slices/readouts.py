@@ -18,7 +18,7 @@ from app.imaging.volume import Volume
 from app.views.kit import theme
 from app.views.kit.coordinates import lps_words
 from app.views.kit.names import NAMES
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 from app.views.slices.canvas import SliceCanvas
 from app.views.slices.needle_source import Along
 from app.views.slices.panes import PANE_MARKS, PaneId, pane_name
@@ -269,7 +269,7 @@ class Readouts(QObject):
         rests = any(one.geometry().contains(event.pos()) for one in words)
         if not rests or not any(one.is_cut for one in self._corners):
             return False
-        QToolTip.showText(event.globalPos(), self.whole_text(), self._canvas)
+        QToolTip.showText(event.globalPos(), literal(self.whole_text()), self._canvas)
         return True
 
     def whole_text(self) -> str:

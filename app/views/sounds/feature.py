@@ -34,7 +34,7 @@ from app.core.units import MILLIMETRE
 from app.session.machine import State
 from app.session.snapshot import Snapshot
 from app.views.kit.background import run_in_background
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 from app.views.kit.verdict import StatusItem, Verdict
 from app.views.shell.feature import Context, Feature
 
@@ -421,9 +421,11 @@ class SoundsMenu:
         """Say what cannot be heard, and why."""
         why = self._feature.silence
         self.on.setToolTip(
-            why
-            or tr(
-                "Depth every 5 mm, the target, the path, scans, structures, the rest of a breath. "
-                "Everything that is heard is written in the status strip too."
+            literal(
+                why
+                or tr(
+                    "Depth every 5 mm, the target, the path, scans, structures, the rest of a "
+                    "breath. Everything that is heard is written in the status strip too."
+                )
             )
         )

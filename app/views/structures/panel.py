@@ -24,7 +24,8 @@ from app.imaging.structures.structure import Structure, StructureKind
 from app.planning.clearance import Nearness, PathClearance
 from app.views.kit import theme
 from app.views.kit.names import NAMES
-from app.views.kit.text import tr
+from app.views.kit.parts import PlainLabel
+from app.views.kit.text import literal, tr
 from app.views.kit.wheel import wheel_scrolls
 from app.views.structures.book import StructureBook
 from app.views.structures.brush import Brush, Mode
@@ -69,7 +70,7 @@ class StructureTable(QTableWidget):
         item.setCheckState(Qt.CheckState.Checked if visible else Qt.CheckState.Unchecked)
         item.setIcon(_swatch(structure))
         item.setToolTip(
-            tr("{ml:.2f} ml. Tick: drawn. Double click: rename.", ml=structure.millilitres)
+            literal(tr("{ml:.2f} ml. Tick: drawn. Double click: rename.", ml=structure.millilitres))
         )
         self.setItem(row, NAME, item)
         box = self.cellWidget(row, KIND)
@@ -103,9 +104,11 @@ class StructureTable(QTableWidget):
             item.setText(f"{sign} {clearance.distance_mm:z.1f}")
             item.setForeground(QColor(theme.now(colour)))
             item.setToolTip(
-                tr(
-                    "The path comes nearest {depth:.0f} mm behind its entry",
-                    depth=clearance.depth_mm,
+                literal(
+                    tr(
+                        "The path comes nearest {depth:.0f} mm behind its entry",
+                        depth=clearance.depth_mm,
+                    )
                 )
             )
         item.setFlags(Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable)
@@ -190,13 +193,11 @@ class StructurePanel(QWidget):
         self.open, self.save = QPushButton(tr("Open…")), QPushButton(tr("Save…"))
         self.remove = QPushButton(tr("Delete"))
         self.table = StructureTable(book, watch, self)
-        self.note = QLabel(self)
+        self.note = PlainLabel(self)
         self.note.setWordWrap(True)
         self.note.setProperty("role", "dim")
-        self.note.setTextFormat(Qt.TextFormat.PlainText)
-        self.live = QLabel(self)
+        self.live = PlainLabel(self)
         self.live.setWordWrap(True)
-        self.live.setTextFormat(Qt.TextFormat.PlainText)
         self.modes = {mode: QPushButton(text) for mode, text in _mode_names().items()}
         self.radius = spin_box(1.0, 40.0, 6.0, tr(" mm"), 0.5)
         self.low = spin_box(-1024.0, 3071.0, -50.0, tr(" HU"), 10.0)
@@ -279,7 +280,7 @@ class StructurePanel(QWidget):
                 (tr("To"), self.high),
             )
         ):
-            grid.addWidget(QLabel(text), row, 0)
+            grid.addWidget(PlainLabel(text), row, 0)
             grid.addWidget(widget, row, 1)
         grid.addWidget(self.limited, 3, 0, 1, 2)
         grid.addWidget(self.threshold, 4, 0, 1, 2)
@@ -303,6 +304,6 @@ def _row(*widgets: QWidget) -> QHBoxLayout:
 
 
 def _heading(text: str) -> QLabel:
-    label = QLabel(text)
+    label = PlainLabel(text)
     label.setProperty("role", "heading")
     return label

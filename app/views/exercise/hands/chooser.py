@@ -4,14 +4,15 @@ from collections.abc import Callable
 from typing import Final
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QBoxLayout, QComboBox, QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QBoxLayout, QComboBox, QSizePolicy, QVBoxLayout, QWidget
 
 from app.core.errors import AcusError
 from app.session.pad.hand import GAINS
 from app.views.exercise.hands.source import GamepadHand, HandSource, MouseHand, TabletHand
 from app.views.exercise.pad_canvas import PadCanvas
 from app.views.kit import theme
-from app.views.kit.text import tr
+from app.views.kit.parts import PlainLabel
+from app.views.kit.text import literal, tr
 
 SOURCES: Final[dict[str, Callable[[PadCanvas], HandSource]]] = {
     source.name: source for source in (MouseHand, TabletHand, GamepadHand)
@@ -89,14 +90,14 @@ class HandChooser(QWidget):
         self._why, self._own = "", ("mouse", "normal")
         self._turn_why, self._own_turn = "", False
         self._note = ""
-        self.box, self.gain, self._help = _source_box(), _gain_box(), QLabel(self)
+        self.box, self.gain, self._help = _source_box(), _gain_box(), PlainLabel(self)
         self.sense = _sense_box()
         self._help.setWordWrap(True)
         # Its words keep three lines: the pad keeps its size whatever is chosen.
         self._help.setFixedHeight(4 * theme.SMALL_PX)
         self._help.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._help.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
-        self._title = title = QLabel(tr("Hand"), self)
+        self._title = title = PlainLabel(tr("Hand"), self)
         title.setProperty("role", "dim")
         self._row = row = QBoxLayout(QBoxLayout.Direction.LeftToRight)
         row.addWidget(title)
@@ -234,8 +235,8 @@ class HandChooser(QWidget):
         self.sense.setEnabled(self._interactive and not self._depth_only and not self._turn_why)
         self.sense.setVisible(not self._turn_why)  # the help says it: the others have its room
         self.box.setEnabled(usable and not self._busy)
-        self.gain.setToolTip(self._why or gain_help())
-        self.box.setToolTip(self._why or self._words())
+        self.gain.setToolTip(literal(self._why or gain_help()))
+        self.box.setToolTip(literal(self._why or self._words()))
 
     def _choose(self) -> None:
         self._reopen()
@@ -289,7 +290,7 @@ class HandChooser(QWidget):
         text = f"▲ {note}" if note else self._words()
         self._help.setText(text if self._interactive else "")
         self._show_help()
-        self.box.setToolTip(self._why or self._words())
+        self.box.setToolTip(literal(self._why or self._words()))
 
     def _words(self) -> str:
         if self._depth_only:
@@ -319,7 +320,7 @@ def _sense_box() -> QComboBox:
     box = QComboBox()
     box.addItem(tr("moves the tip"), False)
     box.addItem(tr("moves the hub"), True)
-    box.setToolTip(sense_help())
+    box.setToolTip(literal(sense_help()))
     box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
     box.setAccessibleName(tr("The hand moves"))
     return box
@@ -336,6 +337,6 @@ def _gain_box() -> QComboBox:
     for key in GAINS:
         box.addItem(f"{names[key]} ×{GAINS[key]:g}", key)
     box.setCurrentIndex(list(GAINS).index("normal"))
-    box.setToolTip(gain_help())
+    box.setToolTip(literal(gain_help()))
     box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
     return box

@@ -1,0 +1,69 @@
+"""What the command line opens only to the instructor: what the window opens only to him as well.
+
+Both ask `session.access`. Whoever runs a command has not signed in, or is the instructor: his
+password stands in the variable `ACUS_INSTRUCTOR_PASSWORD`, or is asked for.
+"""
+
+import os
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from app.session.access import Visitor
+    from app.session.summary import Summary
+
+PASSWORD = "ACUS_INSTRUCTOR_PASSWORD"
+
+
+def instructor(people: Any = None) -> None:
+    """Let only the instructor go on, where one is set: the password is asked for.
+
+    Args:
+        people: the list of people; that of the user's data folder without one.
+
+    Raises:
+        PeopleError: for a wrong password.
+    """
+    if people is None:
+        from app.session.people import People
+
+        people = People()
+    if not people.has_instructor():
+        return
+    given = os.environ.get(PASSWORD)
+    if given is None:
+        given = typer.prompt("Instructor's password", hide_input=True, err=True)
+    people.check_instructor(given)
+
+
+def visitor() -> "Visitor":
+    """Return who runs the command, without asking: the instructor by his password's variable.
+
+    Raises:
+        PeopleError: for a wrong password.
+    """
+    from app.session.access import Known, Visitor
+    from app.session.people import People
+
+    people = People()
+    known = Known.of(people)
+    if known.guarded and PASSWORD in os.environ:
+        instructor(people)
+        return Visitor(known, instructor=True)
+    return Visitor(known)
+
+
+def see(summaries: "Iterable[Summary]") -> None:
+    """Go on where these attempts are open to who runs the command.
+
+    Else the instructor's password is asked for. What a course holds back is a student's, and so it
+    is the instructor's to see in any case.
+
+    Raises:
+        PeopleError: for a wrong password.
+    """
+    here = visitor()
+    if not all(here.may_see(one.student) for one in summaries):
+        instructor()

@@ -1,0 +1,133 @@
+"""Tries of PINs and passwords: compared under the delay that wrong ones have earned.
+
+They are compared one after the other, and whom nobody knows costs the same work and words.
+"""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from hashlib import blake2b
+from typing import TYPE_CHECKING, Final
+
+from app.session.database import Database
+from app.session.errors import PeopleError
+
+if TYPE_CHECKING:
+    from sqlalchemy import Connection, Table
+
+INSTRUCTOR: Final = "the instructor"
+"""The account of the password."""
+NO_SIGN_IN: Final = "pseudonym or PIN is wrong"
+
+_FREE_TRIES: Final = 3
+_FIRST_DELAY, _LONGEST_DELAY = 5.0, 300.0
+_STRANGER: Final = "nobody "
+"""Begins the accounts of whom nobody knows; keys of students begin otherwise."""
+_STRANGERS: Final = 256
+
+
+class WrongPasswordError(PeopleError):
+    """A PIN or password is wrong, or it is too early for another try."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tries:
+    """Counts the tries of every account.
+
+    Attributes:
+        database: that holds them.
+        table: `account`, `wrong` and `last`.
+        clock: wall-clock time [s].
+    """
+
+    database: Database
+    table: Table
+    clock: Callable[[], float]
+
+    def compare(self, account: str, known: str, given: str) -> None:
+        """Compare under the delay that wrong tries have earned.
+
+        All of it is one transaction, so that of many tries at one moment no more are compared than
+        one after the other would be, and right ones at one moment keep nobody out.
+
+        Args:
+            account: whose tries these are.
+            known: the hash; an empty one matches nothing, and takes as long.
+            given: what was typed.
+
+        Raises:
+            WrongPasswordError: with how long to wait for the next try.
+        """
+        from sqlalchemy import insert, select
+
+        table, now = self.table, self.clock()
+        with self.database.write() as connection:
+            row = connection.execute(select(table).where(table.c.account == account)).first()
+            count, last = (row.wrong, row.last) if row is not None else (0, now)
+            early = _delay(count) - abs(now - last) if row is not None else 0.0
+            right = early <= 0.0 and matches(known, given)
+            if early <= 0.0:
+                connection.execute(table.delete().where(table.c.account == account))
+            if early <= 0.0 and not right:
+                new = {"account": account, "wrong": count + 1, "last": now}
+                connection.execute(insert(table), new)
+                _forget_strangers(connection, table)
+        if early > 0.0:
+            raise WrongPasswordError(f"too many wrong tries: wait {early:.0f} s, then try again")
+        if right:
+            return
+        wait = _delay(count + 1)
+        more = f": wait {wait:.0f} s before the next try" if wait else ": try again"
+        what = "the password is wrong" if account == INSTRUCTOR else NO_SIGN_IN
+        raise WrongPasswordError(what + more)
+
+
+def hashed_secret(secret: str) -> str:
+    """Hash with Argon2id: 19 MiB, 2 passes (the least that OWASP recommends), some 30 ms."""
+    from argon2 import PasswordHasher
+
+    return PasswordHasher(time_cost=2, memory_cost=19456, parallelism=1).hash(secret)
+
+
+def matches(known: str, given: str) -> bool:
+    """Whether what was given has this hash; it takes as long where there is none to compare."""
+    from argon2 import PasswordHasher
+    from argon2.exceptions import InvalidHashError, VerificationError
+
+    nobodys = _nobodys_hash()
+    try:
+        return PasswordHasher().verify(known or nobodys, given) and bool(known)
+    except (VerificationError, InvalidHashError, UnicodeError):
+        return False
+
+
+@cache
+def _nobodys_hash() -> str:
+    """Return the hash of what nobody knows."""
+    return hashed_secret(secrets.token_hex(16))
+
+
+def stranger(pseudonym: str) -> str:
+    """Return the account that counts tries for whom nobody knows: a digest, as it may be a name."""
+    typed = pseudonym.strip().casefold().encode("utf-8", "surrogatepass")
+    return _STRANGER + blake2b(typed, digest_size=16).hexdigest()
+
+
+def _forget_strangers(connection: Connection, table: Table) -> None:
+    """Keep the tries of the newest few whom nobody knows: anybody can type any name."""
+    from sqlalchemy import select
+
+    theirs = table.c.account.like(f"{_STRANGER}%")
+    newest = select(table.c.account).where(theirs).order_by(table.c.last.desc())
+    kept = newest.limit(_STRANGERS)
+    connection.execute(table.delete().where(theirs & table.c.account.not_in(kept)))
+
+
+def _delay(failures: int) -> float:
+    """Seconds to wait after so many wrong tries: 5 after the third, then doubled, at most 300."""
+    if failures < _FREE_TRIES:
+        return 0.0
+    return min(_LONGEST_DELAY, _FIRST_DELAY * 2.0 ** min(failures - _FREE_TRIES, 20))
