@@ -37,11 +37,27 @@ def register(app: typer.Typer) -> None:
     session.command("delete")(delete)
     session.command("restore")(restore)
     session.command("recover")(recover)
+    session.command("gather")(gather)
     app.add_typer(session, name="session")
+
+
+def tell_folder(only_elsewhere: bool = False) -> None:
+    """Say where attempts are kept, and on standard error which lie in the source tree."""
+    from app.core import paths
+    from app.session.elsewhere import elsewhere
+
+    folder = paths.sessions()
+    if not only_elsewhere:
+        typer.echo(f"attempts are kept in {folder}")
+    found = elsewhere(folder)
+    if found is not None:
+        typer.echo(found.words, err=True)
 
 
 def list_(folder: FolderOption = None) -> Answer:
     """List all attempts, newest first. Broken records with the reason."""
+    if folder is None:
+        tell_folder(only_elsewhere=True)
     from app.commands.people import held
     from app.session.store import list_sessions
 
@@ -236,6 +252,33 @@ def recover(
     ]
     facts = {"id": "", "file": None, "interrupted": [one.document() for one in found]}
     return Answer(facts, lines or [f"no attempt was cut off in {place}"])
+
+
+def gather() -> Answer:
+    """Bring attempts here that lie in the source tree, where earlier versions kept them.
+
+    Only what this station signed, which is then no more in the tree: a folder that several people
+    used may hold attempts of others.
+    """
+    from app.core import paths
+    from app.session.elsewhere import elsewhere
+    from app.session.elsewhere import gather as bring
+    from app.session.people import People
+
+    folder = paths.sessions()
+    found = elsewhere(folder)
+    if found is None:
+        return Answer({"folder": folder, "from": None, "gathered": 0, "left": 0}, ["nothing to do"])
+    count = bring(found, folder, People())
+    left = len(found.records) - count
+    lines = [f"{count} attempts brought from {found.folder} to {folder}"]
+    if left:
+        lines.append(
+            f"{left} stay there, which this station did not sign: "
+            f"`acus session list --folder {found.folder}` lists them"
+        )
+    facts = {"folder": folder, "from": found.folder, "gathered": count, "left": left}
+    return Answer(facts, lines)
 
 
 def export(

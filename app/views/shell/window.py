@@ -420,8 +420,9 @@ class MainWindow(QMainWindow):
         super().showEvent(event)
         QTimer.singleShot(PAINTED_MS, self.runs.prepare)
         QTimer.singleShot(PAINTED_MS, self.start_facts.begin)
-        interruptions = self.feature(DebriefFeature).interruptions
-        QTimer.singleShot(PAINTED_MS, interruptions, interruptions.look)
+        debrief = self.feature(DebriefFeature)
+        for offers in (debrief.interruptions, debrief.gathering):
+            QTimer.singleShot(PAINTED_MS, offers, offers.look)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Accept a folder or a file from it."""
