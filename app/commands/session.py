@@ -255,7 +255,7 @@ def recover(
 
 
 def gather() -> Answer:
-    """Bring attempts here that lie in the source tree, where earlier versions kept them.
+    """Bring attempts here that earlier versions kept in the source tree.
 
     Only what this station signed, which is then no more in the tree: a folder that several people
     used may hold attempts of others.
