@@ -255,10 +255,10 @@ def recover(
 
 
 def gather() -> Answer:
-    """Bring attempts here that earlier versions kept in the source tree.
+    """Bring attempts here that lie in the source tree.
 
-    Only what this station signed, which is then no more in the tree: a folder that several people
-    used may hold attempts of others.
+    Editable installs of earlier versions kept them there. Only what this station signed comes, and
+    is then no more in the tree: a folder that several people used may hold attempts of others.
     """
     from app.core import paths
     from app.session.elsewhere import elsewhere
