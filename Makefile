@@ -28,7 +28,9 @@ extra: $(TRAINER)  ## the packages of one extra, such as NAME=arm
 demo: $(TRAINER)  ## the trainer on the built-in patient; with no display a whole exercise, written to out/demo
 	$(BIN)/acus demo $(DEMO)
 
-run: $(TRAINER)  ## the trainer
+# In a checkout attempts stay with it; `acus run` keeps them in the user's own data folder.
+run: export ACUS_SESSIONS ?= $(CURDIR)/sessions
+run: $(TRAINER)  ## the trainer, with its attempts in sessions/
 	$(BIN)/acus run
 
 # One more than there are cores: a test of pauses waits more than it computes.

@@ -3,6 +3,7 @@
 from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 import pytest
 from virtual_student import Student
 
@@ -77,6 +78,52 @@ def test_the_needle_goes_back_at_a_hands_speed_and_the_window_says_so(student: S
     assert snapshot.state is State.ALIGNING
     assert snapshot.armed
     assert snapshot.withdrawal == ""
+
+
+def start(student: Student) -> tuple[float, float]:
+    """Tilt of the needle from straight down [°], and its depth [mm]."""
+    row = student.rig.loop.latest().row
+    return float(np.degrees(np.hypot(*row[sv.AXIS][:2]))), 1e3 * depth(student)
+
+
+def test_every_attempt_begins_where_the_first_one_did_wherever_the_last_one_ended(
+    student: Student,
+) -> None:
+    student.trainer.begin()
+    assert student.trainer.snapshot().state is State.ALIGNING, "it waits there already"
+    first = start(student)
+    for inserts in (True, False, True):
+        if inserts:
+            insert(student)
+        else:  # only leans over the skin, and is ended there
+            student.hand.follow(student.trainer._placed.axis, -0.004)
+            student.pause(1500)
+        assert start(student)[0] > 10.0
+        student.trainer.end()
+        student.trainer.begin()
+        assert student.trainer.snapshot().state is State.WITHDRAWING
+        wait_until_begun(student)
+        assert start(student) == pytest.approx(first, abs=0.5)
+
+
+def test_a_hand_that_moved_before_the_attempt_begins_at_its_start_too(student: Student) -> None:
+    student.hand.follow(student.trainer._placed.axis, -0.015)
+    student.pause(1500)
+    student.trainer.begin()
+    for _ in range(300):
+        if student.trainer.snapshot().state is State.ALIGNING:
+            break
+        student.wish()
+    assert start(student)[0] < 0.3
+    assert student.hand.pose.direction[2] == pytest.approx(-1.0, abs=1e-4), "it has come along"
+
+
+def test_who_leads_the_needle_to_his_own_beginning_is_left_there(student: Student) -> None:
+    student.hand.follow(student.trainer._placed.axis, -0.010)
+    student.pause(1500)
+    student.trainer.begin(hand="arm")
+    assert student.trainer.snapshot().state is State.ALIGNING
+    assert start(student)[0] > 10.0
 
 
 def test_twice_in_a_row_the_needle_can_be_inserted_anew(student: Student) -> None:
@@ -157,7 +204,7 @@ def test_the_hand_obeys_nobody_while_it_brings_the_needle_out(student: Student) 
     student.trainer.end()
     student.trainer.begin()
     x, y, _ = student.trainer._placed.axis
-    for _ in range(200):
+    for _ in range(400):
         student.trainer.hand(x, y, TARGET)  # still wants the target
         student.trainer.step(10)
         if student.trainer.snapshot().state is State.ALIGNING:

@@ -149,6 +149,7 @@ def _show(
     pen: bool,
     by_arm: bool = False,
 ) -> None:
+    from app.commands.session import tell_folder
     from app.compose.desktop import Desktop
     from app.core.exits import Exit
     from app.imaging.reading import choose
@@ -162,6 +163,8 @@ def _show(
     if ct is not None:
         choose(scan_folder(ct))  # says here what a dialog would have to ask
     chosen = parse_cameras(cameras)
+    if out is None:
+        tell_folder()
     application = start(offscreen=hidden)
     sessions = None if out is None else out / "sessions"
     trainee = None if by_arm else skill.value

@@ -43,6 +43,7 @@ def run(
 ) -> None:
     """Open the trainer. The mouse moves a simulated hand, or a real robot its own needle."""
     _check(ct, device, exercise)
+    from app.commands.session import tell_folder
     from app.compose.desktop import Desktop
     from app.tracking.cameras.settings import parse_cameras
     from app.tracking.cameras.source import parse_source
@@ -53,6 +54,7 @@ def run(
     if pen is not None:
         parse_source(pen)
     chosen = None if cameras is None else parse_cameras(cameras)
+    tell_folder()
     application = start()
     window = open_window(Desktop())
     if device is not None:

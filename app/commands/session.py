@@ -34,7 +34,21 @@ def register(app: typer.Typer) -> None:
     session.command("delete")(delete)
     session.command("restore")(restore)
     session.command("recover")(recover)
+    session.command("gather")(gather)
     app.add_typer(session, name="session")
+
+
+def tell_folder(only_elsewhere: bool = False) -> None:
+    """Say where attempts are kept, and on standard error which lie in the source tree."""
+    from app.core import paths
+    from app.session.elsewhere import elsewhere
+
+    folder = paths.sessions()
+    if not only_elsewhere:
+        typer.echo(f"attempts are kept in {folder}")
+    found = elsewhere(folder)
+    if found is not None:
+        typer.echo(found.words, err=True)
 
 
 def list_(folder: FolderOption = None) -> Answer:
@@ -43,6 +57,8 @@ def list_(folder: FolderOption = None) -> Answer:
     Those of students are listed for the instructor alone, once one is set: his password stands in
     the variable ACUS_INSTRUCTOR_PASSWORD.
     """
+    if folder is None:
+        tell_folder(only_elsewhere=True)
     from app.commands.doors import visitor
     from app.session.store import list_sessions
 
@@ -239,6 +255,33 @@ def recover(
     ]
     facts = {"id": "", "file": None, "interrupted": [one.document() for one in found]}
     return Answer(facts, lines or [f"no attempt was cut off in {place}"])
+
+
+def gather() -> Answer:
+    """Bring attempts here that lie in the source tree.
+
+    Editable installs of earlier versions kept them there. Only what this station signed comes, and
+    is then no more in the tree: a folder that several people used may hold attempts of others.
+    """
+    from app.core import paths
+    from app.session.elsewhere import elsewhere
+    from app.session.elsewhere import gather as bring
+    from app.session.people import People
+
+    folder = paths.sessions()
+    found = elsewhere(folder)
+    if found is None:
+        return Answer({"folder": folder, "from": None, "gathered": 0, "left": 0}, ["nothing to do"])
+    count = bring(found, folder, People())
+    left = len(found.records) - count
+    lines = [f"{count} attempts brought from {found.folder} to {folder}"]
+    if left:
+        lines.append(
+            f"{left} stay there, which this station did not sign: "
+            f"`acus session list --folder {found.folder}` lists them"
+        )
+    facts = {"folder": folder, "from": found.folder, "gathered": count, "left": left}
+    return Answer(facts, lines)
 
 
 def export(

@@ -13,9 +13,13 @@ def resources() -> Path:
     return inside if inside.is_dir() else _PACKAGE.parent / "resources"
 
 
-def in_checkout() -> bool:
-    """Whether the program runs from a source tree."""
-    return (_PACKAGE.parent / "pyproject.toml").is_file()
+def tree_sessions() -> Path | None:
+    """`sessions/` of the source tree that the program runs from; None of one that is installed.
+
+    Nothing is written there unless `ACUS_SESSIONS` names it, as `make run` does.
+    """
+    tree = _PACKAGE.parent
+    return tree / "sessions" if (tree / "pyproject.toml").is_file() else None
 
 
 def keep_private() -> None:
@@ -33,10 +37,13 @@ def keep_private() -> None:
 
 
 def sessions() -> Path:
-    """Folder of recordings: `ACUS_SESSIONS`, else `sessions/` of a checkout, else the user's."""
-    if chosen := os.environ.get("ACUS_SESSIONS"):
-        return Path(chosen)
-    return _PACKAGE.parent / "sessions" if in_checkout() else data() / "sessions"
+    """Folder of recordings: `ACUS_SESSIONS`, else the user's own."""
+    return Path(os.environ.get("ACUS_SESSIONS") or own_sessions())
+
+
+def own_sessions() -> Path:
+    """Folder of recordings in the user's data folder."""
+    return data() / "sessions"
 
 
 def data() -> Path:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from typing import Annotated
 
-from pydantic import Field, ValidationInfo, field_validator, model_validator
+from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_validator
 
 from app.core.configuration import Strict
 from app.exercises.guidance import (
@@ -78,7 +78,8 @@ class Exercise(Strict):
         guidance: what pictures the student has of the needle.
         reading: window and layout that it is read with.
         views: what is shown.
-        locks: controls that stay as the exercise has them; an assessment locks all.
+        locks: controls that stay as the exercise has them; an assessment locks all, and where
+            control scans guide the assistance is locked.
         hand: what moves the simulated hand; None leaves it to the student, or is the mouse where
             it is locked.
         touch: targets that the tip of a long tool has to touch one after the other; the hand then
@@ -116,6 +117,7 @@ class Exercise(Strict):
     hand: HandName | None = None
     touch: TouchPart | None = None
     seed: Annotated[int, Field(ge=0)] = 1
+    _is_probe: bool = PrivateAttr(default=False)
 
     @field_validator("effects", "laws", mode="before")
     @classmethod
@@ -229,10 +231,20 @@ class Exercise(Strict):
 
     @property
     def locked(self) -> frozenset[Lock]:
-        """Controls that the student cannot change: as said; all of them in an assessment."""
+        """Controls that the student cannot change: as said; all of them in an assessment.
+
+        Where control scans guide, the robot's help is the exercise's own; a probe gets no help.
+        """
         if self.purpose is Purpose.ASSESSMENT:
             return EVERY_LOCK
-        return frozenset(self.locks or ())
+        scans = self.guidance_mode is GuidanceMode.CONTROL_CT
+        held = {Lock.ASSISTANCE} if scans or self.is_probe else set()
+        return frozenset({*(self.locks or ()), *held, *({Lock.VIEWS} if self.is_probe else ())})
+
+    @property
+    def is_probe(self) -> bool:
+        """Whether this is the exercise as one attempt has it that is a probe: without help."""
+        return self._is_probe
 
     @property
     def holds_breath(self) -> bool:
@@ -256,7 +268,9 @@ class Exercise(Strict):
         changes: dict[str, object] = {"assistance": dial.share}
         if dial.is_probe:
             changes["views"] = tuple(view for view in self.views if view not in TELLING)
-        return self.model_copy(update=changes)
+        begun = self.model_copy(update=changes)
+        begun._is_probe = dial.is_probe  # noqa: SLF001  (another of its kind)
+        return begun
 
     def showing(self, views: Collection[ViewName]) -> Exercise:
         """Return the exercise with other views."""

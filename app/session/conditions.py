@@ -20,9 +20,12 @@ from app.session.samples import Samples
 TRAINEE: Final = "trainee"
 """Name of the metadata record; its key `hand` holds one of `HANDS`."""
 
-HANDS: Final = ("mouse", "keyboard", "tablet", "gamepad", "robot", "pen", "script", "arm")
+ARM: Final = "arm"
+"""The simulated arm that carries out a plan, as a source of the hand."""
+
+HANDS: Final = ("mouse", "keyboard", "tablet", "gamepad", "robot", "pen", "script", ARM)
 """Sources of the hand: `robot` is a real hand at a real robot, `pen` one that holds a pen with
-printed markers, `script` the scripted trainee, `arm` the simulated arm that carries out a plan."""
+printed markers, `script` the scripted trainee."""
 
 TAKEN_OVER: Final = "taken_over"
 """Kind of the event at which another hand goes on with the needle: `hand` one of `HANDS`, `depth_m`

@@ -15,7 +15,7 @@ from app.exercises.locks import Lock
 from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
 from app.session.attempt_log import AttemptLog
-from app.session.conditions import TAKEN_OVER, hand_of
+from app.session.conditions import ARM, TAKEN_OVER, hand_of
 from app.session.context import RunContext
 from app.session.effect_models import KIND, ModelChoice
 from app.session.errors import ControlLockedError, IllegalTransitionError, SessionError
@@ -152,8 +152,8 @@ class Trainer:
     def begin(self, student: str = "", hand: str = "") -> str:
         """Begin an attempt: everything recorded, forces armed; returns the session id.
 
-        While the tip is inside the skin the attempt is only prepared: recorded, without force and
-        without its clock, until the needle is out (state `withdrawing`).
+        While the tip is inside the skin, or a simulated hand away from its start, the attempt is
+        only prepared: recorded, without force and without its clock (state `withdrawing`).
 
         With `held_arming` the forces stay off until `arm`. A record that cannot be written is told
         in an event, in the messages and in the summary; the attempt goes on.
@@ -190,7 +190,7 @@ class Trainer:
                 self._touching.begin()
                 self._take_aim()
             seen = self._sources.newest(self._aim, now)
-            out = self._withdrawal.begin(seen.device, seen.pose, now)
+            out = self._withdrawal.begin(seen.device, seen.pose, now, led=hand == ARM)
             self._running.begin(log, now, failure, out)
             if self._touching is not None:
                 words, data = begin_words(self._touching.state)

@@ -1,7 +1,8 @@
 """Every attempt begins with the tip outside the skin: who brings it out, and how that is known.
 
-A simulated needle goes back by itself, through the same simulated hand and at a hand's speed, until
-the simulated robot itself has it outside. A real one the student withdraws: the attempt begins once
+A simulated needle goes back by itself, through the same simulated hand and at a hand's speed: out
+of the skin along itself, then upright to where it waits for a first attempt, wherever the last one
+or the student left it. A real one the student withdraws: the attempt begins once
 the whole interval that holds the depth lies outside; where nothing measures it there, once the
 student says that the needle is out. What was said and not measured is recorded so, and a depth
 inside the skin within `REFUTES` seconds refutes it.
@@ -9,7 +10,7 @@ inside the skin within `REFUTES` seconds refutes it.
 
 from dataclasses import dataclass
 from enum import StrEnum
-from math import isfinite
+from math import hypot, isfinite
 from typing import Final
 
 from app.core import state_vector as sv
@@ -28,7 +29,10 @@ OUT: Final = -0.010
 """Depth at which it is out [m]."""
 
 WAITS: Final = -0.015
-"""Depth to which its hand goes: where a needle waits for its first attempt [m]."""
+"""Depth to which its hand goes: where a needle waits, upright, for its first attempt [m]."""
+
+ARRIVED: Final = 1e-3
+"""So near its start the simulated hand has arrived: horizontally a share of 1, along it [m]."""
 
 PATIENCE: Final = 30.0
 """Time after which a simulated needle that does not come out ends the attempt [s]."""
@@ -65,7 +69,7 @@ class Outside(StrEnum):
 
 
 WORDS: Final = {
-    Start.SIMULATED: "the needle is being withdrawn: the attempt begins once it is out of the skin",
+    Start.SIMULATED: "the needle is being withdrawn: the attempt begins once it is at its start",
     Outside.NO: "withdraw the needle first: the attempt begins once its tip is out of the skin",
     Outside.UNKNOWN: (
         "nothing measures how deep the needle is: take it out of the skin, then press "
@@ -109,7 +113,7 @@ class Withdrawal:
         self._inputs, self._start = inputs, start
         self._since = 0.0
         self._confirmed: float | None = None
-        self._said = False
+        self._said = self._led = False
         self.active, self.asks, self.words = False, False, ""
 
     @property
@@ -122,15 +126,22 @@ class Withdrawal:
         """Whether it is moving the simulated hand."""
         return self.active and self._start is Start.SIMULATED
 
-    def begin(self, device: DeviceState | None, pose: NeedlePose, now: float) -> OutsideBy | None:
-        """Begin before an attempt: how it is known that the tip is out already, or None."""
-        self._since, self._confirmed, self._said = now, None, False
+    def begin(
+        self, device: DeviceState | None, pose: NeedlePose, now: float, led: bool = False
+    ) -> OutsideBy | None:
+        """Begin before an attempt: how it is known that the tip is out already, or None.
+
+        `led`: whether somebody leads the simulated hand who brings it to where he begins himself:
+        only a needle inside the skin is brought out then.
+        """
+        self._since, self._confirmed, self._said, self._led = now, None, False, led
         self.active, self.asks, self.words = False, False, ""
         if self._start is Start.SIMULATED:
-            if device is None or not _depth(device) > INSIDE:
+            if device is None or self._stands(device, INSIDE):
                 return OutsideBy.SIMULATED
             self.active = True  # before the hand moves: nobody else may move it from now on
             self._bring_out(device)
+            self.words = WORDS[Start.SIMULATED]
         elif self._start is Start.REAL:
             if tip_outside(pose) is Outside.YES:
                 return OutsideBy.MEASURED
@@ -143,11 +154,13 @@ class Withdrawal:
     def advance(self, device: DeviceState | None, pose: NeedlePose, now: float) -> WithdrawalStep:
         """Look once more while the tip is being brought out."""
         if self._start is Start.SIMULATED:
-            if device is not None and _depth(device) <= OUT:
+            if device is not None and self._stands(device, OUT):
                 return self._out(OutsideBy.SIMULATED)
             if now - self._since > PATIENCE:
                 self.stop()
-                return WithdrawalStep(failure="the simulated needle did not come out of the skin")
+                return WithdrawalStep(failure="the simulated needle did not come to its start")
+            if device is not None and _depth(device) <= OUT:
+                self._bring_out(device)
             return WithdrawalStep()
         outside = tip_outside(pose)
         if outside is Outside.YES:
@@ -190,11 +203,19 @@ class Withdrawal:
         self.words = WORDS[Outside.UNKNOWN if self.asks else Outside.NO]
         self._said = self._said and self.asks
 
+    def _stands(self, device: DeviceState, out: float) -> bool:
+        """Whether the tip is no deeper than `out` [m], and the hand where an attempt begins."""
+        if _depth(device) > out:
+            return False
+        x, y, depth = device.row[[sv.GRIP_X, sv.GRIP_Y, sv.GRIP_DEPTH]].tolist()
+        return self._led or (hypot(x, y) < ARRIVED and abs(depth - WAITS) < ARRIVED)
+
     def _bring_out(self, device: DeviceState) -> None:
-        """Let the simulated hand draw the needle back along itself."""
+        """Let the simulated hand draw the needle back along itself; once it is out, upright."""
         x, y = device.row[[sv.GRIP_X, sv.GRIP_Y]].tolist()
+        if _depth(device) <= OUT and not self._led:
+            x, y = 0.0, 0.0
         self._inputs.hand(x, y, WAITS, True)
-        self.words = WORDS[Start.SIMULATED]
 
 
 def _depth(device: DeviceState) -> float:

@@ -120,6 +120,7 @@ EXAMPLES = {
     "pen print": ("--out", "pen.pdf"),
     "plate list": (),
     "plugin list": (),
+    "session gather": (),
     "session recover": (),
     "registration list": (),
     "course list": (),

@@ -4,6 +4,7 @@ import os
 import sys
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -17,12 +18,14 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "views_exercise"))
 from modal_dialogs import forbid
 from PySide6.QtCore import QCoreApplication, QEvent
 from PySide6.QtWidgets import QApplication, QWidget
-from window_rig import FakeServices
+from window_rig import FakeServices, RealRuns, plan
 
 from app.imaging.body import find_body
 from app.imaging.series import Series
 from app.imaging.volume import Volume
 from app.planning.patient import Patient
+from app.planning.plan import Plan
+from app.views.exercise.feature import ExerciseFeature
 from app.views.kit.theme import apply_theme
 from app.views.shell.window import MainWindow
 
@@ -128,3 +131,34 @@ def window(application, services, destroy):
 @pytest.fixture
 def patient(volume):
     return Patient(volume, find_body(volume), "CT-TEST")
+
+
+@pytest.fixture
+def real(application, tmp_path, destroy, patient, settle):
+    """A window with the real trainer, loop and simulated cameras, and a run on a plan."""
+    window = MainWindow(RealRuns(tmp_path / "sessions"))
+    destroy(window)
+    window.show()
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None)
+    window.workspace.exercise_panel.set_student("S1")
+    yield window
+    window.editor.saved(None)
+
+
+@pytest.fixture
+def beginning(window, patient, monkeypatch, settle):
+    """What leads to the attempt; every phantom comes at once, as the tests' own patient."""
+    window.resize(1366, 768)
+    window.show()
+    window.activateWindow()
+    settle(window.isActiveWindow)
+
+    def opened(seed=1):
+        window.show_patient(replace(patient, phantom_seed=seed))
+
+    monkeypatch.setattr(window.open_ct, "open_phantom", opened)
+    given = Plan((5.0, -18.0, 140.0), (5.0, 5.0, 140.0), "phantom")
+    monkeypatch.setattr("app.exercises.scene.plan_of", lambda _: given)
+    return window.feature(ExerciseFeature).beginning

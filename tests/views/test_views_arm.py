@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 from arm_rig import OUTSIDE, performance_of
 from PySide6.QtWidgets import QDialog
-from window_rig import FakeServices, plan
+from window_rig import plan
 
-from app.compose.desktop import Desktop
 from app.exchange.csv_export import score_table
 from app.exercises.guidance import Purpose
 from app.scoring.conditions import Conditions, comparable
@@ -33,7 +32,6 @@ from app.views.debrief.feature import DebriefFeature
 from app.views.debrief.score_words import short_words, whose_words
 from app.views.scene.arm import ArmShape
 from app.views.shell.services import RobotChoice
-from app.views.shell.window import MainWindow
 
 
 @pytest.fixture
@@ -403,30 +401,6 @@ def test_the_tool_is_drawn_along_the_path_through_the_trocar_at_the_entry(planne
 
 
 # --- through the whole trainer --------------------------------------------------------------------
-class RealRuns(FakeServices):
-    """Runs with the real trainer, loop and simulated cameras, and an arm that is made up."""
-
-    def __init__(self, folder):
-        super().__init__(folder)
-        self.desktop = Desktop(sessions=folder)
-
-    def open_run(self, setup, progress):
-        return self.desktop.open_run(setup, progress)
-
-
-@pytest.fixture
-def real(application, tmp_path, destroy, patient, settle):
-    window = MainWindow(RealRuns(tmp_path / "sessions"))
-    destroy(window)
-    window.show()
-    window.show_patient(patient)
-    plan(window)
-    assert settle(lambda: window.runs.run is not None)
-    window.workspace.exercise_panel.set_student("S1")
-    yield window
-    window.editor.saved(None)
-
-
 def played(window, settle):
     results = []
     window.conductor.controller.finished.connect(results.append)

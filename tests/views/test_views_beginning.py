@@ -4,10 +4,9 @@ import pytest
 
 pytest.importorskip("PySide6")
 
-from dataclasses import replace
-
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
+from window_rig import choose, press, state
 
 from app.core import state_vector as sv
 from app.exercises.library import load_exercise
@@ -20,43 +19,6 @@ from app.views.exercise.briefing import aid_words, locked_words, scored_words
 from app.views.exercise.feature import ExerciseFeature
 
 PHANTOM = Plan((-70.0, -109.0, 180.0), (-70.0, -20.0, 180.0), "phantom")
-
-
-@pytest.fixture
-def beginning(window, patient, monkeypatch, settle):
-    """What leads to the attempt; every phantom comes at once, as the tests' own patient."""
-    window.resize(1366, 768)
-    window.show()
-    window.activateWindow()
-    settle(window.isActiveWindow)
-
-    def opened(seed=1):
-        window.show_patient(replace(patient, phantom_seed=seed))
-
-    monkeypatch.setattr(window.open_ct, "open_phantom", opened)
-    plan = Plan((5.0, -18.0, 140.0), (5.0, 5.0, 140.0), "phantom")
-    monkeypatch.setattr("app.exercises.scene.plan_of", lambda _: plan)
-    return window.feature(ExerciseFeature).beginning
-
-
-def state(window):
-    """State of the attempt, None without a run."""
-    run = window.conductor.controller.run
-    return None if run is None else run.trainer.state
-
-
-def press(window, key, modifier=Qt.KeyboardModifier.NoModifier):
-    """Press a key on the page that is shown."""
-    QTest.keyClick(window.pages.currentWidget(), key, modifier)
-
-
-def choose(window, name):
-    """Stand on an exercise of the start page and press Enter."""
-    page = window.start_page
-    for row in range(page.exercises.count()):
-        if page.exercises.item(row).data(Qt.ItemDataRole.UserRole) == name:
-            page.exercises.setCurrentRow(row)
-    page.begin.click()
 
 
 def test_begin_on_the_start_page_shows_the_briefing_and_enter_begins_the_attempt(

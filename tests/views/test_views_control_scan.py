@@ -91,7 +91,7 @@ def test_no_widget_tells_where_the_needle_is(guided, settle) -> None:
     controller._timer.stop()
     assert window.workspace.side.count() == 7
     add_structure(window, placed.plan)
-    window.view_menu.follow.setChecked(True)
+    window.view_menu.follow.trigger()
     near = snapshot_of(placed, state=State.INSERTING, pose=pose_of(placed, 0.01, 0.02))
     far = snapshot_of(
         placed, state=State.HOLDING, pose=pose_of(placed, 0.4, 0.055, deflection=0.004,

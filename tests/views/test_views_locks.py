@@ -10,7 +10,7 @@ from window_rig import plan
 
 from app.compose.trainer import TrainerSetup, build_trainer
 from app.core.clock import VirtualClock
-from app.exercises.guidance import Purpose
+from app.exercises.guidance import GuidanceMode, GuidancePart, Purpose, StartingDial
 from app.exercises.library import load_exercise
 from app.exercises.locks import EVERY_LOCK, HandName, Lock
 from app.exercises.reading import ReadingPart
@@ -73,8 +73,7 @@ def test_the_dial_of_against_repulsion_cannot_be_turned_in_the_window(opened):
     assert "fixed" in panel._dial_title.text()
 
 
-def trainer_of(name, folder):
-    exercise = load_exercise(name)
+def trainer_of(exercise, folder):
     placed = placed_plan_of(exercise, device_of(exercise), PLAN)
     setup = TrainerSetup(exercise, placed, sessions=folder, clock=VirtualClock(10.0))
     trainer = build_trainer(setup)
@@ -83,17 +82,35 @@ def trainer_of(name, folder):
 
 
 def test_the_trainer_itself_refuses_to_turn_a_locked_dial(tmp_path):
-    trainer = trainer_of("against-repulsion", tmp_path)
+    trainer = trainer_of(load_exercise("against-repulsion"), tmp_path)
     trainer.step()
     with pytest.raises(ControlLockedError, match=r"keeps the assistance at -0\.5"):
         trainer.assistance(0.65)
     assert trainer.step().assistance == -0.5
 
 
+@pytest.mark.parametrize("probe", [False, True])
+def test_the_trainer_refuses_help_where_control_scans_guide_and_in_a_probe(tmp_path, probe):
+    exercise = load_exercise("first-insertion")
+    by_scans = GuidancePart(mode=GuidanceMode.CONTROL_CT)
+    exercise = (
+        exercise.beginning_with(StartingDial(0.0, is_probe=True))
+        if probe
+        else exercise.model_copy(update={"guidance": by_scans, "assistance": 0.0})
+    )
+    trainer = trainer_of(exercise, tmp_path)
+    trainer.step()
+    trainer.begin()
+    with pytest.raises(ControlLockedError, match="keeps the assistance at 0"):
+        trainer.assistance(0.88)
+    assert trainer.step().assistance == 0.0
+    trainer.close()
+
+
 def test_the_controller_says_that_a_dial_is_locked_and_shows_what_it_is(opened, tmp_path):
     window = opened(load_exercise("against-repulsion"))
     controller, run = window.conductor.controller, window.runs.run
-    trainer = trainer_of("against-repulsion", tmp_path)
+    trainer = trainer_of(load_exercise("against-repulsion"), tmp_path)
     trainer.step()
     run.trainer.assistance, run.trainer.snapshot = trainer.assistance, trainer.snapshot
     said = []
@@ -111,7 +128,7 @@ def test_a_free_dial_says_so_and_every_attempt_begins_with_the_exercises(opened,
     panel.assistance.slider.setValue(-100)
     window.conductor.controller.begin("")
     assert panel.assistance.share == 0.7
-    trainer = trainer_of("first-insertion", tmp_path)
+    trainer = trainer_of(load_exercise("first-insertion"), tmp_path)
     trainer.step()
     trainer.assistance(-1.0)
     trainer.begin("tester")

@@ -14,7 +14,8 @@ from app.planning.placement import PatientOrientation, Placement
 from app.planning.plan import Plan
 from app.views.kit import theme
 from app.views.plan.editor import PlanEditor, PlanFiles
-from app.views.plan.feature import PlanFeature, PlanPanel, verdict_words
+from app.views.plan.feature import PlanFeature, PlanPanel
+from app.views.plan.verdict import verdict_words
 from app.views.shell.settings import Recents, open_settings
 from app.views.slices.plane import PaneId
 from app.views.slices.presets import default_window

@@ -7,8 +7,11 @@ from types import MappingProxyType, SimpleNamespace
 
 import numpy as np
 from arm_rig import performance_of
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
 from views_robot_fakes import FakeBench
 
+from app.compose.desktop import Desktop
 from app.compose.effect_models import with_model
 from app.compose.explaining import quick_explanation
 from app.core import paths
@@ -260,6 +263,37 @@ class FakeServices:
         return self.opened[-1]
 
 
+class RealRuns(FakeServices):
+    """Runs with the real trainer, loop and simulated cameras, and an arm that is made up."""
+
+    def __init__(self, folder):
+        super().__init__(folder)
+        self.desktop = Desktop(sessions=folder)
+
+    def open_run(self, setup, progress):
+        return self.desktop.open_run(setup, progress)
+
+
 def plan(window):
     window.editor.place(Tool.ENTRY, (5.0, -18.0, 140.0), True)
     window.editor.place(Tool.TARGET, (5.0, 5.0, 140.0), True)
+
+
+def state(window):
+    """State of the attempt, None without a run."""
+    run = window.conductor.controller.run
+    return None if run is None else run.trainer.state
+
+
+def press(window, key, modifier=Qt.KeyboardModifier.NoModifier):
+    """Press a key on the page that is shown."""
+    QTest.keyClick(window.pages.currentWidget(), key, modifier)
+
+
+def choose(window, name):
+    """Stand on an exercise of the start page and press Enter."""
+    page = window.start_page
+    for row in range(page.exercises.count()):
+        if page.exercises.item(row).data(Qt.ItemDataRole.UserRole) == name:
+            page.exercises.setCurrentRow(row)
+    page.begin.click()

@@ -683,8 +683,11 @@ class SightPage(Form):
         only_scans = tr("Not shown: the needle is seen on control scans alone")
         for value, box in self.views.items():
             _hold(box, False if value in hidden else None, only_scans)
-        for box in self.locks.values():
-            _hold(box, True if assesses else None, tr("An assessment locks all of them"))
+        by_scans = tr("Where control scans guide, the assistance is the exercise's own")
+        for value, box in self.locks.items():
+            held = assesses or (scans and value == Lock.ASSISTANCE.value)
+            why = tr("An assessment locks all of them") if assesses else by_scans
+            _hold(box, True if held else None, why)
 
     def _set_slab(self, kind: str | None) -> None:
         thick = self.editor.get("reading", "slab", "thickness_mm", default=5.0)

@@ -40,6 +40,7 @@ from app.session.review import Review, review, review_of_result
 from app.session.roster import looks_like_a_key
 from app.session.store import computed, find, verdict_of
 from app.session.summary import Summary
+from app.views.debrief.gathering import Gathering
 from app.views.debrief.page import DebriefPage, date_text
 from app.views.debrief.replay import Ghost
 from app.views.debrief.report import report_bytes
@@ -684,6 +685,7 @@ class DebriefFeature(Feature):
         sessions: the list of past attempts.
         ct: finds the CT of the attempt that is shown.
         interruptions: offers to recover attempts that were cut off.
+        gathering: offers attempts that lie in the source tree.
     """
 
     topic: ClassVar[str] = "debrief"
@@ -728,6 +730,9 @@ class DebriefFeature(Feature):
         context.conductor.controller.finished.connect(self.show_result)
         menu = shell.menu(tr("&Sessions"))
         add_entries(menu, [(tr("Past sessions"), "F7", self.show_sessions)])
+        self.gathering = Gathering(menu, folder, shell.dialog_parent, self.sessions.refresh)
+        self.gathering.noted.connect(self.noted)
+        self.gathering.failed.connect(self.failed)
         self._choices = add_entries(
             menu,
             [

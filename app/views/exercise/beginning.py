@@ -395,12 +395,12 @@ class Beginning(QObject):
             step()
 
     def _start(self) -> None:
-        """Begin the attempt; a plan that is missing, or a robot's needle in the hand, comes first.
+        """Begin the attempt; what is missing, or a robot's needle in the hand, comes first.
 
         There F5 begins, as the line over the views says.
         """
         run = self._conductor.controller.run
-        if not self._context.editors.plan.edit.draft.complete or (run is not None and run.is_real):
+        if self._conductor.why_not_start() or (run is not None and run.is_real):
             self._end_wish()
             return
         start = self._conductor.views.panel.buttons.start
@@ -460,6 +460,7 @@ class Beginning(QObject):
         self.bar.stop.clicked.connect(self.stop)
         controller.intercepted = self._intercepted
         controller.demonstrated.connect(self._demonstrated)
+        controller.began.connect(lambda _: self._is_begun())
         controller.finished.connect(lambda _: self._forget_assessment())
         self._conductor.exercise_wanted.connect(self.brief)
         self._conductor.runs.failed.connect(lambda _: self.give_up())
@@ -470,6 +471,11 @@ class Beginning(QObject):
                 (tr("Show me this exercise"), "Ctrl+F5", self.show_taken),
             ],
         )
+
+    def _is_begun(self) -> None:
+        """Want nothing more: whoever was faster has begun it, with F5 or Start."""
+        if self.wish in (BeginWish.ATTEMPT, BeginWish.LOOK):
+            self._end_wish()
 
     def _forget_assessment(self) -> None:
         """Let every attempt of an assessment have its briefing."""

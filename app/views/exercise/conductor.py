@@ -39,6 +39,7 @@ from app.views.kit.background import Indicator
 from app.views.kit.names import NAMES
 from app.views.kit.text import tr
 from app.views.plan.editor import PlanEditor
+from app.views.plan.verdict import missing_words
 from app.views.reading.fixed_reading import apply as apply_reading
 from app.views.reading.lock_words import why_locked
 from app.views.reading.workspace import WorkspacePage
@@ -475,10 +476,8 @@ class Conductor(QObject):
         workspace.viewing.set_draft(editor.edit.draft)
         workspace.scene.set_plan(editor.edit.draft)
         placed = editor.verdict.placed
+        self.show_readiness()
         elsewhere = self._why_not_here()
-        note = "" if placed is not None else tr("Finish a plan that the robot can follow first.")
-        may = placed is not None and self.runs.run is not None and not elsewhere
-        workspace.exercise_panel.set_ready(may, elsewhere or note)
         if editor.locked or self._released or self._leaving or placed is None or elsewhere:
             return  # a run that is open stays with its plan until there is a better one
         if self.exercise is None or self.patient is None:
@@ -488,6 +487,17 @@ class Conductor(QObject):
         robot, cameras = (RobotChoice(), None) if simulated else (self._robot, self._cameras)
         ct = CtFacts.of_volume(volume)
         self.runs.want(RunSetup(self.exercise, placed, ct, robot, cameras, volume, shows))
+
+    def why_not_start(self) -> str:
+        """Say what keeps an attempt from beginning that does not go by itself; empty if nothing."""
+        run = self.runs.run
+        refused = "" if run is not None and run.demonstrates else self.controller.refusal()
+        return self._why_not_here() or missing_words(self._editor) or refused
+
+    def show_readiness(self) -> None:
+        """Let Start, its key and the line over the views say whether an attempt can begin now."""
+        why = self.why_not_start()
+        self._workspace.exercise_panel.set_ready(self.runs.run is not None and not why, why)
 
     def _click_in_scene(self, point: FloatArray, direction: FloatArray) -> None:
         """Take a click on the skin in 3D as the entry, if one is being placed."""

@@ -87,13 +87,13 @@ class AttemptActions(QWidget):
 
         Args:
             state: of the attempt; None without one.
-            can_start: whether everything is there for a new attempt.
+            can_start: whether a new attempt can begin.
             why: it cannot start now, if there is more to say than that something is missing.
         """
         running = state in RUNNING
         self.start.setToolTip(literal(why or _starts()))
         for button, legal in (
-            (self.start, can_start and not running),
+            (self.start, can_start),
             (self.scan, running and state is not State.WITHDRAWING),
             (self.end, running),
             (self.abort, running),
@@ -333,16 +333,21 @@ class ExercisePanel(QWidget):
         exercise_chosen(str): identifier of the exercise.
         start_requested(str): pseudonym of the student.
         assistance_changed(float): -1 full repulsion … 0 off … 1 full guidance.
+        start_changed(): `may_start` or `why_not` is another.
+        start_refused(str): somebody pressed the key of Start; why nothing can begin now.
     """
 
     exercise_chosen = Signal(str)
     start_requested = Signal(str)
     assistance_changed = Signal(float)
+    start_changed = Signal()
+    start_refused = Signal(str)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._ready, self._not_ready, self._waiting = False, "", ""
         self._state: State | None = None
+        self._start: tuple[bool, str] = False, ""
         self._signed_in, self._typed = False, ""
         self.exercise = QComboBox(self)
         self.student = QLineEdit(self)
@@ -364,6 +369,24 @@ class ExercisePanel(QWidget):
         self._prepare_inputs()
         self._lay_out()
         self._connect()
+
+    # --- whether an attempt can begin -------------------------------------------------------------
+    @property
+    def may_start(self) -> bool:
+        """Whether an attempt can begin now: Start, its key and the line over the views go by it."""
+        return self._ready and not self._waiting and self._state not in RUNNING
+
+    @property
+    def why_not(self) -> str:
+        """What is to be done or waited for before one can begin; empty if nothing is known."""
+        return self._waiting or self._not_ready
+
+    def press_start(self) -> None:
+        """Begin as Start does, or say why nothing can begin now."""
+        if self.may_start:
+            self.buttons.start.click()
+        elif self.why_not and self._state not in RUNNING:
+            self.start_refused.emit(self.why_not)
 
     # --- what the controller and the window call --------------------------------------------------
     def listen(self, page: QWidget) -> None:
@@ -447,9 +470,8 @@ class ExercisePanel(QWidget):
         self._enable()
 
     def _show_note(self) -> None:
-        words = self._waiting or self._not_ready
-        self._note.setText(words)
-        self._note.setVisible(bool(words))
+        self._note.setText(self.why_not)
+        self._note.setVisible(bool(self.why_not))
 
     # --- inside -----------------------------------------------------------------------------------
     def _show_student(self) -> None:
@@ -469,8 +491,11 @@ class ExercisePanel(QWidget):
         running = self._state in RUNNING
         self.exercise.setEnabled(not running)
         self.student.setEnabled(not running and not self._signed_in)
-        why = self._waiting or self._not_ready
-        self.buttons.show_state(self._state, self._ready and not self._waiting, why)
+        self.buttons.show_state(self._state, self.may_start, self.why_not)
+        start = self.may_start, self.why_not
+        if start != self._start:
+            self._start = start
+            self.start_changed.emit()
 
     def _prepare_inputs(self) -> None:
         pattern = QRegularExpression(f"^{PSEUDONYM}$")

@@ -151,6 +151,10 @@ def _amount(value: float) -> str:
     return f"{value:.0f}" if value >= 0.95 else f"{max(value, 0.1):.1f}"
 
 
+BEFORE: Final = (StepKind.START, StepKind.WITHDRAW)
+"""What comes before the attempt's own steps."""
+
+
 def step_words(step: NextStep, by_mouse: bool, tip: bool = False) -> str:
     """Say what is to be done next, as an order.
 
@@ -173,7 +177,11 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False) -> str:
     )
     return {
         StepKind.START: tr("Press F5 to start the attempt"),
-        StepKind.WITHDRAW: tr("Pull the needle out of the skin"),
+        StepKind.WITHDRAW: (
+            tr("Wait: the needle goes back to its start")
+            if by_mouse
+            else tr("Pull the needle out of the skin")
+        ),
         StepKind.SEE: tr("Let both cameras see the marker"),
         StepKind.SCAN: tr("Push by the scans: S takes one, Enter ends the attempt"),
         StepKind.TILT: tilt.format(angle=_amount(degrees(step.angle)), sides=sides),
@@ -186,6 +194,11 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False) -> str:
         StepKind.STAY: tr("Stay on the target"),
         StepKind.FINISH: tr("Press Enter: the tip is at the target"),
     }[step.kind]
+
+
+def waiting_words() -> str:
+    """Say that there is a moment to wait."""
+    return tr("One moment: the robot is starting")
 
 
 NEAR: Final = 1.5 * MILLIMETRE
@@ -260,6 +273,7 @@ class NextStepLine(PlainLabel):
         self._run: ExerciseRun | None = None
         self._snapshot: Snapshot | None = None
         self._moves_hub = self._gives_way = False
+        self._may_start, self._why_not = False, ""
         self._touched, self._told = 0, ""
         self._tell = QTimer(self, interval=TOLD_MS, singleShot=True)
         self._tell.timeout.connect(self._stop_telling)
@@ -279,7 +293,7 @@ class NextStepLine(PlainLabel):
         if run is not None:
             self._steps = NextSteps(run.placed, run.rings[0], run.depth_tolerance)
         self._stand()
-        self._say("" if run is None else tr("One moment: the robot is starting"))
+        self._say("" if run is None else waiting_words())
 
     def give_way(self, on: bool) -> None:
         """Be there no more, because another line stands in this place, or be there again."""
@@ -309,6 +323,11 @@ class NextStepLine(PlainLabel):
     def set_moves_hub(self, hub: bool) -> None:
         """Say where the hub goes, or the tip, where mouse or keys move the needle."""
         self._moves_hub = hub
+        self._ask()
+
+    def set_start(self, may: bool, why_not: str) -> None:
+        """Take whether an attempt can begin now, and what is to be done or waited for before."""
+        self._may_start, self._why_not = may, why_not
         self._ask()
 
     def suit_room(self) -> None:
@@ -358,7 +377,9 @@ class NextStepLine(PlainLabel):
         words = step_words(step, self._run.interactive or shows, tip)
         if shows and step.kind is StepKind.START:
             words = tr("The demonstration begins")
-        elif self._snapshot.breath is not None and step.kind is not StepKind.START:
+        elif step.kind is StepKind.START and not self._may_start:
+            words = self._why_not or waiting_words()
+        elif self._snapshot.breath is not None and step.kind not in BEFORE:
             words = breath_words(self._snapshot.breath, words, not shows)
         words = self._told or words
         if words != self.text():

@@ -592,6 +592,8 @@ class PeopleFeature(Feature):
             return tr("It cannot be begun: {why}.", why=why) if why else ""
 
         conductor.controller.refusal = refusal
+        ACCESS.changed.connect(conductor.show_readiness)
+        conductor.exercise_taken.connect(lambda _: conductor.show_readiness())
 
     def _follow(self) -> None:
         """Show what who is here may do."""

@@ -5,7 +5,6 @@ Nothing is lost without a question.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
@@ -21,7 +20,6 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.core.units import DEGREE, MILLIMETRE
 from app.planning.placement import PatientOrientation, Placement
 from app.views.kit import theme
 from app.views.kit.coordinates import lps_words
@@ -30,46 +28,10 @@ from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel
 from app.views.kit.text import literal, tr
 from app.views.plan.editor import PlanEditor, PlanFiles, Point
+from app.views.plan.verdict import verdict_words
 from app.views.shell.feature import Context, Feature
 from app.views.shell.settings import Recents
 from app.views.slices.viewing import Tool, Viewing
-
-
-@dataclass(frozen=True, slots=True)
-class VerdictWords:
-    """Kind (a key of `theme.VERDICTS`), sentence, measures, and whether a rotation would help."""
-
-    kind: str
-    text: str
-    measures: str = ""
-    remedy: bool = False
-
-
-def verdict_words(editor: PlanEditor) -> VerdictWords:
-    """Put the editor's verdict into words."""
-    draft, verdict = editor.edit.draft, editor.verdict
-    if verdict.problem:
-        return VerdictWords("bad", verdict.problem)
-    if draft.entry_mm is None:
-        return VerdictWords("warning", tr("Place the entry on the skin: press E, then click."))
-    if draft.target_mm is None:
-        return VerdictWords("warning", tr("Place the target: press T, then click."))
-    reached = verdict.reach
-    if reached is None:
-        return VerdictWords("warning", tr("No device chosen yet."))
-    measures = tr(
-        "Path {length:.1f} mm, tilt {tilt:.1f}° from vertical",
-        length=reached.depth / MILLIMETRE,
-        tilt=reached.tilt / DEGREE,
-    )
-    if reached.reachable:
-        return VerdictWords("good", tr("The robot can follow this path."), measures)
-    reasons = "; ".join(str(reason) for reason in reached.reasons)
-    text = tr("Out of reach: {reasons}.", reasons=reasons)
-    if reached.remedy is None:
-        return VerdictWords("bad", text, measures)
-    text += "\n" + tr("Remedy: {words}", words=reached.remedy.words)
-    return VerdictWords("bad", text, measures, remedy=True)
 
 
 def left_slice_words(editor: PlanEditor, viewing: Viewing) -> str:

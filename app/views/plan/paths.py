@@ -1,6 +1,8 @@
 """Planning help: scores paths beside the window, shows their map and table, takes the one chosen.
 
 Nothing is chosen by the program: the plan changes when the user takes a path, as one step to undo.
+The map is for who made it, and for planning: it goes when somebody else comes, when an exercise is
+taken, and when an attempt begins.
 """
 
 from __future__ import annotations
@@ -29,6 +31,7 @@ from app.planning.clearance import Field
 from app.planning.draft import DraftPlan
 from app.planning.limits import ReachLimits
 from app.views.kit import theme
+from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.parts import PlainLabel
 from app.views.kit.text import literal, tr
@@ -201,6 +204,7 @@ class PathsFeature(Feature):
         self.scores: PathScores | None = None
         self._task: BackgroundTask | None = None
         self._stands_on: tuple[object, ...] = ()
+        self._here = ACCESS.student, ACCESS.instructor
         self._layers = []
         for pane in self._views.slices:
             layer = EntryMapLayer(pane.canvas.drawing)
@@ -212,6 +216,9 @@ class PathsFeature(Feature):
         self.panel.taken.connect(self._take)
         self._editor.changed.connect(self._check)
         self._conductor.patient_changed.connect(self.clear)
+        self._conductor.exercise_taken.connect(lambda _: self.clear())
+        self._conductor.controller.beginning.connect(self.clear)
+        ACCESS.changed.connect(self._look_who_is_here)
         self._check()
 
     def over(self) -> tuple[SignalInstance, ...]:
@@ -225,6 +232,12 @@ class PathsFeature(Feature):
     def suit_room(self) -> None:
         """Take another size of text."""
         self.panel.suit_text()
+
+    def _look_who_is_here(self) -> None:
+        here = ACCESS.student, ACCESS.instructor
+        if here != self._here:
+            self._here = here
+            self.clear()
 
     def _standing(self) -> tuple[object, ...]:
         """Return what the scores depend on."""
@@ -247,7 +260,7 @@ class PathsFeature(Feature):
         if patient is None or profile is None or edit.draft.target_mm is None:
             return
         if self._task is not None:
-            self._task.close(timeout=0.0)
+            self._task.drop()
         standing = self._standing()
         limits, target = ReachLimits.of(profile), np.array(edit.draft.target_mm)
 
@@ -288,10 +301,14 @@ class PathsFeature(Feature):
         self._draw(EntryMap.of(scores))
 
     def clear(self) -> None:
-        """Take map and table away."""
+        """Take map and table away, and one that is being made."""
+        if self._task is not None:
+            self._task.drop()
+            self._task = None
         self.scores, self._stands_on = None, ()
         self.panel.show_scores(None, ())
         self._draw(None)
+        self._check()  # another may be made
 
     def _draw(self, shown: EntryMap | None) -> None:
         for layer in self._layers:

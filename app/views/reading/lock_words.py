@@ -22,6 +22,10 @@ def why_locked(exercise: Exercise | None, lock: Lock) -> str:
     }[lock]
     if exercise.purpose is Purpose.ASSESSMENT:
         return tr("This is an assessment: {what} is the same for everybody.", what=what)
+    if exercise.is_probe and lock in (Lock.ASSISTANCE, Lock.VIEWS):
+        return tr("This attempt is a probe, without help: {what} stays as it is.", what=what)
+    if lock not in (exercise.locks or ()):
+        return tr("Control scans guide here: {what} stays as the exercise has it.", what=what)
     return tr("The exercise “{title}” sets {what}.", title=exercise.title, what=what)
 
 

@@ -150,6 +150,10 @@ class WorkspacePage(QWidget):
         self.next_step = NextStepLine(self)
         hand = self.bullseye.source
         hand.turned.connect(lambda: self.next_step.set_moves_hub(hand.moves_hub))
+        panel = self.exercise_panel
+        panel.start_changed.connect(
+            lambda: self.next_step.set_start(panel.may_start, panel.why_not)
+        )
         self.side = SidePanel(self)
         self.side.setFixedWidth(SIDE_WIDTH)
         self.setFocusProxy(self.panes[0].canvas)
@@ -157,7 +161,7 @@ class WorkspacePage(QWidget):
         self.exercise_panel.listen(self)
         start = QShortcut(QKeySequence(Qt.Key.Key_F5), self)
         start.setAutoRepeat(False)
-        start.activated.connect(self.exercise_panel.buttons.start.click)
+        start.activated.connect(self.exercise_panel.press_start)
 
     @property
     def slices(self) -> tuple[SlicePane, ...]:

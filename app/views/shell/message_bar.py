@@ -107,8 +107,9 @@ class Notices(QWidget):
 NOTE_MS = 6000
 """A note that something worked is shown this long."""
 
-REFUSAL, ROBOT, PAUSE = "refusal", "robot", "pause"
-"""Topics: the user's last change was refused; no robot can be had; the attempt waits."""
+REFUSAL, ROBOT, PAUSE, START = "refusal", "robot", "pause", "start"
+"""Topics: the user's last change was refused; no robot can be had; the attempt waits; none can be
+begun now."""
 
 LONGEST = 260
 """Characters shown in the bar; the rest stands in the details."""

@@ -107,7 +107,7 @@ class Remembered:
             "reversed": viewing.level_reversed,
             "left_handed": self._workspace.is_left_handed,
             "traces": viewing.shows_traces,
-            "moves_hub": self._workspace.bullseye.source.moves_hub,
+            "moves_hub": self._workspace.bullseye.source.own_moves_hub,
             "legend": self._workspace.bullseye.legend.isChecked(),
             "detailed": self._workspace.status.is_detailed,
             "light": projector.is_light,

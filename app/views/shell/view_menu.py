@@ -137,7 +137,8 @@ class ViewMenu:
         action.setCheckable(True)
         if key:
             action.setShortcut(QKeySequence(key))
-        action.toggled.connect(command)
+        # Only what the user does: `refresh` shows a state, and chooses nothing.
+        action.triggered.connect(lambda on: command(on))
         return action
 
     def _layout_menu(self, menu: QMenu) -> dict[str, QAction]:
@@ -208,6 +209,9 @@ class ViewMenu:
         why = why_locked(self._conductor.exercise, Lock.READING)
         for action in (*self.layouts.values(), self._locked):
             action.setToolTip(literal("" if action.isEnabled() else why))
+        kept = workspace.bullseye.source.why_sense_stays
+        self.hub.setEnabled(not kept)
+        self.hub.setToolTip(literal(kept))
         self._refresh_views()
         for action, is_on in self._room:
             action.setChecked(is_on())

@@ -44,7 +44,7 @@ from app.views.series.open_ct import OpenCt
 from app.views.shell.feature import Context, Feature
 from app.views.shell.features import FEATURES
 from app.views.shell.help import ProblemReport, about, page_of, show_help
-from app.views.shell.message_bar import PAUSE, REFUSAL, ROBOT, MessageBar, Notices
+from app.views.shell.message_bar import PAUSE, REFUSAL, ROBOT, START, MessageBar, Notices
 from app.views.shell.projector import Projector
 from app.views.shell.remembered import Remembered
 from app.views.shell.services import Services
@@ -81,6 +81,9 @@ def connect_messages(
         failed.connect(lambda error, topic=topic: bar.show_until(topic, error))
         for signal in over:
             signal.connect(lambda *_, topic=topic: bar.forget(topic))
+    panel = conductor.views.panel
+    panel.start_refused.connect(lambda why: bar.show_until(START, why))
+    panel.start_changed.connect(lambda: bar.forget(START))
     for feature in features:
         feature.noted.connect(bar.show_note)
     editor.refused.connect(lambda error: bar.show_until(REFUSAL, error))
@@ -417,8 +420,9 @@ class MainWindow(QMainWindow):
         super().showEvent(event)
         QTimer.singleShot(PAINTED_MS, self.runs.prepare)
         QTimer.singleShot(PAINTED_MS, self.start_facts.begin)
-        interruptions = self.feature(DebriefFeature).interruptions
-        QTimer.singleShot(PAINTED_MS, interruptions, interruptions.look)
+        debrief = self.feature(DebriefFeature)
+        for offers in (debrief.interruptions, debrief.gathering):
+            QTimer.singleShot(PAINTED_MS, offers, offers.look)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Accept a folder or a file from it."""

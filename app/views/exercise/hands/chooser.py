@@ -130,8 +130,26 @@ class HandChooser(QWidget):
         """Whether the hub goes where the hand goes, and so the tip the other way."""
         return bool(self.sense.currentData())
 
+    @property
+    def own_moves_hub(self) -> bool:
+        """Whether the user has it so, whatever an exercise has fixed: what is remembered."""
+        return self._own_turn if self._turn_why else self.moves_hub
+
+    @property
+    def why_sense_stays(self) -> str:
+        """Why the exercise keeps which end goes where the hand goes; empty where it does not."""
+        return self._turn_why
+
     def set_moves_hub(self, hub: bool) -> None:
-        """Let the hub go where the hand goes, or the tip."""
+        """Let the hub go where the hand goes, or the tip. Where an exercise has fixed it, it is
+        kept for later.
+        """
+        if self._turn_why:
+            self._own_turn = hub
+        else:
+            self._turn(hub)
+
+    def _turn(self, hub: bool) -> None:
         self.sense.setCurrentIndex(self.sense.findData(hub))
 
     def let_go(self) -> None:
@@ -174,7 +192,7 @@ class HandChooser(QWidget):
         if not self._turn_why:
             self._own_turn = self.moves_hub
         self._turn_why = why
-        self.set_moves_hub(hub)
+        self._turn(hub)
         self._enable()
         self._show_note(self._note)
 
