@@ -16,8 +16,9 @@ def pooled() -> dict[str, CoverageTally]:
     for rig in RIGS:
         for lens in LENSES:
             for trial in range(22):
-                for name, found in chain(rig, lens, SETS * trial).items():
-                    sums[name].add(found)
+                for name, each in chain(rig, lens, SETS * trial).items():
+                    for found in each:
+                        sums[name].add(found)
     return sums
 
 

@@ -12,7 +12,7 @@ model has no decentring: it is taken where the pictures reach beyond `FISHEYE_AN
 polynomials of the tangent run off, and where it fits as the rational one does but for `AS_WELL`.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -20,6 +20,7 @@ import numpy as np
 from scipy.stats import f as f_distribution
 
 from app.core.arrays import FloatArray
+from app.core.confidence import chi_square_quantile
 from app.tracking.calibration.bundle import Adjusted
 from app.tracking.calibration.poses import board_pose
 from app.tracking.calibration.sightings import AdjustedState
@@ -32,12 +33,14 @@ CHANCE: Final = 1e-3
 """Probability by which a longer model may fit that much better by chance."""
 
 WORTH_A_LOOK: Final = 1e-2
-"""The same of the first steps towards the richest model, from which all are tried."""
-
-_FIRST_STEPS: Final = 3
+"""The same of the simplest longer models, from which all are tried."""
 
 SURE: Final = 1.0
-"""Standard errors by which other views must be better predicted."""
+"""Standard errors by which other views must be better predicted, in the median: one view at the
+picture's edge may be predicted far better or worse than all others."""
+
+_PARTS: Final = 4
+"""In which views are left out to be predicted."""
 
 FISHEYE_ANGLE: Final = np.deg2rad(60.0)
 """Angle off the axis up to which the rational model is preferred [rad]."""
@@ -67,21 +70,23 @@ class LensChoice:
 
 
 BROWN: Final = LensChoice(LensModel.BROWN, _FIVE)
-RATIONAL: Final = LensChoice(LensModel.RATIONAL, (*_FIVE, "k4", "k5", "k6"))
+RATIONAL: Final = tuple(
+    LensChoice(LensModel.RATIONAL, (*_FIVE, *("k4", "k5", "k6")[:count])) for count in (1, 2, 3)
+)
 THIN_PRISM: Final = LensChoice(LensModel.RATIONAL, (*_FIVE, *_PRISM))
 BOTH: Final = LensChoice(LensModel.RATIONAL, LensModel.RATIONAL.parameters)
 FISHEYE: Final = LensChoice(LensModel.FISHEYE, LensModel.FISHEYE.parameters)
 
 CHOICES: Final = {
     LensModel.BROWN: (BROWN,),
-    LensModel.RATIONAL: (RATIONAL, THIN_PRISM, BOTH),
+    LensModel.RATIONAL: (*RATIONAL, THIN_PRISM, BOTH),
     LensModel.FISHEYE: (FISHEYE,),
 }
 
-Fit = Callable[[Sequence[BoardView], AdjustedState, LensChoice, int], Adjusted]
-"""Estimates a camera with a model from views, from an earlier state, in at most so many steps."""
+_SIMPLEST: Final = (RATIONAL[0], THIN_PRISM)
 
-_STEPS: Final = 60
+Fit = Callable[[Sequence[BoardView], AdjustedState, LensChoice], Adjusted]
+"""Estimates a camera with a model from views, from an earlier state."""
 
 
 def choose_lens(
@@ -97,22 +102,18 @@ def choose_lens(
     """
     if allowed is not None and len(CHOICES[allowed]) == 1:
         return CHOICES[allowed][0]
-    if allowed is None:
-        first = _fitted(views, usual.state, fit, BOTH, _FIRST_STEPS)
-        if first is not None and _chance(usual, first, BOTH) > WORTH_A_LOOK:
-            return BROWN
-    tried = (RATIONAL, THIN_PRISM, BOTH)
-    longer = {
-        choice: found
-        for choice in (tried if allowed is not None else (*tried, FISHEYE))
-        if (found := _fitted(views, usual.state, fit, choice)) is not None
-    }
+    tried = CHOICES[LensModel.RATIONAL]
+    longer = _fitted_all(views, usual.state, fit, _SIMPLEST)
+    if allowed is None and all(_chance(usual, longer[c], c) > WORTH_A_LOOK for c in longer):
+        return BROWN
+    rest = [c for c in (*tried, *([] if allowed is not None else [FISHEYE])) if c not in _SIMPLEST]
+    longer |= _fitted_all(views, usual.state, fit, rest)
     if allowed is None:
         passed = {c for c in tried if c in longer and _chance(usual, longer[c], c) < CHANCE}
         longer = {c: found for c, found in longer.items() if c in passed or c is FISHEYE}
         if not passed:
             return BROWN
-    best = _best(longer, views) if longer else CHOICES[LensModel.RATIONAL][0]
+    best = _best(longer, views) if longer else tried[0]
     if allowed is not None or _predicts_better(views, usual.state, fit, best):
         return best
     return BROWN
@@ -129,12 +130,13 @@ def _chance(usual: Adjusted, longer: Adjusted, choice: LensChoice) -> float:
 
 
 def criterion(found: Adjusted, choice: LensChoice) -> float:
-    """Return the Bayesian information criterion of an estimate; smaller is better."""
+    """Return how well a model fits, less what each of its coefficients might by chance; smaller is
+    better.
+    """
     measured = sum(r.size for r in found.residuals)
     squares = sum(float((r**2).sum()) for r in found.residuals)
-    boards = 6 * len(found.state.poses)
     mean = max(squares / measured, _EXACT_PX**2)
-    return float(measured * np.log(mean) + (len(choice.names) + boards) * np.log(measured))
+    return float(measured * np.log(mean) + len(choice.names) * chi_square_quantile(1.0 - CHANCE, 1))
 
 
 def reach(parameters: FloatArray, views: Sequence[BoardView]) -> float:
@@ -158,15 +160,19 @@ def _best(longer: dict[LensChoice, Adjusted], views: Sequence[BoardView]) -> Len
     return FISHEYE if angle > FISHEYE_ANGLE and ratio < AS_WELL else best
 
 
+def _fitted_all(
+    views: Sequence[BoardView], start: AdjustedState, fit: Fit, choices: Iterable[LensChoice]
+) -> dict[LensChoice, Adjusted]:
+    """Fit models; those that cannot be fitted are left out."""
+    tried = {choice: _fitted(views, start, fit, choice) for choice in choices}
+    return {choice: found for choice, found in tried.items() if found is not None}
+
+
 def _fitted(
-    views: Sequence[BoardView],
-    start: AdjustedState,
-    fit: Fit,
-    choice: LensChoice,
-    steps: int = _STEPS,
+    views: Sequence[BoardView], start: AdjustedState, fit: Fit, choice: LensChoice
 ) -> Adjusted | None:
     try:
-        return fit(views, start, choice, steps)
+        return fit(views, start, choice)
     except CalibrationError:
         return None
 
@@ -174,10 +180,11 @@ def _fitted(
 def _predicts_better(
     views: Sequence[BoardView], start: AdjustedState, fit: Fit, choice: LensChoice
 ) -> bool:
-    """Whether a model predicts views better that it was not estimated from, in two halves."""
+    """Whether a model predicts views better that it was not estimated from, a part at a time."""
     gains = list[float]()
-    for half in (0, 1):
-        other = [i for i in range(len(views)) if i % 2 != half]
+    parts = min(_PARTS, len(views))
+    for number in range(parts):
+        other = [i for i in range(len(views)) if i % parts != number]
         poses = tuple(start.poses[i] for i in other)
         part = AdjustedState(start.parameters, start.T_right_left, poses)
         kept = [views[i] for i in other]
@@ -185,9 +192,12 @@ def _predicts_better(
         if usual is None or longer is None:
             return usual is None and longer is not None
         cameras = [found.state.parameters[0] for found in (usual, longer)]
-        gains += [np.log(_squares(v, cameras[0]) / _squares(v, cameras[1])) for v in views[half::2]]
-    error = float(np.std(gains, ddof=1) / np.sqrt(len(gains))) if len(gains) > 1 else np.inf
-    return bool(np.mean(gains) > SURE * error)
+        gains += [
+            np.log(_squares(v, cameras[0]) / _squares(v, cameras[1])) for v in views[number::parts]
+        ]
+    middle = float(np.median(gains))
+    spread = 1.4826 * float(np.median(np.abs(np.array(gains) - middle)))
+    return middle > SURE * np.sqrt(0.5 * np.pi / len(gains)) * spread
 
 
 def _squares(view: BoardView, parameters: FloatArray) -> float:

@@ -182,10 +182,8 @@ def _longer(
     the choice is made on the views that fit the richest model.
     """
 
-    def fit(
-        some: Sequence[BoardView], state: AdjustedState, choice: LensChoice, steps: int
-    ) -> Adjusted:
-        return _fit(some, state, choice, progress, steps)
+    def fit(some: Sequence[BoardView], state: AdjustedState, choice: LensChoice) -> Adjusted:
+        return _fit(some, state, choice, progress)
 
     if out:
         tried = FISHEYE if lens is LensModel.FISHEYE else BOTH
@@ -236,7 +234,6 @@ def _fit(
     start: AdjustedState,
     choice: LensChoice,
     progress: Progress,
-    steps: int = 60,
 ) -> Adjusted:
     """Estimate the parameters of a choice; the coefficients that are not in it are zero."""
     free = with_free(choice.names, 1, choice.lens)
@@ -249,9 +246,7 @@ def _fit(
     parameters = np.where(free | (np.arange(count) < 4), parameters, 0.0)
     seen = [SeenBoard(i, 0, view.points, view.pixels) for i, view in enumerate(views)]
     progress.report(0.0, "adjusting")
-    return adjust(
-        seen, AdjustedState(parameters, start.T_right_left, start.poses), free, None, steps
-    )
+    return adjust(seen, AdjustedState(parameters, start.T_right_left, start.poses), free)
 
 
 def _without_outliers(
