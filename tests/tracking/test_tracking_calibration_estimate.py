@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from app.core.transform import RigidTransform
+from app.studies.coverage_trials.chain import board_poses
+from app.studies.coverage_trials.scene import scene
 from app.tracking.calibration.bundle import adjust, with_free
 from app.tracking.calibration.mono import calibrate_mono
 from app.tracking.calibration.poses import board_pose, first_estimate
@@ -20,6 +22,8 @@ from app.tracking.calibration.validation import triangulated
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import PARAMETERS
+from app.tracking.optics.lens import LensModel
+from app.tracking.simulated.opencv import opencv_pixels
 from tests.tracking.calibration_rig import Rig, camera, thesis_rig, usual_rig
 
 PLAIN = ("fx", "fy", "cx", "cy", "k1", "k2")
@@ -136,6 +140,56 @@ def test_standard_deviations_hold_whatever_the_tangential_coefficients_are(tange
         covariance = found.adjusted.covariance[np.ix_(kept, kept)]
         squares.append(error @ np.linalg.solve(covariance, error) / len(kept))
     assert np.mean(squares) == pytest.approx(1.0, abs=0.25)  # 3 standard errors of 160 squares
+
+
+RATIONAL = np.array([3.6, 1.92, 0.0, 0.0, 0.256, 5.0, 5.6, 1.28])
+"""A wide lens of which five coefficients miss the corners by a third of their noise."""
+
+
+def opencv_view(
+    rig: Rig, T: RigidTransform, rng: np.random.Generator, lens: np.ndarray, focal: float
+) -> BoardView:
+    """Corners by OpenCV's projection; whether all lie in the picture is not asked."""
+    matrix = np.array([[focal, 0.0, 325.0], [0.0, focal, 243.0], [0.0, 0.0, 1.0]])
+    uv = opencv_pixels(rig.board.points, T, matrix, lens)
+    pixels = uv + rng.normal(0.0, NOISE, uv.shape)
+    return BoardView(rig.board, np.arange(rig.board.count), pixels, (640, 480))
+
+
+def test_standard_deviations_hold_for_a_rational_lens_that_nobody_named() -> None:
+    """What means the same in every model: focal lengths and centre, and rays where boards were."""
+    rig, rng = usual_rig(), np.random.default_rng(3)
+    linear, rays, models = [], [], []
+    true = np.array([534.0, 534.0, 325.0, 243.0])
+    for trial in range(24):
+        poses = rig.poses(10, trial)
+        views = [opencv_view(rig, T, rng, RATIONAL, 534.0) for T in poses]
+        found = calibrate_mono(views, "left", 0)
+        p, covariance = found.adjusted.state.parameters[0], found.adjusted.covariance
+        models.append(found.calibration.lens)
+        error = p[:4] - true
+        linear.append(error @ np.linalg.solve(covariance[:4, :4], error) / 4.0)
+        matrix = np.array([[534.0, 0.0, 325.0], [0.0, 534.0, 243.0], [0.0, 0.0, 1.0]])
+        for T in poses[:4]:
+            corner = rig.board.points[[trial % rig.board.count]]
+            uv, _, by = project_with_derivatives(T @ corner, p)
+            error = uv[0] - opencv_pixels(corner, T, matrix, RATIONAL)[0]
+            rays.append(error @ np.linalg.solve(by[0] @ covariance @ by[0].T, error) / 2.0)
+    assert models.count(LensModel.RATIONAL) > 20
+    assert np.mean(linear) == pytest.approx(1.0, abs=0.43)  # 3 standard errors of 96 squares
+    assert np.mean(rays) == pytest.approx(1.0, abs=0.43)  # those of one camera err together
+
+
+def test_a_wide_lens_is_calibrated_though_opencvs_start_loses_its_way() -> None:
+    true, poses = scene("usual", "rational"), board_poses("usual", "rational", 0)
+    rng = np.random.default_rng(7)
+    views = [true.view(1, T, rng) for T in poses]
+    points = [view.points.astype(np.float32) for view in views]
+    pixels = [view.pixels.astype(np.float32) for view in views]
+    assert cv2.calibrateCamera(points, pixels, (640, 480), None, None)[0] > 1.0
+    found = calibrate_mono(views, "right", 0)
+    assert found.calibration.rms_px == pytest.approx(NOISE * np.sqrt(2.0), rel=0.1)
+    assert found.calibration.focal_px[0] == pytest.approx(true.cameras[1].matrix[0, 0], rel=0.01)
 
 
 def test_coefficients_that_matter_are_kept() -> None:

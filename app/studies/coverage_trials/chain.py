@@ -56,7 +56,7 @@ def chain(rig: str, lens: str, seed: int) -> dict[str, tuple[Deviation, ...]]:
     """Calibrate once, see the tip once; deviations by `QUANTITIES`."""
     own = (RIGS.index(rig), LENSES.index(lens))
     before, rng = scene(rig, lens), np.random.default_rng([seed, *own])
-    poses = _poses(rig, lens, seed % SETS)
+    poses = board_poses(rig, lens, seed % SETS)
     views = [[before.view(side, T, rng) for T in poses] for side in (0, 1)]
     names = (before.profile.cameras[0].name, before.profile.cameras[1].name)
     calibration = calibrate_stereo(views[0], views[1], names, hold_back=0, now=_NOW)
@@ -73,8 +73,8 @@ def chain(rig: str, lens: str, seed: int) -> dict[str, tuple[Deviation, ...]]:
 
 
 @cache
-def _poses(rig: str, lens: str, number: int) -> tuple[RigidTransform, ...]:
-    """T_world_board of a set of places of the board."""
+def board_poses(rig: str, lens: str, number: int) -> tuple[RigidTransform, ...]:
+    """Return T_world_board at a set of places of the board, of `SETS`."""
     return scene(rig, lens).poses(VIEWS, 100 + number)
 
 

@@ -26,6 +26,9 @@ _ROUNDS = 60
 _GAIN = 1e-10
 """Relative fall of the cost below which the adjustment has ended."""
 
+_LITTLE = 1.1e-7
+"""Damping that no longer hides the way to parameters that make up for each other."""
+
 Flags = NDArray[np.bool_]
 
 
@@ -41,6 +44,9 @@ class Adjusted:
         sigma_px: standard deviation of one pixel coordinate, from the residuals.
         condition: smallest eigenvalue of the eliminated system, scaled to a unit diagonal; near 0
             the views do not determine what was asked.
+        promised: fall of the sum of squared residuals that one more step promises, to first order;
+            about 0 at the end, and after 0 rounds what freeing more than before is worth (Rao's
+            score test).
     """
 
     state: AdjustedState
@@ -48,6 +54,7 @@ class Adjusted:
     residuals: tuple[FloatArray, ...]
     sigma_px: float
     condition: float
+    promised: float
 
     @property
     def rms_px(self) -> float:
@@ -94,19 +101,23 @@ def adjust(
     system = problem.system(state)
     if system is None:
         raise CalibrationError("the first estimate puts a board behind a camera")
+    refused = not free.any()  # a board's pose alone has no such ways
     for _ in range(rounds):
         progress.report(0.0, "adjusting")
         moved = problem.moved(state, system, damping)
         trial = problem.system(moved) if moved is not None else None
-        if trial is not None and moved is not None and trial.cost <= system.cost:
-            gain = system.cost - trial.cost
-            state, system, damping = moved, trial, max(damping * 0.1, 1e-12)
-            if gain <= _GAIN * system.cost:
-                break
+        rise = trial.cost - system.cost if trial is not None else np.inf
+        flat = abs(rise) <= _GAIN * system.cost
+        if flat and (refused or damping <= _LITTLE):
+            break
+        if moved is not None and trial is not None and rise <= 0.0:
+            state, system = moved, trial
+        if flat or rise <= 0.0:
+            damping = max(damping * 0.1, 1e-12)
         elif damping > 1e8:
             break
         else:
-            damping *= 10.0
+            refused, damping = True, damping * 10.0
     return problem.result(state, system)
 
 
@@ -267,8 +278,15 @@ class _Problem:
         inverse, condition = _inverse(reduced)
         covariance = np.zeros((self.free.size, self.free.size))
         covariance[np.ix_(self.free, self.free)] = variance * inverse
-        sigma = float(np.sqrt(variance))
-        return Adjusted(state.adjusted(), covariance, system.residuals, sigma, condition)
+        right = system.g - np.einsum("kig,ki->g", weights, system.b)
+        return Adjusted(
+            state.adjusted(),
+            covariance,
+            system.residuals,
+            float(np.sqrt(variance)),
+            condition,
+            float(right @ inverse @ right),
+        )
 
 
 def _inverse(matrix: FloatArray) -> tuple[FloatArray, float]:

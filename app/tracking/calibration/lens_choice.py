@@ -12,7 +12,7 @@ model has no decentring: it is taken where the pictures reach beyond `FISHEYE_AN
 polynomials of the tangent run off, and where it fits as the rational one does but for `AS_WELL`.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -21,6 +21,7 @@ from scipy.stats import f as f_distribution
 
 from app.core.arrays import FloatArray
 from app.core.confidence import chi_square_quantile
+from app.core.transform import RigidTransform
 from app.tracking.calibration.bundle import Adjusted
 from app.tracking.calibration.poses import board_pose
 from app.tracking.calibration.sightings import AdjustedState
@@ -83,10 +84,20 @@ CHOICES: Final = {
     LensModel.FISHEYE: (FISHEYE,),
 }
 
-_SIMPLEST: Final = (RATIONAL[0], THIN_PRISM)
+Fit = Callable[[Sequence[BoardView], AdjustedState, LensChoice, int], Adjusted]
+"""Estimates a camera with a model from views, from an earlier state, in at most so many steps."""
 
-Fit = Callable[[Sequence[BoardView], AdjustedState, LensChoice], Adjusted]
-"""Estimates a camera with a model from views, from an earlier state."""
+_STEPS: Final = 60
+
+_STEPS_BEFORE: Final = {
+    **{choice: count for count, choice in enumerate(RATIONAL, 1)},
+    THIN_PRISM: 1,
+    BOTH: len(RATIONAL) + 2,
+}
+"""How many shorter models, the usual one included, must be worth it before one is tried."""
+
+_BEYOND: Final = 1.1
+"""Radii of the outermost corner up to which a lens has no fold and no pole."""
 
 
 def choose_lens(
@@ -102,31 +113,74 @@ def choose_lens(
     """
     if allowed is not None and len(CHOICES[allowed]) == 1:
         return CHOICES[allowed][0]
-    tried = CHOICES[LensModel.RATIONAL]
-    longer = _fitted_all(views, usual.state, fit, _SIMPLEST)
-    if allowed is None and all(_chance(usual, longer[c], c) > WORTH_A_LOOK for c in longer):
-        return BROWN
-    rest = [c for c in (*tried, *([] if allowed is not None else [FISHEYE])) if c not in _SIMPLEST]
-    longer |= _fitted_all(views, usual.state, fit, rest)
+    longer = _tried(views, usual, fit, allowed is not None)
     if allowed is None:
-        passed = {c for c in tried if c in longer and _chance(usual, longer[c], c) < CHANCE}
-        longer = {c: found for c, found in longer.items() if c in passed or c is FISHEYE}
-        if not passed:
+        if not longer:
             return BROWN
-    best = _best(longer, views) if longer else tried[0]
+        wide = _fitted(views, usual.state, fit, FISHEYE)
+        longer |= {} if wide is None else {FISHEYE: wide}
+    best = _best(longer, views) if longer else RATIONAL[0]
     if allowed is not None or _predicts_better(views, usual.state, fit, best):
         return best
     return BROWN
 
 
-def _chance(usual: Adjusted, longer: Adjusted, choice: LensChoice) -> float:
-    """Probability of so much better a fit by a longer model, were it not needed (F test)."""
-    before, after = (sum(float((r**2).sum()) for r in a.residuals) for a in (usual, longer))
-    more = len(choice.names) - len(BROWN.names)
-    measured = sum(r.size for r in longer.residuals)
-    freedom = measured - len(choice.names) - 6 * len(longer.state.poses)
-    noise = max(after / max(1, freedom), _EXACT_PX**2)
-    return float(f_distribution.sf(max(0.0, before - after) / more / noise, more, max(1, freedom)))
+def _tried(
+    views: Sequence[BoardView], usual: Adjusted, fit: Fit, every: bool
+) -> dict[LensChoice, Adjusted]:
+    """Fit the rational models, each from the longest that it contains; without `every` only those
+    that are worth it from there, a step at a time: a pole among the corners fits what noise it
+    likes, and several coefficients at once find one.
+    """
+    known = {BROWN: usual}
+    for choice in CHOICES[LensModel.RATIONAL]:
+        inside = [c for c in known if set(c.names) < set(choice.names)]
+        base = max(inside, key=lambda c: len(c.names))
+        if every or len(inside) == _STEPS_BEFORE[choice]:
+            found = _longer(views, known[base], fit, (base, choice), every)
+            if found is not None:
+                known[choice] = found
+    return {choice: found for choice, found in known.items() if choice is not BROWN}
+
+
+def _longer(
+    views: Sequence[BoardView],
+    shorter: Adjusted,
+    fit: Fit,
+    models: tuple[LensChoice, LensChoice],
+    every: bool,
+) -> Adjusted | None:
+    """Fit the second of two models, from an estimate with the first; None if it is not worth it."""
+    base, choice = models
+    if not every:
+        look = _fitted(views, shorter.state, fit, choice, 0)
+        if look is None or _chance(shorter, look.promised, base, choice) > WORTH_A_LOOK:
+            return None
+    found = _fitted(views, shorter.state, fit, choice)
+    if found is None or every:
+        return found
+    gain = _total(shorter) - _total(found)
+    sound = _ends_beyond(found.state.parameters[0], views)
+    return found if sound and _chance(shorter, gain, base, choice) < CHANCE else None
+
+
+def _total(found: Adjusted) -> float:
+    """Sum of squared residuals [px²]."""
+    return sum(float((r**2).sum()) for r in found.residuals)
+
+
+def _chance(shorter: Adjusted, gain: float, base: LensChoice, choice: LensChoice) -> float:
+    """Probability that residuals fall by so much, were the longer model not needed (F test)."""
+    more = len(choice.names) - len(base.names)
+    measured = sum(r.size for r in shorter.residuals)
+    freedom = max(1, measured - len(choice.names) - 6 * len(shorter.state.poses))
+    noise = max((_total(shorter) - gain) / freedom, _EXACT_PX**2)
+    return float(f_distribution.sf(max(0.0, gain) / more / noise, more, freedom))
+
+
+def _ends_beyond(parameters: FloatArray, views: Sequence[BoardView]) -> bool:
+    """Whether the map folds, or has a pole, well beyond the outermost corner."""
+    return bool(fold_radius(parameters[4:]) > _BEYOND * np.tan(reach(parameters, views)))
 
 
 def criterion(found: Adjusted, choice: LensChoice) -> float:
@@ -134,8 +188,7 @@ def criterion(found: Adjusted, choice: LensChoice) -> float:
     better.
     """
     measured = sum(r.size for r in found.residuals)
-    squares = sum(float((r**2).sum()) for r in found.residuals)
-    mean = max(squares / measured, _EXACT_PX**2)
+    mean = max(_total(found) / measured, _EXACT_PX**2)
     return float(measured * np.log(mean) + len(choice.names) * chi_square_quantile(1.0 - CHANCE, 1))
 
 
@@ -155,24 +208,20 @@ def _best(longer: dict[LensChoice, Adjusted], views: Sequence[BoardView]) -> Len
         return best
     angle = reach(longer[FISHEYE].state.parameters[0], views)
     measured = sum(r.size for r in longer[best].residuals)
-    squares = [sum(float((r**2).sum()) for r in longer[c].residuals) for c in (FISHEYE, best)]
+    squares = [_total(longer[c]) for c in (FISHEYE, best)]
     ratio = measured * np.log(max(squares[0], 1e-300) / max(squares[1], 1e-300))
     return FISHEYE if angle > FISHEYE_ANGLE and ratio < AS_WELL else best
 
 
-def _fitted_all(
-    views: Sequence[BoardView], start: AdjustedState, fit: Fit, choices: Iterable[LensChoice]
-) -> dict[LensChoice, Adjusted]:
-    """Fit models; those that cannot be fitted are left out."""
-    tried = {choice: _fitted(views, start, fit, choice) for choice in choices}
-    return {choice: found for choice, found in tried.items() if found is not None}
-
-
 def _fitted(
-    views: Sequence[BoardView], start: AdjustedState, fit: Fit, choice: LensChoice
+    views: Sequence[BoardView],
+    start: AdjustedState,
+    fit: Fit,
+    choice: LensChoice,
+    steps: int = _STEPS,
 ) -> Adjusted | None:
     try:
-        return fit(views, start, choice)
+        return fit(views, start, choice, steps)
     except CalibrationError:
         return None
 
@@ -192,17 +241,17 @@ def _predicts_better(
         if usual is None or longer is None:
             return usual is None and longer is not None
         cameras = [found.state.parameters[0] for found in (usual, longer)]
-        gains += [
-            np.log(_squares(v, cameras[0]) / _squares(v, cameras[1])) for v in views[number::parts]
-        ]
+        for i in range(number, len(views), parts):
+            before, after = (_squares(views[i], camera, start.poses[i]) for camera in cameras)
+            gains.append(np.log(before / after))
     middle = float(np.median(gains))
     spread = 1.4826 * float(np.median(np.abs(np.array(gains) - middle)))
     return middle > SURE * np.sqrt(0.5 * np.pi / len(gains)) * spread
 
 
-def _squares(view: BoardView, parameters: FloatArray) -> float:
+def _squares(view: BoardView, parameters: FloatArray, near: RigidTransform) -> float:
     """Mean squared residual of a view by a camera, its board's pose fitted [px²]."""
     try:
-        return max(board_pose(view, parameters)[1], _EXACT_PX) ** 2
+        return max(board_pose(view, parameters, near)[1], _EXACT_PX) ** 2
     except CalibrationError:
         return float(np.linalg.norm(view.image_size)) ** 2

@@ -160,8 +160,10 @@ def _estimated(
         if longer is not None:
             return longer
     adjusted, names, dropped = smallest_model(
-        lambda free, earlier: _fit(
-            used, (earlier or usual).state, LensChoice(BROWN.lens, free), choosing
+        lambda free, earlier: (
+            usual
+            if earlier is None
+            else _fit(used, earlier.state, LensChoice(BROWN.lens, free), choosing)
         )
     )
     wide = with_usual_k3(usual.covariance) if dropped else None
@@ -182,8 +184,10 @@ def _longer(
     the choice is made on the views that fit the richest model.
     """
 
-    def fit(some: Sequence[BoardView], state: AdjustedState, choice: LensChoice) -> Adjusted:
-        return _fit(some, state, choice, progress)
+    def fit(
+        some: Sequence[BoardView], state: AdjustedState, choice: LensChoice, steps: int
+    ) -> Adjusted:
+        return _fit(some, state, choice, progress, steps)
 
     if out:
         tried = FISHEYE if lens is LensModel.FISHEYE else BOTH
@@ -234,6 +238,7 @@ def _fit(
     start: AdjustedState,
     choice: LensChoice,
     progress: Progress,
+    steps: int = 60,
 ) -> Adjusted:
     """Estimate the parameters of a choice; the coefficients that are not in it are zero."""
     free = with_free(choice.names, 1, choice.lens)
@@ -246,7 +251,8 @@ def _fit(
     parameters = np.where(free | (np.arange(count) < 4), parameters, 0.0)
     seen = [SeenBoard(i, 0, view.points, view.pixels) for i, view in enumerate(views)]
     progress.report(0.0, "adjusting")
-    return adjust(seen, AdjustedState(parameters, start.T_right_left, start.poses), free)
+    first = AdjustedState(parameters, start.T_right_left, start.poses)
+    return adjust(seen, first, free, rounds=steps)
 
 
 def _without_outliers(

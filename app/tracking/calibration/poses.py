@@ -136,7 +136,9 @@ def rigid_fit(source: FloatArray, target: FloatArray) -> RigidTransform:
     return RigidTransform(rotation, middle_target - rotation @ middle_source)
 
 
-def board_pose(view: BoardView, parameters: FloatArray) -> tuple[RigidTransform, float]:
+def board_pose(
+    view: BoardView, parameters: FloatArray, near: RigidTransform | None = None
+) -> tuple[RigidTransform, float]:
     """T_camera_board and the root mean square distance of its corners from the picture [px].
 
     A plane has two poses that look nearly alike; both are refined, the better one is taken.
@@ -144,11 +146,13 @@ def board_pose(view: BoardView, parameters: FloatArray) -> tuple[RigidTransform,
     Args:
         view: corners in the picture.
         parameters: fx, fy, cx, cy and the lens' coefficients, shape (m,).
+        near: pose to start from, where it is known roughly; none of the two if None.
 
     Raises:
         CalibrationError: if no pose puts the board before the camera.
     """
-    candidates = [_refined(view, parameters, T) for T in _two_poses(view, parameters)]
+    starts = _two_poses(view, parameters) if near is None else [near]
+    candidates = [_refined(view, parameters, T) for T in starts]
     found = [candidate for candidate in candidates if candidate is not None]
     if not found:
         raise CalibrationError(f"view {view.name!r}: no pose of the board fits before the camera")
