@@ -96,9 +96,6 @@ _STEPS_BEFORE: Final = {
 }
 """How many shorter models, the usual one included, must be worth it before one is tried."""
 
-_BEYOND: Final = 1.1
-"""Radii of the outermost corner up to which a lens has no fold and no pole."""
-
 
 def choose_lens(
     views: Sequence[BoardView], usual: Adjusted, fit: Fit, allowed: LensModel | None = None
@@ -160,8 +157,7 @@ def _longer(
     if found is None or every:
         return found
     gain = _total(shorter) - _total(found)
-    sound = _ends_beyond(found.state.parameters[0], views)
-    return found if sound and _chance(shorter, gain, base, choice) < CHANCE else None
+    return found if _chance(shorter, gain, base, choice) < CHANCE else None
 
 
 def _total(found: Adjusted) -> float:
@@ -176,11 +172,6 @@ def _chance(shorter: Adjusted, gain: float, base: LensChoice, choice: LensChoice
     freedom = max(1, measured - len(choice.names) - 6 * len(shorter.state.poses))
     noise = max((_total(shorter) - gain) / freedom, _EXACT_PX**2)
     return float(f_distribution.sf(max(0.0, gain) / more / noise, more, freedom))
-
-
-def _ends_beyond(parameters: FloatArray, views: Sequence[BoardView]) -> bool:
-    """Whether the map folds, or has a pole, well beyond the outermost corner."""
-    return bool(fold_radius(parameters[4:]) > _BEYOND * np.tan(reach(parameters, views)))
 
 
 def criterion(found: Adjusted, choice: LensChoice) -> float:
