@@ -148,6 +148,24 @@ def _left_jacobian(omega: FloatArray) -> FloatArray:
     return np.eye(3) + b * w + c * (w @ w)
 
 
+def exponentials(twists: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Rotations (n, 3, 3) and translations (n, 3) of twists (n, 6); see `RigidTransform.exp`."""
+    omega = twists[:, 3:]
+    angle = np.linalg.norm(omega, axis=1)
+    w = np.zeros((len(omega), 3, 3))
+    w[:, 2, 1], w[:, 0, 2], w[:, 1, 0] = omega.T
+    w -= np.swapaxes(w, 1, 2)
+    half = 0.5 * np.sinc(0.5 * angle / np.pi) ** 2
+    near = angle < 1e-4  # Taylor, as in `_left_jacobian`
+    safe = np.where(near, 1.0, angle)
+    third = np.where(near, (1.0 - angle**2 / 20.0) / 6.0, (safe - np.sin(safe)) / safe**3)
+    first, second, third = (a[:, None, None] for a in (np.sinc(angle / np.pi), half, third))
+    square = w @ w
+    rotations = np.eye(3) + first * w + second * square
+    shifts = (np.eye(3) + second * w + third * square) @ twists[:, :3, None]
+    return rotations, shifts[:, :, 0]
+
+
 class FrameName(StrEnum):
     """Names of the right-handed frames, all in metres.
 

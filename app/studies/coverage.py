@@ -90,6 +90,7 @@ def findings(kinds: list[CoverageCell]) -> Findings:
     wrong = [row for row in rows if row[-1] != "yes"]
     lines = [f"{len(rows) - len(wrong)} of {len(rows)} stated errors hold."]
     lines += [f"{row[0]}, {row[1]}: {row[-1]}" for row in wrong]
+    lines += [f"{c.name}: {c.refused} of {c.done} refused" for c in kinds if c.refused]
     return Findings(
         (Sheet("table", "Stated errors against true ones", _COLUMNS, tuple(rows)),),
         (Figure("held", lambda figure: _draw(figure, rows), (9.0, 8.0)),),

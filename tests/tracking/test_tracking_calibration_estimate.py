@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from app.core.transform import RigidTransform
+from app.studies.coverage_trials.chain import board_poses
+from app.studies.coverage_trials.scene import scene
 from app.tracking.calibration.bundle import adjust, with_free
 from app.tracking.calibration.mono import calibrate_mono
 from app.tracking.calibration.poses import board_pose, first_estimate
@@ -20,6 +22,8 @@ from app.tracking.calibration.validation import triangulated
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import PARAMETERS
+from app.tracking.optics.lens import LensModel
+from app.tracking.simulated.opencv import opencv_pixels
 from tests.tracking.calibration_rig import Rig, camera, thesis_rig, usual_rig
 
 PLAIN = ("fx", "fy", "cx", "cy", "k1", "k2")
@@ -61,6 +65,32 @@ def test_estimate_and_standard_deviations_are_opencvs() -> None:
     assert ours.rms_px == pytest.approx(rms, rel=1e-5)
     assert ours.state.parameters[0, 0] == pytest.approx(matrix[0, 0], abs=0.01)
     np.testing.assert_allclose(ours.sd(), sd.ravel()[:9], rtol=1e-3)
+
+
+def test_an_adjustment_goes_on_where_parameters_make_up_for_each_other() -> None:
+    """k4 does nearly what k1 to k3 do together: a damped step from their optimum hardly moves."""
+    rig, longer = usual_rig(), LensModel.RATIONAL
+    poses, lens = rig.poses(8, 2), np.array([-0.29, 0.11, 0.0, 0.0, 0.0])
+    rng, K = np.random.default_rng(2), np.array([[534.0, 0, 325], [0, 534.0, 243], [0, 0, 1.0]])
+    pixels = [opencv_pixels(rig.board.points, T, K, lens) for T in poses]
+    seen = [
+        SeenBoard(i, 0, rig.board.points, uv + rng.normal(0.0, NOISE, uv.shape))
+        for i, uv in enumerate(pixels)
+    ]
+    near = AdjustedState(
+        np.array([[534.0, 534.0, 325.0, 243.0, *lens]]), RigidTransform.identity(), tuple(poses)
+    )
+    five = adjust(seen, near, with_free(PARAMETERS)).state
+    estimates = []
+    for start, k4 in ((five, 0.0), (near, 0.6)):
+        p = np.zeros((1, len(longer.parameters)))
+        p[:, :9] = start.parameters
+        p[:, 4] += k4
+        p[:, longer.parameters.index("k4")] = k4
+        free = with_free((*PARAMETERS, "k4"), 1, longer)
+        found = adjust(seen, AdjustedState(p, start.T_right_left, start.poses), free)
+        estimates.append(found.state.parameters[0, longer.parameters.index("k4")])
+    assert estimates[0] == pytest.approx(estimates[1], abs=0.05)  # of -2.7
 
 
 def test_the_covariance_of_one_camera_is_that_of_repeated_trials() -> None:
@@ -136,6 +166,39 @@ def test_standard_deviations_hold_whatever_the_tangential_coefficients_are(tange
         covariance = found.adjusted.covariance[np.ix_(kept, kept)]
         squares.append(error @ np.linalg.solve(covariance, error) / len(kept))
     assert np.mean(squares) == pytest.approx(1.0, abs=0.25)  # 3 standard errors of 160 squares
+
+
+def test_standard_deviations_hold_for_a_rational_lens_that_nobody_named() -> None:
+    """What means the same in every model: focal lengths and centre, and rays where boards were."""
+    true, rng = scene("usual", "rational"), np.random.default_rng(3)
+    right, linear, rays, models = true.cameras[1], [], [], []
+    for trial in range(20):
+        poses = board_poses("usual", "rational", trial % 10)
+        found = calibrate_mono([true.view(1, T, rng) for T in poses], "right", 0)
+        p, covariance = found.adjusted.state.parameters[0], found.adjusted.covariance
+        models.append(found.calibration.lens)
+        error = p[:4] - right.matrix[[0, 1, 0, 1], [0, 1, 2, 2]]
+        linear.append(error @ np.linalg.solve(covariance[:4, :4], error) / 4.0)
+        for T in poses:
+            p_world = T @ true.board.points[[rng.integers(true.board.count)]]
+            uv, _, by = project_with_derivatives(right.T_camera_world @ p_world, p)
+            error = uv[0] - right.pixels(p_world)[0]
+            rays.append(error @ np.linalg.solve(by[0] @ covariance @ by[0].T, error) / 2.0)
+    assert models.count(LensModel.RATIONAL) >= 18
+    assert np.mean(linear) == pytest.approx(1.0, abs=0.47)  # 3 standard errors of 80 squares
+    assert np.mean(rays) == pytest.approx(1.0, abs=0.47)  # rays of one camera err together
+
+
+def test_a_wide_lens_is_calibrated_though_opencvs_start_loses_its_way() -> None:
+    true, poses = scene("usual", "rational"), board_poses("usual", "rational", 0)
+    rng = np.random.default_rng(0)
+    views = [true.view(1, T, rng) for T in poses]
+    points = [view.points.astype(np.float32) for view in views]
+    pixels = [view.pixels.astype(np.float32) for view in views]
+    assert cv2.calibrateCamera(points, pixels, (640, 480), None, None)[0] > 1.0
+    found = calibrate_mono(views, "right", 0)
+    assert found.calibration.rms_px == pytest.approx(NOISE * np.sqrt(2.0), rel=0.1)
+    assert found.calibration.focal_px[0] == pytest.approx(true.cameras[1].matrix[0, 0], rel=0.01)
 
 
 def test_coefficients_that_matter_are_kept() -> None:

@@ -1,7 +1,12 @@
 """One chain: pictures of a board, two cameras, the world frame, a fix; and how far each is off.
 
-Estimated by what `acus calibrate` estimates with, but for its search for views that do not belong:
-all belong here. It starts from another calibration of the same rig, never from the truth.
+The cameras are calibrated by the very call that `acus calibrate` makes: it finds its own start,
+chooses the model of each lens and looks for views that do not belong, though all do here.
+
+A camera's parameters are compared where they mean the same in the lens and in the model that was
+chosen: all of them if both have five coefficients, else focal lengths and centre. Its rays mean the
+same in every model: at four places where boards were seen, how far a corner is predicted from its
+pixel, each place by itself.
 """
 
 from datetime import UTC, datetime
@@ -10,165 +15,95 @@ from typing import Final
 
 import numpy as np
 
-from app.core.arrays import FloatArray
 from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
 from app.studies.coverage_trials.deviation import Deviation
-from app.studies.coverage_trials.scene import LENSES, RIGS, SIZE, RigScene, TrueCamera, scene
-from app.tracking.calibration.bundle import Adjusted, adjust
-from app.tracking.calibration.mono import calibrate_mono
+from app.studies.coverage_trials.scene import LENSES, RIGS, RigScene, TrueCamera, scene
 from app.tracking.calibration.placed_board import PlacedBoard
-from app.tracking.calibration.selection import smallest_model
-from app.tracking.calibration.sightings import AdjustedState, SeenBoard
-from app.tracking.calibration.views import BoardView
+from app.tracking.calibration.run import calibrate_stereo
+from app.tracking.calibration.sightings import project_with_derivatives
 from app.tracking.calibration.world import WorldFrame, find_world, with_world
 from app.tracking.markers.extractor import Centre
-from app.tracking.optics.calibration import (
-    PARAMETERS,
-    CameraCalibration,
-    PoseCalibration,
-    StereoCalibration,
-)
+from app.tracking.optics.calibration import CameraCalibration, StereoCalibration
+from app.tracking.optics.lens import LINEAR, LensModel
 from app.tracking.optics.rig import OFFSET_SD_MM
 from app.tracking.solver import FixSolver, SeenMarker, systematic_px
 
 VIEWS: Final = 8
 """Pairs that calibrate: few, so that many chains can be tried."""
 
+SETS: Final = 10
+"""Sets of places at which the board is shown."""
+
 PLACE_SD: Final = (0.1, 0.05)
 """How exactly the board lies where it is said to, per axis [mm, °]."""
 
 MARKER_PX: Final = 0.1
 
-QUANTITIES: Final = ("left camera", "right camera", "relative pose", "tip")
+QUANTITIES: Final = (
+    *("left camera", "right camera", "left rays", "right rays"),
+    *("relative pose", "tip"),
+)
 POSE: Final = ("tx", "ty", "tz", "rx", "ry", "rz")
 TIP: Final = ("x", "y", "z")
+_PLACES: Final = ("upper left", "upper right", "lower left", "lower right")
+
+_NOW: Final = datetime(2026, 1, 1, tzinfo=UTC)
 
 
-def chain(rig: str, lens: str, seed: int) -> dict[str, Deviation]:
+def chain(rig: str, lens: str, seed: int) -> dict[str, tuple[Deviation, ...]]:
     """Calibrate once, see the tip once; deviations by `QUANTITIES`."""
     own = (RIGS.index(rig), LENSES.index(lens))
     before, rng = scene(rig, lens), np.random.default_rng([seed, *own])
-    start, poses = _start(rig, lens, seed % SETS)
+    poses = board_poses(rig, lens, seed % SETS)
     views = [[before.view(side, T, rng) for T in poses] for side in (0, 1)]
-    adjusted, names = _estimated(views, start)
-    calibration = _calibration(before, adjusted, names)
+    names = (before.profile.cameras[0].name, before.profile.cameras[1].name)
+    calibration = calibrate_stereo(views[0], views[1], names, hold_back=0, now=_NOW)
     calibration = with_world(calibration, _world(before, calibration, rng), before.board.spec)
-    p, covariance = adjusted.state.parameters, adjusted.covariance
-    found = {
-        name: _lens(camera, p[i], covariance[9 * i : 9 * i + 9, 9 * i : 9 * i + 9], names[i])
-        for i, (name, camera) in enumerate(zip(QUANTITIES[:2], before.cameras, strict=True))
-    }
+    pairs = list(zip(before.cameras, calibration.cameras, strict=True))
+    deviations: list[tuple[Deviation, ...]]
+    deviations = [(_parameters(true, camera),) for true, camera in pairs]
+    deviations += [_rays(true, camera, before, poses) for true, camera in pairs]
     left, right = (camera.T_camera_world for camera in before.cameras)
-    twist = (right @ left.inverse() @ adjusted.state.T_right_left.inverse()).log()
-    found["relative pose"] = Deviation.of(twist, covariance[18:, 18:], POSE)
-    found["tip"] = _tip(before, calibration, rng)
-    return found
-
-
-_ROUNDS: Final = (20, 60)
-"""Steps of one camera alone, which only says which coefficients the views tell, and of both. Fewer
-(3 and 6) leave some of rig `wide` short of the optimum."""
-
-SETS: Final = 10
-"""Sets of places at which the board is shown."""
+    twist = (right @ left.inverse() @ calibration.pose.transform.inverse()).log()
+    deviations.append((Deviation.of(twist, calibration.pose.pose_covariance, POSE),))
+    deviations.append((_tip(before, calibration, rng),))
+    return dict(zip(QUANTITIES, deviations, strict=True))
 
 
 @cache
-def _start(rig: str, lens: str, number: int) -> tuple[AdjustedState, tuple[RigidTransform, ...]]:
-    """Places of the board, and the calibration of other pictures of them."""
-    before, rng = scene(rig, lens), np.random.default_rng([number, 2])
-    poses = before.poses(VIEWS, 100 + number)
-    monos = [calibrate_mono([before.view(s, T, rng) for T in poses], "camera", 0) for s in (0, 1)]
-    states = [mono.adjusted.state for mono in monos]
-    T_right_left = states[1].poses[0] @ states[0].poses[0].inverse()
-    parameters = np.vstack([state.parameters[:, :9] for state in states])
-    return AdjustedState(parameters, T_right_left, states[0].poses), poses
+def board_poses(rig: str, lens: str, number: int) -> tuple[RigidTransform, ...]:
+    """Return T_world_board at a set of places of the board, of `SETS`."""
+    return scene(rig, lens).poses(VIEWS, 100 + number)
 
 
-def _estimated(
-    views: list[list[BoardView]], start: AdjustedState
-) -> tuple[Adjusted, tuple[tuple[str, ...], tuple[str, ...]]]:
-    """Estimate both cameras together, with the coefficients that each by itself can tell."""
-    seen = [
-        [SeenBoard(i, side, view.points, view.pixels) for i, view in enumerate(views[side])]
-        for side in (0, 1)
-    ]
-    names = []
-    for side in (0, 1):
-        alone = [SeenBoard(s.pose, 0, s.points, s.pixels) for s in seen[side]]
-        to_side = (RigidTransform.identity(), start.T_right_left)[side]
-        first = AdjustedState(
-            start.parameters[side : side + 1],
-            RigidTransform.identity(),
-            tuple(to_side @ T for T in start.poses),
-        )
-
-        def fit(
-            wanted: tuple[str, ...],
-            earlier: Adjusted | None,
-            alone: list[SeenBoard] = alone,
-            first: AdjustedState = first,
-        ) -> Adjusted:
-            if earlier is not None:  # which ones is all that is asked
-                return earlier
-            return adjust(alone, _without(first, (wanted,)), _free((wanted,)), rounds=_ROUNDS[0])
-
-        names.append(smallest_model(fit)[1])
-    both = (names[0], names[1])
-    pairs = [one for pair in zip(*seen, strict=True) for one in pair]
-    return adjust(pairs, _without(start, both), _free(both), rounds=_ROUNDS[1]), both
+def _parameters(true: TrueCamera, camera: CameraCalibration) -> Deviation:
+    """Weigh those of a camera's parameters that mean the same in its lens and in its model."""
+    alike = camera.lens is LensModel.BROWN and not true.distortion[5:].any()
+    names = camera.estimated if alike else LINEAR
+    truth = [*true.matrix[[0, 1, 0, 1], [0, 1, 2, 2]], *true.distortion[:5]]
+    places = [camera.lens.parameters.index(name) for name in names]
+    error = np.concatenate([camera.intrinsics, camera.distortion])[places]
+    error = error - np.array(truth)[places]
+    return Deviation.of(error, camera.parameter_covariance[np.ix_(places, places)], names)
 
 
-def _free(names: tuple[tuple[str, ...], ...]) -> "np.ndarray[tuple[int, ...], np.dtype[np.bool_]]":
-    return np.array([[name in row for name in PARAMETERS] for row in names])
-
-
-def _without(state: AdjustedState, names: tuple[tuple[str, ...], ...]) -> AdjustedState:
-    """Return the state with the coefficients at 0 that are not estimated."""
-    parameters = np.where(_free(names), state.parameters, 0.0)
-    return AdjustedState(parameters, state.T_right_left, state.poses)
-
-
-def _lens(
-    camera: TrueCamera, p: FloatArray, covariance: FloatArray, names: tuple[str, ...]
-) -> Deviation:
-    """Weigh a camera's parameters; of a rational lens only those that mean the same in both."""
-    true = np.array([*camera.matrix[[0, 1, 0, 1], [0, 1, 2, 2]], *camera.distortion[:5]])
-    wanted = names if not camera.distortion[5:].any() else names[:4]
-    places = [PARAMETERS.index(name) for name in wanted]
-    return Deviation.of((p - true)[places], covariance[np.ix_(places, places)], wanted)
-
-
-def _calibration(
-    before: RigScene, adjusted: Adjusted, names: tuple[tuple[str, ...], tuple[str, ...]]
-) -> StereoCalibration:
-    cameras = []
-    for i, p in enumerate(adjusted.state.parameters.tolist()):
-        covariance = adjusted.covariance[9 * i : 9 * i + 9, 9 * i : 9 * i + 9]
-        cameras.append(
-            CameraCalibration(
-                name=before.profile.cameras[i].name,
-                image_size=SIZE,
-                focal_px=(p[0], p[1]),
-                centre_px=(p[2], p[3]),
-                distortion=(p[4], p[5], p[6], p[7], p[8]),
-                estimated=names[i],
-                covariance=tuple(map(tuple, covariance.tolist())),
-                rms_px=adjusted.rms_px,
-                views=VIEWS,
-            )
-        )
-    return StereoCalibration(
-        id="coverage",
-        created=datetime(2026, 1, 1, tzinfo=UTC),
-        cameras=(cameras[0], cameras[1]),
-        pose=PoseCalibration.of(adjusted.state.T_right_left, adjusted.covariance[18:, 18:]),
-        rms_px=adjusted.rms_px,
-        misfit_px=0.0,
-        joint_covariance=tuple(map(tuple, adjusted.covariance.tolist())),
-    )
+def _rays(
+    true: TrueCamera, camera: CameraCalibration, before: RigScene, poses: tuple[RigidTransform, ...]
+) -> tuple[Deviation, ...]:
+    """Weigh how far off a camera predicts corners of the boards that it saw, at each place."""
+    points = np.concatenate([T @ before.board.points for T in poses])
+    pixels = true.pixels(points)
+    sides = np.array([[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]])
+    wanted = pixels.mean(axis=0) + 1.2 * pixels.std(axis=0) * sides
+    nearest = np.linalg.norm(pixels - wanted[:, None], axis=2).argmin(axis=1)
+    parameters = np.concatenate([camera.intrinsics, camera.distortion])
+    predicted, _, by = project_with_derivatives(true.T_camera_world @ points[nearest], parameters)
+    spreads = by @ camera.parameter_covariance @ np.swapaxes(by, 1, 2)
+    errors = predicted - pixels[nearest]
+    each = zip(errors, spreads, _PLACES, strict=True)
+    return tuple(Deviation.of(e, V, (f"u {at}", f"v {at}")) for e, V, at in each)
 
 
 def _world(
@@ -195,7 +130,7 @@ def _tip(before: RigScene, calibration: StereoCalibration, rng: np.random.Genera
     rig = before.profile.calibrated(calibration)
     band, axis = before.needle(rng)
     offset = rig.needle.marker_offset + OFFSET_SD_MM * MILLIMETRE * rng.normal()
-    sd = float(np.hypot(MARKER_PX, systematic_px(rig)))
+    sd = float(np.hypot(MARKER_PX, systematic_px(before.profile)))
     seen = [
         SeenMarker(
             camera.pixels(band[None])[0] + sd * rng.normal(size=2),

@@ -166,11 +166,16 @@ def _matrix(intrinsics: FloatArray) -> FloatArray:
 
 
 def _coefficients(rig: str, lens: str, side: int) -> FloatArray:
-    """k1, k2, p1, p2, k3 to k6 in OpenCV's order; the rational lens bends much like the other."""
-    k1, k2 = (-0.29, 0.11) if rig == "usual" else (-0.11, 0.14)
+    """k1, k2, p1, p2, k3 to k6 in OpenCV's order.
+
+    The rational lens is a wide one in `usual`, which five coefficients do not follow. The other two
+    see a sixth as much of the sky: there it bends much like the other lenses, and five do.
+    """
     p = 4e-4 if lens == "p = 4e-4" else 0.0
     p1, p2 = (p, -0.75 * p) if side == 0 else (-0.75 * p, p)
-    if lens != "rational":
-        return np.array([k1, k2, p1, p2, 0.0, 0.0, 0.0, 0.0])
-    k4 = 0.24 if rig == "usual" else 0.30
-    return np.array([k1 + k4, 0.02, p1, p2, 0.0, k4, 0.02, 0.002])
+    if lens == "rational" and rig == "usual":
+        return np.array([3.6, 1.92, p1, p2, 0.256, 5.0, 5.6, 1.28])
+    if lens == "rational":
+        return np.array([0.19, 0.02, p1, p2, 0.0, 0.30, 0.02, 0.002])
+    k1, k2 = (-0.29, 0.11) if rig == "usual" else (-0.11, 0.14)
+    return np.array([k1, k2, p1, p2, 0.0, 0.0, 0.0, 0.0])

@@ -11,6 +11,7 @@ import numpy as np
 from app import __version__
 from app.core.files import write_atomically
 from app.studies.coverage_trials.deviation import Deviation
+from app.tracking.errors import CalibrationError
 
 
 @dataclass(slots=True)
@@ -58,21 +59,30 @@ class CoverageCell:
 
     Attributes:
         name: of the kind; of the file as well.
-        trial: seed -> deviations by quantity.
+        trial: seed -> deviations by quantity, of the same one at several places where there are.
         done: trials so far; the next one's seed.
+        refused: trials that ended with a refusal, which states nothing.
         tallies: by quantity.
     """
 
     name: str
-    trial: Callable[[int], dict[str, Deviation]]
+    trial: Callable[[int], dict[str, tuple[Deviation, ...]]]
     done: int = 0
+    refused: int = 0
     tallies: dict[str, CoverageTally] = field(default_factory=dict)
 
     def run(self, count: int) -> None:
         """Try some more."""
         for seed in range(self.done, self.done + count):
-            for quantity, found in self.trial(seed).items():
-                self.tallies.setdefault(quantity, CoverageTally()).add(found)
+            try:
+                found_here = self.trial(seed)
+            except CalibrationError:
+                self.refused += 1
+                continue
+            for quantity, each in found_here.items():
+                tally = self.tallies.setdefault(quantity, CoverageTally())
+                for found in each:
+                    tally.add(found)
         self.done += count
 
     def keep(self, folder: Path) -> None:
@@ -83,6 +93,7 @@ class CoverageCell:
         """
         tallies = {name: _fields(tally) for name, tally in self.tallies.items()}
         data = {"version": __version__, "done": self.done, "tallies": tallies}
+        data["refused"] = self.refused
         write_atomically(self._file(folder), json.dumps(data) + "\n")
 
     def go_on(self, folder: Path) -> Self:
@@ -91,7 +102,7 @@ class CoverageCell:
             data = json.loads(self._file(folder).read_text(encoding="utf-8"))
             if data["version"] == __version__:
                 tallies = {name: CoverageTally(**known) for name, known in data["tallies"].items()}
-                self.done, self.tallies = int(data["done"]), tallies
+                self.done, self.refused, self.tallies = int(data["done"]), data["refused"], tallies
         except (OSError, ValueError, KeyError, TypeError):
             pass  # begins anew
         return self

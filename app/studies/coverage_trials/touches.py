@@ -28,7 +28,7 @@ _TARGET: Final = np.array([0.0, 0.01, 0.0])
 """In the plate's frame [m], below its points."""
 
 
-def touched(kind: str, seed: int) -> dict[str, Deviation]:
+def touched(kind: str, seed: int) -> dict[str, tuple[Deviation, ...]]:
     """Touch the shipped plate once; the target's deviation."""
     sds, stated, shared = KINDS[kind]
     plate, rng = load_plate("stepped-plate"), np.random.default_rng([seed, len(kind)])
@@ -40,4 +40,4 @@ def touched(kind: str, seed: int) -> dict[str, Deviation]:
     check = check_points(plate, plate.touch, points, (shared * MILLIMETRE) ** 2)
     error = check.fit.T_measured_reference @ _TARGET - T @ _TARGET
     names = ("x", "y", "z")
-    return {"target": Deviation.of(error, check.bounded(T @ _TARGET), names, point=True)}
+    return {"target": (Deviation.of(error, check.bounded(T @ _TARGET), names, point=True),)}

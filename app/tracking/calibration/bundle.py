@@ -10,20 +10,24 @@ residual's variance, is the covariance: that of the estimate with the boards' po
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
 from app.core.progress import Progress
-from app.core.transform import RigidTransform
-from app.tracking.calibration.sightings import AdjustedState, SeenBoard, rows
+from app.core.transform import RigidTransform, exponentials
+from app.tracking.calibration.sightings import AdjustedState, SeenBoard, SightedBoards
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.lens import LensModel
 
 _ROUNDS = 60
 _GAIN = 1e-10
 """Relative fall of the cost below which the adjustment has ended."""
+
+_LITTLE = 1.1e-7
+"""Damping that no longer hides the way to parameters that make up for each other."""
 
 Flags = NDArray[np.bool_]
 
@@ -40,6 +44,9 @@ class Adjusted:
         sigma_px: standard deviation of one pixel coordinate, from the residuals.
         condition: smallest eigenvalue of the eliminated system, scaled to a unit diagonal; near 0
             the views do not determine what was asked.
+        promised: fall of the sum of squared residuals that one more step promises, to first order;
+            about 0 at the end, and after 0 rounds what freeing more than before is worth (Rao's
+            score test).
     """
 
     state: AdjustedState
@@ -47,6 +54,7 @@ class Adjusted:
     residuals: tuple[FloatArray, ...]
     sigma_px: float
     condition: float
+    promised: float
 
     @property
     def rms_px(self) -> float:
@@ -89,23 +97,27 @@ def adjust(
     """
     problem = _Problem(tuple(sightings), free, len(start.poses), pose_free)
     progress = progress or Progress()
-    state, damping = start, 1e-4
+    state, damping = _State.of(start), 1e-4
     system = problem.system(state)
     if system is None:
         raise CalibrationError("the first estimate puts a board behind a camera")
+    refused = not free.any()  # a board's pose alone has no such ways
     for _ in range(rounds):
         progress.report(0.0, "adjusting")
         moved = problem.moved(state, system, damping)
         trial = problem.system(moved) if moved is not None else None
-        if trial is not None and moved is not None and trial.cost <= system.cost:
-            gain = system.cost - trial.cost
-            state, system, damping = moved, trial, max(damping * 0.1, 1e-12)
-            if gain <= _GAIN * system.cost:
-                break
+        rise = trial.cost - system.cost if trial is not None else np.inf
+        flat = abs(rise) <= _GAIN * system.cost
+        if flat and (refused or damping <= _LITTLE):
+            break
+        if moved is not None and trial is not None and rise <= 0.0:
+            state, system = moved, trial
+        if flat or rise <= 0.0:
+            damping = max(damping * 0.1, 1e-12)
         elif damping > 1e8:
             break
         else:
-            damping *= 10.0
+            refused, damping = True, damping * 10.0
     return problem.result(state, system)
 
 
@@ -122,14 +134,46 @@ class _System:
     residuals: tuple[FloatArray, ...]
 
 
+@dataclass(frozen=True, eq=False)
+class _State:
+    """An `AdjustedState` on the way, its poses in a row: (poses, 3, 3) and (poses, 3)."""
+
+    parameters: FloatArray
+    T_right_left: RigidTransform
+    rotations: FloatArray
+    translations: FloatArray
+
+    @classmethod
+    def of(cls, state: AdjustedState) -> Self:
+        """Put poses in a row."""
+        rotations = np.array([T.rotation for T in state.poses]).reshape(-1, 3, 3)
+        translations = np.array([T.translation for T in state.poses]).reshape(-1, 3)
+        return cls(state.parameters, state.T_right_left, rotations, translations)
+
+    def adjusted(self) -> AdjustedState:
+        """Return the poses one by one again."""
+        each = zip(self.rotations, self.translations, strict=True)
+        return AdjustedState(
+            self.parameters, self.T_right_left, tuple(RigidTransform(R, t) for R, t in each)
+        )
+
+
 class _Problem:
     def __init__(
-        self, sightings: tuple[SeenBoard, ...], free: Flags, poses: int, relative: bool
+        self,
+        sightings: tuple[SeenBoard, ...],
+        free: Flags,
+        poses: int,
+        relative: bool,
     ) -> None:
-        self.sightings, self.poses = sightings, poses
+        self.count, self.poses = len(sightings), poses
         cameras = len(free)
         pose_free = np.full(6 if cameras == 2 else 0, relative)
         self.free = np.concatenate([free.ravel(), pose_free])
+        self.columns = [np.flatnonzero(row) for row in free]  # of each camera's own parameters
+        self.relative = cameras == 2 and relative
+        seen = [SightedBoards(sightings, i) for i in {s.camera for s in sightings}]
+        self.seen = seen
         self.cameras = cameras
         self.measured = 2 * sum(len(s.points) for s in sightings)
         unknown = int(self.free.sum()) + 6 * poses
@@ -139,29 +183,48 @@ class _Problem:
             )
         self.dof = self.measured - unknown
 
-    def system(self, state: AdjustedState) -> _System | None:
+    def system(self, state: _State) -> _System | None:
         """Linearise; None where a point lies behind its camera or a value is not finite."""
-        size = self.free.size
+        size = int(self.free.sum())
         gg, g = np.zeros((size, size)), np.zeros(size)
         bb, b = np.zeros((self.poses, 6, 6)), np.zeros((self.poses, 6))
         gb = np.zeros((self.poses, size, 6))
-        residuals = []
-        for seen in self.sightings:
-            row = rows(seen, state, size)
-            if row is None:
+        residuals = [np.empty((0, 2))] * self.count
+        for seen in self.seen:
+            linear = seen.linearised(
+                state.parameters[seen.camera],
+                state.rotations,
+                state.translations,
+                state.T_right_left,
+            )
+            if linear is None:
                 return None
-            r, by_global, by_board = row
-            gg += by_global.T @ by_global
-            g += by_global.T @ r
-            bb[seen.pose] += by_board.T @ by_board
-            b[seen.pose] += by_board.T @ r
-            gb[seen.pose] += by_global.T @ by_board
-            residuals.append(r.reshape(-1, 2))
+            r, by_parameter, by_board, by_right = linear
+            parts = [by_parameter[:, :, self.columns[seen.camera]]]
+            start = 0 if seen.camera == 0 else self.columns[0].size
+            places = np.arange(start, start + self.columns[seen.camera].size)
+            if by_right is not None and self.relative:
+                parts.append(by_right)
+                places = np.concatenate([places, np.arange(size - 6, size)])
+            k = places.size
+            rows = np.concatenate([*parts, r[:, :, None], by_board], axis=2)
+            total = np.zeros((k, k + 1))
+            for number, pose, (first, last) in zip(
+                seen.numbers, seen.poses, seen.spans, strict=True
+            ):
+                own = rows[first:last].reshape(-1, k + 7)
+                products = own.T @ own
+                total += products[:k, : k + 1]
+                bb[pose] += products[k + 1 :, k + 1 :]
+                b[pose] += products[k, k + 1 :]
+                gb[pose, places] += products[:k, k + 1 :]
+                residuals[number] = r[first:last]
+            gg[np.ix_(places, places)] += total[:, :k]
+            g[places] += total[:, k]
         cost = float(sum((r**2).sum() for r in residuals))
-        keep = self.free
-        return _System(cost, gg[np.ix_(keep, keep)], g[keep], bb, b, gb[:, keep], tuple(residuals))
+        return _System(cost, gg, g, bb, b, gb, tuple(residuals))
 
-    def moved(self, state: AdjustedState, system: _System, damping: float) -> AdjustedState | None:
+    def moved(self, state: _State, system: _System, damping: float) -> _State | None:
         """Take one damped step, or None if the system cannot be solved."""
         bb = system.bb.copy()
         diagonal = np.einsum("kii->ki", bb)
@@ -181,33 +244,28 @@ class _Problem:
             return None
         return self._stepped(state, step, boards[..., 0])
 
-    def _stepped(
-        self, state: AdjustedState, step: FloatArray, boards: FloatArray
-    ) -> AdjustedState | None:
+    def _stepped(self, state: _State, step: FloatArray, boards: FloatArray) -> _State | None:
+        count = state.parameters.size
         full = np.zeros(self.free.size)
         full[self.free] = step
-        if (
-            max(
-                np.abs(boards[:, 3:]).max(initial=0.0),
-                np.abs(full[state.parameters.size :]).max(initial=0.0),
-            )
-            > 3.0
-        ):
+        turns = (np.abs(boards[:, 3:]).max(initial=0.0), np.abs(full[count:]).max(initial=0.0))
+        if max(turns) > 3.0:
             return None  # beyond half a turn a twist means something else
-        parameters = state.parameters + full[: state.parameters.size].reshape(
-            state.parameters.shape
-        )
+        parameters = state.parameters + full[:count].reshape(state.parameters.shape)
         if parameters[:, :2].min() <= 0.0:
             return None
         pose = state.T_right_left
         if self.cameras == 2:
-            pose = RigidTransform.exp(full[state.parameters.size :]) @ pose
-        poses = tuple(
-            RigidTransform.exp(twist) @ T for twist, T in zip(boards, state.poses, strict=True)
+            pose = RigidTransform.exp(full[count:]) @ pose
+        turn, shift = exponentials(boards)
+        return _State(
+            parameters,
+            pose,
+            turn @ state.rotations,
+            np.einsum("kij,kj->ki", turn, state.translations) + shift,
         )
-        return AdjustedState(parameters, pose, poses)
 
-    def result(self, state: AdjustedState, system: _System) -> Adjusted:
+    def result(self, state: _State, system: _System) -> Adjusted:
         try:
             weights = np.linalg.solve(system.bb, np.swapaxes(system.gb, 1, 2))
         except np.linalg.LinAlgError as reason:
@@ -220,7 +278,15 @@ class _Problem:
         inverse, condition = _inverse(reduced)
         covariance = np.zeros((self.free.size, self.free.size))
         covariance[np.ix_(self.free, self.free)] = variance * inverse
-        return Adjusted(state, covariance, system.residuals, float(np.sqrt(variance)), condition)
+        right = system.g - np.einsum("kig,ki->g", weights, system.b)
+        return Adjusted(
+            state.adjusted(),
+            covariance,
+            system.residuals,
+            float(np.sqrt(variance)),
+            condition,
+            float(right @ inverse @ right),
+        )
 
 
 def _inverse(matrix: FloatArray) -> tuple[FloatArray, float]:

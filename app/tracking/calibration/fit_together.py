@@ -87,6 +87,12 @@ def apart(found: FitTogether) -> bool:
 
 
 def _squares(view: BoardView, mono: MonoResult) -> float:
-    """Sum of the squared residuals of a picture, its board's pose fitted to it alone [px²]."""
+    """Sum of the squared residuals of a picture, its board's pose fitted to it alone [px²].
+
+    A picture that the camera was estimated from has been fitted so already.
+    """
+    for used, residual in zip(mono.views, mono.adjusted.residuals, strict=True):
+        if used is view:
+            return float((residual**2).sum())
     parameters: FloatArray = mono.adjusted.state.parameters[0]
     return len(view.ids) * board_pose(view, parameters)[1] ** 2

@@ -20,6 +20,8 @@ import numpy as np
 from scipy.stats import f as f_distribution
 
 from app.core.arrays import FloatArray
+from app.core.confidence import chi_square_quantile
+from app.core.transform import RigidTransform
 from app.tracking.calibration.bundle import Adjusted
 from app.tracking.calibration.poses import board_pose
 from app.tracking.calibration.sightings import AdjustedState
@@ -32,12 +34,14 @@ CHANCE: Final = 1e-3
 """Probability by which a longer model may fit that much better by chance."""
 
 WORTH_A_LOOK: Final = 1e-2
-"""The same of the first steps towards the richest model, from which all are tried."""
-
-_FIRST_STEPS: Final = 3
+"""The same of the simplest longer models, from which all are tried."""
 
 SURE: Final = 1.0
-"""Standard errors by which other views must be better predicted."""
+"""Standard errors by which other views must be better predicted, in the median: one view at the
+picture's edge may be predicted far better or worse than all others."""
+
+_PARTS: Final = 4
+"""In which views are left out to be predicted."""
 
 FISHEYE_ANGLE: Final = np.deg2rad(60.0)
 """Angle off the axis up to which the rational model is preferred [rad]."""
@@ -67,14 +71,16 @@ class LensChoice:
 
 
 BROWN: Final = LensChoice(LensModel.BROWN, _FIVE)
-RATIONAL: Final = LensChoice(LensModel.RATIONAL, (*_FIVE, "k4", "k5", "k6"))
+RATIONAL: Final = tuple(
+    LensChoice(LensModel.RATIONAL, (*_FIVE, *("k4", "k5", "k6")[:count])) for count in (1, 2, 3)
+)
 THIN_PRISM: Final = LensChoice(LensModel.RATIONAL, (*_FIVE, *_PRISM))
 BOTH: Final = LensChoice(LensModel.RATIONAL, LensModel.RATIONAL.parameters)
 FISHEYE: Final = LensChoice(LensModel.FISHEYE, LensModel.FISHEYE.parameters)
 
 CHOICES: Final = {
     LensModel.BROWN: (BROWN,),
-    LensModel.RATIONAL: (RATIONAL, THIN_PRISM, BOTH),
+    LensModel.RATIONAL: (*RATIONAL, THIN_PRISM, BOTH),
     LensModel.FISHEYE: (FISHEYE,),
 }
 
@@ -82,6 +88,13 @@ Fit = Callable[[Sequence[BoardView], AdjustedState, LensChoice, int], Adjusted]
 """Estimates a camera with a model from views, from an earlier state, in at most so many steps."""
 
 _STEPS: Final = 60
+
+_STEPS_BEFORE: Final = {
+    **{choice: count for count, choice in enumerate(RATIONAL, 1)},
+    THIN_PRISM: 1,
+    BOTH: len(RATIONAL) + 2,
+}
+"""How many shorter models, the usual one included, must be worth it before one is tried."""
 
 
 def choose_lens(
@@ -97,44 +110,77 @@ def choose_lens(
     """
     if allowed is not None and len(CHOICES[allowed]) == 1:
         return CHOICES[allowed][0]
+    longer = _tried(views, usual, fit, allowed is not None)
     if allowed is None:
-        first = _fitted(views, usual.state, fit, BOTH, _FIRST_STEPS)
-        if first is not None and _chance(usual, first, BOTH) > WORTH_A_LOOK:
+        if not longer:
             return BROWN
-    tried = (RATIONAL, THIN_PRISM, BOTH)
-    longer = {
-        choice: found
-        for choice in (tried if allowed is not None else (*tried, FISHEYE))
-        if (found := _fitted(views, usual.state, fit, choice)) is not None
-    }
-    if allowed is None:
-        passed = {c for c in tried if c in longer and _chance(usual, longer[c], c) < CHANCE}
-        longer = {c: found for c, found in longer.items() if c in passed or c is FISHEYE}
-        if not passed:
-            return BROWN
-    best = _best(longer, views) if longer else CHOICES[LensModel.RATIONAL][0]
+        wide = _fitted(views, usual.state, fit, FISHEYE)
+        longer |= {} if wide is None else {FISHEYE: wide}
+    best = _best(longer, views) if longer else RATIONAL[0]
     if allowed is not None or _predicts_better(views, usual.state, fit, best):
         return best
     return BROWN
 
 
-def _chance(usual: Adjusted, longer: Adjusted, choice: LensChoice) -> float:
-    """Probability of so much better a fit by a longer model, were it not needed (F test)."""
-    before, after = (sum(float((r**2).sum()) for r in a.residuals) for a in (usual, longer))
-    more = len(choice.names) - len(BROWN.names)
-    measured = sum(r.size for r in longer.residuals)
-    freedom = measured - len(choice.names) - 6 * len(longer.state.poses)
-    noise = max(after / max(1, freedom), _EXACT_PX**2)
-    return float(f_distribution.sf(max(0.0, before - after) / more / noise, more, max(1, freedom)))
+def _tried(
+    views: Sequence[BoardView], usual: Adjusted, fit: Fit, every: bool
+) -> dict[LensChoice, Adjusted]:
+    """Fit the rational models, each from the longest that it contains; without `every` only those
+    that are worth it from there, a step at a time: a pole among the corners fits what noise it
+    likes, and several coefficients at once find one.
+    """
+    known = {BROWN: usual}
+    for choice in CHOICES[LensModel.RATIONAL]:
+        inside = [c for c in known if set(c.names) < set(choice.names)]
+        base = max(inside, key=lambda c: len(c.names))
+        if every or len(inside) == _STEPS_BEFORE[choice]:
+            found = _longer(views, known[base], fit, (base, choice), every)
+            if found is not None:
+                known[choice] = found
+    return {choice: found for choice, found in known.items() if choice is not BROWN}
+
+
+def _longer(
+    views: Sequence[BoardView],
+    shorter: Adjusted,
+    fit: Fit,
+    models: tuple[LensChoice, LensChoice],
+    every: bool,
+) -> Adjusted | None:
+    """Fit the second of two models, from an estimate with the first; None if it is not worth it."""
+    base, choice = models
+    if not every:
+        look = _fitted(views, shorter.state, fit, choice, 0)
+        if look is None or _chance(shorter, look.promised, base, choice) > WORTH_A_LOOK:
+            return None
+    found = _fitted(views, shorter.state, fit, choice)
+    if found is None or every:
+        return found
+    gain = _total(shorter) - _total(found)
+    return found if _chance(shorter, gain, base, choice) < CHANCE else None
+
+
+def _total(found: Adjusted) -> float:
+    """Sum of squared residuals [px²]."""
+    return sum(float((r**2).sum()) for r in found.residuals)
+
+
+def _chance(shorter: Adjusted, gain: float, base: LensChoice, choice: LensChoice) -> float:
+    """Probability that residuals fall by so much, were the longer model not needed (F test)."""
+    more = len(choice.names) - len(base.names)
+    measured = sum(r.size for r in shorter.residuals)
+    freedom = max(1, measured - len(choice.names) - 6 * len(shorter.state.poses))
+    noise = max((_total(shorter) - gain) / freedom, _EXACT_PX**2)
+    return float(f_distribution.sf(max(0.0, gain) / more / noise, more, freedom))
 
 
 def criterion(found: Adjusted, choice: LensChoice) -> float:
-    """Return the Bayesian information criterion of an estimate; smaller is better."""
+    """Return how well a model fits, less what each of its coefficients might by chance; smaller is
+    better.
+    """
     measured = sum(r.size for r in found.residuals)
-    squares = sum(float((r**2).sum()) for r in found.residuals)
-    boards = 6 * len(found.state.poses)
-    mean = max(squares / measured, _EXACT_PX**2)
-    return float(measured * np.log(mean) + (len(choice.names) + boards) * np.log(measured))
+    mean = max(_total(found) / measured, _EXACT_PX**2)
+    return float(measured * np.log(mean) + len(choice.names) * chi_square_quantile(1.0 - CHANCE, 1))
 
 
 def reach(parameters: FloatArray, views: Sequence[BoardView]) -> float:
@@ -153,7 +199,7 @@ def _best(longer: dict[LensChoice, Adjusted], views: Sequence[BoardView]) -> Len
         return best
     angle = reach(longer[FISHEYE].state.parameters[0], views)
     measured = sum(r.size for r in longer[best].residuals)
-    squares = [sum(float((r**2).sum()) for r in longer[c].residuals) for c in (FISHEYE, best)]
+    squares = [_total(longer[c]) for c in (FISHEYE, best)]
     ratio = measured * np.log(max(squares[0], 1e-300) / max(squares[1], 1e-300))
     return FISHEYE if angle > FISHEYE_ANGLE and ratio < AS_WELL else best
 
@@ -174,10 +220,11 @@ def _fitted(
 def _predicts_better(
     views: Sequence[BoardView], start: AdjustedState, fit: Fit, choice: LensChoice
 ) -> bool:
-    """Whether a model predicts views better that it was not estimated from, in two halves."""
+    """Whether a model predicts views better that it was not estimated from, a part at a time."""
     gains = list[float]()
-    for half in (0, 1):
-        other = [i for i in range(len(views)) if i % 2 != half]
+    parts = min(_PARTS, len(views))
+    for number in range(parts):
+        other = [i for i in range(len(views)) if i % parts != number]
         poses = tuple(start.poses[i] for i in other)
         part = AdjustedState(start.parameters, start.T_right_left, poses)
         kept = [views[i] for i in other]
@@ -185,14 +232,17 @@ def _predicts_better(
         if usual is None or longer is None:
             return usual is None and longer is not None
         cameras = [found.state.parameters[0] for found in (usual, longer)]
-        gains += [np.log(_squares(v, cameras[0]) / _squares(v, cameras[1])) for v in views[half::2]]
-    error = float(np.std(gains, ddof=1) / np.sqrt(len(gains))) if len(gains) > 1 else np.inf
-    return bool(np.mean(gains) > SURE * error)
+        for i in range(number, len(views), parts):
+            before, after = (_squares(views[i], camera, start.poses[i]) for camera in cameras)
+            gains.append(np.log(before / after))
+    middle = float(np.median(gains))
+    spread = 1.4826 * float(np.median(np.abs(np.array(gains) - middle)))
+    return middle > SURE * np.sqrt(0.5 * np.pi / len(gains)) * spread
 
 
-def _squares(view: BoardView, parameters: FloatArray) -> float:
+def _squares(view: BoardView, parameters: FloatArray, near: RigidTransform) -> float:
     """Mean squared residual of a view by a camera, its board's pose fitted [px²]."""
     try:
-        return max(board_pose(view, parameters)[1], _EXACT_PX) ** 2
+        return max(board_pose(view, parameters, near)[1], _EXACT_PX) ** 2
     except CalibrationError:
         return float(np.linalg.norm(view.image_size)) ** 2

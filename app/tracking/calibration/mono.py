@@ -160,8 +160,10 @@ def _estimated(
         if longer is not None:
             return longer
     adjusted, names, dropped = smallest_model(
-        lambda free, earlier: _fit(
-            used, (earlier or usual).state, LensChoice(BROWN.lens, free), choosing
+        lambda free, earlier: (
+            usual
+            if earlier is None
+            else _fit(used, earlier.state, LensChoice(BROWN.lens, free), choosing)
         )
     )
     wide = with_usual_k3(usual.covariance) if dropped else None
@@ -249,9 +251,8 @@ def _fit(
     parameters = np.where(free | (np.arange(count) < 4), parameters, 0.0)
     seen = [SeenBoard(i, 0, view.points, view.pixels) for i, view in enumerate(views)]
     progress.report(0.0, "adjusting")
-    return adjust(
-        seen, AdjustedState(parameters, start.T_right_left, start.poses), free, None, steps
-    )
+    first = AdjustedState(parameters, start.T_right_left, start.poses)
+    return adjust(seen, first, free, rounds=steps)
 
 
 def _without_outliers(

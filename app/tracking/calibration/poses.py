@@ -5,6 +5,7 @@ set of points closest to another.
 """
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import cv2
 import numpy as np
@@ -18,9 +19,13 @@ from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.distortion import fold_radius, undistort_grid
 
+POOR_PX = 0.3
+"""Residual from which OpenCV's estimate may have lost its way, and another start is tried [px]."""
+
 _NO_DISTORTION = (
     cv2.CALIB_FIX_K1 | cv2.CALIB_FIX_K2 | cv2.CALIB_FIX_K3 | cv2.CALIB_ZERO_TANGENT_DIST
 )
+_CENTRED = cv2.CALIB_FIX_PRINCIPAL_POINT | cv2.CALIB_FIX_K3 | cv2.CALIB_ZERO_TANGENT_DIST
 
 
 def first_estimate(views: Sequence[BoardView]) -> AdjustedState:
@@ -29,10 +34,16 @@ def first_estimate(views: Sequence[BoardView]) -> AdjustedState:
     Raises:
         CalibrationError: if no camera explains the views, with and without distortion.
     """
-    for flags in (0, _NO_DISTORTION):
-        state = _opencv(views, flags)
-        if state is not None:
-            return state
+    starts = []
+    for flags in (0, _CENTRED, _NO_DISTORTION):  # all of a wide lens at once may lose its way
+        plain = _opencv(tuple(views), flags)
+        state = _state(views, plain)
+        if plain is not None and state is not None:
+            starts.append((plain[0], state))
+            if plain[0] < POOR_PX:
+                break
+    if starts:
+        return min(starts, key=lambda start: start[0])[1]
     raise CalibrationError(
         f"no camera explains the {len(views)} views; tilt the board to different sides by 20 to "
         "45 degrees, and check the board's counts"
@@ -41,11 +52,8 @@ def first_estimate(views: Sequence[BoardView]) -> AdjustedState:
 
 def usual_rms(views: Sequence[BoardView]) -> float | None:
     """Reprojection error of OpenCV's plain recipe: all views, five coefficients [px]."""
-    try:
-        found = cv2.calibrateCamera(*_arguments(views), None, None)[0]
-    except cv2.error:
-        return None
-    return float(found) if np.isfinite(found) else None
+    plain = _opencv(tuple(views), 0)
+    return plain[0] if plain is not None and np.isfinite(plain[0]) else None
 
 
 def usual_stereo_rms(pairs: Sequence[tuple[BoardView, BoardView]]) -> float | None:
@@ -53,13 +61,23 @@ def usual_stereo_rms(pairs: Sequence[tuple[BoardView, BoardView]]) -> float | No
     both = [(a, b) for a, b in pairs if np.array_equal(a.ids, b.ids)]
     if not both or {a.image_size for a, _ in both} != {b.image_size for _, b in both}:
         return None
-    (points, left, size), (_, right, _) = (_arguments([p[side] for p in both]) for side in (0, 1))
+    sides = [tuple(pair[side] for pair in both) for side in (0, 1)]
+    (points, left, size), (_, right, _) = map(_arguments, sides)
+    plain = [_opencv(side, 0) for side in sides]
+    if plain[0] is None or plain[1] is None:
+        return None
+    (_, K_left, d_left, *_), (_, K_right, d_right, *_) = plain[0], plain[1]
     try:
-        lenses = [
-            cv2.calibrateCamera(points, pixels, size, None, None)[1:3] for pixels in (left, right)
-        ]
         found = cv2.stereoCalibrate(
-            points, left, right, *lenses[0], *lenses[1], size, flags=cv2.CALIB_FIX_INTRINSIC
+            points,
+            left,
+            right,
+            K_left,
+            d_left,
+            K_right,
+            d_right,
+            size,
+            flags=cv2.CALIB_FIX_INTRINSIC,
         )[0]
     except cv2.error:
         return None
@@ -72,13 +90,27 @@ def _arguments(views: Sequence[BoardView]) -> tuple[list[object], list[object], 
     return points, pixels, views[0].image_size
 
 
-def _opencv(views: Sequence[BoardView], flags: int) -> AdjustedState | None:
-    """OpenCV's estimate, or None where it fails, is not finite or has boards behind the camera."""
+_Plain = tuple[float, FloatArray, FloatArray, Sequence[FloatArray], Sequence[FloatArray]]
+"""What OpenCV finds: residual [px], camera matrix, coefficients, rotation vectors, translations."""
+
+
+@lru_cache(maxsize=4)
+def _opencv(views: tuple[BoardView, ...], flags: int) -> _Plain | None:
+    """OpenCV's estimate from the very same views, None where it fails; asked for again and again:
+    a start, and what its plain recipe would have left.
+    """
     try:
         found = cv2.calibrateCameraExtended(*_arguments(views), None, None, flags=flags)
     except cv2.error:
         return None
-    K, coefficients, turns, shifts = found[1:5]
+    return (float(found[0]), found[1], found[2], found[3], found[4])
+
+
+def _state(views: Sequence[BoardView], plain: _Plain | None) -> AdjustedState | None:
+    """Camera and boards, or None where not finite or with boards behind the camera."""
+    if plain is None:
+        return None
+    _, K, coefficients, turns, shifts = plain
     lens = np.zeros(5)
     lens[: min(5, coefficients.size)] = coefficients.ravel()[:5]
     parameters = np.array([K[0, 0], K[1, 1], K[0, 2], K[1, 2], *lens])
@@ -104,7 +136,9 @@ def rigid_fit(source: FloatArray, target: FloatArray) -> RigidTransform:
     return RigidTransform(rotation, middle_target - rotation @ middle_source)
 
 
-def board_pose(view: BoardView, parameters: FloatArray) -> tuple[RigidTransform, float]:
+def board_pose(
+    view: BoardView, parameters: FloatArray, near: RigidTransform | None = None
+) -> tuple[RigidTransform, float]:
     """T_camera_board and the root mean square distance of its corners from the picture [px].
 
     A plane has two poses that look nearly alike; both are refined, the better one is taken.
@@ -112,11 +146,13 @@ def board_pose(view: BoardView, parameters: FloatArray) -> tuple[RigidTransform,
     Args:
         view: corners in the picture.
         parameters: fx, fy, cx, cy and the lens' coefficients, shape (m,).
+        near: pose to start from, where it is known roughly; none of the two if None.
 
     Raises:
         CalibrationError: if no pose puts the board before the camera.
     """
-    candidates = [_refined(view, parameters, T) for T in _two_poses(view, parameters)]
+    starts = _two_poses(view, parameters) if near is None else [near]
+    candidates = [_refined(view, parameters, T) for T in starts]
     found = [candidate for candidate in candidates if candidate is not None]
     if not found:
         raise CalibrationError(f"view {view.name!r}: no pose of the board fits before the camera")

@@ -21,7 +21,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.tracking.calibration.bundle import Adjusted
 from app.tracking.calibration.misfit import misfit_px
-from app.tracking.calibration.sightings import SeenBoard, rows
+from app.tracking.calibration.sightings import SeenBoard, SightedBoards
 from app.tracking.calibration.views import BoardView
 
 LEAST_VIEWS: Final = 5
@@ -94,11 +94,14 @@ _Linear = tuple[FloatArray, FloatArray, FloatArray]
 def _linear(number: int, view: BoardView, adjusted: Adjusted) -> _Linear | None:
     """Residual (2n,), and its change by motion (2n, 6) and by corners (2n, 3n), beside the pose."""
     state = adjusted.state
-    seen = SeenBoard(number, 0, view.points, view.pixels)
-    row = rows(seen, state, state.parameters.shape[1])
-    if row is None:
+    seen = SightedBoards([SeenBoard(0, 0, view.points, view.pixels)], 0)
+    pose = state.poses[number]
+    linear = seen.linearised(
+        state.parameters[0], pose.rotation[None], pose.translation[None], state.T_right_left
+    )
+    if linear is None:
         return None
-    residual, _, by_pose = row
+    residual, by_pose = linear[0].ravel(), linear[2].reshape(-1, 6)
     height = view.pixels[:, 1] - view.pixels[:, 1].mean()
     late = np.repeat(height / view.image_size[1], 2)[:, None]
     basis = np.linalg.qr(by_pose)[0]

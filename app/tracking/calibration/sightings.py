@@ -1,5 +1,6 @@
 """What an adjustment starts from: boards seen by cameras; and how predictions change with both."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -72,26 +73,59 @@ class AdjustedState:
     poses: tuple[RigidTransform, ...]
 
 
-def rows(
-    seen: SeenBoard, state: AdjustedState, size: int
-) -> tuple[FloatArray, FloatArray, FloatArray] | None:
-    """Residuals (2n,), and derivatives of the prediction by cameras (2n, size), board (2n, 6)."""
-    p_left = state.poses[seen.pose] @ seen.points
-    points = p_left if seen.camera == 0 else state.T_right_left @ p_left
-    if not (np.isfinite(points).all() and points[:, 2].min() > 1e-6):
-        return None
-    uv, by_point, by_parameter = project_with_derivatives(points, state.parameters[seen.camera])
-    if not np.isfinite(uv).all():
-        return None
-    by_left = by_point if seen.camera == 0 else by_point @ state.T_right_left.rotation
-    count = state.parameters.shape[1]
-    by_global = np.zeros((len(points), 2, size))
-    by_global[:, :, seen.camera * count : (seen.camera + 1) * count] = by_parameter
-    if seen.camera == 1:
-        by_global[:, :, 2 * count :] = _by_twist(by_point, points)
-    residual = (seen.pixels - uv).ravel()
-    by_board = _by_twist(by_left, p_left)
-    return residual, by_global.reshape(-1, size), by_board.reshape(-1, 6)
+class SightedBoards:
+    """All boards that one camera saw, in a row, so that they are linearised in one go.
+
+    Attributes:
+        camera: 0 left, 1 right.
+        numbers: of the sightings in what was given, in the order of the rows.
+        poses: number of the board's pose, sighting by sighting.
+        spans: where the points of each sighting stand, shape (sightings, 2).
+    """
+
+    def __init__(self, sightings: Sequence[SeenBoard], camera: int) -> None:
+        own = [(i, seen) for i, seen in enumerate(sightings) if seen.camera == camera]
+        counts = [len(seen.points) for _, seen in own]
+        ends = np.cumsum(counts)
+        self.camera = camera
+        self.numbers = [i for i, _ in own]
+        self.poses = np.array([seen.pose for _, seen in own], dtype=np.int64)
+        self.spans = np.column_stack([ends - counts, ends])
+        self._points = np.concatenate([seen.points for _, seen in own])
+        self._pixels = np.concatenate([seen.pixels for _, seen in own])
+        self._pose_of = np.repeat(self.poses, counts)
+
+    def linearised(
+        self,
+        parameters: FloatArray,
+        rotations: FloatArray,
+        translations: FloatArray,
+        T_right_left: RigidTransform,
+    ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray | None] | None:
+        """Linearise the prediction of the pixels.
+
+        Args:
+            parameters: of the camera, shape (m,).
+            rotations: of T_left_board of every board, shape (poses, 3, 3).
+            translations: of the same, shape (poses, 3).
+            T_right_left: pose of the right camera; without meaning for the left one.
+
+        Returns:
+            Residuals (n, 2), and the prediction's derivatives by the parameters (n, 2, m), by the
+            twist of the board's pose (n, 2, 6), and by that of T_right_left (n, 2, 6), None for the
+            left camera. None where a point lies behind the camera or a value is not finite.
+        """
+        turned = np.einsum("nij,nj->ni", rotations[self._pose_of], self._points)
+        p_left = turned + translations[self._pose_of]
+        points = p_left if self.camera == 0 else T_right_left @ p_left
+        if not (np.isfinite(points).all() and points[:, 2].min() > 1e-6):
+            return None
+        uv, by_point, by_parameter = project_with_derivatives(points, parameters)
+        if not np.isfinite(uv).all():
+            return None
+        by_left = by_point if self.camera == 0 else by_point @ T_right_left.rotation
+        by_right = _by_twist(by_point, points) if self.camera == 1 else None
+        return self._pixels - uv, by_parameter, _by_twist(by_left, p_left), by_right
 
 
 def _by_twist(by_point: FloatArray, points: FloatArray) -> FloatArray:
