@@ -13,13 +13,17 @@ def resources() -> Path:
     return inside if inside.is_dir() else _PACKAGE.parent / "resources"
 
 
+def in_checkout() -> bool:
+    """Tell whether the program runs from its source tree and not from an installed package."""
+    return (_PACKAGE.parent / "pyproject.toml").is_file()
+
+
 def tree_sessions() -> Path | None:
     """`sessions/` of the source tree that the program runs from; None of one that is installed.
 
     Nothing is written there unless `ACUS_SESSIONS` names it, as `make run` does.
     """
-    tree = _PACKAGE.parent
-    return tree / "sessions" if (tree / "pyproject.toml").is_file() else None
+    return _PACKAGE.parent / "sessions" if in_checkout() else None
 
 
 def keep_private() -> None:
