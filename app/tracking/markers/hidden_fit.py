@@ -16,7 +16,7 @@ from app.tracking.band.outline import Outline, strips, trace
 from app.tracking.cameras.camera import Image
 from app.tracking.markers.bare_shaft import differences
 from app.tracking.markers.extractor import Centre, MarkerFix, Miss, MissReason, Nearest
-from app.tracking.markers.hidden import Cover, Side, covers, glimpses
+from app.tracking.markers.hidden import Cover, CoverSide, covers, glimpses
 from app.tracking.markers.outline_centroid import OutlineCentroid
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape
@@ -125,9 +125,9 @@ class HiddenBandFit:
             self.coarse.blur_px,
             self.coarse.noise_grey,
         )
-        ends = {Side.HUB: steps[1], Side.TIP: steps[0]}
+        ends = {CoverSide.HUB: steps[1], CoverSide.TIP: steps[0]}
         largest = np.sort(ends.get(cover.side, steps).ravel())
-        return float(largest[-3 if cover.side is Side.NOWHERE else -2]) >= _PROOF
+        return float(largest[-3 if cover.side is CoverSide.NOWHERE else -2]) >= _PROOF
 
     def _fit(
         self,
