@@ -42,9 +42,9 @@ def with_usual_k3(covariance: FloatArray) -> FloatArray:
     Args:
         covariance: with k3 estimated, shape (9, 9).
     """
-    column = covariance[:, 8]
-    variance = float(column[8])
-    return np.asarray(covariance - np.outer(column, column) / (variance + K3_SD**2))
+    # scaled first: the variances of views that tell nothing are squares of no finite number
+    gain = covariance[:, 8] / np.sqrt(max(float(covariance[8, 8]), 0.0) + K3_SD**2)
+    return np.asarray(covariance - np.outer(gain, gain))
 
 
 def ray_sds(parameters: FloatArray, covariance: FloatArray, size: tuple[int, int]) -> FloatArray:
