@@ -450,7 +450,9 @@ def test_an_exercise_is_exported_and_imported_elsewhere(
     author.failed.connect(errors.append)
     opened.open_dropped(path)
     assert settle(lambda: bool(asked))
-    assert "does not hold its CT" in str(errors[0])
+    assert errors == [
+        "mine.acusx does not hold its CT: choose the folder of the CT that the exercise was made on"
+    ]
 
 
 def test_an_exercise_on_the_ct_that_is_open_is_imported_without_asking_for_it(

@@ -26,7 +26,7 @@ from app.views.author.feature import AuthorFeature
 from app.views.debrief.feature import DebriefFeature
 from app.views.debrief.sessions import NOTE, SCORE, SIGNED, STUDENT
 from app.views.exercise.feature import ExerciseFeature
-from app.views.kit.access import ACCESS
+from app.views.kit.access import ACCESS, Known
 from app.views.people.feature import PeopleFeature
 from app.views.people.pages import GROUP_PDF, STUDENT_PDF, CourseDialog, EntryDialog
 
@@ -75,6 +75,21 @@ def test_without_a_password_everything_is_open_as_before(window, feature):
     assert not window.feature(DebriefFeature).sessions.delete_button.isHidden()
     feature.show()
     assert feature.page.tabs.isTabVisible(1)
+
+
+@pytest.mark.parametrize("leave", ["back", "sign out"])
+def test_who_leaves_the_page_without_a_patient_comes_to_the_start_page(
+    window, feature, settle, leave
+):
+    ACCESS.learn(Known(guarded=True))
+    ACCESS.sign_in(None, instructor=True)
+    feature.show()
+    assert feature.page.isVisible()
+    if leave == "back":
+        feature.page.closed.emit()
+    else:
+        ACCESS.sign_in(None)
+    assert window.pages.currentWidget() is window.start_page
 
 
 def test_a_student_signs_in_and_the_record_will_name_a_key(window, feature, settle):

@@ -1,6 +1,5 @@
 import threading
 import time
-from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,6 +12,7 @@ from views_exercise_fakes import FakeTrainer, pose, run, snapshot
 from app.core.clock import VirtualClock
 from app.core.rate_meter import RateMeter
 from app.device.errors import LoopError
+from app.session.errors import IllegalTransitionError
 from app.session.machine import State
 from app.tracking.inspection import InspectedPicture, Inspection
 from app.tracking.markers.extractor import MarkerFix
@@ -83,13 +83,24 @@ def test_the_attempt_is_begun_with_the_pseudonym_and_buttons_follow_its_state(de
     assert desk.views.messages.item(0).text().endswith("aligning")
 
 
-def test_a_refused_begin_is_said_in_words_and_nothing_breaks(desk):
+def test_a_refused_begin_is_said_in_words_and_nothing_breaks(desk, monkeypatch):
+    def refuse(*_):
+        raise IllegalTransitionError("this is not possible now")
+
     said = []
     desk.controller.failed.connect(said.append)
-    desk.trainer.now = replace(desk.trainer.now, state=State.ALIGNING)
+    monkeypatch.setattr(desk.trainer, "begin", refuse)
     desk.controller.begin("x")
     assert "not possible" in said[0]
     assert "not possible" in desk.views.messages.item(0).text()
+
+
+def test_who_asks_twice_has_it_begun_once(desk):
+    begun = []
+    desk.controller.beginning.connect(lambda: begun.append(1))
+    desk.controller.begin("x")
+    desk.controller.begin("x")  # as fast as the keyboard repeats, before anything is shown
+    assert begun == [1]
 
 
 def test_ending_tells_of_the_result_once(desk):

@@ -131,7 +131,7 @@ class AccuracyFeature(Feature):
 
             page = self.page = AccuracyPage()
             self._shell.add_page(page)
-            page.closed.connect(self._shell.show_workspace)
+            page.closed.connect(self.context.leave_page)
             page.wanted.connect(self.show_study)
             page.measure_wanted.connect(self.measure)
             page.source_wanted.connect(lambda here: self.show_study(page.name, here))

@@ -79,6 +79,7 @@ from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.field_words import problem_words
 from app.views.kit.menu_entries import add_entries
+from app.views.kit.names import NAMES
 from app.views.kit.parts import button, label
 from app.views.kit.side_panel import scrolled
 from app.views.kit.text import counted, literal, tr
@@ -705,7 +706,7 @@ class AuthorFeature(Feature):
         def fail(error: Exception) -> None:
             self._task = None
             if isinstance(error, CtMissingError) and ct is None:
-                self._ask_ct(error, lambda folder: again(folder, name, replace))
+                self._ask_ct(path, lambda folder: again(folder, name, replace))
             elif isinstance(error, TakenError) and not name:
                 self._ask_name(error, path, lambda other, newer: again(ct, other, newer))
             else:
@@ -726,8 +727,14 @@ class AuthorFeature(Feature):
             fail,
         )
 
-    def _ask_ct(self, error: Exception, go_on: Callable[[Path], object]) -> None:
-        self.failed.emit(error)
+    def _ask_ct(self, path: Path, go_on: Callable[[Path], object]) -> None:
+        self.failed.emit(
+            tr(
+                "{file} does not hold its CT: choose the folder of the CT that the exercise was "
+                "made on",
+                file=NAMES.shown(path.name),
+            )
+        )
         folder = QFileDialog.getExistingDirectory(
             self._shell.dialog_parent, tr("Folder of the exercise's CT"), str(Path.home())
         )

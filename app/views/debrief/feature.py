@@ -725,7 +725,7 @@ class DebriefFeature(Feature):
         self.page.retry_requested.connect(self.begin_again)
         self.page.next_requested.connect(self.begin_wanted)
         self.page.sessions_requested.connect(self._show_list)
-        self._back: Callable[[], object] = shell.show_workspace
+        self._back: Callable[[], object] = context.leave_page
         self.sessions.closed.connect(self._leave_list)
         context.conductor.controller.finished.connect(self.show_result)
         menu = shell.menu(tr("&Sessions"))
@@ -821,7 +821,7 @@ class DebriefFeature(Feature):
 
     def show_sessions(self) -> None:
         """Go to the past attempts."""
-        self._back = self.context.shell.show_workspace
+        self._back = self.context.leave_page
         self.sessions.show_only(None)
         self._show_list()
 
@@ -850,7 +850,7 @@ class DebriefFeature(Feature):
         """Go back to where one came from; to the panes where that is closed by now."""
         self._back()
         if self.sessions.isVisible():
-            self.context.shell.show_workspace()
+            self.context.leave_page()
 
     def _show_list(self) -> None:
         self.sessions.refresh()

@@ -377,9 +377,9 @@ class ExerciseController(QObject):
 
     # --- what the user asks for -------------------------------------------------------------------
     def begin(self, student: str) -> None:
-        """Begin an attempt."""
+        """Begin an attempt; whoever asks twice has it begun once."""
         run = self._run
-        if run is None:
+        if run is None or self.is_running:
             return
         absent = tr("The needle is not there yet.") if self.is_absent else ""
         refused = absent or self._waiting or ("" if run.demonstrates else self.refusal())

@@ -569,7 +569,7 @@ class PeopleFeature(Feature):
     # --- inside -----------------------------------------------------------------------------------
     def _connect(self) -> None:
         board, students, tab = self.page.board, self.page.students, self.page.courses
-        self.page.closed.connect(self._shell.show_workspace)
+        self.page.closed.connect(self.context.leave_page)
         board.choice_changed.connect(self.refresh)
         board.curve_wanted.connect(self._show_curve)
         board.attempts_wanted.connect(self._show_attempts)
@@ -606,7 +606,7 @@ class PeopleFeature(Feature):
         save.setEnabled(ACCESS.may_manage)
         self.page.set_managing(ACCESS.may_manage)
         if not show.isEnabled() and self.page.isVisible():
-            self._shell.show_workspace()
+            self.context.leave_page()
         elif self.page.isVisible():
             self.refresh()
 

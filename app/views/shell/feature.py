@@ -47,6 +47,13 @@ class Context:
     patients: OpenCt
     shell: Shell
 
+    def leave_page(self) -> None:
+        """Go to the panes; to the start page where no patient is open, as they would be empty."""
+        if self.conductor.patient is None:
+            self.conductor.start_wanted.emit()
+        else:
+            self.shell.show_workspace()
+
 
 class Feature(QObject):
     """Base of all features. The constructor adds what is to be seen; the rest is asked for.
