@@ -14,7 +14,7 @@ def resources() -> Path:
 
 
 def in_checkout() -> bool:
-    """Tell whether the program runs from its source tree and not from an installed package."""
+    """Whether the program runs from a source tree."""
     return (_PACKAGE.parent / "pyproject.toml").is_file()
 
 

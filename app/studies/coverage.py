@@ -93,7 +93,7 @@ def findings(kinds: list[CoverageCell]) -> Findings:
     lines += [f"{c.name}: {c.refused} of {c.done} refused" for c in kinds if c.refused]
     return Findings(
         (Sheet("table", "Stated errors against true ones", _COLUMNS, tuple(rows)),),
-        (Figure("held", lambda figure: _draw(figure, rows), (9.0, 8.0)),),
+        (Figure("held", lambda figure: _draw(figure, rows), (9.0, 10.0)),),
         tuple(lines),
         not wrong,
     )

@@ -195,7 +195,7 @@ def test_a_picture_of_another_series_is_refused_and_nothing_is_kept(stored, way)
         assert not incoming(settings).folder.exists()
 
 
-@pytest.mark.promise("docs/pacs.md: refused; all of it is deleted")
+@pytest.mark.promise("docs/pacs.md: refused at once; all of it is deleted")
 @pytest.mark.parametrize("way", ["get", "move"])
 @pytest.mark.parametrize(
     ("ill", "words"),

@@ -392,5 +392,5 @@ def test_an_unknown_arm_is_refused_with_the_names(tmp_path):
 
 def test_without_pinocchio_the_error_names_the_extra(monkeypatch):
     monkeypatch.setitem(sys.modules, "pinocchio", None)
-    with pytest.raises(StudyError, match=r"install the extra `arm`: pip install 'acus\[arm\]'"):
+    with pytest.raises(StudyError, match=r"install the extra `arm`: make extra NAME=arm"):
         import_pinocchio()

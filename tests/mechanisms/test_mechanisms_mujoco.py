@@ -150,5 +150,5 @@ def test_a_tool_without_mass_is_refused_by_name():
 
 def test_a_missing_mujoco_names_the_extra(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "mujoco", None)
-    with pytest.raises(SimulationError, match=r"pip install 'acus\[physics\]'"):
+    with pytest.raises(SimulationError, match=r"make extra NAME=physics"):
         felt_in_mujoco(PROFILE, 0.1, 0.0, (0.0, 0.0))

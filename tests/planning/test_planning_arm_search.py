@@ -87,7 +87,7 @@ def test_ends_that_are_not_free_and_budgets_that_end_are_named():
 
 def test_without_ompl_the_extra_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "ompl.base", None)
-    with pytest.raises(PlannerMissingError, match=r"pip install 'acus\[arm\]'"):
+    with pytest.raises(PlannerMissingError, match=r"make extra NAME=arm"):
         search(ARM, POST, START, GOAL)
 
 

@@ -82,5 +82,5 @@ def test_a_move_of_a_nanoradian_and_none_at_all():
 
 def test_without_ruckig_the_extra_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "ruckig", None)
-    with pytest.raises(PlannerMissingError, match=r"pip install 'acus\[arm\]'"):
+    with pytest.raises(PlannerMissingError, match=r"make extra NAME=arm"):
         free_move(ARM, *postures(0))

@@ -49,7 +49,7 @@ def test_without_eaik_the_study_names_it_as_left_out(monkeypatch):
 
 def test_without_pinocchio_the_study_names_the_extra(monkeypatch):
     monkeypatch.setitem(sys.modules, "pinocchio", None)
-    with pytest.raises(StudyError, match=r"install the extra `arm`: pip install 'acus\[arm\]'"):
+    with pytest.raises(StudyError, match=r"install the extra `arm`: make extra NAME=arm"):
         examine("arm_ik", quick=True)
 
 

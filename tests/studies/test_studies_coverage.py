@@ -26,7 +26,8 @@ def pooled() -> dict[str, CoverageTally]:
 def test_errors_of_calibration_pose_and_tip_are_as_large_as_they_are_stated(pooled, name):
     tally = pooled[name]
     assert tally.trials == 198 * (4 if "rays" in name else 1)
-    slack = 0.06 if name == "tip" else 0.0  # 594 squares only: 2.7 standard errors
+    # 594 squares only: 2.7 standard errors; and the four rays of a camera err together.
+    slack = 0.06 if name == "tip" or "rays" in name else 0.0
     assert RIGHT[0] - slack <= tally.squares / tally.freedom <= RIGHT[1] + slack
     assert 0.90 <= tally.held / tally.trials <= 0.99
 

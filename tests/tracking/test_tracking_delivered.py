@@ -19,12 +19,11 @@ from app.tracking.band.delivered import (
     halve_colours,
     solve_colours_alone,
 )
-from app.tracking.band.tone import about_level, to_level, to_light
+from app.tracking.band.tone import LINEAR, SRGB, ToneMemory, about_level, to_level, to_light
 from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.fix import FixStatus, without_point
 from app.tracking.markers.extractor import Miss, MissReason
 from app.tracking.markers.model_fit import noise_variance
-from app.tracking.markers.tone_memory import LINEAR, SRGB, ToneMemory
 from app.tracking.tracker import Tracker, with_cause
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])

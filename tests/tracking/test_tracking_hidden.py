@@ -14,7 +14,7 @@ from app.tracking.fix import FixStatus
 from app.tracking.markers.choice import extractors
 from app.tracking.markers.colour import RED
 from app.tracking.markers.extractor import Hint, MarkerFix, Miss, MissReason
-from app.tracking.markers.hidden import Side, covers, glimpses
+from app.tracking.markers.hidden import CoverSide, covers, glimpses
 from app.tracking.solver import FixSolver
 from app.tracking.tracker import Tracker
 from tests.tracking.camera_pictures import FULCRUM, CameraPictures
@@ -94,28 +94,28 @@ def _painted_over(image, outline, side, depth_px, colour):
     e = (u - outline.u) * outline.eu + (v - outline.v) * outline.ev
     n = (v - outline.v) * outline.eu - (u - outline.u) * outline.ev
     limits = {
-        Side.HUB: outline.arcs[0].mean() + depth_px - e,
-        Side.TIP: e - outline.arcs[1].mean() + depth_px,
-        Side.LEFT: outline.left + depth_px - n,
-        Side.RIGHT: n - outline.right + depth_px,
+        CoverSide.HUB: outline.arcs[0].mean() + depth_px - e,
+        CoverSide.TIP: e - outline.arcs[1].mean() + depth_px,
+        CoverSide.LEFT: outline.left + depth_px - n,
+        CoverSide.RIGHT: n - outline.right + depth_px,
     }
     image = image.copy()
     image[limits[side] > 0.0] = colour
     return image
 
 
-@pytest.mark.parametrize("side", [side for side in Side if side is not Side.NOWHERE])
+@pytest.mark.parametrize("side", [side for side in CoverSide if side is not CoverSide.NOWHERE])
 @pytest.mark.parametrize("colour", [(128, 128, 128), (110, 140, 220)])
 def test_what_stands_before_the_band_is_told_by_its_side(wide, side, colour):
     maker = CameraPictures(paths.resources() / "cameras" / "wide.yaml")
     pair = next(iter(maker.pairs(1, 7, ("clean",))))
     outline = _outline(wide, pair)
-    assert [cover.side for cover in covers(pair.left, outline, RED)] == [Side.NOWHERE]
-    depth = 5.0 if side in (Side.HUB, Side.TIP) else 3.0
+    assert [cover.side for cover in covers(pair.left, outline, RED)] == [CoverSide.NOWHERE]
+    depth = 5.0 if side in (CoverSide.HUB, CoverSide.TIP) else 3.0
     image = _painted_over(pair.left, outline, side, depth, colour)
     best = min(covers(image, outline, RED), key=lambda cover: cover.mixed)
     # of an end the colour alone does not tell which: the bare shaft beyond the other one does
-    same = {Side.HUB, Side.TIP} if side in (Side.HUB, Side.TIP) else {side}
+    same = {CoverSide.HUB, CoverSide.TIP} if side in (CoverSide.HUB, CoverSide.TIP) else {side}
     assert best.side in same
     cover = next(one for one in covers(image, outline, RED) if one.side is side)
     assert np.abs(cover.shift).max() < 1.0

@@ -49,8 +49,17 @@ class CoverageTally:
 
     @property
     def spread(self) -> dict[str, float]:
-        """Root mean square of error over standard deviation, by parameter."""
-        return {name: float(np.sqrt(total / count)) for name, (total, count) in self.ratios.items()}
+        """Root mean square of error over standard deviation, by parameter.
+
+        One that is estimated now and then only, where its value seems beyond doubt, is left out:
+        it was chosen by its error.
+        """
+        most = max(count for _, count in self.ratios.values())
+        return {
+            name: float(np.sqrt(total / count))
+            for name, (total, count) in self.ratios.items()
+            if 2 * count >= most
+        }
 
 
 @dataclass(slots=True)

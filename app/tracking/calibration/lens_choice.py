@@ -3,13 +3,18 @@
 The five-coefficient model is taken unless a longer one is worth its place twice: by the F test of
 nested models at `CHANCE`, and by views that it was not estimated from. The test takes the corners
 of a view for independent, which they are not quite (a board that is not flat, blur):
-cross-validation by whole views does not. Among longer models that pass, the Bayesian information
-criterion decides, n·ln(SS / n) + k·ln(n) (Schwarz 1978).
+cross-validation by whole views does not. Longer models that pass are compared by
+n·ln(SS / n) + χ²·k, χ² what a coefficient that is not needed may gain at `CHANCE`.
 
-The longer models are rational (k1 to k6, p1, p2), rational with thin prism (s1 to s4 as well), five
-coefficients with thin prism, and fisheye. All of a model's coefficients are estimated. The fisheye
-model has no decentring: it is taken where the pictures reach beyond `FISHEYE_ANGLE`, where
-polynomials of the tangent run off, and where it fits as the rational one does but for `AS_WELL`.
+The longer models are rational (p1, p2, k1 to k3, and k4, k4 and k5, or k4 to k6), with thin prism
+(s1 to s4 as well), five coefficients with thin prism, and fisheye. All of a model's coefficients
+are estimated. The rational one grows by a coefficient at a time: numerator and denominator bend
+alike without a trace in the pixels, and several at once find a pole that fits a corner's noise.
+Whether a step is worth a fit tells Rao's score test, from the shorter model's end.
+
+The fisheye model has no decentring: it is taken where the pictures reach beyond `FISHEYE_ANGLE`,
+where polynomials of the tangent run off, and where it fits as the rational one does but for
+`AS_WELL`.
 """
 
 from collections.abc import Callable, Sequence
@@ -34,7 +39,7 @@ CHANCE: Final = 1e-3
 """Probability by which a longer model may fit that much better by chance."""
 
 WORTH_A_LOOK: Final = 1e-2
-"""The same of the simplest longer models, from which all are tried."""
+"""The same by the score test, from which a longer model is fitted."""
 
 SURE: Final = 1.0
 """Standard errors by which other views must be better predicted, in the median: one view at the

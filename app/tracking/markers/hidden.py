@@ -47,7 +47,7 @@ _FEW: Final = 4
 """Fewest hidden pixels that tell where an edge is."""
 
 
-class Side(Enum):
+class CoverSide(Enum):
     """Where something stands before the band: direction (e, n) from its middle."""
 
     NOWHERE = (0, 0)
@@ -69,7 +69,7 @@ class Cover:
         mixed: pixels on the wrong side of its edge, over the hidden ones.
     """
 
-    side: Side
+    side: CoverSide
     shift: FloatArray
     pixels: NDArray[np.bool_]
     strength: float
@@ -96,7 +96,7 @@ def covers(image: Image, outline: Outline, colour: ColourModel) -> tuple[Cover, 
     n = (v - outline.v) * outline.eu - (u - outline.u) * outline.ev
     strength, painted = _painted(image[top:bottom, left:right], colour)
     result = []
-    for side in Side:
+    for side in CoverSide:
         place = _cover(outline, e, n, painted, side)
         if place is None:
             continue
@@ -144,7 +144,7 @@ def _painted(window: Image, colour: ColourModel) -> tuple[FloatArray, NDArray[np
 
 
 def _cover(
-    outline: Outline, e: FloatArray, n: FloatArray, painted: NDArray[np.bool_], side: Side
+    outline: Outline, e: FloatArray, n: FloatArray, painted: NDArray[np.bool_], side: CoverSide
 ) -> tuple[FloatArray, NDArray[np.bool_], float] | None:
     """Return the band's shift, what is hidden in the window and how mixed; None if it cannot be."""
     low, high = float(outline.arcs[0].mean()), float(outline.arcs[1].mean())
@@ -152,11 +152,11 @@ def _cover(
     if near.sum() < _LEAST:
         return None
     first, last = _extent(e[near])
-    along = {Side.HUB: last - high, Side.TIP: first - low}.get(
+    along = {CoverSide.HUB: last - high, CoverSide.TIP: first - low}.get(
         side, 0.5 * (first + last - low - high)
     )
     at = e - along
-    whole = side is Side.NOWHERE
+    whole = side is CoverSide.NOWHERE
     long, wide = (_INSIDE_PX if whole or k else _BESIDE_PX for k in side.value)
     inside = (at > low + long) & (at < high - long)
     inside &= (n > outline.left + outline.left_slope * at + wide) & (
@@ -194,7 +194,7 @@ def _edge(
     n: FloatArray,
     seen: NDArray[np.bool_],
     hidden: NDArray[np.bool_],
-    side: Side,
+    side: CoverSide,
 ) -> tuple[FloatArray, float, float]:
     """Straight line that parts seen and hidden pixels best.
 

@@ -16,7 +16,7 @@ from app.tracking.band.outline import Outline, strips, trace
 from app.tracking.cameras.camera import Image
 from app.tracking.markers.bare_shaft import differences
 from app.tracking.markers.extractor import Centre, MarkerFix, Miss, MissReason, Nearest
-from app.tracking.markers.hidden import Cover, Side, covers, glimpses
+from app.tracking.markers.hidden import Cover, CoverSide, covers, glimpses
 from app.tracking.markers.outline_centroid import OutlineCentroid
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape
@@ -45,9 +45,9 @@ _FLOOR_PX: Final = 0.1
 """The covariance is so many times that of the noise, and this squared: the edge of what hides the
 band is no straight line, and its blur reaches farther than is left out in some pictures."""
 
-_OTHER_TONE: Final = 0.25
-"""Share of the squared difference to the place by another tone curve that the picture may have: an
-edge of which the other side is not seen moves with it."""
+_OTHERWISE: Final = 0.25
+"""Share of the squared difference to the place by a tone curve or a gloss that may be as well: an
+edge of which the other side is not seen moves with them."""
 
 _QUALITY: Final = 0.5
 
@@ -99,12 +99,14 @@ class HiddenBandFit:
         )
         if not seen:
             return None
-        fits = []
+        fits: list[MarkerFix] = []
         candidates = covers(image, outline, self.coarse.colour)
         for cover in sorted(candidates, key=lambda cover: cover.mixed):
             if not self._proves(image, outline, cover):
                 continue
             fit = self._fit(image, outline, cover, float(p_camera[2]), axis, gammas)
+            if fit is None and not fits:  # what parts the colours best is not before the band
+                return None
             if fit is not None:
                 fits.append(fit)
         if not fits or any(np.abs(fit.uv - fits[0].uv).max() > _ALIKE_PX for fit in fits):
@@ -123,9 +125,9 @@ class HiddenBandFit:
             self.coarse.blur_px,
             self.coarse.noise_grey,
         )
-        ends = {Side.HUB: steps[1], Side.TIP: steps[0]}
+        ends = {CoverSide.HUB: steps[1], CoverSide.TIP: steps[0]}
         largest = np.sort(ends.get(cover.side, steps).ravel())
-        return float(largest[-3 if cover.side is Side.NOWHERE else -2]) >= _PROOF
+        return float(largest[-3 if cover.side is CoverSide.NOWHERE else -2]) >= _PROOF
 
     def _fit(
         self,
@@ -143,28 +145,26 @@ class HiddenBandFit:
         start = depth * np.array([seen[0], seen[1], 1.0])
         fits = []
         for gamma in gammas:
-            matt, glossy = (
+            both = [
                 self.fitter.fit_delivered(
-                    image, start, axis, gamma, shines, cover.pixels, _STRETCH_SD
+                    image, start, axis, gamma, glossy, cover.pixels, _STRETCH_SD
                 )
-                for shines in (False, True)
-            )
-            fits.append(next((f for f in (matt, glossy) if self._is_band(f, outline)), None))
+                for glossy in (False, True)
+            ]
+            bands = [fit for fit in both if fit is not None and self._is_band(fit, outline)]
+            fits += sorted(bands, key=lambda fit: fit.cost)
+            if not fits:
+                return None
         fit = fits[0]
-        if fit is None:
-            return None
         covariance = _MORE * fit.covariance + _FLOOR_PX**2 * np.eye(2)
         for other in fits[1:]:
-            if other is not None:
-                apart = other.uv - fit.uv
-                covariance = covariance + _OTHER_TONE * np.outer(apart, apart)
+            apart = other.uv - fit.uv
+            covariance = covariance + _OTHERWISE * np.outer(apart, apart)
         return MarkerFix(
             fit.uv, covariance, fit.area, _QUALITY, Centre.BAND, alone=False, hidden=True
         )
 
-    def _is_band(self, fit: BandFit | None, outline: Outline) -> bool:
-        if fit is None:
-            return False
+    def _is_band(self, fit: BandFit, outline: Outline) -> bool:
         du, dv = (fit.uv - [outline.u, outline.v]).tolist()
         across = dv * outline.eu - du * outline.ev
         return (

@@ -16,6 +16,7 @@ import numpy as np
 from app.core.arrays import FloatArray, read_only, unit
 from app.tracking.band.delivered_fit import keeps_all_colour
 from app.tracking.band.fit import BandFit, BandFitter
+from app.tracking.band.tone import LINEAR, SRGB, ToneMemory
 from app.tracking.cameras.camera import Image
 from app.tracking.markers.bare_shaft import shaft_evidence
 from app.tracking.markers.extractor import (
@@ -32,7 +33,6 @@ from app.tracking.markers.extractor import (
 from app.tracking.markers.hidden_fit import HiddenBandFit
 from app.tracking.markers.outline_centroid import OutlineCentroid, outline_of
 from app.tracking.markers.silhouette import centroid_shift
-from app.tracking.markers.tone_memory import LINEAR, SRGB, ToneMemory
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape
 

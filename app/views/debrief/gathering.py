@@ -13,7 +13,7 @@ from app.session.people import People
 from app.views.kit.background import run_in_background
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 
 
 class Gathering(QObject):
@@ -64,7 +64,11 @@ class Gathering(QObject):
             here=NAMES.shown(str(self._folder)),
         )
         answer = QMessageBox.question(
-            self._window, tr("Earlier attempts"), text, buttons.Yes | buttons.No, buttons.Yes
+            self._window,
+            tr("Earlier attempts"),
+            literal(text),
+            buttons.Yes | buttons.No,
+            buttons.Yes,
         )
         if answer == buttons.Yes:
             self._busy = True
