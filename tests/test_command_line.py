@@ -1,4 +1,5 @@
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -197,6 +198,13 @@ def test_a_full_disk_behind_the_output_is_one_line_and_exit_code_2(words):
     assert done.returncode == 2
     assert one_line(done.stderr)
     assert "No space left" in done.stderr
+
+
+@pytest.mark.parametrize("words", [["exercise", "list"], ["session", "list"], ["--help"]])
+def test_a_closed_output_is_no_fault_of_the_program(words):
+    command = f"exec {shlex.quote(sys.executable)} -m app {' '.join(words)} >&-"
+    done = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
 
 
 @pytest.mark.parametrize("words", [["exercise", "list"], ["--help"]])

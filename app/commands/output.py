@@ -7,6 +7,7 @@ lets a line read otherwise than it stands (UAX #9).
 
 from __future__ import annotations
 
+import os
 import re
 import sys
 from collections.abc import Iterable, Iterator
@@ -53,13 +54,18 @@ class PrintableStream:
 
 @contextmanager
 def printable_output() -> Iterator[None]:
-    """Let standard output and standard error write what is printable, and nothing else."""
+    """Let standard output and standard error write what is printable, and nothing else.
+
+    What is written to one that is closed goes nowhere.
+    """
     before = sys.stdout, sys.stderr
-    sys.stdout, sys.stderr = PrintableStream(sys.stdout), PrintableStream(sys.stderr)
-    try:
-        yield
-    finally:
-        sys.stdout, sys.stderr = before
+    with open(os.devnull, "w") as nowhere:  # Python gives None for a stream that is closed
+        sys.stdout = PrintableStream(before[0] or nowhere)
+        sys.stderr = PrintableStream(before[1] or nowhere)
+        try:
+            yield
+        finally:
+            sys.stdout, sys.stderr = before
 
 
 def console(**options: Any) -> Console:

@@ -14,7 +14,9 @@ from pathlib import Path
 from typing import Final
 
 from app.session.backup_file import ArchiveError
+from app.session.errors import PeopleError
 from app.session.people import OF_PERSON, VERSION, People, tables
+from app.session.roster import checked_pseudonym, looks_like_a_key
 
 Rows = tuple[tuple[str | int | float | None, ...], ...]
 
@@ -188,7 +190,23 @@ def _table(source: sqlite3.Connection, name: str, columns: Sequence[str], whose:
                 text = f"{name}.{column} holds {value!r:.40}"
                 raise ArchiveError(_no_people(whose, text))
         found.append(tuple(row))
+    if name == "persons":
+        _check_persons([(str(row[0]), str(row[1])) for row in found], whose)
     return tuple(found)
+
+
+def _check_persons(persons: Sequence[tuple[str, str]], whose: str) -> None:
+    """Let only keys and pseudonyms go on that a roster could have brought, each once."""
+    names = set()
+    for key, pseudonym in persons:
+        if not looks_like_a_key(key):
+            raise ArchiveError(_no_people(whose, f"persons.key holds {key[:40]!r}"))
+        try:
+            names.add(checked_pseudonym(pseudonym).casefold())
+        except PeopleError as error:
+            raise ArchiveError(_no_people(whose, f"persons.pseudonym: {error}")) from error
+    if len(names) < len(persons):
+        raise ArchiveError(_no_people(whose, "persons.pseudonym holds one twice"))
 
 
 def _no_people(whose: str, why: str) -> str:

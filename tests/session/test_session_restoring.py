@@ -149,6 +149,25 @@ def test_triggers_and_settings_of_a_foreign_list_are_not_taken_over(
     People().check_instructor("correct horse")  # a password is never taken away
 
 
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("UPDATE persons SET pseudonym = '../../etc'", "cannot be a pseudonym"),
+        ("UPDATE persons SET pseudonym = 'p-3fa9c0d1e2b7'", "looks like a key"),
+        ("UPDATE persons SET key = '/etc'", "persons.key holds '/etc'"),
+        ("INSERT INTO persons SELECT 'p-000000000000', 'aDA', pin, created FROM persons", "twice"),
+    ],
+)
+def test_a_backup_brings_no_student_whom_a_roster_could_not(
+    one: Place, tmp_path: Path, line: str, words: str
+) -> None:
+    backup(tmp_path / "b", one.folder)
+    bad = with_people(tmp_path / "b", tmp_path / "bad", does(line))
+    with pytest.raises(ArchiveError, match=f"{words}.*nothing was changed"):
+        restore_backup(bad, one.folder, replace_people=True)
+    assert [person.pseudonym for person in People().everybody()] == ["Ada"]
+
+
 def test_a_backup_of_another_station_says_exactly_what_is_not_taken(
     one: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
