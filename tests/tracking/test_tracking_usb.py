@@ -303,3 +303,11 @@ def test_the_figures_of_a_stream_are_its_rate_and_jitter(camera):
     assert figures.rate < 210.0
     assert figures.jitter == pytest.approx(steps.std())
     assert figures.text == ""
+
+
+@pytest.mark.parametrize(
+    ("simulated", "words"), [(True, "this computer is too busy"), (False, "check its cable")]
+)
+def test_a_cable_is_blamed_only_where_there_is_one(simulated, words):
+    health = CameraHealth("left", CameraState.STALLED, 1.0, simulated=simulated)
+    assert words in health.text

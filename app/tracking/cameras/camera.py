@@ -42,9 +42,12 @@ class Camera(ABC):
     Attributes:
         may_repeat: whether a picture that is the same to the last bit is nothing unusual; of a
             real sensor it never is, and means a driver that hangs.
+        simulated: whether this computer draws the pictures, so that no cable can be the reason
+            where none come.
     """
 
     may_repeat: bool = False
+    simulated: bool = False
 
     @abstractmethod
     def open(self) -> None:

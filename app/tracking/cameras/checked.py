@@ -21,7 +21,7 @@ class CheckedCamera(Camera):
         self, camera: Camera, name: str, source: str, size: tuple[int, int], reason: str
     ) -> None:
         self.camera, self.name, self.source = camera, name, source
-        self.may_repeat = camera.may_repeat
+        self.may_repeat, self.simulated = camera.may_repeat, camera.simulated
         self._size, self._reason = size, reason
 
     def open(self) -> None:

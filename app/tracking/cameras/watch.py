@@ -39,6 +39,7 @@ class CameraHealth:
         figures: rate, jitter and refused pictures.
         reopened: how often it was opened again.
         plain: `black` or `white` if the newest picture is nothing else.
+        simulated: see `Camera`.
     """
 
     name: str
@@ -48,6 +49,7 @@ class CameraHealth:
     figures: StreamFigures = field(default_factory=StreamFigures)
     reopened: int = 0
     plain: str = ""
+    simulated: bool = False
 
     @property
     def text(self) -> str:
@@ -61,6 +63,11 @@ class CameraHealth:
         refused = (
             f" ({self.figures.text})" if self.figures.backwards + self.figures.impossible else ""
         )
+        if self.simulated:
+            return (
+                f"no picture for {self.age:.1f} s{refused}: this computer is too busy to draw "
+                "them; close other programs"
+            )
         return f"no picture for {self.age:.1f} s{refused}; check its cable"
 
     @property
@@ -146,6 +153,7 @@ class CameraReader:
             self._intake.figures(),
             self.reopened,
             plain(frame) if frame is not None and state is CameraState.FROZEN else "",
+            self._camera.simulated,
         )
 
     def _state(self, now: float) -> CameraState:

@@ -427,6 +427,8 @@ class SimulatedCamera(Camera):
     reads too slowly misses pictures, as with a real camera.
     """
 
+    simulated = True
+
     def __init__(
         self,
         renderer: Renderer,
