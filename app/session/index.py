@@ -268,7 +268,9 @@ class Index:
         Raises:
             DatabaseError: if it cannot be read, or what the instructor has admitted cannot.
         """
-        key, admitted, seals = this_station(), admissions(), seals_here()
+        key, admitted = this_station(), admissions()
+        # a key that somebody took away: what is unsigned counts no more than before
+        seals = seals_here() or bool(People().wrapped_key())
         rows, odd = self._sealed_rows(key)
         if odd:
             rows += self._mend(odd, key)

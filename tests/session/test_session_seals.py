@@ -222,6 +222,15 @@ def test_where_nothing_was_ever_sealed_everything_counts_as_before(folder: Path)
     assert {one.passed for one in index.attempts()} == {True}
 
 
+def test_a_stations_key_that_was_taken_away_lets_nothing_count(folder: Path) -> None:
+    People().set_instructor("correct horse battery")
+    copied_for(folder, "Bob")
+    key_file().unlink()
+    index = Index(folder)
+    index.refresh()
+    assert {(one.counts, one.passed) for one in index.attempts()} == {(False, None)}
+
+
 @pytest.mark.parametrize(
     "table", ["CREATE TABLE attempts (id TEXT)", "CREATE VIEW attempts AS SELECT 1 AS id"]
 )
