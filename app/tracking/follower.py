@@ -232,17 +232,14 @@ class MarkerFollower:
     ) -> list[Found]:
         """Return both cameras' markers where something hides a part of them, if they agree."""
         seen: list[MarkerFix] = []
-        for i, (frame, marker) in enumerate(zip(frames, markers, strict=True)):
+        for i, frame in enumerate(frames):
             if frame is None:
                 return markers
             nearest = partial(self._solver.nearest, i, axis=axis)
             hidden = self._extractors[i].partly_hidden(frame.image, axis, nearest)
-            if isinstance(hidden, MarkerFix):  # what hides little may pass for the band's own end
-                seen.append(hidden)
-            elif isinstance(marker, MarkerFix) and marker.centre is Centre.BAND:
-                seen.append(marker)
-            else:
-                return markers
+            if not isinstance(hidden, MarkerFix):  # a whole band has to be one for this look too:
+                return markers  # what hides a flank may pass for the band's own edge
+            seen.append(hidden)
         fix = self._solver.solve((SeenMarker.of(seen[0]), SeenMarker.of(seen[1])), axis, time)
         return [*seen] if fix.status is FixStatus.VALID else markers
 

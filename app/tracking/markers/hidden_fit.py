@@ -41,7 +41,7 @@ _ALIKE_PX: Final = 0.5
 """By how much fits with something on one side or another may differ."""
 
 _MORE: Final = 3.5
-_FLOOR_PX: Final = 0.1
+_FLOOR_PX: Final = 0.2
 """The covariance is so many times that of the noise, and this squared: the edge of what hides the
 band is no straight line, and its blur reaches farther than is left out in some pictures."""
 
