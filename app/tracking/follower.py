@@ -157,7 +157,7 @@ class MarkerFollower:
             markers = self._search(frames, markers, axis, time)
             bands = [isinstance(m, MarkerFix) and m.centre is Centre.BAND for m in markers]
             if axis is not None and self._distance is None and not (all(bands) or self._exchanged):
-                markers = self._uncovered(frames, markers, axis, time)
+                markers = self._occluded(frames, markers, axis, time)
         for frame, marker, track in zip(frames, markers, self._tracks, strict=True):
             if frame is not None:
                 track.add(frame.time, marker if isinstance(marker, MarkerFix) else None)
@@ -195,12 +195,9 @@ class MarkerFollower:
             pairings = self._pairings(candidates, frames)
         agreeing = [pair for pair in pairings if pair.agrees]
         if agreeing:
-            if axis is not None and not self._allowed(agreeing, axis, time):
-                exchanged = self._as_exchanged(candidates, frames, axis)
-                if exchanged is not None:
-                    return exchanged
-            chosen = self._chosen(agreeing, markers, frames, axis, time)
-            if any(isinstance(one, MarkerFix) for one in chosen) or self._distance is not None:
+            chosen = self._chosen(agreeing, markers, candidates, frames, axis, time)
+            found = any(isinstance(one, MarkerFix) for one in chosen)
+            if found or self._exchanged or self._distance is not None:
                 return chosen
             return self._wrong(candidates, frames, axis) or _unproven(agreeing[0])
         if pairings and (wrong := self._wrong(candidates, frames, axis)) is not None:
@@ -208,7 +205,7 @@ class MarkerFollower:
         if pairings and not pairings[0].hopeless:  # a bumped camera: the solver says how far off
             near = pairings[:1]  # or outlines far from their bands' centres, which the axis tells
             if self._distance is None:
-                chosen = self._chosen(near, markers, frames, axis, time)
+                chosen = self._chosen(near, markers, candidates, frames, axis, time)
                 one_found = any(isinstance(one, MarkerFix) for one in chosen)
                 return chosen if one_found else _unproven(near[0])
             return [near[0].first, near[0].second]
@@ -227,7 +224,7 @@ class MarkerFollower:
             for i, (one, marker) in enumerate(zip(best, markers, strict=True))
         ]
 
-    def _uncovered(
+    def _occluded(
         self, frames: Pair, markers: list[Found], axis: FloatArray, time: float
     ) -> list[Found]:
         """Return both cameras' markers where something hides a part of them, if they agree."""
@@ -236,7 +233,7 @@ class MarkerFollower:
             if frame is None:
                 return markers
             nearest = partial(self._solver.nearest, i, axis=axis)
-            hidden = self._extractors[i].partly_hidden(frame.image, axis, nearest)
+            hidden = self._extractors[i].find_occluded(frame.image, axis, nearest)
             if not isinstance(hidden, MarkerFix):  # a whole band has to be one for this look too:
                 return markers  # what hides a flank may pass for the band's own edge
             seen.append(hidden)
@@ -266,10 +263,6 @@ class MarkerFollower:
         self._exchanged = True
         return [Miss(MissReason.EXCHANGED), Miss(MissReason.EXCHANGED)]
 
-    def _allowed(self, agreeing: list[Pairing], axis: FloatArray, time: float) -> bool:
-        """Tell whether the robot's line allows any of the pairings."""
-        return any(self._solved(pair, axis, time).status is FixStatus.VALID for pair in agreeing)
-
     def _pairings(self, candidates: list[list[Found]], frames: Pair) -> list[Pairing]:
         firsts, seconds = (
             [one for one in found if isinstance(one, MarkerFix)] for found in candidates
@@ -281,6 +274,7 @@ class MarkerFollower:
         self,
         agreeing: list[Pairing],
         markers: list[Found],
+        candidates: list[list[Found]],
         frames: Pair,
         axis: FloatArray | None,
         time: float,
@@ -304,6 +298,8 @@ class MarkerFollower:
                     self._closer(i, frames, one, p_world, axis)
                     for i, one in enumerate((pair.first, pair.second))
                 ]
+        if best.agrees and (exchanged := self._as_exchanged(candidates, frames, axis)) is not None:
+            return exchanged
         return [  # a moving pair needs its track
             self._closer(i, frames, one, None, axis)
             for i, one in enumerate((best.first, best.second))

@@ -299,7 +299,7 @@ class Tracker:
         fix, markers = self._measured(frames, axis, time)
         fix = with_cause(fix, markers, self._names)
         certain = all(
-            isinstance(m, MarkerFix) and m.centre is Centre.BAND and not m.hidden for m in markers
+            isinstance(m, MarkerFix) and m.centre is Centre.BAND and not m.occluded for m in markers
         )
         fix = self._health.judge(fix, axis, certain, self._follower.exchanged)
         found = [one for one in markers if isinstance(one, MarkerFix)]

@@ -24,7 +24,7 @@ from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.markers.choice import ExtractorName, extractors
 from app.tracking.optics.rig import RigProfile, load_rig
 from app.tracking.tracker import Tracker
-from tests.bench.hidden_marker import _NoCamera
+from tests.tracking.camera_fakes import NoCamera
 from tests.tracking.camera_pictures import FULCRUM, KINDS, CameraPictures, PicturePair
 
 OTHERS = (ExtractorName.OUTLINE_CENTROID, ExtractorName.ELLIPSE)
@@ -102,7 +102,7 @@ def fix_of(pair: PicturePair, rig: RigProfile, name: str | None = None) -> tuple
     `name` is another extractor than the rig's.
     """
     tracker = Tracker(
-        (_NoCamera(), _NoCamera()),
+        (NoCamera(), NoCamera()),
         rig,
         VirtualClock(),
         lambda _: pair.axis,

@@ -11,29 +11,17 @@ import cv2
 import numpy as np
 
 from app.core.clock import VirtualClock
-from app.tracking.cameras.camera import Camera, CameraFrame
+from app.tracking.cameras.camera import CameraFrame
 from app.tracking.fix import NeedleFix
 from app.tracking.simulated.obstacles import ORANGE, RED_CLOTH, Patch, patch
 from app.tracking.simulated.picture_effects import NoiseTile, noise
 from app.tracking.simulated.scene import MarkerScene
 from app.tracking.tracker import Tracker
 from tests.bench.marker_trials import FULCRUM, Trials
+from tests.tracking.camera_fakes import NoCamera
 
 FRAMES = 5
 """Pictures of one arrangement, so that the tracker may follow what it took for the marker."""
-
-
-class _NoCamera(Camera):
-    """Never asked: the pictures are handed to the tracker."""
-
-    def open(self) -> None:
-        raise NotImplementedError
-
-    def read(self) -> CameraFrame:
-        raise NotImplementedError
-
-    def close(self) -> None:
-        raise NotImplementedError
 
 
 class Hidden:
@@ -68,7 +56,7 @@ class Hidden:
         return said, false
 
     def _tracker(self, axis: np.ndarray) -> Tracker:
-        cameras = (_NoCamera(), _NoCamera())
+        cameras = (NoCamera(), NoCamera())
         return Tracker(cameras, self._rig, VirtualClock(), lambda _: axis, FULCRUM)
 
     def _frames(self, pictures: list[np.ndarray], time: float) -> list[CameraFrame]:

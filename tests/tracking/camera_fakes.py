@@ -6,7 +6,22 @@ import time
 import cv2
 import numpy as np
 
+from app.tracking.cameras.camera import Camera
 from app.tracking.cameras.ports import CameraPort
+
+
+class NoCamera(Camera):
+    """Is there for a tracker that is handed its pictures; nothing may ask it for one."""
+
+    def open(self):
+        raise NotImplementedError
+
+    def read(self):
+        raise NotImplementedError
+
+    def close(self):
+        pass
+
 
 LEFT = CameraPort("1-1.1", "1-1.1:1.0", "/dev/video0", "Webcam", ("pci-0-usb-0:1.1:1.0",))
 RIGHT = CameraPort("1-1.2", "1-1.2:1.0", "/dev/video2", "Webcam", ("pci-0-usb-0:1.2:1.0",))

@@ -20,11 +20,12 @@ from app.tracking.band.delivered import (
     solve_colours_alone,
 )
 from app.tracking.band.tone import LINEAR, SRGB, ToneMemory, about_level, to_level, to_light
-from app.tracking.cameras.camera import Camera, CameraFrame
+from app.tracking.cameras.camera import CameraFrame
 from app.tracking.fix import FixStatus, without_point
 from app.tracking.markers.extractor import Miss, MissReason
 from app.tracking.markers.model_fit import noise_variance
 from app.tracking.tracker import Tracker, with_cause
+from tests.tracking.camera_fakes import NoCamera
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 LARGEST = 16.27
@@ -42,17 +43,6 @@ LEAST = {
 }
 
 
-class _NoCamera(Camera):
-    def open(self):
-        raise NotImplementedError
-
-    def read(self):
-        raise NotImplementedError
-
-    def close(self):
-        pass
-
-
 def _folder():
     root = os.environ.get("ACUS_TEST_DATA")
     folder = Path(root or Path(__file__).parents[2] / ".." / "shared" / "data") / "marker_cases"
@@ -65,7 +55,7 @@ def _fixes(rig, folder):
     fixes = defaultdict(list)
     for pair in json.loads((folder / "truth.json").read_text())["pairs"]:
         axis = np.array(pair["axis"])
-        cameras = (_NoCamera(), _NoCamera())
+        cameras = (NoCamera(), NoCamera())
         tracker = Tracker(cameras, rig, VirtualClock(), lambda _t, axis=axis: axis, FULCRUM)
         images = [cv2.imread(str(folder / pair[side])) for side in ("left", "right")]
         fix = tracker.process(*(CameraFrame(image, 0.0) for image in images))
@@ -178,7 +168,7 @@ def test_colours_are_solved_as_a_dense_solver_does():
 @pytest.mark.parametrize("level", [0, 128, 255])
 def test_a_picture_of_one_colour_is_a_named_miss(wide, level):
     axis = np.array([0.0, 0.0, -1.0])
-    tracker = Tracker((_NoCamera(), _NoCamera()), wide, VirtualClock(), lambda _t: axis, FULCRUM)
+    tracker = Tracker((NoCamera(), NoCamera()), wide, VirtualClock(), lambda _t: axis, FULCRUM)
     image = np.full((480, 640, 3), level, np.uint8)
     fix = tracker.process(CameraFrame(image, 0.0), CameraFrame(image, 0.0))
     assert not fix.usable

@@ -4,33 +4,21 @@ import numpy as np
 import pytest
 
 from app.core.clock import VirtualClock
-from app.tracking.cameras.camera import Camera, CameraFrame
+from app.tracking.cameras.camera import CameraFrame
 from app.tracking.discrepancy import DiscrepancyCause
 from app.tracking.fix import FixStatus
 from app.tracking.simulated.obstacles import Patch, patch
 from app.tracking.tracker import Tracker
+from tests.tracking.camera_fakes import NoCamera
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 FRAMES = 52
 
 
-class _NoCamera(Camera):
-    """Never asked: the pictures are handed to the tracker."""
-
-    def open(self) -> None:
-        raise NotImplementedError
-
-    def read(self) -> CameraFrame:
-        raise NotImplementedError
-
-    def close(self) -> None:
-        raise NotImplementedError
-
-
 def _run(wide, renderers, scene_at, spoil, start=0, frames=FRAMES):
     """Fixes of a needle pushed and leaned while `spoil` changes the pictures from `start` on."""
     axis = [None]
-    tracker = Tracker((_NoCamera(), _NoCamera()), wide, VirtualClock(), lambda _: axis[0], FULCRUM)
+    tracker = Tracker((NoCamera(), NoCamera()), wide, VirtualClock(), lambda _: axis[0], FULCRUM)
     fixes = []
     for k in range(frames):
         scene = scene_at(0.03 + 0.0008 * k, 14.0, 30.0 + 0.5 * k)

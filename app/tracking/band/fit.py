@@ -39,6 +39,14 @@ SHADING_PRIOR = np.array([0.0, 1.0, 1.0, *[0.15**-2] * 2, *[0.03**-2] * 2])
 NOWHERE: Final = read_only(np.zeros((0, 0), dtype=np.bool_))
 """No pixel of a picture hidden."""
 
+MORE: Final = 3.5
+"""By how much the covariance of a fit in a delivered picture is larger than what its left-over
+noise makes: quantised blocks are alike beyond what is looked at."""
+
+MISFIT: Final = 2.6
+"""Largest mean square residual of the band in a delivered picture [noise variances]: few photons
+are noisy in a dark colour."""
+
 STRETCH_SD = 0.03
 """How well width and length are known beforehand, relative."""
 

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
 from app.tracking.cameras.camera import Image
+from app.tracking.markers.band_area import judged_by_area
 from app.tracking.markers.extractor import (
     Extractor,
     ExtractorSetup,
@@ -30,7 +31,6 @@ from app.tracking.markers.extractor import (
     MissReason,
 )
 from app.tracking.markers.outline_centroid import OutlineCentroid, outline_of
-from app.tracking.markers.shown import as_shown
 
 DECLARATION: Final[dict[str, Any]] = {"title": "Centre of an ellipse through the contour on rays"}
 
@@ -73,7 +73,7 @@ class EllipseMarker(Extractor):
         outline = self.coarse.find(image, hint)
         if isinstance(outline, Miss) or self.coarse.model is None or self.coarse.shape is None:
             return outline if isinstance(outline, Miss) else self._fit(image, outline)
-        shown = as_shown(outline, self.coarse.model, self.coarse.shape, hint)
+        shown = judged_by_area(outline, self.coarse.model, self.coarse.shape, hint)
         fit = shown if isinstance(shown, Miss) else self._fit(image, outline)
         if isinstance(shown, Miss) or isinstance(fit, Miss):
             return fit

@@ -94,7 +94,7 @@ class MarkerFix:
         quality: 0 to 1; share of the outline that is as a band's should be.
         centre: which point of the band `uv` is.
         alone: whether it can be nothing but the marker, so that it counts without another picture.
-        hidden: whether something in front hides a part of it.
+        occluded: whether something in front hides a part of it.
     """
 
     uv: FloatArray
@@ -103,7 +103,7 @@ class MarkerFix:
     quality: float
     centre: Centre = Centre.OUTLINE
     alone: bool = True
-    hidden: bool = False
+    occluded: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "uv", frozen(self.uv, (2,), "marker pixel"))
@@ -170,7 +170,7 @@ class Extractor(ABC):
     def search(self, image: Image) -> tuple[MarkerFix | Miss, ...]:
         """All that may be the marker in the whole picture: finds, the best first, then misses."""
 
-    def partly_hidden(
+    def find_occluded(
         self, image: Image, axis_world: FloatArray, nearest: Nearest
     ) -> MarkerFix | Miss:
         """Marker of which something in front hides a part, where an extractor can tell its place.

@@ -15,7 +15,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray, read_only, unit
 from app.tracking.band.delivered_fit import keeps_all_colour
-from app.tracking.band.fit import BandFit, BandFitter
+from app.tracking.band.fit import MISFIT, MORE, BandFit, BandFitter
 from app.tracking.band.tone import LINEAR, SRGB, ToneMemory
 from app.tracking.cameras.camera import Image
 from app.tracking.markers.bare_shaft import shaft_evidence
@@ -30,7 +30,7 @@ from app.tracking.markers.extractor import (
     MissReason,
     Nearest,
 )
-from app.tracking.markers.hidden_fit import HiddenBandFit
+from app.tracking.markers.occluded_fit import OccludedBandFit
 from app.tracking.markers.outline_centroid import OutlineCentroid, outline_of
 from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.optics.camera_model import CameraModel
@@ -75,10 +75,6 @@ _LONGER: Final = 0.04
 """By how much width and length may be off in a delivered picture, relative: its blur is free, so
 that a straight edge over the band's side or end leaves hardly anything else."""
 
-_MORE: Final = 3.5
-"""By how much the covariance of a fit in a delivered picture is larger than what its left-over
-noise makes: quantised blocks are alike beyond what is looked at."""
-
 _FLOOR_PX: Final = 0.015
 _STRETCH_SHARE, _STRETCH_BEYOND, _ORDINARY_STRETCH_PX = 0.03, 0.12, 0.2
 """Like `floor_px` and `_STRETCH`, in a delivered picture: width and length are off by so much in
@@ -87,9 +83,6 @@ ordinary ones without moving the centre; beyond, something hides a part of the b
 _BLURRED: Final = 0.0015
 """Variance of the centre per variance of the blur beyond the rig's, in its direction: light and
 speed are not the same throughout an exposure, so that its middle is not quite the motion's."""
-
-_MISFIT: Final = 2.6
-"""Like `ModelFit.misfit_max`, in a delivered picture: few photons are noisy in a dark colour."""
 
 
 @dataclass(frozen=True)
@@ -138,14 +131,14 @@ class ModelFit(Extractor):
         """Outlines' centroids: the fit comes with the axis, in `find`."""
         return self.coarse.search(image)
 
-    def partly_hidden(
+    def find_occluded(
         self, image: Image, axis_world: FloatArray, nearest: Nearest
     ) -> MarkerFix | Miss:
-        """See `Extractor.partly_hidden`."""
+        """See `Extractor.find_occluded`."""
         axis = self._axis(axis_world)
         if axis is None:
             return Miss(MissReason.PARTLY_HIDDEN)
-        hidden = HiddenBandFit(self.model, self.shape, self.fitter, self.coarse)
+        hidden = OccludedBandFit(self.model, self.shape, self.fitter, self.coarse)
         return hidden.find(image, axis, nearest, self.tone.likely)
 
     def mask(self, image: Image) -> Mask:
@@ -292,7 +285,7 @@ class ModelFit(Extractor):
             return Miss(MissReason.NO_SHAFT, fit.uv)
         inflation = max(1.0, fit.misfit)
         if delivered:
-            covariance = _MORE * fit.covariance + self._doubt_delivered(fit, start, axis)
+            covariance = MORE * fit.covariance + self._doubt_delivered(fit, start, axis)
         else:
             covariance = inflation * fit.covariance + self._doubt(fit, start, axis) * _ONE
         quality = (1.0 - fit.outliers) / inflation
@@ -304,7 +297,7 @@ class ModelFit(Extractor):
         if not self.coarse.colour.is_marker(fit.paint):
             return MissReason.NOTHING_RED
         if fit.outliers > self.outliers_max or fit.misfit > (
-            _MISFIT if delivered else self.misfit_max
+            MISFIT if delivered else self.misfit_max
         ):
             return MissReason.PARTLY_HIDDEN
         width, length = fit.stretch.tolist()

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from app.core.arrays import FloatArray, read_only
 from app.core.compiled import REORDERED, njit
 from app.tracking.cameras.camera import Image
+from app.tracking.markers.band_area import judged_by_area
 from app.tracking.markers.colour import RED, ColourModel
 from app.tracking.markers.extractor import (
     Extractor,
@@ -31,7 +32,6 @@ from app.tracking.markers.extractor import (
     MissReason,
 )
 from app.tracking.markers.rim import outline_moments
-from app.tracking.markers.shown import as_shown
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape
 
@@ -310,7 +310,7 @@ class OutlineCentroid(Extractor):
         outline = self._in_region(image, hint.uv)
         if isinstance(outline, Miss) or self.rough or self.model is None or self.shape is None:
             return outline
-        return as_shown(outline, self.model, self.shape, hint)
+        return judged_by_area(outline, self.model, self.shape, hint)
 
     def search(self, image: Image) -> tuple[MarkerFix | Miss, ...]:
         """Look at every second pixel for red patches of the right size, then closely at each."""

@@ -11,12 +11,12 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.tracking.band.fit import BandFit, BandFitter
+from app.tracking.band.fit import MISFIT, MORE, BandFit, BandFitter
 from app.tracking.band.outline import Outline, strips, trace
 from app.tracking.cameras.camera import Image
 from app.tracking.markers.bare_shaft import differences
 from app.tracking.markers.extractor import Centre, MarkerFix, Miss, MissReason, Nearest
-from app.tracking.markers.hidden import Cover, CoverSide, covers, glimpses
+from app.tracking.markers.occlusion import OccludedSide, Occlusion, occlusions, paint_patches
 from app.tracking.markers.outline_centroid import OutlineCentroid
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape
@@ -26,7 +26,6 @@ _STRETCH_SD: Final = 0.01
 
 _STRETCHED: Final = 0.025
 _BLURRED_PX: Final = 0.35
-_MISFIT: Final = 2.6
 _OUTLIERS: Final = 0.06
 """Limits of a fit: of its width and length, its blur beyond the lens' own, its residual and what is
 left out. What hides a moving band is not told from its blur."""
@@ -40,10 +39,9 @@ _ACROSS_PX: Final = 1.5
 _ALIKE_PX: Final = 0.5
 """By how much fits with something on one side or another may differ."""
 
-_MORE: Final = 3.5
 _FLOOR_PX: Final = 0.2
-"""The covariance is so many times that of the noise, and this squared: the edge of what hides the
-band is no straight line, and its blur reaches farther than is left out in some pictures."""
+"""Standard deviation beside that of the fit: the edge of what hides the band is no straight line,
+and its blur reaches farther than is left out in some pictures."""
 
 _OTHERWISE: Final = 0.25
 """Share of the squared difference to the place by a tone curve or a gloss that may be as well: an
@@ -53,7 +51,7 @@ _QUALITY: Final = 0.5
 
 
 @dataclass(frozen=True)
-class HiddenBandFit:
+class OccludedBandFit:
     """Finds a partly hidden band in one camera's pictures.
 
     Attributes:
@@ -76,10 +74,10 @@ class HiddenBandFit:
         Args:
             image: the picture.
             axis: unit vector from hub to tip in the camera frame, shape (3,).
-            nearest: see `Extractor.partly_hidden`.
+            nearest: see `Extractor.find_occluded`.
             gammas: tone curves that the picture may have, the likeliest first.
         """
-        for uv in glimpses(image, self.coarse.colour, self.coarse.area_max):
+        for uv in paint_patches(image, self.coarse.colour, self.coarse.area_max):
             p_world = nearest(uv)
             if p_world is None:
                 continue
@@ -100,11 +98,11 @@ class HiddenBandFit:
         if not seen:
             return None
         fits: list[MarkerFix] = []
-        candidates = covers(image, outline, self.coarse.colour)
-        for cover in sorted(candidates, key=lambda cover: cover.mixed):
-            if not self._proves(image, outline, cover):
+        candidates = occlusions(image, outline, self.coarse.colour)
+        for occlusion in sorted(candidates, key=lambda occlusion: occlusion.mixed):
+            if not self._proves(image, outline, occlusion):
                 continue
-            fit = self._fit(image, outline, cover, float(p_camera[2]), axis, gammas)
+            fit = self._fit(image, outline, occlusion, float(p_camera[2]), axis, gammas)
             if fit is None and not fits:  # what parts the colours best is not before the band
                 return None
             if fit is not None:
@@ -113,33 +111,33 @@ class HiddenBandFit:
             return None
         return fits[0]
 
-    def _proves(self, image: Image, outline: Outline, cover: Cover) -> bool:
+    def _proves(self, image: Image, outline: Outline, occlusion: Occlusion) -> bool:
         """Tell whether the shaft is bare beyond the visible end, or along the visible flank."""
         steps = differences(
             image,
             outline,
-            np.array([*cover.shift, 1.0, 1.0]),
+            np.array([*occlusion.shift, 1.0, 1.0]),
             self.shape,
             self.coarse.colour.weights,
-            cover.strength,
+            occlusion.strength,
             self.coarse.blur_px,
             self.coarse.noise_grey,
         )
-        ends = {CoverSide.HUB: steps[1], CoverSide.TIP: steps[0]}
-        largest = np.sort(ends.get(cover.side, steps).ravel())
-        return float(largest[-3 if cover.side is CoverSide.NOWHERE else -2]) >= _PROOF
+        ends = {OccludedSide.HUB: steps[1], OccludedSide.TIP: steps[0]}
+        largest = np.sort(ends.get(occlusion.side, steps).ravel())
+        return float(largest[-3 if occlusion.side is OccludedSide.NOWHERE else -2]) >= _PROOF
 
     def _fit(
         self,
         image: Image,
         outline: Outline,
-        cover: Cover,
+        occlusion: Occlusion,
         depth: float,
         axis: FloatArray,
         gammas: tuple[float, ...],
     ) -> MarkerFix | None:
         """Fit what a thing leaves visible of the band; None where that is not what the band is."""
-        seen = self.model.ray(np.array([outline.u, outline.v]) + cover.shift)
+        seen = self.model.ray(np.array([outline.u, outline.v]) + occlusion.shift)
         if seen is None:
             return None
         start = depth * np.array([seen[0], seen[1], 1.0])
@@ -147,7 +145,7 @@ class HiddenBandFit:
         for gamma in gammas:
             both = [
                 self.fitter.fit_delivered(
-                    image, start, axis, gamma, glossy, cover.pixels, _STRETCH_SD
+                    image, start, axis, gamma, glossy, occlusion.pixels, _STRETCH_SD
                 )
                 for glossy in (False, True)
             ]
@@ -156,12 +154,12 @@ class HiddenBandFit:
             if not fits:
                 return None
         fit = fits[0]
-        covariance = _MORE * fit.covariance + _FLOOR_PX**2 * np.eye(2)
+        covariance = MORE * fit.covariance + _FLOOR_PX**2 * np.eye(2)
         for other in fits[1:]:
             apart = other.uv - fit.uv
             covariance = covariance + _OTHERWISE * np.outer(apart, apart)
         return MarkerFix(
-            fit.uv, covariance, fit.area, _QUALITY, Centre.BAND, alone=False, hidden=True
+            fit.uv, covariance, fit.area, _QUALITY, Centre.BAND, alone=False, occluded=True
         )
 
     def _is_band(self, fit: BandFit, outline: Outline) -> bool:
@@ -169,7 +167,7 @@ class HiddenBandFit:
         across = dv * outline.eu - du * outline.ev
         return (
             self.coarse.colour.is_marker(fit.paint)
-            and fit.misfit <= _MISFIT
+            and fit.misfit <= MISFIT
             and fit.outliers <= _OUTLIERS
             and float(np.abs(fit.stretch - 1.0).max()) <= _STRETCHED
             and abs(across) <= _ACROSS_PX

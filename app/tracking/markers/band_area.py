@@ -24,7 +24,7 @@ WHOLE: Final = 0.97
 """Share of the area of a band that is surely seen whole."""
 
 
-def as_shown(
+def judged_by_area(
     fix: MarkerFix, model: CameraModel, shape: NeedleShape, hint: Hint
 ) -> MarkerFix | Miss:
     """Refuse an outline that is too small for the whole band, state what may be hidden of others.

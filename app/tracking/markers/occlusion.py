@@ -47,7 +47,7 @@ _FEW: Final = 4
 """Fewest hidden pixels that tell where an edge is."""
 
 
-class CoverSide(Enum):
+class OccludedSide(Enum):
     """Where something stands before the band: direction (e, n) from its middle."""
 
     NOWHERE = (0, 0)
@@ -58,7 +58,7 @@ class CoverSide(Enum):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Cover:
+class Occlusion:
     """Something before the band.
 
     Attributes:
@@ -69,14 +69,14 @@ class Cover:
         mixed: pixels on the wrong side of its edge, over the hidden ones.
     """
 
-    side: CoverSide
+    side: OccludedSide
     shift: FloatArray
     pixels: NDArray[np.bool_]
     strength: float
     mixed: float
 
 
-def covers(image: Image, outline: Outline, colour: ColourModel) -> tuple[Cover, ...]:
+def occlusions(image: Image, outline: Outline, colour: ColourModel) -> tuple[Occlusion, ...]:
     """Return what may stand before a band, each side at most once; nothing at all is `NOWHERE`.
 
     Args:
@@ -96,19 +96,19 @@ def covers(image: Image, outline: Outline, colour: ColourModel) -> tuple[Cover, 
     n = (v - outline.v) * outline.eu - (u - outline.u) * outline.ev
     strength, painted = _painted(image[top:bottom, left:right], colour)
     result = []
-    for side in CoverSide:
-        place = _cover(outline, e, n, painted, side)
+    for side in OccludedSide:
+        place = _occlusion(outline, e, n, painted, side)
         if place is None:
             continue
         shift, beyond, mixed = place
         pixels = np.zeros((height, width), dtype=np.bool_)
         pixels[top:bottom, left:right] = beyond
         seen = float(np.median(strength[painted & ~beyond])) if (painted & ~beyond).any() else 0.0
-        result.append(Cover(side, shift, read_only(pixels), seen, mixed))
+        result.append(Occlusion(side, shift, read_only(pixels), seen, mixed))
     return tuple(result)
 
 
-def glimpses(image: Image, colour: ColourModel, most: float) -> list[FloatArray]:
+def paint_patches(image: Image, colour: ColourModel, most: float) -> list[FloatArray]:
     """Middles of what is as pure as the marker's paint, the largest first [px], each (2,).
 
     Args:
@@ -143,8 +143,8 @@ def _painted(window: Image, colour: ColourModel) -> tuple[FloatArray, NDArray[np
     return strength, (strength > 0.5 * colour.strength) & (purity > _PURE * usual)
 
 
-def _cover(
-    outline: Outline, e: FloatArray, n: FloatArray, painted: NDArray[np.bool_], side: CoverSide
+def _occlusion(
+    outline: Outline, e: FloatArray, n: FloatArray, painted: NDArray[np.bool_], side: OccludedSide
 ) -> tuple[FloatArray, NDArray[np.bool_], float] | None:
     """Return the band's shift, what is hidden in the window and how mixed; None if it cannot be."""
     low, high = float(outline.arcs[0].mean()), float(outline.arcs[1].mean())
@@ -152,11 +152,11 @@ def _cover(
     if near.sum() < _LEAST:
         return None
     first, last = _extent(e[near])
-    along = {CoverSide.HUB: last - high, CoverSide.TIP: first - low}.get(
+    along = {OccludedSide.HUB: last - high, OccludedSide.TIP: first - low}.get(
         side, 0.5 * (first + last - low - high)
     )
     at = e - along
-    whole = side is CoverSide.NOWHERE
+    whole = side is OccludedSide.NOWHERE
     long, wide = (_INSIDE_PX if whole or k else _BESIDE_PX for k in side.value)
     inside = (at > low + long) & (at < high - long)
     inside &= (n > outline.left + outline.left_slope * at + wide) & (
@@ -177,7 +177,7 @@ def _cover(
 
 
 def _extent(values: FloatArray) -> tuple[float, float]:
-    """Return the ends of what the pixels cover, but for stray ones."""
+    """Return the ends of what the pixels occlusion, but for stray ones."""
     first, last = np.quantile(values, (0.02, 0.98)).tolist()
     return first - 0.5, last + 0.5
 
@@ -194,7 +194,7 @@ def _edge(
     n: FloatArray,
     seen: NDArray[np.bool_],
     hidden: NDArray[np.bool_],
-    side: CoverSide,
+    side: OccludedSide,
 ) -> tuple[FloatArray, float, float]:
     """Straight line that parts seen and hidden pixels best.
 
