@@ -34,6 +34,7 @@ from app.planning.placement import Placement
 from app.session.control_scan import ControlScan
 from app.session.machine import State
 from app.session.shown_views import Shown
+from app.views.accuracy.feature import AccuracyFeature
 from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.run import ExerciseRun
 from app.views.robot.feature import RobotFeature
@@ -78,6 +79,7 @@ def texts(window: QWidget, health: bool = True) -> dict[str, list[str]]:
         pages += [
             shown.status,
             window.feature(RobotFeature).panel,
+            window.feature(AccuracyFeature).panel,  # of the time that a tick takes just now
             shown.tracker_panel,
             window.progress,
         ]

@@ -51,7 +51,9 @@ class FakeTrainer:
         device = SimpleNamespace(tick=9, q=np.array([3.0, 0.1]), hub=tip - 0.2 * axis,
                                  felt=np.zeros(3), fault=0, row=empty_state(),
                                  qd=np.zeros(2), torque=np.zeros(2))  # fmt: skip
-        timing = SimpleNamespace(median=8e-5, p99=2e-4, missed=0, ticks=9)
+        timing = SimpleNamespace(
+            median=8e-5, p99=2e-4, missed=0, ticks=9, cost=8e-5, rate_hz=1000.0
+        )
 
         away = offset(pose, placed.p_target, placed)
         return Snapshot(1.0, self.state, "", 0.0, MappingProxyType({}), pose, away,

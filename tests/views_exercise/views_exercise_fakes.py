@@ -67,7 +67,9 @@ def snapshot(placed: PlacedPlan | None = None, **changes: Any) -> Snapshot:
         "phases": MappingProxyType({}), "pose": where,
         "offset": offset(where, placed.p_target, placed), "p_target": placed.p_target,
         "device": device, "tracker": statistics(),
-        "timing": SimpleNamespace(median=8e-5, p99=2e-4, missed=2, ticks=5000),
+        "timing": SimpleNamespace(
+            median=8e-5, p99=2e-4, missed=2, ticks=5000, cost=8e-5, rate_hz=1000.0
+        ),
         "fix_status": "valid", "scans": 0, "assistance": 1.0, "armed": False,
         "recording": RecordingStatus(Path("a.mcap"), True, "", 10, 0, 0), "messages": (),
     }  # fmt: skip
