@@ -39,15 +39,20 @@ def register(app: typer.Typer) -> None:
     app.add_typer(session, name="session")
 
 
-def tell_folder(only_elsewhere: bool = False) -> None:
-    """Say where attempts are kept, and on standard error which lie in the source tree."""
+def tell_folder() -> None:
+    """Say where attempts are kept, and which lie in the source tree."""
+    from app.core import paths
+
+    typer.echo(f"attempts are kept in {paths.sessions()}")
+    tell_elsewhere()
+
+
+def tell_elsewhere() -> None:
+    """Say on standard error which attempts lie in the source tree."""
     from app.core import paths
     from app.session.elsewhere import elsewhere
 
-    folder = paths.sessions()
-    if not only_elsewhere:
-        typer.echo(f"attempts are kept in {folder}")
-    found = elsewhere(folder)
+    found = elsewhere(paths.sessions())
     if found is not None:
         typer.echo(found.words, err=True)
 
@@ -59,7 +64,7 @@ def list_(folder: FolderOption = None) -> Answer:
     the variable ACUS_INSTRUCTOR_PASSWORD.
     """
     if folder is None:
-        tell_folder(only_elsewhere=True)
+        tell_elsewhere()
     from app.commands.doors import visitor
     from app.session.store import list_sessions
 
