@@ -41,8 +41,9 @@ def with_progress(work: "Callable[[Progress], T]") -> T:
     """Run `work(progress)` with a bar on the standard error; Ctrl-C cancels it."""
     from rich.progress import Progress as Bar
 
-    from app.commands.output import console, printable
+    from app.commands.output import console
     from app.core.progress import Progress
+    from app.core.words import printable
 
     with Bar(console=console(stderr=True), transient=True, disable=wants_json()) as bar:
         task = bar.add_task("", total=1.0)

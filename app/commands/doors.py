@@ -5,19 +5,22 @@ password stands in the variable `ACUS_INSTRUCTOR_PASSWORD`, or is asked for.
 """
 
 import os
+import sys
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from contextlib import redirect_stdout
+from typing import TYPE_CHECKING
 
 import typer
 
 if TYPE_CHECKING:
     from app.session.access import Visitor
+    from app.session.people import People
     from app.session.summary import Summary
 
 PASSWORD = "ACUS_INSTRUCTOR_PASSWORD"
 
 
-def instructor(people: Any = None) -> None:
+def instructor(people: "People | None" = None) -> None:
     """Let only the instructor go on, where one is set: the password is asked for.
 
     Args:
@@ -34,8 +37,20 @@ def instructor(people: Any = None) -> None:
         return
     given = os.environ.get(PASSWORD)
     if given is None:
-        given = typer.prompt("Instructor's password", hide_input=True, err=True)
+        given = secret("Instructor's password")
     people.check_instructor(given)
+
+
+def secret(question: str, confirm: bool = False) -> str:
+    """Ask for a secret, which a terminal does not show; without one, read it as a line."""
+    try:
+        os.close(os.open("/dev/tty", os.O_RDWR))
+        hidden = True
+    except OSError:  # `getpass` would warn that it may be shown, where nothing shows anything
+        hidden = False
+    with redirect_stdout(sys.stderr):  # `input` writes the end of its question to the answer
+        answer = typer.prompt(question, hide_input=hidden, confirmation_prompt=confirm, err=True)
+    return str(answer)
 
 
 def visitor() -> "Visitor":

@@ -1,30 +1,17 @@
-"""The door through which everything is printed: other people's words cannot steer the terminal.
-
-Names of patients, pupils, files and peers come from elsewhere. A control character among them
-could move the cursor, hide a line or set the window's title (ECMA-48), and a bidirectional override
-lets a line read otherwise than it stands (UAX #9).
-"""
+"""The door through which everything is printed: other people's words cannot steer the terminal."""
 
 from __future__ import annotations
 
 import os
-import re
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, Final, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
+
+from app.core.words import printable
 
 if TYPE_CHECKING:
     from rich.console import Console
-
-_STEERING: Final = re.compile(
-    "[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028\u2029\u202a-\u202e\u2066-\u2069]"
-)
-
-
-def printable(text: str) -> str:
-    r"""Return the text with each character that steers a terminal as ``\u001b``; lines stay."""
-    return _STEERING.sub(lambda match: f"\\u{ord(match[0]):04x}", text)
 
 
 class PrintableStream:

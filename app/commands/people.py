@@ -7,7 +7,8 @@ import typer
 
 from app.commands import completion
 from app.commands.answer import Answer, Commands
-from app.commands.doors import instructor
+from app.commands.doors import instructor, secret
+from app.core.words import counted
 
 Pseudonym = Annotated[
     str,
@@ -114,7 +115,9 @@ def roster(
         "pins": dict(done.pins),
         "errors": every,
     }
-    said = [*every, f"{len(done.added)} students added, {len(done.updated)} updated"]
+    added = len(done.added)
+    students = counted(added, "1 student", f"{added} students")
+    said = [*every, f"{students} added, {len(done.updated)} updated"]
     said += [f"{name:24} PIN {pin}" for name, pin in done.pins.items()]
     return Answer(facts, said, yes=not every)
 
@@ -198,7 +201,7 @@ def set_instructor(
         people.recover(key, _new_password())
         return Answer({"recovery_key": None}, ["the password was changed"])
     if people.has_instructor():
-        old = typer.prompt("Password now", hide_input=True, err=True)
+        old = secret("Password now")
         people.change_password(old, _new_password())
         return Answer({"recovery_key": None}, ["the password was changed"])
     recovery = people.set_instructor(_new_password())
@@ -318,4 +321,4 @@ def save_course(
 
 
 def _new_password() -> str:
-    return str(typer.prompt("New password", hide_input=True, confirmation_prompt=True, err=True))
+    return secret("New password", confirm=True)

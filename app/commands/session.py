@@ -9,6 +9,7 @@ import typer
 from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import PASSWORD, instructor, see
+from app.core.words import counted, printable
 
 Id = Annotated[
     str,
@@ -38,15 +39,20 @@ def register(app: typer.Typer) -> None:
     app.add_typer(session, name="session")
 
 
-def tell_folder(only_elsewhere: bool = False) -> None:
-    """Say where attempts are kept, and on standard error which lie in the source tree."""
+def tell_folder() -> None:
+    """Say where attempts are kept, and which lie in the source tree."""
+    from app.core import paths
+
+    typer.echo(f"attempts are kept in {paths.sessions()}")
+    tell_elsewhere()
+
+
+def tell_elsewhere() -> None:
+    """Say on standard error which attempts lie in the source tree."""
     from app.core import paths
     from app.session.elsewhere import elsewhere
 
-    folder = paths.sessions()
-    if not only_elsewhere:
-        typer.echo(f"attempts are kept in {folder}")
-    found = elsewhere(folder)
+    found = elsewhere(paths.sessions())
     if found is not None:
         typer.echo(found.words, err=True)
 
@@ -58,7 +64,7 @@ def list_(folder: FolderOption = None) -> Answer:
     the variable ACUS_INSTRUCTOR_PASSWORD.
     """
     if folder is None:
-        tell_folder(only_elsewhere=True)
+        tell_elsewhere()
     from app.commands.doors import visitor
     from app.session.store import list_sessions
 
@@ -71,7 +77,8 @@ def list_(folder: FolderOption = None) -> Answer:
         "sessions": [s.document() for s in summaries],
         "hidden": hidden,
     }
-    note = f"{hidden} attempts of students are for the instructor: {PASSWORD} holds the password"
+    students = counted(hidden, "1 attempt of a student is", f"{hidden} attempts of students are")
+    note = f"{students} for the instructor: {PASSWORD} holds the password"
     if not summaries:
         return Answer(facts, [note if hidden else f"no sessions in {place}"])
     return Answer(facts, lambda: _print_table(summaries, note if hidden else ""))
@@ -140,7 +147,7 @@ def verify(
     from app.session.admission import admissions, with_admission
     from app.session.index import Index
     from app.session.recording import open_recording
-    from app.session.sidecar import file_digest, verify_record
+    from app.session.sidecar import cached, file_digest, sidecar, verify_record
     from app.session.signature import Signed, judge_whole
     from app.session.station import this_station
     from app.session.store import find
@@ -159,6 +166,8 @@ def verify(
     }
     lines = [*found.sentences(), f"signature: {signed.sentence()}"]
     lines += [f"admitted by the instructor: {facts['admitted']}"] if facts["admitted"] else []
+    if (kept := cached(path)) is not None and not kept.intact:
+        lines.append(f"{sidecar(path).name} is not sealed by this station: lists read the record")
     lines += [f"the index was altered: {problem}" for problem in index]
     return Answer(
         found.document() | facts,
@@ -274,10 +283,12 @@ def gather() -> Answer:
         return Answer({"folder": folder, "from": None, "gathered": 0, "left": 0}, ["nothing to do"])
     count = bring(found, folder, People())
     left = len(found.records) - count
-    lines = [f"{count} attempts brought from {found.folder} to {folder}"]
+    brought = counted(count, "1 attempt", f"{count} attempts")
+    lines = [f"{brought} brought from {found.folder} to {folder}"]
     if left:
+        stay = counted(left, "1 stays", f"{left} stay")
         lines.append(
-            f"{left} stay there, which this station did not sign: "
+            f"{stay} there, not signed by this station: "
             f"`acus session list --folder {found.folder}` lists them"
         )
     facts = {"folder": folder, "from": found.folder, "gathered": count, "left": left}
@@ -391,8 +402,6 @@ def _print_table(summaries: list[Any], note: str) -> None:
 def _plain(text: str) -> Any:
     """Text that no markup is read from: pseudonyms and reasons are other people's words."""
     from rich.text import Text
-
-    from app.commands.output import printable
 
     return Text(printable(text))
 

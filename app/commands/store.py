@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from app.commands.answer import Answer, Commands
+from app.core.words import counted
 
 FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
@@ -89,7 +90,7 @@ def backup(
     instructor(people)
     count = with_progress(lambda progress: archive.backup(out, place, people, progress))
     key = bool(people.wrapped_key())
-    lines = [f"{count} records written to {out}"]
+    lines = [f"{counted(count, '1 record', f'{count} records')} written to {out}"]
     left = archive.left_out()
     lines += [f"not in it: {line}" for line in left]
     if not key:
@@ -160,4 +161,5 @@ def empty(
 
     instructor()
     gone = empty_trash(records_folder(folder), days)
-    return Answer({"deleted": gone}, [f"{len(gone)} attempts deleted for good"])
+    attempts = counted(len(gone), "1 attempt", f"{len(gone)} attempts")
+    return Answer({"deleted": gone}, [f"{attempts} deleted for good"])

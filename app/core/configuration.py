@@ -12,11 +12,10 @@ from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, fie
 from pydantic_core import ErrorDetails
 
 from app.core.errors import ConfigurationError
+from app.core.files import LARGEST_FILE as LARGEST_FILE
+from app.core.files import read_at_most
 
 M = TypeVar("M", bound="Strict")
-
-LARGEST_FILE = 1 << 20
-"""No file of settings, profile, calibration or exercise is larger [bytes]."""
 
 MOST_VALUES = 200_000
 """Nor holds more values than this; a few lines of aliases can stand for any number of them."""
@@ -80,16 +79,9 @@ def read_text(path: Path) -> str:
         ConfigurationError: if the file cannot be read, is larger than `LARGEST_FILE` or is no text.
     """
     try:
-        with path.open("rb") as file:
-            data = file.read(LARGEST_FILE + 1)
+        return read_at_most(path).decode("utf-8")
     except OSError as error:
         raise ConfigurationError(f"cannot read {path}: {error.strerror or error}") from error
-    if len(data) > LARGEST_FILE:
-        raise ConfigurationError(
-            f"{path} is larger than {LARGEST_FILE >> 20} MB; no file of settings is: choose another"
-        )
-    try:
-        return data.decode("utf-8")
     except UnicodeDecodeError as error:
         raise ConfigurationError(f"{path} is not valid YAML: {_one_line(error)}") from error
 

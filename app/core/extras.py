@@ -29,10 +29,14 @@ def not_installed(family: type[_Family], what: str, extra: str, instead: str = "
 
 
 def install_command(extra: str) -> str:
-    """Return the command that installs an extra: in the source folder, or beside the program."""
+    """Return the command that installs an extra: in the source folder, or beside the program.
+
+    Where nothing says of what it consists no package is named: one called as it is a stranger's.
+    """
     if in_checkout():
         return f"make extra NAME={extra}"
-    return "pip install " + (" ".join(f"'{name}'" for name in packages(extra)) or extra)
+    names = " ".join(f"'{name}'" for name in packages(extra))
+    return f"pip install {names}" if names else "its packages stand in pyproject.toml"
 
 
 def packages(extra: str) -> list[str]:

@@ -16,6 +16,9 @@ from pathlib import Path
 
 from app.core.temporary import name_of_process, process_has_gone
 
+LARGEST_FILE = 1 << 20
+"""No file of settings, profile, calibration, exercise or summary is larger [bytes]."""
+
 Watch = Callable[[str, Path], None]
 """Told what is about to be done, and to which file or folder."""
 
@@ -38,7 +41,7 @@ def step(what: str, path: Path) -> None:
         watch(what, path)
 
 
-def read_at_most(path: Path, most: int = 1 << 20) -> bytes:
+def read_at_most(path: Path, most: int = LARGEST_FILE) -> bytes:
     """Read a whole file that somebody else may have written, if it is no larger than it may be.
 
     Args:

@@ -19,7 +19,7 @@ def in_checkout() -> bool:
 
 
 def tree_sessions() -> Path | None:
-    """`sessions/` of the source tree that the program runs from; None of one that is installed.
+    """Return `sessions/` of the source tree that the program runs from; None where it is installed.
 
     Nothing is written there unless `ACUS_SESSIONS` names it, as `make run` does.
     """
@@ -41,12 +41,12 @@ def keep_private() -> None:
 
 
 def sessions() -> Path:
-    """Folder of recordings: `ACUS_SESSIONS`, else the user's own."""
+    """Return the folder of recordings: `ACUS_SESSIONS`, else the user's own."""
     return Path(os.environ.get("ACUS_SESSIONS") or own_sessions())
 
 
 def own_sessions() -> Path:
-    """Folder of recordings in the user's data folder."""
+    """Return the folder of recordings in the user's data folder."""
     return data() / "sessions"
 
 

@@ -149,7 +149,7 @@ def _left_jacobian(omega: FloatArray) -> FloatArray:
 
 
 def exponentials(twists: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Rotations (n, 3, 3) and translations (n, 3) of twists (n, 6); see `RigidTransform.exp`."""
+    """Return rotations (n, 3, 3), shifts (n, 3) of twists (n, 6); see `RigidTransform.exp`."""
     omega = twists[:, 3:]
     angle = np.linalg.norm(omega, axis=1)
     w = np.zeros((len(omega), 3, 3))

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from app.core.disclaimer import DISCLAIMER
 from app.core.files import write_atomically
+from app.core.words import printable
 from app.exchange.errors import ExportError
 from app.exchange.markups import SCHEMA
 from app.imaging.volume import Volume
@@ -47,7 +48,10 @@ def table_text(lines: Iterable[Sequence[object]], semicolons: bool = False) -> s
 
 
 def cell(value: object, decimal: str = ".") -> str:
-    """Text of a cell; what a spreadsheet would run as a formula begins with an apostrophe."""
+    """Return the text of a cell; nothing in it steers a terminal but the ends of its lines.
+
+    What a spreadsheet would run as a formula begins with an apostrophe.
+    """
     if value is None:
         return ""
     if isinstance(value, bool):
@@ -56,7 +60,7 @@ def cell(value: object, decimal: str = ".") -> str:
         return f"{value:.9g}".replace(".", decimal) if np.isfinite(value) else ""
     if isinstance(value, int):
         return str(value)
-    text = str(value)
+    text = "\r".join(map(printable, str(value).split("\r")))
     return f"'{text}" if text.startswith(_FORMULA) else text
 
 

@@ -56,6 +56,34 @@ class MetricOutcome:
     asked: bool = True
 
 
+def outcome(
+    module: Any,
+    trajectory: Trajectory,
+    borne: type[BaseException] = MetricUnavailableError,
+) -> MetricOutcome:
+    """Ask a metric's file for its value of an attempt, and for its deviation where it knows one.
+
+    Args:
+        module: the file.
+        trajectory: the attempt.
+        borne: what its `deviation` may raise: the value stands.
+
+    Raises:
+        BaseException: whatever else the file raises.
+    """
+    try:
+        value = float(module.compute(trajectory))
+    except MetricUnavailableError as error:
+        return MetricOutcome(None, None, str(error), not isinstance(error, MetricNotAskedError))
+    if not isfinite(value):
+        return MetricOutcome(None, None, "the value is too large to be written as a number")
+    try:
+        sd = float(module.deviation(trajectory)) if hasattr(module, "deviation") else -1.0
+    except borne:
+        sd = -1.0
+    return MetricOutcome(value, sd if isfinite(sd) and sd >= 0.0 else None, "")
+
+
 _LOAD: Final[Job[None]] = Job("app.scoring.foreign:load", None)
 _MEASURE: Final[Job[MetricOutcome]] = Job("app.scoring.foreign:measure", MetricOutcome)
 
@@ -140,16 +168,9 @@ def measure(path: Path, packed: NDArray[np.uint8], progress: Progress) -> Metric
     except BaseException as error:
         return MetricOutcome(None, None, f"{path} cannot be imported: {_named(error)}")
     try:
-        value = float(module.compute(trajectory))
-    except MetricNotAskedError as error:
-        return MetricOutcome(None, None, str(error), asked=False)
-    except MetricUnavailableError as error:
-        return MetricOutcome(None, None, str(error))
+        return outcome(module, trajectory, BaseException)
     except BaseException as error:
         return MetricOutcome(None, None, f"{path}: compute() fails: {_named(error)}")
-    if not isfinite(value):
-        return MetricOutcome(None, None, "the value is too large to be written as a number")
-    return MetricOutcome(value, _deviation(module, trajectory), "")
 
 
 def _module(path: Path) -> Any:
@@ -169,16 +190,6 @@ def _module(path: Path) -> Any:
         raise
     vars(module)["_acus_stamp"] = str(path), stamp
     return module
-
-
-def _deviation(module: Any, trajectory: Trajectory) -> float | None:
-    if not hasattr(module, "deviation"):
-        return None
-    try:
-        sd = float(module.deviation(trajectory))
-    except BaseException:  # the value stands
-        return None
-    return sd if isfinite(sd) and sd >= 0.0 else None
 
 
 def _named(error: BaseException) -> str:

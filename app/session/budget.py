@@ -48,7 +48,7 @@ class ReadingBudget:
 
     @classmethod
     def of(cls, path: Path) -> "ReadingBudget":
-        """Budget of a file on the disk."""
+        """Return the budget of a file on the disk."""
         return cls(path.name, size_of(path))
 
     def take(self, count: int) -> None:
@@ -77,7 +77,7 @@ class ReadingBudget:
 
 
 def allowed_bytes(size: int) -> int:
-    """Memory that a record of this size may take [bytes]."""
+    """Return how much memory a record of this size may take [bytes]."""
     most = LEAST_BYTES + BYTES_PER_BYTE * size
     if most <= MEMORY_BYTES:
         return most

@@ -13,6 +13,7 @@ from pathlib import Path
 from uuid import uuid4
 
 from app.core import paths
+from app.core.words import counted
 from app.session.errors import SessionError
 from app.session.header import TRASH
 from app.session.journal import Journal, Step, move, removal
@@ -36,8 +37,10 @@ class Elsewhere:
     @property
     def words(self) -> str:
         """Say in one line how many lie where, and what can be done about it."""
+        count = len(self.records)
+        lie = counted(count, "1 attempt lies", f"{count} attempts lie")
         return (
-            f"{len(self.records)} attempts lie in {self.folder}, where earlier versions kept them: "
+            f"{lie} in {self.folder}, where earlier versions kept attempts: "
             f"`acus session gather` brings yours here, `acus session list --folder {self.folder}` "
             "lists all"
         )

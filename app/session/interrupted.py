@@ -27,9 +27,10 @@ from app.core.descriptors import hold, is_held
 from app.core.files import replace, sync
 from app.session.errors import SessionError
 from app.session.machine import FINAL
-from app.session.recording import read_recording
+from app.session.recording import open_recording, read_recording
 from app.session.sidecar import read_summary
-from app.session.signature import signature_file
+from app.session.signature import Signed, judge_whole, signature_file
+from app.session.station import this_station
 from app.session.store import find, records, settled
 from app.session.summary import BROKEN, Summary
 from app.session.verify import state_of
@@ -84,7 +85,7 @@ def is_cut_off(path: Path) -> bool:
 def recover(folder: Path, session_id: str, now: float | None = None) -> Path:
     """Close a record that was cut off: all that is whole in it stays; return its file.
 
-    One that has its end already stays as it is.
+    One that has its end and is as it was signed stays as it is.
 
     Args:
         folder: of the records.
@@ -94,10 +95,12 @@ def recover(folder: Path, session_id: str, now: float | None = None) -> Path:
     Raises:
         SessionNotFoundError: if there is no such session.
         BrokenRecordingError: if it holds nothing of an attempt.
-        SessionError: if a program still writes it, or it cannot be written.
+        SessionError: if a program still writes it, it cannot be written, or it was altered or cut
+            after it was signed.
     """
     path, now = find(folder, session_id), time.time() if now is None else now
     if not is_cut_off(path):
+        _require_whole(path)
         return path
     beside = path.with_name(f".{path.name}.part")
     try:
@@ -128,6 +131,17 @@ def recover(folder: Path, session_id: str, now: float | None = None) -> Path:
 
 
 # --- inside ---------------------------------------------------------------------------------------
+def _require_whole(path: Path) -> None:
+    check = judge_whole(path, this_station())
+    altered = check.verdict is Signed.ALTERED
+    if altered or not open_recording(path).complete:
+        why = f"altered after it was signed ({check.why})" if altered else "cut or damaged"
+        raise SessionError(
+            f"{path.stem} was {why} and cannot be recovered from itself; a backup may hold it "
+            "whole (`acus store restore`)"
+        )
+
+
 def _end(path: Path, now: float) -> bytes:
     """Return what closes a record: what became of the attempt, and the end of the file."""
     recording = read_recording(path)

@@ -22,7 +22,6 @@ from app.session.station import this_station
 from app.session.summary import Summary
 
 SUFFIX: Final = ".mcap"
-_SHOWN: Final = 5
 
 _cleared: set[Path] = set()
 """Folders in which this program has looked for what others left."""
@@ -65,17 +64,17 @@ def find(folder: Path, session_id: str) -> Path:
     """Return the record of a session; the beginning of an id is enough if only one fits.
 
     Raises:
-        SessionNotFoundError: if none or several fit; names some that exist.
+        SessionNotFoundError: if none or several fit; names none, for not everybody may see them.
     """
     names = {path.stem: path for path in records(folder)}
     alike = [name for name in names if name.startswith(session_id)]
     fitting = [session_id] if session_id in names else alike
     if len(fitting) == 1 and session_id:
         return names[fitting[0]]
-    shown = sorted(fitting or names, reverse=True)
-    text = ", ".join(shown[:_SHOWN]) + (", ..." if len(shown) > _SHOWN else "") or "none"
     what = "fits several sessions" if fitting and session_id else "is no session"
-    raise SessionNotFoundError(f"{session_id!r} {what} in {folder}; there: {text}")
+    raise SessionNotFoundError(
+        f"{session_id!r} {what} in {folder}: `acus session list` says which there are"
+    )
 
 
 def delete(folder: Path, session_id: str) -> Path:

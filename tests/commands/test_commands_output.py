@@ -14,7 +14,8 @@ from rich.table import Table
 from rich.text import Text
 
 import app
-from app.commands.output import console, printable, printable_output
+from app.commands.output import console, printable_output
+from app.core.words import printable
 
 EVIL = "a\x1b]0;owned\x07b\x9b2Jc\rd\u202ee"
 

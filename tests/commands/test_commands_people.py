@@ -2,6 +2,7 @@
 
 import json
 import os
+import subprocess
 import sys
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from session_fakes import Bench
 from app.__main__ import main
 from app.commands import build
 from app.commands.completion import courses, students
+from app.commands.completion import sessions as completed_sessions
 from app.core.paths import sessions
 from app.exercises.library import load_exercise
 from app.session.course import find_course, read_course
@@ -271,6 +273,54 @@ def test_a_course_without_versions_pins_the_newest_ones(acus, tmp_path):
     items = acus("course", "show", "c", code=3)["items"]
     assert [item["version"] for item in items] == [newest, 1]
     assert [item.version for item in find_course("c").items] == [newest, 1]
+
+
+def test_an_id_that_fits_none_or_several_names_none_to_who_may_not_see_them(acus):
+    key = acus("people", "add", "Ada", "--pin", "1843")["key"]
+    attempts(key, key)
+    People().set_instructor("correct horse")
+    for typed in ("x", "", "2"):
+        said = acus("session", "show", typed, code=2)
+        assert "acus session list" in said
+        assert not any(path.stem in said for path in sessions().glob("*.mcap"))
+    assert completed_sessions("") == []
+
+
+def test_a_question_for_a_password_without_a_terminal_is_a_question_and_no_warning():
+    People().set_instructor("correct horse")
+    command = [sys.executable, "-m", "app", "people", "list", "--json"]
+    options = {"capture_output": True, "text": True, "start_new_session": True}
+    done = subprocess.run(command, input="correct horse\n", check=False, **options)
+    assert (done.returncode, done.stderr.strip()) == (0, "Instructor's password:")
+    assert json.loads(done.stdout)["facts"]["students"] == []
+    assert done.stdout.startswith("{")
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, check=False, **options)
+    assert done.returncode == 2
+    assert "getpass" not in done.stderr.lower()
+    assert "Warning" not in done.stderr
+
+
+def test_one_student_is_one_student(acus, monkeypatch, capsys, tmp_path):
+    (tmp_path / "r.csv").write_text("pseudonym,pin\nAda,1843\n")
+    monkeypatch.setattr("sys.argv", ["acus", "people", "roster", str(tmp_path / "r.csv")])
+    with pytest.raises(SystemExit):
+        main()
+    assert "1 student added, 0 updated" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("harm", ["cut", "altered"])
+def test_a_signed_record_that_was_harmed_is_not_said_to_be_whole(acus, harm):
+    attempts("s")
+    path = next(sessions().glob("*.mcap"))
+    data = path.read_bytes()
+    middle = len(data) // 2
+    harmed = data[:middle] if harm == "cut" else data[:middle] + b"?" + data[middle + 1 :]
+    path.write_bytes(harmed)
+    os.utime(path, (1e9, 1e9))
+    said = acus("session", "recover", path.stem, code=2)
+    assert "altered after it was signed" in said
+    assert "acus store restore" in said
+    assert path.read_bytes() == harmed
 
 
 def test_an_intact_record_is_said_to_need_no_recovery(acus, monkeypatch, capsys):

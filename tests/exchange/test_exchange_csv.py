@@ -82,6 +82,12 @@ def test_no_cell_of_text_is_run_as_a_formula(text: str) -> None:
     assert row["reason"] == "'" + text
 
 
+def test_no_cell_steers_a_terminal() -> None:
+    text = score_table([Summary("a", "", student="\x1b]0;x\x07Ada", reason="\u202eyes")])
+    assert not set("\x1b\x07\u202e") & set(text)
+    assert parse(text)[0]["student"] == r"\u001b]0;x\u0007Ada"
+
+
 def test_negative_numbers_stay_numbers() -> None:
     summary = Summary("a", "", score={"rows": [{"name": "depth", "unit": "mm", "value": -0.8}]})
     assert parse(score_table([summary]))[0]["depth_mm"] == "-0.8"

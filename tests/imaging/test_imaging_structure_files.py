@@ -70,6 +70,14 @@ def test_structures_come_back_from_a_file_as_they_went_in(volume, tmp_path, name
     assert [p for p in tmp_path.iterdir() if p.name.startswith(".")] == []
 
 
+def test_a_file_of_our_own_is_known_on_its_own_ct_and_on_no_other(volume, tmp_path):
+    write_structures(tmp_path / "x.seg.nrrd", two(volume), volume)
+    assert read_structures(tmp_path / "x.seg.nrrd", volume).notes == ()
+    other = Volume(volume.hu + np.int16(1), volume.affine_mm, volume.series)
+    (note,) = read_structures(tmp_path / "x.seg.nrrd", other).notes
+    assert "no frame of reference" in note
+
+
 def test_slicer_finds_its_keys_in_a_written_segmentation(volume, tmp_path):
     path = tmp_path / "x.seg.nrrd"
     write_structures(path, two(volume), volume)

@@ -120,7 +120,7 @@ def test_what_this_station_signed_comes_whole_and_what_others_did_stays(
     assert run(monkeypatch, "gather") == 0
     said = capsys.readouterr().out
     assert f"2 attempts brought from {tree}" in said
-    assert "1 stay there" in said
+    assert "1 stays there" in said
     folder = paths.sessions()
     assert [path.name for path in records(folder)] == own
     assert all(verdict_of(path) == "verified" for path in records(folder))

@@ -17,6 +17,7 @@ from app.scoring.conditions import DeviceKind, comparable
 from app.session.recording import read_recording
 from app.session.review import review
 from app.session.sidecar import cached, fresh_summary, read_summary, sidecar, verify_record
+from app.session.station import StationKey
 from app.session.store import computed, list_sessions
 from app.session.verify import verify
 
@@ -74,6 +75,23 @@ def test_an_edited_file_beside_the_record_is_believed_nowhere(folder: Path) -> N
     sidecar(path).write_text(text.replace('"total": 100.0', '"total": 55.5'))
     assert read_summary(path) == good  # its own digest is wrong: even a list computes
     assert sidecar(path).read_text() == text  # and has written it anew
+
+
+def test_a_file_beside_the_record_that_another_station_wrote_is_no_edited_one(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = next(folder.glob("*a002.mcap"))
+    StationKey.of()
+    with monkeypatch.context() as elsewhere:
+        elsewhere.setenv("ACUS_DATA", str(tmp_path / "another"))
+        StationKey.of()
+        fresh_summary(path)
+    before = sidecar(path).read_text()
+    code, said = run("session", "verify", path.stem, "--folder", str(folder))
+    assert "edited" not in said
+    assert f"{path.stem}.json is not sealed by this station" in said
+    assert code == Exit.DONE
+    assert sidecar(path).read_text() == before
 
 
 def test_a_file_with_a_forged_digest_is_found_out_where_a_score_counts(folder: Path) -> None:

@@ -27,6 +27,7 @@ def test_about_says_version_disclaimer_and_that_qt_is_under_the_lgpl(parent):
     dialog = AboutDialog(parent)
     text = " ".join(label.text() for label in dialog.findChildren(QLabel))
     assert __version__ in text
+    assert "<" not in text
     assert disclaimer() in text
     assert "Qt" in text
     assert "GNU Lesser General Public License (LGPL), version 3" in text

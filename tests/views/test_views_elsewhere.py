@@ -46,7 +46,7 @@ def test_attempts_in_the_tree_are_told_and_come_when_asked_for_once(
 ):
     gathering = window.feature(DebriefFeature).gathering
     assert settle(lambda: gathering.entry.isVisible())
-    assert f"2 earlier attempts lie in {tree}" in told(window)
+    assert f"Earlier attempts lie in {tree} (2)" in told(window)
     assert len(records(tree)) == 3, "nothing came by itself"
     answers, asked = [QMessageBox.StandardButton.No, QMessageBox.StandardButton.Yes], []
 

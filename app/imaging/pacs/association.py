@@ -49,9 +49,7 @@ def receiving(
     made.require_calling_aet = [settings.title]
     for kind in STORAGE_CLASSES:
         made.add_supported_context(kind, [*PLAIN, *COMPRESSED])
-    address, context = own_address(settings), server_context(settings)
-    if context is not None:
-        context.limits, context.settings = limits, settings
+    address, context = own_address(settings), server_context(settings, limits)
     handlers = [
         (pynetdicom.evt.EVT_CONN_OPEN, limits.accept),
         (pynetdicom.evt.EVT_C_STORE, handler(incoming, counter, limits)),

@@ -12,7 +12,7 @@ from app.imaging.pacs.settings import PacsSettings, TlsSettings
 _HANDSHAKE_S = 10.0
 
 
-class PatientContext(ssl.SSLContext):
+class ListeningContext(ssl.SSLContext):
     """Encryption of connections that others open to us: strangers are not greeted, nor waited for.
 
     The library greets whoever connects, one after the other, for as long as it takes.
@@ -38,7 +38,7 @@ class PatientContext(ssl.SSLContext):
 
 
 def client_context(settings: PacsSettings) -> ssl.SSLContext | None:
-    """Context of the connections that we open; None where they are not encrypted.
+    """Return the context of the connections that we open; None where they are not encrypted.
 
     Raises:
         ConfigurationError: naming the file that cannot be used.
@@ -55,8 +55,8 @@ def client_context(settings: PacsSettings) -> ssl.SSLContext | None:
     return context
 
 
-def server_context(settings: PacsSettings) -> PatientContext | None:
-    """Context of the connections that C-MOVE makes the PACS open to us.
+def server_context(settings: PacsSettings, limits: RequestLimits) -> ListeningContext | None:
+    """Return the context of the connections that C-MOVE makes the PACS open to us.
 
     Who connects must show a certificate that the same authority has signed.
 
@@ -71,7 +71,8 @@ def server_context(settings: PacsSettings) -> PatientContext | None:
             f"{settings.name}: C-MOVE with TLS needs a certificate of our own "
             "(tls: certificate, key); or retrieve with C-GET"
         )
-    context = PatientContext(ssl.PROTOCOL_TLS_SERVER)
+    context = ListeningContext(ssl.PROTOCOL_TLS_SERVER)
+    context.limits, context.settings = limits, settings
     context.minimum_version = ssl.TLSVersion.TLSv1_2
     context.verify_mode = ssl.CERT_REQUIRED
     _trust(context, tls)

@@ -45,7 +45,8 @@ def read_structures(path: Path, volume: Volume, progress: Progress | None = None
     progress.report(0.0, f"reading {path.name}")
     numbers = tuple(float(number) for number in volume.affine_mm.ravel())
     series = volume.series
-    uids = (series.uid, *dict.fromkeys(header.identity.sop_uid for header in series.slices))
+    images = dict.fromkeys(header.identity.sop_uid for header in series.slices)
+    uids = (series.uid, volume.digest, *images)
     frame = series.frame_of_reference
     arguments = (path.absolute(), volume.size, numbers, frame, uids, paths.settings())
     try:

@@ -61,7 +61,8 @@ class Found:
         count: how many there are.
         frame_of_reference: FrameOfReferenceUID of the file; empty where it carries none.
         notes: what the reader has to say.
-        drawn_on: UIDs of the series and images that the file names as those it was drawn on.
+        drawn_on: UIDs of the series and images that the file names as those it was drawn on; of a
+            file of our own the digest of the CT.
     """
 
     structures: Iterable[Labelled]
@@ -80,7 +81,7 @@ def place(
         found: what its reader found.
         volume: the CT; its grid is enough.
         progress: told of each structure.
-        uids: of the CT's series and images.
+        uids: of the CT's series and images, and the digest of its values.
 
     Raises:
         FrameOfReferenceError: if file and CT name different ones, and the file does not name this
@@ -115,6 +116,8 @@ def place(
 def _same_frame(found: Found, own: str, uids: frozenset[str]) -> list[str]:
     """Check that file and CT share a frame of reference; return what has to be said of it."""
     named = found.frame_of_reference
+    if not named and found.drawn_on & uids:
+        return []
     if not named:
         return ["the file names no frame of reference: placed by its coordinates alone"]
     if not own or named == own:

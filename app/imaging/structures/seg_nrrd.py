@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import re
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +28,9 @@ LARGEST = 2_000_000_000
 """Most voxels that a file may claim."""
 
 MOST_LABELS = 256
+
+_DRAWN_ON = "Acus.DrawnOn"
+"""Key of the digest of the CT that the structures of this program were drawn on."""
 
 _SPACES = {
     "left-posterior-superior": (1.0, 1.0, 1.0),
@@ -61,7 +65,8 @@ def read_nrrd(path: Path) -> Found:
             f"{path.name} holds {values.dtype} values; a label map holds whole numbers"
         )
     affine, layers = _geometry(header, values, path)
-    return _segments(header, layers, affine, path)
+    found = _segments(header, layers, affine, path)
+    return replace(found, drawn_on=frozenset({str(header.get(_DRAWN_ON, ""))}))
 
 
 def _check_size(header: Any, path: Path) -> None:
@@ -207,6 +212,7 @@ def _write(
         "space origin": volume.origin_mm,
         "kinds": [*(["list"] if len(layers) > 1 else []), "domain", "domain", "domain"],
         "encoding": "gzip",
+        _DRAWN_ON: volume.digest,
         "Segmentation_ContainedRepresentationNames": "Binary labelmap|",
         "Segmentation_MasterRepresentation": "Binary labelmap",
         "Segmentation_ReferenceImageExtentOffset": "0 0 0",

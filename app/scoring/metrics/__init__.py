@@ -13,7 +13,6 @@ from __future__ import annotations
 import ast
 from dataclasses import dataclass
 from glob import escape
-from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -32,7 +31,7 @@ from app.scoring.errors import (
     MetricUnavailableError,
     UnknownMetricError,
 )
-from app.scoring.foreign import MetricOutcome, measured
+from app.scoring.foreign import MetricOutcome, measured, outcome
 
 if TYPE_CHECKING:
     from app.scoring.trajectory import Trajectory
@@ -75,13 +74,7 @@ class Metric(Declaration):
             return MetricOutcome(None, None, self.fault)
         if not self.is_own:
             return measured(self.path, trajectory)
-        try:
-            value = float(KIND.load(self).compute(trajectory))
-        except MetricUnavailableError as error:
-            return MetricOutcome(None, None, str(error), not isinstance(error, MetricNotAskedError))
-        if not isfinite(value):
-            return MetricOutcome(None, None, "the value is too large to be written as a number")
-        return MetricOutcome(value, self.deviation(trajectory), "")
+        return outcome(KIND.load(self), trajectory)
 
     def compute(self, trajectory: Trajectory) -> float:
         """Return the value of an attempt; never NaN.
@@ -104,16 +97,7 @@ class Metric(Declaration):
         Raises:
             Exception: if one of the program's own files fails.
         """
-        if self.fault or not self.is_own:
-            return self.measured(trajectory).sd
-        own = getattr(KIND.load(self), "deviation", None)
-        if own is None:
-            return None
-        try:
-            sd = float(own(trajectory))
-        except MetricUnavailableError:
-            return None
-        return sd if isfinite(sd) and sd >= 0.0 else None
+        return self.measured(trajectory).sd
 
 
 def available() -> dict[str, Metric]:

@@ -37,6 +37,7 @@ from app.core.configuration import FieldProblem
 from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.core.units import MILLIMETRE
+from app.core.words import counted
 from app.exchange.acusx import (
     SUFFIX,
     CtMissingError,
@@ -82,7 +83,7 @@ from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.parts import button, label
 from app.views.kit.side_panel import scrolled
-from app.views.kit.text import counted, literal, tr
+from app.views.kit.text import literal, tr
 from app.views.kit.verdict import Verdict
 from app.views.kit.wizard import Wizard
 from app.views.shell.feature import Context, Feature

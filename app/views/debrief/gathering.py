@@ -8,6 +8,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QMenu, QMessageBox, QWidget
 
+from app.core.words import counted
 from app.session.elsewhere import Elsewhere, elsewhere, gather, signed_here
 from app.session.people import People
 from app.views.kit.background import run_in_background
@@ -57,7 +58,7 @@ class Gathering(QObject):
         if found is None or self._busy:
             return
         text = tr(
-            "{n} attempts of this station lie in {there}, where earlier versions kept them. Bring "
+            "Attempts of this station lie in {there}, where earlier versions kept them: {n}. Bring "
             "them to {here}? They are then no more in the other folder.",
             n=self._count,
             there=NAMES.shown(str(found.folder)),
@@ -87,7 +88,8 @@ class Gathering(QObject):
         if found is not None and count:
             self.noted.emit(
                 tr(
-                    "{n} earlier attempts lie in {there}: Sessions ▸ Bring earlier attempts here…",
+                    "Earlier attempts lie in {there} ({n}): "
+                    "Sessions ▸ Bring earlier attempts here…",
                     n=count,
                     there=NAMES.shown(str(found.folder)),
                 )
@@ -97,7 +99,9 @@ class Gathering(QObject):
         self._busy = False
         self._show(None, 0)
         self._after()
-        self.noted.emit(tr("{n} attempts have come; they are in the list (F7).", n=count))
+        one = tr("1 attempt has come; it is in the list (F7).")
+        many = tr("{n} attempts have come; they are in the list (F7).", n=count)
+        self.noted.emit(counted(count, one, many))
 
     def _fail(self, error: Exception) -> None:
         self._busy = False

@@ -21,13 +21,14 @@ from PySide6.QtWidgets import (
 )
 
 from app.core.errors import AcusError
+from app.core.words import counted
 from app.session.admission import admit
 from app.session.errors import PeopleError
 from app.session.people import NOTHING_SAID, People, Remarks
 from app.views.kit.access import ACCESS
 from app.views.kit.parts import label
 from app.views.kit.settings_dialog import SettingsDialog
-from app.views.kit.text import counted, literal, tr
+from app.views.kit.text import literal, tr
 
 
 def said_words(said: Remarks, held: str = "") -> list[str]:

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 
 from app.core.units import MILLIMETRE
+from app.core.words import counted
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
 from app.scoring.result import Score
 from app.scoring.risks import RiskMark
@@ -15,7 +16,7 @@ from app.session.next_exercise import Proposal, ProposalReason
 from app.session.review import Review
 from app.views.exercise.readouts import clock_text
 from app.views.kit import theme
-from app.views.kit.text import counted, tr
+from app.views.kit.text import tr
 
 
 def risk_line(mark: RiskMark, origin: float) -> str:

@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.core.words import counted
 from app.exercises.guidance import FadingKind, GuidanceMode, Purpose
 from app.exercises.locks import Lock
 from app.exercises.parts import OwnPlan, ViewName
@@ -28,7 +29,7 @@ from app.scoring.metrics import available
 from app.scoring.tolerance import Tolerance
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel, button, label
-from app.views.kit.text import counted, tr
+from app.views.kit.text import tr
 from app.views.reading.lock_words import view_title
 from app.views.shell.shortcuts import disclaimer_label
 

@@ -55,9 +55,7 @@ def add_row(form: QFormLayout, title: str, field: QWidget | QLayout) -> None:
     named = PlainLabel(title)
     if isinstance(field, QWidget):
         named.setBuddy(field)
-        form.addRow(named, field)
-    else:
-        form.addRow(named, field)
+    form.addRow(named, field)
 
 
 def message_box(parent: QWidget | None, title: str, words: str, more: str = "") -> QMessageBox:

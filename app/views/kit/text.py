@@ -34,11 +34,6 @@ def literal(text: str) -> str:
     return f"<qt>{escape(text, quote=False)}</qt>".replace("\n", "<br>")
 
 
-def counted(number: int, one: str, several: str) -> str:
-    """Return the words for one, or those for another number of things; both translated."""
-    return one if number == 1 else several
-
-
 def disclaimer() -> str:
     """Return `core.disclaimer.DISCLAIMER` in the user's language.
 

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QDialog, QFileDialog, QInputDialog, QMessageBox
 
 from app.core.errors import AcusError
 from app.core.progress import Progress
+from app.core.words import counted
 from app.exchange.results import Results, ResultsFormat, results_text, write_results
 from app.exercises.schema import Exercise
 from app.session.access import Known
@@ -38,7 +39,7 @@ from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.parts import message_box
-from app.views.kit.text import counted, literal, tr
+from app.views.kit.text import literal, tr
 from app.views.people.pages import (
     GROUP_PDF,
     STUDENT_PDF,
@@ -348,7 +349,9 @@ class PeopleFeature(Feature):
             self._tell(tr("Roster"), words, "\n".join(report.errors))
             return
         added, updated = len(report.added), len(report.updated)
-        self.noted.emit(tr("{n} students added, {m} updated", n=added, m=updated))
+        one = tr("1 student added, {m} updated", m=updated)
+        many = tr("{n} students added, {m} updated", n=added, m=updated)
+        self.noted.emit(counted(added, one, many))
         if report.pins:
             pins = "\n".join(f"{name}\t{pin}" for name, pin in report.pins.items())
             words = tr("Hand these out; they are kept nowhere.")

@@ -40,6 +40,7 @@ from PySide6.QtWidgets import (
 
 from app.core.configuration import FieldProblem, checked
 from app.core.errors import AcusError
+from app.core.words import counted
 from app.exercises.guidance import Purpose
 from app.exercises.schema import Exercise
 from app.session.board import BoardCell, CurvePoint, ProgressBoard
@@ -51,7 +52,7 @@ from app.views.kit.field_words import problem_words
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel, add_row, button, label, table
 from app.views.kit.settings_dialog import SettingsDialog
-from app.views.kit.text import counted, literal, tr
+from app.views.kit.text import literal, tr
 from app.views.kit.verdict import Verdict, tell
 from app.views.kit.wheel import wheel_scrolls
 

@@ -48,7 +48,7 @@ from app.core.identifiers import without_identifiers
 from app.core.log_file import crash_text, tail
 from app.views.kit.background import run_in_background
 from app.views.kit.names import NAMES
-from app.views.kit.parts import PlainLabel, size_dialog
+from app.views.kit.parts import PlainLabel, label, size_dialog
 from app.views.kit.text import disclaimer, literal, tr
 from app.views.shell.application import icon
 
@@ -138,10 +138,9 @@ class AboutDialog(QDialog):
         picture.setPixmap(icon().pixmap(QSize(_ICON_PX, _ICON_PX), self.devicePixelRatioF()))
         head.addWidget(picture, 0, Qt.AlignmentFlag.AlignTop)
         words = QVBoxLayout()
-        for text in (f"<h2>{tr('Acus {version}', version=__version__)}</h2>", *_sentences()):
-            label = PlainLabel(text)
-            label.setWordWrap(True)
-            words.addWidget(label)
+        words.addWidget(label(tr("Acus {version}", version=__version__), "title"))
+        for text in _sentences():
+            words.addWidget(label(text))
         head.addLayout(words, 1)
         layout.addLayout(head)
         self._head = PlainLabel(tr("Libraries, as installed (being read):"))

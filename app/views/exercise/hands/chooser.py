@@ -141,9 +141,7 @@ class HandChooser(QWidget):
         return self._turn_why
 
     def set_moves_hub(self, hub: bool) -> None:
-        """Let the hub go where the hand goes, or the tip. Where an exercise has fixed it, it is
-        kept for later.
-        """
+        """Let the hub go where the hand goes, or the tip; kept for later where that is fixed."""
         if self._turn_why:
             self._own_turn = hub
         else:
