@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import datetime
 from collections import Counter, defaultdict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
@@ -20,7 +20,7 @@ from pydantic import ValidationError
 from app.core.progress import Progress
 from app.exercises.schema import Exercise
 from app.scoring.conditions import comparison_groups
-from app.session.course import Course, CourseItem, courses, holding
+from app.session.course import Course, CourseItem, courses, held_back, holding
 from app.session.index import Index, Indexed
 from app.session.people import PEOPLE, People, Person, Remarks, people_folder
 from app.session.signature import Signed
@@ -118,6 +118,7 @@ def progress_board(
     whose: Mapping[str, str],
     remarks: Mapping[str, Remarks],
     now: datetime.datetime,
+    held: Container[str] = (),
 ) -> ProgressBoard:
     """Make the board.
 
@@ -128,6 +129,7 @@ def progress_board(
         whose: key of the student by what records name (`People.keys`).
         remarks: what the instructor said, by attempt.
         now: time that "since" is told from.
+        held: attempts whose results are not open to who looks at the board.
     """
     wanted = {item.exercise: item for item in items}
     rows = {person.key for person in students}
@@ -139,7 +141,7 @@ def progress_board(
         if item is None or key not in rows:
             continue
         said = remarks.get(one.id)
-        reason = _why_not_counted(one, item, said)
+        reason = "not released yet" if one.id in held else _why_not_counted(one, item, said)
         if reason:
             left[key, one.exercise][reason] += 1
             if said is not None and said.void:
@@ -177,6 +179,7 @@ def board_of(
     group: str = "",
     now: datetime.datetime | None = None,
     progress: Progress | None = None,
+    released: bool = False,
 ) -> tuple[ProgressBoard, list[Indexed]]:
     """Return the board of a folder of records, and all attempts in it, oldest first.
 
@@ -187,6 +190,7 @@ def board_of(
         group: of students; empty takes all who take the course.
         now: time that "since" is told from.
         progress: reports, and may cancel.
+        released: leave out results that a course holds back, as a student sees the board.
 
     Raises:
         SessionError: if something cannot be read.
@@ -203,7 +207,10 @@ def board_of(
     own = [one for one in attempts if one.student in whose]
     items = course.items if course is not None else every_item([one for one in own if one.stands])
     now = now or datetime.datetime.now(datetime.UTC)
-    return progress_board(students, items, own, whose, people.remarks(), now), attempts
+    asked = ((one.id, one.student, one.exercise, one.version) for one in own)
+    held = held_back(asked) if released else {}
+    board = progress_board(students, items, own, whose, people.remarks(), now, held)
+    return board, attempts
 
 
 def every_item(attempts: Sequence[Indexed]) -> list[CourseItem]:

@@ -99,10 +99,8 @@ def test_what_cannot_be_compared_is_counted_apart_with_its_reason(other: Any, wh
 
 def test_void_attempts_and_those_without_a_score_do_not_count() -> None:
     some = [attempt("a1", "p-a", 50), attempt("a2", "p-a", None), attempt("a3", "p-a", 90)]
-    found = board(some, {"a3": Remarks(void="camera fell")})
-    cell = found.cells["p-a", "lung"]
-    assert (cell.attempts, cell.best, cell.void) == (1, 50, ("camera fell",))
-    assert [point.attempt for point in found.curve("p-a", "lung")] == ["a1"]
+    cell = board(some, {"a3": Remarks(void="camera fell")}).cells["p-a", "lung"]
+    assert (cell.attempts, cell.best) == (1, 50)
     assert dict(cell.why) == {"not scored or void": 1, "declared void by the instructor": 1}
 
 
@@ -116,6 +114,17 @@ def test_unsigned_old_records_count_once_assigned() -> None:
 def test_without_a_course_each_exercise_stands_in_its_newest_version() -> None:
     items = every_item([attempt("a", "p-a", 1), attempt("b", "p-a", 1, version=3)])
     assert items == [CourseItem(exercise="lung", version=3)]
+
+
+def test_a_result_that_is_held_and_a_void_one_are_told_apart_and_counted_nowhere() -> None:
+    some = [attempt(f"a{k}", "p-a", 70 + k, k) for k in range(3)]
+    items = [CourseItem(exercise="lung")]
+    said = {"a0": Remarks(void="camera fell")}
+    found = progress_board([ADA], items, some, WHOSE, said, NOW, held={"a2"})
+    cell = found.cells["p-a", "lung"]
+    assert (cell.best, cell.attempts, cell.void) == (71, 1, ("camera fell",))
+    assert dict(cell.why)["not released yet"] == 1
+    assert [point.attempt for point in found.curve("p-a", "lung")] == ["a1"]
 
 
 def test_ten_thousand_attempts_make_a_board_within_a_second() -> None:
