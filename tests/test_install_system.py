@@ -30,7 +30,11 @@ def test_a_signal_while_it_installs_leaves_no_policy(tmp_path: Path, number: int
         (tmp_path / name).chmod(0o755)
     environment = os.environ | {"PATH": f"{tmp_path}:{os.environ['PATH']}", "STARTED": str(started)}
     program = subprocess.Popen(
-        ["/bin/sh", str(script)], env=environment, start_new_session=True, stdout=subprocess.DEVNULL
+        ["/bin/sh", str(script)],
+        env=environment,
+        start_new_session=True,
+        stdout=subprocess.DEVNULL,
+        preexec_fn=lambda: signal.signal(number, signal.SIG_DFL),  # nohup has it ignored
     )
     try:
         end = time.monotonic() + 30.0

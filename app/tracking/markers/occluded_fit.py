@@ -1,4 +1,4 @@
-"""Fit of a band of which something in front hides a part (see `hidden`).
+"""Fit of a band of which something in front hides a part (see `occlusion`).
 
 What may stand before it is tried side by side; a fit counts if the bare shaft is seen where the
 band's visible end or flank is, if it lies on the robot's line as well as that is known, and if no
@@ -47,6 +47,15 @@ _OTHERWISE: Final = 0.25
 """Share of the squared difference to the place by a tone curve or a gloss that may be as well: an
 edge of which the other side is not seen moves with them."""
 
+_FLANK_PX: Final = 0.2
+"""What is added across where a flank is hidden: one edge alone says where the band lies."""
+
+_BLURS: Final = 2.0
+_APART: Final = 0.3
+"""How far off a band may be for each pixel by which its blur along and across differ, and most of
+that: where one lens blurs both, an edge that is softer or sharper is not the band's alone."""
+
+_FLANKS: Final = (OccludedSide.LEFT, OccludedSide.RIGHT)
 _QUALITY: Final = 0.5
 
 
@@ -154,7 +163,12 @@ class OccludedBandFit:
             if not fits:
                 return None
         fit = fits[0]
-        covariance = MORE * fit.covariance + _FLOOR_PX**2 * np.eye(2)
+        apart_px = abs(fit.blur[0] - fit.blur[1])
+        covariance = MORE * fit.covariance
+        covariance = covariance + (_FLOOR_PX**2 + (_BLURS * apart_px) ** 2) * np.eye(2)
+        if occlusion.side in _FLANKS:
+            across = np.array([-outline.ev, outline.eu])
+            covariance = covariance + _FLANK_PX**2 * np.outer(across, across)
         for other in fits[1:]:
             apart = other.uv - fit.uv
             covariance = covariance + _OTHERWISE * np.outer(apart, apart)
@@ -172,4 +186,5 @@ class OccludedBandFit:
             and float(np.abs(fit.stretch - 1.0).max()) <= _STRETCHED
             and abs(across) <= _ACROSS_PX
             and max(fit.blur) <= self.coarse.blur_px + _BLURRED_PX
+            and abs(fit.blur[0] - fit.blur[1]) <= _APART
         )
