@@ -1,9 +1,9 @@
 """The marker in pictures as cameras deliver them, by a renderer that shares no code with ours.
 
 Run as `python -m tests.bench.bench_marker_pictures [pairs] [--seed N] [--kind KIND] [--tone linear]
-[--extractor NAME] [--cases FOLDER]`: 1000 pairs by default, some ten minutes of one core. Every
-pair goes alone, without history, through the tracker with each extractor. `--cases` reads pairs
-with a `truth.json` from a folder instead.
+[--delivery q95-444] [--extractor NAME] [--cases FOLDER]`: 1000 pairs by default, some ten minutes
+of one core. Every pair goes alone, without history, through the tracker with each extractor.
+`--cases` reads pairs with a `truth.json` from a folder instead.
 """
 
 import argparse
@@ -25,7 +25,14 @@ from app.tracking.markers.choice import ExtractorName, extractors
 from app.tracking.optics.rig import RigProfile, load_rig
 from app.tracking.tracker import Tracker
 from tests.tracking.camera_fakes import NoCamera
-from tests.tracking.camera_pictures import FULCRUM, KINDS, CameraPictures, PicturePair
+from tests.tracking.camera_pictures import (
+    DELIVERIES,
+    FULCRUM,
+    KINDS,
+    TONES,
+    CameraPictures,
+    PicturePair,
+)
 
 OTHERS = (ExtractorName.OUTLINE_CENTROID, ExtractorName.ELLIPSE)
 GATE = 16.27
@@ -160,7 +167,8 @@ def main() -> None:
     parser.add_argument("pairs", nargs="?", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--rig", default="wide")
-    parser.add_argument("--tone", choices=("srgb", "linear"), default="srgb")
+    parser.add_argument("--tone", choices=TONES, default="srgb")
+    parser.add_argument("--delivery", action="append", help="as q95-444, q80-420 or png")
     parser.add_argument("--kind", choices=KINDS, action="append")
     parser.add_argument("--extractor", action="append", help="instead of the rig's and its peers")
     parser.add_argument("--cases", type=Path, help="a folder of pairs with truth.json")
@@ -173,8 +181,9 @@ def main() -> None:
         pairs = cases(chosen.cases)
     else:
         print(f"{chosen.pairs} pairs, seed {chosen.seed}, rig {rig.name}, tone {chosen.tone}")
+        kinds = tuple(chosen.kind or KINDS)
         maker = CameraPictures(paths.resources() / "cameras" / f"{rig.name}.yaml", chosen.tone)
-        pairs = maker.pairs(chosen.pairs, chosen.seed, tuple(chosen.kind or KINDS))
+        pairs = maker.pairs(chosen.pairs, chosen.seed, kinds, tuple(chosen.delivery or DELIVERIES))
     for name, kinds in tallied(pairs, rig, names).items():
         show(name, kinds)
 

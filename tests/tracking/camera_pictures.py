@@ -29,12 +29,16 @@ _MANY = 200.0
 _LENS_BLUR = 0.6
 _MARGIN_PX = 25.0
 _SAMPLING = {"420": 0x221111, "422": 0x211111, "444": 0x111111}
-_CURVE = np.linspace(0.0, 1.0, 65536)
-_CURVE = np.where(_CURVE <= 0.0031308, 12.92 * _CURVE, 1.055 * _CURVE ** (1 / 2.4) - 0.055)
-_TONES = {
-    "srgb": np.rint(255.0 * _CURVE).astype(np.uint8),
-    "linear": np.rint(255.0 * np.linspace(0.0, 1.0, 65536)).astype(np.uint8),
+_LIGHT = np.linspace(0.0, 1.0, 65536)
+_CURVES = {
+    "srgb": np.where(_LIGHT <= 0.0031308, 12.92 * _LIGHT, 1.055 * _LIGHT ** (1 / 2.4) - 0.055),
+    "linear": _LIGHT,
+    "rec709": np.where(_LIGHT < 0.018, 4.5 * _LIGHT, 1.099 * _LIGHT**0.45 - 0.099),
+    "gamma1.8": _LIGHT ** (1 / 1.8),
+    "gamma2.2": _LIGHT ** (1 / 2.2),
 }
+_TONES = {name: np.rint(255.0 * curve).astype(np.uint8) for name, curve in _CURVES.items()}
+TONES = tuple(_TONES)
 
 
 @dataclass(frozen=True)
@@ -145,11 +149,17 @@ class CameraPictures:
         self._corners = tuple(eye.corners() for eye in self.eyes)
         self._tone = _TONES[tone]
 
-    def pairs(self, count: int, seed: int, kinds: tuple[str, ...] = KINDS) -> Iterator[PicturePair]:
+    def pairs(
+        self,
+        count: int,
+        seed: int,
+        kinds: tuple[str, ...] = KINDS,
+        deliveries: tuple[str, ...] = DELIVERIES,
+    ) -> Iterator[PicturePair]:
         """Yield `count` pairs, kinds in turn; pair i is the same whatever `count` is."""
         for i in range(count):
             rng = np.random.default_rng([seed, i])
-            delivered = DELIVERIES[(i // len(kinds)) % len(DELIVERIES)]
+            delivered = deliveries[(i // len(kinds)) % len(deliveries)]
             yield self.pair(kinds[i % len(kinds)], delivered, rng)
 
     def pair(self, kind: str, delivered: str, rng: np.random.Generator) -> PicturePair:

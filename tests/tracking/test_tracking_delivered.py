@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 import pytest
 
+from app.core import paths
 from app.core.clock import VirtualClock
 from app.tracking.band.chroma import FILLED, FULL, filled_in, halved, luma_chroma
 from app.tracking.band.delivered import (
@@ -26,6 +27,7 @@ from app.tracking.markers.extractor import Miss, MissReason
 from app.tracking.markers.model_fit import noise_variance
 from app.tracking.tracker import Tracker, with_cause
 from tests.tracking.camera_fakes import NoCamera
+from tests.tracking.camera_pictures import CameraPictures
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 LARGEST = 16.27
@@ -66,6 +68,22 @@ def _fixes(rig, folder):
         else:
             fixes[pair["kind"]].append(None)
     return fixes
+
+
+@pytest.mark.parametrize(
+    ("tone", "delivery"), [("rec709", "q95-444"), ("gamma2.2", "q90-420"), ("gamma1.8", "q80-422")]
+)
+def test_the_marker_is_found_with_tone_curves_and_colours_that_no_fit_knows(wide, tone, delivery):
+    maker = CameraPictures(paths.resources() / "cameras" / "wide.yaml", tone)
+    errors = []
+    for pair in maker.pairs(8, 77, ("clean",), (delivery,)):
+        cameras = (NoCamera(), NoCamera())
+        tracker = Tracker(cameras, wide, VirtualClock(), lambda _t, axis=pair.axis: axis, FULCRUM)
+        fix = tracker.process(*(CameraFrame(image, 0.0) for image in (pair.left, pair.right)))
+        if fix.status is FixStatus.VALID:
+            errors.append(float(np.linalg.norm(fix.p_tip_world - pair.tip)))
+    assert len(errors) >= 7
+    assert max(errors) <= 0.15e-3
 
 
 def test_the_marker_of_another_renderer_is_found_as_cameras_deliver_it(wide):

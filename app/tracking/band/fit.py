@@ -39,9 +39,13 @@ SHADING_PRIOR = np.array([0.0, 1.0, 1.0, *[0.15**-2] * 2, *[0.03**-2] * 2])
 NOWHERE: Final = read_only(np.zeros((0, 0), dtype=np.bool_))
 """No pixel of a picture hidden."""
 
-MORE: Final = 3.5
+MORE: Final = 2.5
 """By how much the covariance of a fit in a delivered picture is larger than what its left-over
 noise makes: quantised blocks are alike beyond what is looked at."""
+
+OTHERWISE: Final = 0.25
+"""Share of the squared difference to the place by a tone curve or a gloss that may be as well: an
+edge that is hardly seen moves with them."""
 
 MISFIT: Final = 2.6
 """Largest mean square residual of the band in a delivered picture [noise variances]: few photons

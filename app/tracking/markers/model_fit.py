@@ -8,14 +8,15 @@ misfit is let pass enlarges the covariance.
 """
 
 import math
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 import numpy as np
 
 from app.core.arrays import FloatArray, read_only, unit
 from app.tracking.band.delivered_fit import keeps_all_colour
-from app.tracking.band.fit import MISFIT, MORE, BandFit, BandFitter
+from app.tracking.band.fit import MISFIT, MORE, OTHERWISE, BandFit, BandFitter
 from app.tracking.band.tone import LINEAR, SRGB, ToneMemory
 from app.tracking.cameras.camera import Image
 from app.tracking.markers.bare_shaft import shaft_evidence
@@ -60,6 +61,9 @@ darker flank is not strong enough), by 0.28 of half the length where an end face
 _QUALITY_ALONE, _ALONE_PX = 0.85, 0.1
 """Least quality and largest standard deviation [px] of a find that no other picture confirms."""
 
+FitDelivered = Callable[..., BandFit | None]
+"""Fits a delivered picture with a tone curve's exponent, glossy or not."""
+
 _ONE = np.eye(2)
 _AS_NOISY: Final = 1.5
 """What a fit of light that adds up may leave, over the noise of the picture [variances]."""
@@ -80,7 +84,7 @@ _STRETCH_SHARE, _STRETCH_BEYOND, _ORDINARY_STRETCH_PX = 0.03, 0.12, 0.2
 """Like `floor_px` and `_STRETCH`, in a delivered picture: width and length are off by so much in
 ordinary ones without moving the centre; beyond, something hides a part of the band."""
 
-_BLURRED: Final = 0.0015
+_BLURRED: Final = 0.0006
 """Variance of the centre per variance of the blur beyond the rig's, in its direction: light and
 speed are not the same throughout an exposure, so that its middle is not quite the motion's."""
 
@@ -232,23 +236,37 @@ class ModelFit(Extractor):
     def _delivered(
         self, image: Image, start: FloatArray, axis: FloatArray
     ) -> MarkerFix | Miss | None:
+        """Fit a delivered picture; state how far off the band is by a curve that may be as well."""
+        fits: list[BandFit] = []
+
+        def fit(gamma: float, glossy: bool = False) -> BandFit | None:
+            result = self.fitter.fit_delivered(image, start, axis, gamma, glossy)
+            fits.extend(() if result is None else (result,))
+            return result
+
+        judged = self._by_a_curve(fit, image, start, axis)
+        return _stating(judged, fits) if isinstance(judged, MarkerFix) else judged
+
+    def _by_a_curve(
+        self, fit: FitDelivered, image: Image, start: FloatArray, axis: FloatArray
+    ) -> MarkerFix | Miss | None:
         """Fit with a camera's tone curve, or with none where that leaves clearly less."""
-        fitter, memory = self.fitter, self.tone
+        memory = self.tone
         plain: BandFit | None = None
         if memory.known(LINEAR):
-            plain = fitter.fit_delivered(image, start, axis, LINEAR)
+            plain = fit(LINEAR)
             judged = self._judged_delivered(image, plain, start, axis)
             if isinstance(judged, MarkerFix):
                 return judged
-        matt = fitter.fit_delivered(image, start, axis, SRGB)
+        matt = fit(SRGB)
         first = self._judged_delivered(image, matt, start, axis)
         if isinstance(first, MarkerFix) and memory.known(SRGB):
             return first
         if plain is None and not memory.known(SRGB):
-            plain = fitter.fit_delivered(image, start, axis, LINEAR)
+            plain = fit(LINEAR)
         shiny: BandFit | None = None
         if not isinstance(first, MarkerFix) or _clearly_less(plain, matt):
-            shiny = fitter.fit_delivered(image, start, axis, SRGB, glossy=True)
+            shiny = fit(SRGB, True)
         curved = min((f for f in (matt, shiny) if f is not None), key=_cost_of, default=None)
         second = self._judged_delivered(image, shiny, start, axis)
         if plain is not None and curved is not None:
@@ -365,6 +383,16 @@ class ModelFit(Extractor):
 
 def _cost_of(fit: BandFit) -> float:
     return fit.cost
+
+
+def _stating(fix: MarkerFix, fits: list[BandFit]) -> MarkerFix:
+    """Return the fix with what fits that are about as likely say otherwise in its covariance."""
+    cost = next(fit.cost for fit in fits if np.array_equal(fit.uv, fix.uv))
+    covariance = fix.covariance
+    for fit in fits:
+        if fit.cost < cost + _CLEARLY:
+            covariance = covariance + OTHERWISE * np.outer(fit.uv - fix.uv, fit.uv - fix.uv)
+    return fix if covariance is fix.covariance else replace(fix, covariance=covariance)
 
 
 def _clearly_less(fit: BandFit | None, other: BandFit | None) -> bool:

@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.tracking.band.fit import MISFIT, MORE, BandFit, BandFitter
+from app.tracking.band.fit import MISFIT, MORE, OTHERWISE, BandFit, BandFitter
 from app.tracking.band.outline import Outline, strips, trace
 from app.tracking.cameras.camera import Image
 from app.tracking.markers.bare_shaft import differences
@@ -42,10 +42,6 @@ _ALIKE_PX: Final = 0.5
 _FLOOR_PX: Final = 0.2
 """Standard deviation beside that of the fit: the edge of what hides the band is no straight line,
 and its blur reaches farther than is left out in some pictures."""
-
-_OTHERWISE: Final = 0.25
-"""Share of the squared difference to the place by a tone curve or a gloss that may be as well: an
-edge of which the other side is not seen moves with them."""
 
 _FLANK_PX: Final = 0.2
 """What is added across where a flank is hidden: one edge alone says where the band lies."""
@@ -171,7 +167,7 @@ class OccludedBandFit:
             covariance = covariance + _FLANK_PX**2 * np.outer(across, across)
         for other in fits[1:]:
             apart = other.uv - fit.uv
-            covariance = covariance + _OTHERWISE * np.outer(apart, apart)
+            covariance = covariance + OTHERWISE * np.outer(apart, apart)
         return MarkerFix(
             fit.uv, covariance, fit.area, _QUALITY, Centre.BAND, alone=False, occluded=True
         )
