@@ -23,6 +23,8 @@ PASSWORD = "ACUS_INSTRUCTOR_PASSWORD"
 def instructor(people: "People | None" = None) -> None:
     """Let only the instructor go on, where one is set: the password is asked for.
 
+    Where tries cannot be kept (a full disk) that is said on standard error, and it goes on.
+
     Args:
         people: the list of people; that of the user's data folder without one.
 
@@ -38,7 +40,8 @@ def instructor(people: "People | None" = None) -> None:
     given = os.environ.get(PASSWORD)
     if given is None:
         given = secret("Instructor's password")
-    people.check_instructor(given)
+    if unkept := people.check_instructor(given):
+        typer.echo(f"acus: {unkept}", err=True)
 
 
 def secret(question: str, confirm: bool = False) -> str:

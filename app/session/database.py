@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 BUSY_SECONDS: Final = 10.0
 """So long a program waits for another one that writes [s]."""
 
+_ROOM: Final = 1 << 16
+"""Bytes that SQLite's log and its index of that log need at the least."""
+
 
 _READ_ONLY: Final = "can only be read: give this user the right to write there"
 _FULL: Final = "cannot be written, the disk is full: make room, nothing is lost"
@@ -245,6 +248,13 @@ class Database:
         connection.execute("PRAGMA synchronous = FULL")
         connection.execute("PRAGMA secure_delete = ON")
 
+    def _full(self) -> bool:
+        """Whether the disk has no room for what stands beside a database while it is used."""
+        try:
+            return self.path is not None and shutil.disk_usage(self.path.parent).free < _ROOM
+        except OSError:
+            return False
+
     @contextmanager
     def _errors(self) -> Iterator[None]:
         """Say in one line what SQLite says of the file."""
@@ -258,6 +268,8 @@ class Database:
             raise self._error(_reason(str(error), self._busy)) from error
 
     def _error(self, why: str) -> DatabaseError:
+        if why == _NO_LOCKS and self._full():  # SQLite says the same of both
+            why = _FULL
         return DatabaseError(f"the {self._what} {self.path or 'in memory'} {why}")
 
 

@@ -146,8 +146,11 @@ class People:
             _set(connection, "wrapped", json.dumps(wrapped))
         return recovery
 
-    def check_instructor(self, password: str) -> None:
+    def check_instructor(self, password: str) -> str:
         """Let the instructor in.
+
+        Returns:
+            Why wrong tries are not kept, to be said; empty if they are.
 
         Raises:
             WrongPasswordError: with how long to wait for the next try.
@@ -156,7 +159,7 @@ class People:
         known = self._setting("password")
         if not known:
             raise PeopleError("no instructor is set: `acus people instructor` sets a password")
-        self._tries().compare(INSTRUCTOR, known, password)
+        return self._tries().compare(INSTRUCTOR, known, password)
 
     def change_password(self, old: str, new: str) -> None:
         """Change the password; the recovery key stays.

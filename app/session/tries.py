@@ -1,18 +1,20 @@
 """Tries of PINs and passwords: compared under the delay that wrong ones have earned.
 
-They are compared one after the other, and whom nobody knows costs the same work and words.
+They are compared one after the other, and whom nobody knows costs the same work and words. Where
+the file of the tries cannot be written, the program that runs counts them for itself.
 """
 
 from __future__ import annotations
 
 import secrets
+import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from hashlib import blake2b
 from typing import TYPE_CHECKING, Final
 
-from app.session.database import Database
+from app.session.database import Database, DatabaseError
 from app.session.errors import PeopleError
 
 if TYPE_CHECKING:
@@ -27,6 +29,11 @@ _FIRST_DELAY, _LONGEST_DELAY = 5.0, 300.0
 _STRANGER: Final = "nobody "
 """Begins the accounts of whom nobody knows; keys of students begin otherwise."""
 _STRANGERS: Final = 256
+
+_wrong_here: dict[tuple[object, str], tuple[int, float]] = {}
+"""Wrong tries and time of the last one [s], by file and account: of this program alone, where the
+file cannot be written. The file's own count of earlier ones holds as well."""
+_counting = threading.Lock()
 
 
 class WrongPasswordError(PeopleError):
@@ -47,20 +54,43 @@ class Tries:
     table: Table
     clock: Callable[[], float]
 
-    def compare(self, account: str, known: str, given: str) -> None:
+    def compare(self, account: str, known: str, given: str) -> str:
         """Compare under the delay that wrong tries have earned.
 
         All of it is one transaction, so that of many tries at one moment no more are compared than
-        one after the other would be, and right ones at one moment keep nobody out.
+        one after the other would be, and right ones at one moment keep nobody out. A file that
+        cannot be written (a full disk, a folder that can only be read) keeps nobody out either.
 
         Args:
             account: whose tries these are.
             known: the hash; an empty one matches nothing, and takes as long.
             given: what was typed.
 
+        Returns:
+            Why wrong tries are not kept; empty if they are.
+
         Raises:
             WrongPasswordError: with how long to wait for the next try.
         """
+        why = ""
+        try:
+            early, count, right = self._compared_in_file(account, known, given)
+        except DatabaseError as error:
+            if not error.unwritable:
+                raise
+            early, count, right = self._compared_here(account, known, given)
+            why = f"{error}; until then wrong tries are not kept"
+        if early > 0.0:
+            raise WrongPasswordError(f"too many wrong tries: wait {early:.0f} s, then try again")
+        if right:
+            return why
+        wait = _delay(count)
+        more = f": wait {wait:.0f} s before the next try" if wait else ": try again"
+        what = "the password is wrong" if account == INSTRUCTOR else NO_SIGN_IN
+        raise WrongPasswordError(what + more)
+
+    def _compared_in_file(self, account: str, known: str, given: str) -> tuple[float, int, bool]:
+        """Compare and count in the file: seconds too early, wrong tries, whether it is right."""
         from sqlalchemy import insert, select
 
         table, now = self.table, self.clock()
@@ -75,14 +105,23 @@ class Tries:
                 new = {"account": account, "wrong": count + 1, "last": now}
                 connection.execute(insert(table), new)
                 _forget_strangers(connection, table)
-        if early > 0.0:
-            raise WrongPasswordError(f"too many wrong tries: wait {early:.0f} s, then try again")
-        if right:
-            return
-        wait = _delay(count + 1)
-        more = f": wait {wait:.0f} s before the next try" if wait else ": try again"
-        what = "the password is wrong" if account == INSTRUCTOR else NO_SIGN_IN
-        raise WrongPasswordError(what + more)
+        return early, count + 1, right
+
+    def _compared_here(self, account: str, known: str, given: str) -> tuple[float, int, bool]:
+        """Compare and count in this program alone; else as `_compared_in_file`."""
+        from sqlalchemy import select
+
+        table, now, key = self.table, self.clock(), (self.database.path, account)
+        with self.database.read() as connection:
+            row = connection.execute(select(table).where(table.c.account == account)).first()
+        with _counting:
+            kept = (row.wrong, row.last) if row is not None else (0, None)
+            count, last = _wrong_here.get(key, kept)
+            early = 0.0 if last is None else _delay(count) - abs(now - last)
+            right = early <= 0.0 and matches(known, given)
+            if early <= 0.0:
+                _wrong_here[key] = (0 if right else count + 1, now)
+        return early, count + 1, right
 
 
 def hashed_secret(secret: str) -> str:

@@ -1,6 +1,7 @@
 """Students, PINs and the instructor; rosters with every fault that rosters have."""
 
 import json
+import shutil
 import sqlite3
 import stat
 import subprocess
@@ -335,3 +336,49 @@ def test_damaged_files_are_one_line_and_stay(people: People) -> None:
     with pytest.raises(DatabaseError, match="damaged"):
         People(people.folder).everybody()
     assert (people.folder / PEOPLE).read_bytes() == b"x" * 5000
+
+
+@pytest.mark.parametrize("fault", ["folder", "disk"])
+def test_where_tries_cannot_be_written_people_sign_in_and_the_program_counts_for_itself(
+    people: People, wall: Wall, monkeypatch: pytest.MonkeyPatch, fault: str
+) -> None:
+    people.add(RosterLine("Ada", "", "1843"))
+    people.set_instructor("correct horse")
+    if fault == "folder":
+        monkeypatch.setattr("app.session.database.os.access", lambda *_: False)
+    else:
+
+        def full(*_: object) -> None:
+            raise sqlite3.OperationalError("database or disk is full")
+
+        monkeypatch.setattr("app.session.database.step", full)
+    why = people.check_instructor("correct horse")
+    assert "wrong tries are not kept" in why
+    assert "\n" not in why
+    assert people.sign_in("Ada", "1843").pseudonym == "Ada"
+    for _ in range(3):
+        with pytest.raises(WrongPasswordError, match="is wrong"):
+            people.sign_in("Ada", "0000")
+    with pytest.raises(WrongPasswordError, match="too many wrong tries: wait 5 s"):
+        people.sign_in("Ada", "1843")
+    wall.now += 6.0
+    assert people.sign_in("Ada", "1843").pseudonym == "Ada"
+
+
+def test_a_disk_without_room_is_called_full_and_not_one_without_locks(
+    people: People, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    people.add(RosterLine("Ada"))
+
+    def broken(*_: object) -> None:
+        raise sqlite3.OperationalError("disk I/O error")
+
+    monkeypatch.setattr("app.session.database.step", broken)
+    with pytest.raises(DatabaseError, match="put it on a disk of this computer"):
+        people.assign("A", "Ada")
+    usage = shutil.disk_usage(people.folder)
+    monkeypatch.setattr(
+        "app.session.database.shutil.disk_usage", lambda _: usage._replace(free=4096)
+    )
+    with pytest.raises(DatabaseError, match="disk is full: make room"):
+        people.assign("A", "Ada")
