@@ -89,14 +89,12 @@ def show(
     folder: FolderOption = None,
 ) -> Answer:
     """Show one attempt: score, events, what its record holds."""
-    from app.session.calibration_flag import CalibrationFlags
     from app.session.recording import read_recording
-    from app.session.sidecar import fresh_summary
-    from app.session.store import find
+    from app.session.store import computed, find
 
-    path = find(_folder(folder), session_id)
-    recording = read_recording(path)
-    summary = CalibrationFlags.read().flagged(fresh_summary(path))
+    place = _folder(folder)
+    recording = read_recording(find(place, session_id))
+    (summary,) = computed(place, [session_id])
     see([summary])
     document = _details(recording, summary.document())
     return Answer(document, _detail_lines(document, _nobodys(summary.conditions)))
@@ -185,10 +183,9 @@ def compare(
 ) -> Answer:
     """Say whether two scores may be compared. Code 3 with the reasons if not."""
     from app.scoring.conditions import Conditions, comparable
-    from app.session.sidecar import fresh_summary
-    from app.session.store import find
+    from app.session.store import computed
 
-    pair = [fresh_summary(find(_folder(folder), name)) for name in (first, second)]
+    pair = computed(_folder(folder), [first, second])
     see(pair)
     a, b = (s.conditions or Conditions(s.exercise_id) for s in pair)
     reasons = comparable(a, b)
@@ -197,7 +194,7 @@ def compare(
         "reasons": list(reasons),
         "sessions": [summary.document() for summary in pair],
     }
-    lines = [f"{summary.id}  {_total(summary.score)}" for summary in pair]
+    lines = [f"{summary.id}  {_total(summary.score, summary.signature)}" for summary in pair]
     lines += [f"not comparable: {reason}" for reason in reasons] or ["comparable"]
     return Answer(facts, lines, yes=not reasons)
 
@@ -379,16 +376,16 @@ def _print_table(summaries: list[Any], note: str) -> None:
     table.add_column("", min_width=12)
     for s in summaries:
         whose = _nobodys(s.conditions)
-        note = "; ".join(filter(None, (whose, s.reason or "; ".join(s.problems))))
+        remark = "; ".join(filter(None, (whose, s.reason or "; ".join(s.problems))))
         cells = (
             s.id,
             s.student,
             s.exercise_id,
             s.state,
             f"{s.duration:.0f} s",
-            _total(s.score),
+            _total(s.score, s.signature),
             s.signature,
-            note,
+            remark,
         )
         table.add_row(*(_plain(cell) for cell in cells))
     console = open_console()
@@ -406,7 +403,9 @@ def _plain(text: str) -> Any:
     return Text(printable(text))
 
 
-def _total(score: Any) -> str:
+def _total(score: Any, signature: str) -> str:
+    if signature == "altered":
+        return "— altered"
     if not score:
         return "-"
     if score.get("total") is None:
@@ -434,7 +433,7 @@ def _detail_lines(document: dict[str, Any], nobodys: str) -> list[str]:
         lines.append(f"{'calibration':12} {document['calibration']}")
     if document["tip_radius_95_mm"] is not None:
         lines.append(f"{'tip known to':12} ± {document['tip_radius_95_mm']:.1f} mm (95 %), median")
-    lines.append(f"{'score':12} {_total(document['score'])}")
+    lines.append(f"{'score':12} {_total(document['score'], document.get('signature', ''))}")
     score = document["score"] or {}
     if score.get("void_reason"):
         lines.append(f"{'void':12} {score['void_reason']}")

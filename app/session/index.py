@@ -54,7 +54,7 @@ if TYPE_CHECKING:
 INDEX: Final = "index.sqlite"
 """Name of the file in the folder of the records."""
 
-_VERSION: Final = 2
+_VERSION: Final = 3
 _AT_ONCE: Final = 100
 """Rows that are written in one transaction."""
 
@@ -74,7 +74,7 @@ class Indexed:
         version: of the exercise.
         state: `ended`, `aborted`, `unfinished` or `broken`.
         duration: [s].
-        total: points; None where it was not scored or is void.
+        total: points; None where it was not scored, is void or was altered after it was signed.
         passed: whether the score passes; None without one.
         verdict: of the signature.
         counts: whether it counts for a person: scored, by a person, not emulated, and it `stands`.

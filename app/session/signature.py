@@ -120,12 +120,15 @@ def judge_whole(path: Path, key: StationKey | None) -> SignatureCheck:
 
 
 def judged(path: Path, kept: Cached, key: StationKey | None) -> Summary:
-    """Return the summary of a record with the verdict of its signature."""
-    judgement = judge(path, kept, key)
-    problems = kept.summary.problems
+    """Return the summary of a record with the verdict of its signature.
+
+    One that was altered has no score: nobody earned what it says now.
+    """
+    judgement, summary = judge(path, kept, key), kept.summary
     if judgement.verdict is Signed.ALTERED:
-        problems = (*problems, f"altered after it was signed: {judgement.why}")
-    return replace(kept.summary, signature=judgement.verdict.value, problems=problems)
+        problems = (*summary.problems, f"altered after it was signed: {judgement.why}")
+        summary = replace(summary, score=None, problems=problems)
+    return replace(summary, signature=judgement.verdict.value)
 
 
 def _read(path: Path, key: StationKey | None) -> dict[str, Any] | SignatureCheck:

@@ -154,6 +154,34 @@ def test_an_altered_record_is_told_by_verify_and_in_the_list(acus):
     assert acus("session", "list")["sessions"][0]["signature"] == "altered"
 
 
+@pytest.mark.parametrize("harm", ["cut", "altered"])
+def test_a_record_that_was_harmed_is_listed_and_shown_without_points(
+    acus, monkeypatch, capsys, harm
+):
+    attempts("s")
+    path = next(sessions().glob("*.mcap"))
+    whole = acus("session", "list")["sessions"][0]
+    assert whole["score"]["total"] is not None
+    data = path.read_bytes()
+    if harm == "cut":
+        path.write_bytes(data[: round(0.95 * len(data))])
+    else:
+        signature = path.with_suffix(".sig")
+        signature.write_text(signature.read_text().replace('"passed": true', '"passed": false'))
+    assert acus("session", "list")["sessions"][0]["score"] is None
+    shown = acus("session", "show", path.stem)
+    assert (shown["score"], shown["signature"]) == (None, "altered")
+    for words in (["list"], ["show", path.stem]):
+        monkeypatch.setattr("sys.argv", ["acus", "session", *words])
+        with pytest.raises(SystemExit):
+            main()
+        out = capsys.readouterr().out
+        assert "— altered" in out
+        assert "100 %" not in out
+        assert "passed" not in out
+        assert out.count("altered after it was signed") == 1
+
+
 def test_an_attempt_that_was_cut_off_is_listed_and_closed(acus):
     attempts("s")
     path = next(sessions().glob("*.mcap"))
@@ -332,3 +360,22 @@ def test_an_intact_record_is_said_to_need_no_recovery(acus, monkeypatch, capsys)
         main()
     assert "nothing to recover" in capsys.readouterr().out
     assert path.read_bytes() == before
+
+
+def test_a_data_folder_that_can_only_be_read_shows_people_and_board_to_the_instructor(
+    acus, monkeypatch, capsys
+):
+    acus("people", "add", "Ada")
+    attempts(People().find("Ada").key)
+    People().set_instructor("correct horse")
+    monkeypatch.setenv("ACUS_INSTRUCTOR_PASSWORD", "correct horse")
+    monkeypatch.setattr("app.session.database.os.access", lambda *_: False)
+    for words in (("people", "list"), ("results", "board"), ("session", "list")):
+        monkeypatch.setattr("sys.argv", ["acus", *words])
+        with pytest.raises(SystemExit) as ended:
+            main()
+        out, said = capsys.readouterr()
+        assert ended.value.code == 0, said
+        assert ("Ada" in out) == (words != ("session", "list")), out
+        assert "\n" not in said.strip()
+        assert "wrong tries are not kept" in said

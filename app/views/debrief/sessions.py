@@ -271,8 +271,10 @@ def exercise_text(summary: Summary) -> str:
 
 
 def score_text(summary: Summary) -> str:
-    """Points with ✔ or ✖, `void`, or nothing."""
+    """Points with ✔ or ✖, `void`, a dash for an altered record, or nothing."""
     score = summary.score
+    if summary.signature == "altered":
+        return "—"
     if score is None:
         return ""
     if score.get("void_reason") or score.get("total") is None:
