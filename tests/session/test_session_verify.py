@@ -94,6 +94,22 @@ def test_a_file_beside_the_record_that_another_station_wrote_is_no_edited_one(
     assert sidecar(path).read_text() == before
 
 
+def test_a_file_beside_the_record_of_a_station_with_another_version_is_no_edited_one(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = next(folder.glob("*a002.mcap"))
+    StationKey.of()
+    with monkeypatch.context() as elsewhere:
+        elsewhere.setenv("ACUS_DATA", str(tmp_path / "another"))
+        elsewhere.setattr("app.session.verify.SCORING_VERSION", 1)  # of the record
+        StationKey.of()
+        assert list_sessions(folder)
+    code, said = run("session", "verify", path.stem, "--folder", str(folder))
+    assert f"{path.stem}.json is not sealed by this station" in said
+    assert f"{path.stem}.json:" not in said
+    assert code == Exit.DONE
+
+
 def test_a_file_with_a_forged_digest_is_found_out_where_a_score_counts(folder: Path) -> None:
     from app.session import sidecar as module
 
