@@ -24,6 +24,7 @@ def list_plugins() -> Answer:
     Where there are none, the folders for them are listed. Nothing is deleted; `acus law list --try`
     also runs force laws.
     """
+    from app.commands.calibrate_parts import with_progress
     from app.compose.plugins import RIGHTS, plugin_files, plugin_folders
 
     rows = [
@@ -34,7 +35,7 @@ def list_plugins() -> Answer:
             "file": str(f.path),
             "refused": f.refused,
         }
-        for f in plugin_files(tried=True)
+        for f in with_progress(lambda progress: plugin_files(tried=True, progress=progress))
     ]
     lines = [
         f"{'✖' if row['refused'] else '✔'} {row['kind']} {row['name']}: "

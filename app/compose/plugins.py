@@ -16,6 +16,7 @@ from typing import Any, Final
 from app import mechanisms
 from app.core import paths
 from app.core.plugins import PluginKind, read_statements
+from app.core.progress import Progress
 from app.mechanisms.profile.device import machine_fault
 
 
@@ -47,21 +48,25 @@ RIGHTS: Final = (
 )
 
 
-def plugin_files(tried: bool = False) -> tuple[PluginFile, ...]:
+def plugin_files(tried: bool = False, progress: Progress | None = None) -> tuple[PluginFile, ...]:
     """List the files of others of every kind, by kind and path.
 
     Args:
         tried: whether each is also imported, in a process of its own.
+        progress: names the file that is looked at.
     """
-    found = []
-    for kind, refused in _kinds():
+    found: list[PluginFile] = []
+    progress, kinds = progress or Progress(), _kinds()
+    for number, (kind, refused) in enumerate(kinds):
         reasons = refused()
         for path in kind.files():
             if kind.is_own(path):
                 continue
+            progress.report(number / (len(kinds) + 1), path.name)
             reason = reasons.get(path) or (kind.fault(path) if tried else "")
             title = "" if reason else kind.read(path).title
             found.append(PluginFile(kind.word, path, title, reason))
+    progress.report(len(kinds) / (len(kinds) + 1), "machines")
     return (*found, *_machines(tried))
 
 

@@ -25,26 +25,41 @@ from app import __version__
 from app.core import paths
 from app.core.files import read_at_most, write_atomically
 
-SECONDS: Final = 20
-"""Processor time that an import may take [s]: compiling takes its time."""
+SECONDS: Final = 5
+"""Processor time that an import may take at the least [s].
+
+All of numpy, scipy, vtk and OpenCV with a compiled function takes 2.2 s on a computer where numpy
+and numba alone, which the process imports first, take 0.23 s. A slow one takes longer for both, so
+an import may take `TIMES` as long as those two, up to `MOST`: a file that loops ends after 5 s on
+that computer, and an honest one is not refused on another four times as slow."""
+
+TIMES: Final = 20
+MOST: Final = 20
+"""Processor time that no import may exceed [s], whatever importing those two has taken."""
 
 CLOCK: Final = 120.0
 """Time on the clock that it may take [s]."""
 
 _CHILD: Final = """
-import importlib, importlib.util, json, os, sys
-path, package, name, seconds = *sys.argv[1:4], int(sys.argv[4])
+import importlib, importlib.util, json, os, sys, time
+path, package, name, least, times, most = *sys.argv[1:4], *map(int, sys.argv[4:7])
+answer, said = os.fdopen(os.dup(1), "w"), ""
+os.dup2(2, 1)  # what it prints is not the answer
+before = time.process_time()
+import numba, numpy
+used = time.process_time()
+seconds = round(min(max(least, times * (used - before)), most))
+print(seconds, file=answer, flush=True)
 try:
     import resource
+    seconds += round(used)
     resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 except ImportError:
     pass
-answer, said = os.fdopen(os.dup(1), "w"), ""
-os.dup2(2, 1)  # what it prints is not the answer
 try:
-    if len(sys.argv) > 5:  # a folder of packages: its files import one another
-        importlib.import_module(package).__path__.append(sys.argv[5])
+    if len(sys.argv) > 7:  # a folder of packages: its files import one another
+        importlib.import_module(package).__path__.append(sys.argv[7])
         importlib.import_module(name)
     else:
         specification = importlib.util.spec_from_file_location(name, path)
@@ -94,11 +109,12 @@ def import_fault(path: Path, package: str, folder: Path | None = None) -> str:
 def _tried(path: Path, package: str, folder: Path | None) -> str:
     parts = (path.stem,) if folder is None else path.relative_to(folder).with_suffix("").parts
     name, more = ".".join((package, *parts)), () if folder is None else (str(folder),)
+    limits = tuple(map(str, (SECONDS, TIMES, MOST)))
     root = str(Path(__file__).resolve().parents[2])
     there = os.pathsep.join(filter(None, (root, os.environ.get("PYTHONPATH"))))
     try:
         done = subprocess.run(
-            [sys.executable, "-P", "-c", _CHILD, str(path), package, name, str(SECONDS), *more],
+            [sys.executable, "-P", "-c", _CHILD, str(path), package, name, *limits, *more],
             env=os.environ | {"PYTHONPATH": there},
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
@@ -112,9 +128,10 @@ def _tried(path: Path, package: str, folder: Path | None) -> str:
         return f"it had not come back after {CLOCK:g} s"
     except OSError as error:
         return f"no process can be started to try it: {error.strerror or error}"
+    allowed, _, answer = done.stdout.partition("\n")
     if done.returncode in (-getattr(signal, "SIGXCPU", 0), -getattr(signal, "SIGKILL", 0)):
-        return f"it had not come back after {SECONDS} s of computing"
+        return f"it had not come back after {allowed or MOST} s of computing"
     try:
-        return str(json.loads(done.stdout))
+        return str(json.loads(answer))
     except ValueError:
         return f"it ends the program (its process ended with code {done.returncode})"

@@ -53,7 +53,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         (tmp_path / kind).mkdir()
         monkeypatch.setenv(f"ACUS_{kind.upper()}", str(tmp_path / kind))
     monkeypatch.setattr(foreign, "LIMIT", Allowance(0.4, 1 << 30, 2.0))
-    monkeypatch.setattr(plugin_trial, "SECONDS", 1)
+    monkeypatch.setattr(plugin_trial, "MOST", 1)
     return tmp_path
 
 
@@ -190,6 +190,21 @@ def test_an_effect_whose_parameters_end_the_program_is_refused_by_name(folder: P
         SimulationError, match=r"mine\.py: parameters\(\) does not work: SystemExit"
     ):
         effects.parameters_of("mine", {}, None)  # type: ignore[arg-type]
+
+
+def test_a_file_that_loops_at_import_costs_five_seconds_and_longer_on_a_slow_computer_alone(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert plugin_trial.SECONDS == 5
+    loops = folder / "loops.py"
+    loops.write_text("while True: pass")
+    monkeypatch.setattr(plugin_trial, "SECONDS", 1)
+    monkeypatch.setattr(plugin_trial, "MOST", 2)
+    for times, taken in ((0, 1), (1000, 2)):  # numpy comes in no time, or takes its own
+        monkeypatch.setattr(plugin_trial, "_failed", {})
+        monkeypatch.setattr(plugin_trial, "TIMES", times)
+        fault = import_fault(loops, "app")
+        assert fault == f"it had not come back after {taken} s of computing"
 
 
 def test_a_file_that_was_fine_is_not_tried_again_and_one_that_failed_is(
