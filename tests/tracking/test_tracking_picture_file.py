@@ -1,4 +1,4 @@
-"""Pictures whose file asks for a turn are read as they are stored."""
+"""Pictures from files: read as they are stored, and none that stands for gigabytes."""
 
 import struct
 import zlib
@@ -10,9 +10,10 @@ import pytest
 from board_pictures import board_picture, board_pose
 from calibration_rig import usual_rig
 
-from app.tracking.calibration.pictures import read_view
-from app.tracking.calibration.views import BoardView
+from app.tracking.calibration.pictures import list_pictures, read_view
+from app.tracking.calibration.views import BoardView, Rejection
 from app.tracking.cameras.files import read_picture
+from app.tracking.errors import CalibrationError, CameraError
 
 RIG = usual_rig()
 POSE = board_pose(RIG.board, 0.4, 15.0, -20.0)
@@ -96,3 +97,82 @@ def test_a_turned_picture_of_the_board_gives_the_same_corners(
     assert found.image_size == RIG.left.image_size
     truth, _ = RIG.left.project(POSE @ found.points)
     assert np.abs(found.pixels - truth).max() < 0.5
+
+
+def huge(ending: str, side: int = 30000) -> bytes:
+    """Return a small picture file whose header says that it has so many columns and rows."""
+    both = struct.pack(">II", side, side)
+    if ending == "png":  # all of it, compressed to a few hundred kilobytes
+        rows = zlib.compressobj(9)
+        pixels = b"".join(rows.compress(bytes(1 + side // 8)) for _ in range(side)) + rows.flush()
+        head = both + bytes([1, 0, 0, 0, 0])
+        parts = ((b"IHDR", head), (b"IDAT", pixels), (b"IEND", b""))
+        chunks = [
+            struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+            for name, data in parts
+        ]
+        return b"\x89PNG\r\n\x1a\n" + b"".join(chunks)
+    if ending == "jpg":
+        data = bytearray(jpeg(1))
+        at = data.index(b"\xff\xc0")
+        data[at + 5 : at + 9] = struct.pack(">HH", side, side)
+    elif ending == "bmp":
+        data = bytearray(cv2.imencode(".bmp", STORED)[1].tobytes())
+        data[18:26] = struct.pack("<ii", side, side)
+    elif ending == "webp":
+        data = bytearray(webp(1))
+        data[24:30] = 2 * struct.pack("<I", side - 1)[:3]
+    elif ending == "pgm":
+        data = bytearray(b"P5 # of a camera\n%d %d\n255\n" % (side, side) + bytes(100))
+    else:
+        data = bytearray(WRITERS[ending](1))
+        order, size, word = ("<", 12, "I") if ending == "tif" else (">", 20, "Q")
+        at = 8 + 2 if ending == "tif" else 16 + 8
+        for k in range(2):
+            struct.pack_into(f"{order}I", data, at + k * size + (8 if word == "I" else 12), side)
+    return bytes(data)
+
+
+@pytest.mark.parametrize("ending", ["png", "jpg", "bmp", "webp", "pgm", "tif", "tiff"])
+def test_a_small_file_that_stands_for_gigabytes_is_refused_before_it_is_decoded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ending: str
+) -> None:
+    path = tmp_path / f"bomb.{ending}"
+    path.write_bytes(huge(ending))
+
+    def decodes(*_: object) -> None:
+        raise AssertionError("it was decoded")
+
+    monkeypatch.setattr(cv2, "imdecode", decodes)
+    said = "has 30000 x 30000 pixels, 8192 x 8192 are the most"
+    with pytest.raises(CameraError, match=rf"bomb\.{ending} {said}"):
+        read_picture(path)
+    found = read_view(path, RIG.board)
+    assert isinstance(found, Rejection)
+    assert found.name == path.name
+    assert said in found.text
+
+
+def test_a_picture_of_a_large_camera_is_read(tmp_path: Path) -> None:
+    for ending in ("png", "jpg", "bmp", "webp", "pgm", "tif", "tiff"):
+        image = np.zeros((3000, 4000) if ending == "pgm" else (3000, 4000, 3), np.uint8)
+        path = tmp_path / f"large.{ending}"
+        path.write_bytes(cv2.imencode(f".{ending}", image)[1].tobytes())
+        assert read_picture(path).shape == (3000, 4000, 3)
+
+
+@pytest.mark.parametrize(("data", "said"), [(b"", "no picture"), (b"GIF89a" + bytes(99), "no pic")])
+def test_what_is_no_picture_of_a_known_format_is_refused(
+    tmp_path: Path, data: bytes, said: str
+) -> None:
+    path = tmp_path / "other.png"
+    path.write_bytes(data)
+    with pytest.raises(CameraError, match=said):
+        read_picture(path)
+
+
+def test_a_folder_of_thousands_of_pictures_is_refused_before_one_is_read(tmp_path: Path) -> None:
+    for number in range(2001):
+        (tmp_path / f"{number}.png").touch()
+    with pytest.raises(CalibrationError, match=r"2001 pictures in .*, 2000 are the most"):
+        list_pictures(tmp_path)

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from os import cpu_count
 from pathlib import Path
+from typing import Final
 
 import cv2
 
@@ -11,17 +12,21 @@ from app.core.progress import Progress
 from app.tracking.calibration.boards import Board
 from app.tracking.calibration.corners import find_corners
 from app.tracking.calibration.views import BoardView, Rejection, RejectionReason
-from app.tracking.errors import CalibrationError
-from app.tracking.picture_file import decoded
+from app.tracking.errors import CalibrationError, TrackingError
+from app.tracking.picture_file import read_pixels
 
 SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".webp")
+
+MOST_PICTURES: Final = 2000
+"""A folder of more is no set of calibration pictures: 20 to 200 are one."""
 
 
 def list_pictures(folder: Path, pattern: str = "*") -> list[Path]:
     """Pictures of a folder by name; other files are passed over.
 
     Raises:
-        CalibrationError: if there is no such folder, or no picture in it.
+        CalibrationError: if there is no such folder, no picture in it, or more than
+            `MOST_PICTURES`.
     """
     if not folder.is_dir():
         raise CalibrationError(f"there is no folder {folder}; give the folder of the pictures")
@@ -33,6 +38,11 @@ def list_pictures(folder: Path, pattern: str = "*") -> list[Path]:
         raise CalibrationError(
             f"no picture{named} in {folder}; choose the folder of the pictures "
             f"({', '.join(SUFFIXES)} are read)"
+        )
+    if len(found) > MOST_PICTURES:
+        raise CalibrationError(
+            f"{len(found)} pictures in {folder}, {MOST_PICTURES} are the most: put 20 to 200 of "
+            "them, of different views, into a folder of their own"
         )
     return found
 
@@ -64,13 +74,14 @@ def strange_files(folder: Path) -> list[Path]:
 def read_view(
     path: Path, board: Board, thorough: bool = True, window: int | None = None
 ) -> BoardView | Rejection:
-    """Read a picture and find the board; a file that is no picture is a rejection."""
+    """Read a picture and find the board; a file that is none, or too large, is a rejection."""
     try:
-        image = decoded(path.read_bytes())
-    except (OSError, cv2.error) as error:
-        return Rejection(RejectionReason.UNREADABLE, f"cannot be read: {_short(error)}", path.name)
-    if image is None:
-        return Rejection(RejectionReason.UNREADABLE, "is no picture, or a damaged one", path.name)
+        image = read_pixels(path)
+    except OSError as error:
+        why = f"cannot be read: {error.strerror or error}"
+        return Rejection(RejectionReason.UNREADABLE, why, path.name)
+    except TrackingError as error:
+        return Rejection(RejectionReason.UNREADABLE, _short(error), path.name)
     try:
         found = find_corners(image, board, thorough, window)
     except (CalibrationError, cv2.error) as error:

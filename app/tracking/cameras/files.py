@@ -12,8 +12,8 @@ import numpy as np
 from app.core.clock import Clock, SystemClock
 from app.core.units import MILLISECOND
 from app.tracking.cameras.camera import Camera, CameraFrame, Image
-from app.tracking.errors import CameraError
-from app.tracking.picture_file import decoded
+from app.tracking.errors import CameraError, TrackingError
+from app.tracking.picture_file import check_size, read_pixels
 
 ENDINGS: Final = frozenset({".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp"})
 
@@ -122,19 +122,14 @@ def read_picture(path: Path) -> Image:
     """Read a picture in colour, its pixels as they are stored.
 
     Raises:
-        CameraError: if the file is none, or is cut off; names it.
+        CameraError: if the file is none, is cut off or has too many pixels; names it.
     """
     try:
-        data = path.read_bytes()
+        return read_pixels(path)
     except OSError as error:
         raise CameraError(f"cannot read {path}: {error.strerror or error}") from error
-    try:
-        image = decoded(data)
-    except cv2.error as error:
-        raise CameraError(f"{path} is no picture: {error.err}") from error
-    if image is None:
-        raise CameraError(f"{path} is no picture or is damaged; take it out of the folder")
-    return image
+    except TrackingError as error:
+        raise CameraError(f"{path} {error}") from error
 
 
 class VideoCamera(Camera):
@@ -160,7 +155,7 @@ class VideoCamera(Camera):
         """Open the file; its first picture is due now.
 
         Raises:
-            CameraError: if it is not there or is no video.
+            CameraError: if it is not there, is no video, or its pictures have too many pixels.
         """
         self.close()
         if not self.path.is_file():
@@ -168,6 +163,12 @@ class VideoCamera(Camera):
         capture = cv2.VideoCapture(str(self.path))
         if not capture.isOpened():
             raise CameraError(f"{self.path} is no video that can be read")
+        try:
+            sides = cv2.CAP_PROP_FRAME_WIDTH, cv2.CAP_PROP_FRAME_HEIGHT
+            check_size(*(int(capture.get(side)) for side in sides))
+        except TrackingError as error:
+            capture.release()
+            raise CameraError(f"{self.path} {error}") from error
         capture.set(cv2.CAP_PROP_ORIENTATION_AUTO, 0.0)  # as stored; see `picture_file`
         rate = capture.get(cv2.CAP_PROP_FPS)
         self._period = 1.0 / rate if isfinite(rate) and rate > 0.0 else 1.0 / 30.0
