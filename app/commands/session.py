@@ -421,6 +421,8 @@ def _nobodys(conditions: Any) -> str:
 
 
 def _detail_lines(document: dict[str, Any], nobodys: str) -> list[str]:
+    from app.scoring.rows import shown_sd
+
     keys = ("id", "started", "student", "state", "reason", "duration_s", "scans", "file")
     lines = [f"{key:12} {document[key]}" for key in keys]
     lines.append(f"{'exercise':12} {document['exercise']['title']} ({document['exercise']['id']})")
@@ -438,7 +440,8 @@ def _detail_lines(document: dict[str, Any], nobodys: str) -> list[str]:
     if score.get("void_reason"):
         lines.append(f"{'void':12} {score['void_reason']}")
     for row in score.get("rows", []):
-        unsure = f" ± {row['sd']:.1g}" if row["value"] is not None and row.get("sd") else ""
+        sd = shown_sd(row["name"], row["value"], row.get("sd"))
+        unsure = f" ± {sd:.1g}" if sd else ""
         value = "-" if row["value"] is None else f"{row['value']:.4g}{unsure} {row['unit']}"
         band = row["band"] if score.get("total") is not None else ""  # a void one is not judged
         lines.append(f"  {row['label']:32} {value:>20}  {band or row['note'] or ''}")

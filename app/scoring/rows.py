@@ -11,6 +11,22 @@ from pydantic import Field
 from app.core.configuration import Strict
 from app.scoring.tolerance import Band, Tolerance, band, best_within, tolerance
 
+_KEPT_AT_ZERO = frozenset({"risk_breach"})
+"""Metrics that are 0 wherever a limit was kept, however far off it: what is not known of the needle
+then says nothing about them, and stands beside the distance itself."""
+
+
+def shown_sd(name: str, value: float | None, sd: float | None) -> float | None:
+    """Return the deviation to show beside a metric's value; None where it would say nothing true.
+
+    Args:
+        name: of the metric.
+        value: what the attempt reached, in its unit; None without one.
+        sd: its standard deviation; None if not known.
+    """
+    at_zero = name in _KEPT_AT_ZERO and value == 0.0
+    return None if value is None or at_zero else sd
+
 
 class ScoreRules(Strict):
     """What holds for the score as a whole.

@@ -1,5 +1,6 @@
 """Between two attempts and two people: an attempt begins as the first one of its exercise does."""
 
+from threading import Event
 from types import SimpleNamespace
 
 import numpy as np
@@ -118,6 +119,30 @@ def test_again_begins_where_the_first_attempt_began_wherever_the_hand_was_left(r
 
 
 # --- what is missing is said, and F5 says it ------------------------------------------------------
+def test_f5_while_robot_and_cameras_are_started_says_so_until_an_attempt_can_begin(
+    window, settle, services, monkeypatch
+):
+    opened, may_open = services.open_run, Event()
+
+    def slowly(*arguments):
+        may_open.wait(30.0)
+        return opened(*arguments)
+
+    monkeypatch.setattr(services, "open_run", slowly)
+    choose(window, "first-insertion")
+    press(window, Qt.Key.Key_L)
+    try:
+        assert settle(lambda: window.conductor.runs._task is not None)
+        settle(lambda: False, 0.3)
+        press(window, Qt.Key.Key_F5)
+        assert "Robot and cameras are being started" in told(window)
+    finally:
+        may_open.set()
+    assert settle(lambda: start(window).isEnabled())
+    assert told(window) == ""
+    assert state(window) is State.READY
+
+
 def test_again_where_the_student_plans_is_no_dead_end_after_the_plan_was_discarded(
     window, beginning, lesion, settle, monkeypatch
 ):

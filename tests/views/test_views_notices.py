@@ -5,7 +5,10 @@ from PySide6.QtCore import QEvent, QPoint, QPointF, QRect, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QLabel, QMainWindow, QWidget
 
+from app.core.events import Event
+from app.session.withdrawal import KIND, WORDS, Start
 from app.views.shell.message_bar import PAUSE, REFUSAL, ROBOT, MessageBar, Notices
+from app.views.shell.window import tell_pause
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import PaneId
 from app.views.slices.presets import default_window
@@ -135,6 +138,24 @@ def test_another_patient_clears_the_bar_but_for_an_attempt_that_waits(window):
     window.bar.clear()
     assert window.bar.text == "paused"
     window.bar.forget(PAUSE)
+    assert window.bar.isHidden()
+
+
+@pytest.mark.parametrize(
+    "over",
+    [
+        Event(1.0, KIND, "the needle is out", {"how": "simulated"}),
+        Event(1.0, "abort", "aborted: by the user", {"state": "aborted"}),
+    ],
+)
+def test_that_the_needle_is_withdrawn_is_no_success_and_is_said_until_it_is_out(window, over):
+    tell_pause(window.bar, Event(0.0, KIND, WORDS[Start.SIMULATED], {}))
+    assert window.bar._symbol.text() == "▲"
+    window.bar.show_note("Saved")
+    window.bar._note.timeout.emit()  # however long it takes
+    assert window.bar.text == WORDS[Start.SIMULATED]
+    assert window.bar._symbol.text() == "▲"
+    tell_pause(window.bar, over)
     assert window.bar.isHidden()
 
 

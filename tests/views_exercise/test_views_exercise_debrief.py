@@ -13,6 +13,7 @@ from app.core.disclaimer import DISCLAIMER
 from app.core.events import Event
 from app.scoring.conditions import Conditions
 from app.scoring.risks import RiskMark
+from app.scoring.rows import Row
 from app.session.curves import Curves
 from app.session.facts import plan_record
 from app.session.recording import Inputs, Recording
@@ -522,3 +523,11 @@ def test_one_point_is_said_as_one():
     assert AttemptsLeft(1, 1).words() == "The one attempt is used."
     assert AttemptsLeft(1).words() == "1 attempt is allowed."
     assert AttemptsLeft(3, 1).words() == "2 of 3 attempts are left."
+
+
+def test_a_limit_that_was_kept_by_far_is_not_said_to_be_uncertain():
+    kept = Row("risk_breach", "Too near to risk", "mm", 0.0, sd=2.48)
+    near = Row("risk_distance", "Distance from risk", "mm", 19.9, sd=2.48)
+    broken = replace(kept, value=1.5)
+    texts = [row_texts(row, score()).value for row in (kept, near, broken)]
+    assert texts == ["0.00 mm", "19.9 ± 2.48 mm", "1.50 ± 2.48 mm"]

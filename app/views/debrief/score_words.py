@@ -10,7 +10,7 @@ from app.core.words import counted
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
 from app.scoring.result import Score
 from app.scoring.risks import RiskMark
-from app.scoring.rows import Row
+from app.scoring.rows import Row, shown_sd
 from app.scoring.tolerance import Band
 from app.session.next_exercise import Proposal, ProposalReason
 from app.session.review import Review
@@ -249,7 +249,9 @@ def row_texts(row: Row, score: Score) -> RowTexts:
     band = f"{symbol} {band_word(row.band)}" if row.band and judged else "–"
     return RowTexts(
         label=row.label + (" *" if row.tolerance and row.tolerance.required else ""),
-        value="–" if row.value is None else with_unit(row.value, row.unit, row.sd),
+        value="–"
+        if row.value is None
+        else with_unit(row.value, row.unit, shown_sd(row.name, row.value, row.sd)),
         band=band,
         points=_points(row, score),
         weight=f"{row.tolerance.weight:g}" if row.tolerance else "–",

@@ -345,7 +345,7 @@ class ExercisePanel(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._ready, self._not_ready, self._waiting = False, "", ""
+        self._ready, self._not_ready, self._waiting, self._preparing = False, "", "", ""
         self._state: State | None = None
         self._start: tuple[bool, str] = False, ""
         self._signed_in, self._typed = False, ""
@@ -385,8 +385,8 @@ class ExercisePanel(QWidget):
         """Begin as Start does, or say why nothing can begin now."""
         if self.may_start:
             self.buttons.start.click()
-        elif self.why_not and self._state not in RUNNING:
-            self.start_refused.emit(self.why_not)
+        elif self._state not in RUNNING and (why := self.why_not or self._preparing):
+            self.start_refused.emit(why)
 
     # --- what the controller and the window call --------------------------------------------------
     def listen(self, page: QWidget) -> None:
@@ -427,6 +427,11 @@ class ExercisePanel(QWidget):
         self._ready, self._not_ready = ready, note
         self._show_note()
         self._enable()
+
+    def set_preparing(self, preparing: bool) -> None:
+        """Say whether robot and cameras are being started: the key of Start says so meanwhile."""
+        words = tr("Robot and cameras are being started: an attempt can begin in a moment.")
+        self._preparing = words if preparing else ""
 
     def set_guidance(self, guidance: GuidancePart | None, plan: Plan | None) -> None:
         """Let control scans guide, with the table about the plan's middle; None shows all live."""

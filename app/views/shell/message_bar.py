@@ -123,7 +123,7 @@ class MessageBar(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self._line = self._details = ""
         self._topic = ""
-        self._standing: dict[str, Exception | str] = {}
+        self._standing: dict[str, tuple[Exception | str, str]] = {}
         self._note = QTimer(self, interval=NOTE_MS, singleShot=True)
         self._note.timeout.connect(self._uncover)
         self._symbol, self._text = PlainLabel(self), PlainLabel(self)
@@ -151,30 +151,31 @@ class MessageBar(QWidget):
         """Message that is shown."""
         return self._text.text()
 
-    def show_error(self, error: Exception | str) -> None:
-        """Tell what happened and, where the error says so, what to do."""
+    def show_error(self, error: Exception | str, verdict: str = "bad") -> None:
+        """Tell what happened and, where the error says so, what to do; `verdict` of the theme."""
         details = ""
         if isinstance(error, Exception):
             details = "".join(traceback.format_exception(error))
         known = isinstance(error, AcusError | str)
         text = str(error) if known else tr("Something went wrong: {what}", what=repr(error))
-        self._show("bad", text, details)
+        self._show(verdict, text, details)
 
     def show_note(self, text: str) -> None:
         """Tell that something worked."""
         self._show("good", text, "")
         self._note.start()
 
-    def show_until(self, topic: str, error: Exception | str) -> None:
+    def show_until(self, topic: str, error: Exception | str, verdict: str = "bad") -> None:
         """Tell what happened, until `forget` says that it is true no more.
 
         Args:
             topic: what it is about, e.g. `REFUSAL`.
             error: what happened.
+            verdict: of the theme: `warning` for what is only to be waited for.
         """
         self._standing.pop(topic, None)  # the newest stands last
-        self._standing[topic] = error
-        self.show_error(error)
+        self._standing[topic] = error, verdict
+        self.show_error(error, verdict)
         self._topic = topic
 
     def forget(self, topic: str) -> None:
@@ -204,7 +205,8 @@ class MessageBar(QWidget):
     def _uncover(self) -> None:
         """Show the newest message that is still true, or nothing."""
         if self._standing:
-            self.show_until(*list(self._standing.items())[-1])
+            topic, (error, verdict) = list(self._standing.items())[-1]
+            self.show_until(topic, error, verdict)
         else:
             self._note.stop()
             self._topic = ""

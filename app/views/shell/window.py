@@ -25,6 +25,7 @@ from app.core.events import Event
 from app.planning.draft import DraftPlan
 from app.planning.patient import Patient
 from app.session.result import AttemptResult
+from app.session.withdrawal import KIND as WITHDRAWAL
 from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.conductor import Conductor
 from app.views.exercise.equipment import Equipment
@@ -95,17 +96,19 @@ def connect_messages(
     for signal in (runs.ready, equipment.accepted):
         signal.connect(lambda *_: bar.forget(ROBOT))
     runs.starting.connect(lambda begun: bar.forget(ROBOT) if begun else None)
+    runs.starting.connect(panel.set_preparing)
     controller.event_seen.connect(lambda event: tell_pause(bar, event))
 
 
 def tell_pause(bar: MessageBar, event: Event) -> None:
-    """Say on every page that the attempt waits, until it goes on or ends."""
+    """Say on every page that the attempt or its beginning waits, until it goes on or ends."""
     if event.kind == "pause" and "duration_s" not in event.data:
         bar.show_until(PAUSE, event.message)
-    elif event.kind == "withdrawal" and "how" not in event.data:
-        bar.show_note(event.message)
-    elif event.kind in ("pause", "state", "abort"):
+    elif event.kind == WITHDRAWAL and "how" not in event.data:
+        bar.show_until(WITHDRAWAL, event.message, "warning")
+    elif event.kind in ("pause", "state", "abort", WITHDRAWAL):
         bar.forget(PAUSE)
+        bar.forget(WITHDRAWAL)
 
 
 class ChangeOfPatient(QObject):
