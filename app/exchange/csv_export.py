@@ -126,7 +126,7 @@ def write_measurements(path: Path, items: Sequence[Measurement], volume: Volume)
         measurements_document(items, volume), indent=1, allow_nan=False, ensure_ascii=False
     )
     try:
-        write_atomically(path, text + "\n")
+        write_atomically(path, printable(text) + "\n")
     except OSError as error:
         raise ExportError(f"cannot write {path}: {error.strerror or error}") from error
 

@@ -16,6 +16,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.disclaimer import DISCLAIMER
 from app.core.files import read_at_most, write_atomically
+from app.core.words import printable
 from app.exchange.errors import ExportError, MarkupsError
 from app.planning.errors import PlanError
 from app.planning.plan import Plan
@@ -74,7 +75,7 @@ def write_plan(path: Path, plan: Plan) -> None:
     """
     text = json.dumps(plan_document(plan), indent=1, allow_nan=False, ensure_ascii=False)
     try:
-        write_atomically(path, text + "\n")
+        write_atomically(path, printable(text) + "\n")
     except OSError as error:
         raise ExportError(f"cannot write {path}: {error.strerror or error}") from error
 

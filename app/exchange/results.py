@@ -18,6 +18,7 @@ from app.core.disclaimer import DISCLAIMER
 from app.core.files import write_atomically
 from app.core.json_values import finite
 from app.core.progress import Progress
+from app.core.words import printable
 from app.exchange.csv_export import table_text, write_csv
 from app.exchange.errors import ExportError
 from app.scoring.conditions import comparison_groups
@@ -100,7 +101,8 @@ def results_text(
     if form is ResultsFormat.MOODLE:
         return table_text(_moodle(results), semicolons)
     document = results_document(results, progress)
-    return json.dumps(finite(document), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    text = json.dumps(finite(document), indent=1, ensure_ascii=False, allow_nan=False)
+    return printable(text) + "\n"  # JSON's own escapes: it reads as it was
 
 
 def write_results(path: Path, text: str) -> None:

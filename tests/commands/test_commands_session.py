@@ -172,3 +172,36 @@ def test_a_list_into_a_pipe_breaks_no_word(
     assert [line.split()[0] for line in lines[1:]] == [
         "broken", "20260116-100000-bbbb", "20260115-100000-aaaa"
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "words", [("list",), ("show",), ("show", "--json"), ("replay",), ("verify",), ("compare",)]
+)
+def test_what_a_record_of_somebody_else_says_steers_no_terminal(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    words: tuple[str, ...],
+) -> None:
+    evil, name = "a\x1b]0;owned\x07b\x9b2Jc\u202ed", "20260115-100000-aaaa"
+    monkeypatch.setenv("ACUS_SESSIONS", str(tmp_path))
+    placed = PlacedPlan.of(Plan(np.zeros(3), np.array([0.0, 60.0, 0.0])), Placement(), np.zeros(3))
+    facts = {
+        PLAN: plan_record(placed),
+        "trainee": {"scripted": "", "hand": evil},
+        "exercise": {"id": evil, "title": evil, evil: evil},
+        evil: {evil: evil},
+    }
+    begun = datetime(2026, 1, 15, 10, tzinfo=UTC)
+    header = SessionHeader(name, begun, 0.0, evil, "e", metadata=facts)
+    recorder = Recorder(tmp_path, header, clock=VirtualClock())
+    recorder.open()
+    recorder.event(Event(0.5, evil, evil, {evil: evil}))
+    recorder.finish(result={"state": "ended", "reason": evil, "duration_s": "1.5"})
+    noun, *rest = words
+    run(monkeypatch, noun, *(() if noun == "list" else (name,) * (1 + (noun == "compare"))), *rest)
+    out, err = capsys.readouterr()
+    assert out
+    assert not set("\x1b\x07\x9b\u202e") & set(out + err)
+    if noun in ("list", "show"):
+        assert r"\u001b" in out

@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -84,6 +85,21 @@ def test_json_holds_all_of_it(results: Results) -> None:
     assert [s["pseudonym"] for s in document["students"]] == ["Ada", "Bob"]
     assert [a["comparison_group"] for a in document["attempts"]] == [1, 1, 1, 2]
     assert document["board"][0]["best"] == 70.5
+
+
+@pytest.mark.parametrize("form", ResultsFormat)
+def test_no_form_steers_the_terminal_that_shows_it(results: Results, form: ResultsFormat) -> None:
+    evil = "\x1b]0;owned\x07 \x9b2J \u202e"
+    ada = replace(ADA, pseudonym=evil)
+    board = replace(results.board, students=(ada, BOB))
+    typed = full(attempt("y1", evil, 5.0, 5))
+    said = {"a1": Remarks(comment=evil, void=evil)}
+    shown = Results(board, [*results.attempts, typed], {"p-a": ada}, said, {"p-a": evil})
+    text = results_text(shown, form)
+    assert r"\u001b]0;owned\u0007 \u009b2J \u202e" in text
+    assert not set("\x1b\x07\x9b\u202e") & set(text)
+    if form is ResultsFormat.JSON:
+        assert json.loads(text)["students"][0]["pseudonym"] == evil
 
 
 def test_names_stand_in_files_only_when_asked(results: Results) -> None:
