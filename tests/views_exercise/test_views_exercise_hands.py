@@ -18,7 +18,7 @@ from PySide6.QtGui import (
     QWheelEvent,
 )
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
 from views_exercise_fakes import FakeTrainer, run, snapshot
 
 from app.session.pad.geometry import path_frame
@@ -42,8 +42,11 @@ from app.views.exercise.hands.source import (
     deflection,
     pressed_speed,
 )
+from app.views.exercise.pad_canvas import PadCanvas
 from app.views.exercise.readings import pad_view
 from app.views.exercise.steps import step_words
+from app.views.kit.theme import apply_theme
+from tests.careless.texts import cut_texts
 
 LEFT, RIGHT = Qt.MouseButton.LeftButton, Qt.MouseButton.RightButton
 NONE = Qt.MouseButton.NoButton
@@ -660,3 +663,22 @@ def test_an_order_for_the_tip_is_the_opposite_of_the_one_for_the_hub():
     assert step_words(step, True) == "Tilt the hub 3° towards the feet and the patient's left"
     words = step_words(step, True, tip=True)
     assert words == "Tilt the tip 3° towards the head and the patient's right"
+
+
+@pytest.mark.parametrize("hub", [False, True])
+def test_no_choice_is_cut_beside_views_on_a_small_screen(qt, hub):
+    apply_theme(QApplication.instance())
+    window = QWidget()
+    choices = chooser.HandChooser(PadCanvas(window), window)
+    choices.set_interactive(True)
+    choices.set_moves_hub(hub)
+    choices.setGeometry(0, 0, 400, 140)  # what 1280 x 720 leaves it
+    window.resize(420, 160)
+    window.show()
+    QApplication.processEvents()
+    assert cut_texts(window) == []
+    assert choices._title.isHidden()
+    choices.resize(520, 140)
+    QApplication.processEvents()
+    assert not choices._title.isHidden()
+    assert cut_texts(window) == []

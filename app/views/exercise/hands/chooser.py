@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Final
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QComboBox, QSizePolicy, QVBoxLayout, QWidget
 
 from app.core.errors import AcusError
@@ -92,6 +93,7 @@ class HandChooser(QWidget):
         self._note = ""
         self.box, self.gain, self._help = _source_box(), _gain_box(), PlainLabel(self)
         self.sense = _sense_box()
+        self._boxes = self.box, self.gain, self.sense
         self._help.setWordWrap(True)
         # Its words keep three lines: the pad keeps its size whatever is chosen.
         self._help.setFixedHeight(4 * theme.SMALL_PX)
@@ -101,9 +103,9 @@ class HandChooser(QWidget):
         title.setProperty("role", "dim")
         self._row = row = QBoxLayout(QBoxLayout.Direction.LeftToRight)
         row.addWidget(title)
-        for widget, share in ((self.box, 8), (self.gain, 7), (self.sense, 7)):
+        for widget in self._boxes:
             widget.setMinimumWidth(NARROWEST)
-            row.addWidget(widget, share)
+            row.addWidget(widget)
         self._column = column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(2)
@@ -220,9 +222,24 @@ class HandChooser(QWidget):
         """Leave only the two choices, one below the other; their help says how the hand moves."""
         ways = QBoxLayout.Direction
         self._row.setDirection(ways.TopToBottom if compact else ways.LeftToRight)
-        self._title.setVisible(not compact)
         self._compact = compact
+        self._share_row()
         self._show_help()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Share the row anew."""
+        super().resizeEvent(event)
+        self._share_row()
+
+    def _share_row(self) -> None:
+        """Give each choice the room that its words need, and leave the title out before they do."""
+        wanted = [box.sizeHint().width() for box in self._boxes]
+        for place, width in enumerate(wanted, 1):
+            self._row.setStretch(place, width)
+        shown = [w for w, box in zip(wanted, self._boxes, strict=True) if not box.isHidden()]
+        gaps = len(shown) * max(0, self._row.spacing())
+        needed = sum(shown) + gaps + self._title.sizeHint().width()
+        self._title.setVisible(not self._compact and needed <= self.width())
 
     def set_wordy(self, wordy: bool) -> None:
         """Say how the hand moves, or only what the user must know now."""
@@ -250,6 +267,7 @@ class HandChooser(QWidget):
         self.gain.setEnabled(usable)
         self.sense.setEnabled(self._interactive and not self._depth_only and not self._turn_why)
         self.sense.setVisible(not self._turn_why)  # the help says it: the others have its room
+        self._share_row()
         self.box.setEnabled(usable and not self._busy)
         self.gain.setToolTip(literal(self._why or gain_help()))
         self.box.setToolTip(literal(self._why or self._words()))
@@ -297,6 +315,7 @@ class HandChooser(QWidget):
     def suit_text(self) -> None:
         """Take another size of the text."""
         self._help.setFixedHeight(4 * theme.SMALL_PX)
+        self._share_row()
         self._show_note(self._note)
 
     def _show_note(self, note: str) -> None:
