@@ -143,10 +143,18 @@ class _Formatter(logging.Formatter):
         self._names = names
 
     def format(self, record: logging.LogRecord) -> str:
-        plain = logging.makeLogRecord(record.__dict__ | {"exc_info": None, "exc_text": None})
+        kept = {"exc_info": None, "exc_text": None, "args": _without_texts(record.args)}
+        plain = logging.makeLogRecord(record.__dict__ | kept)
         text = without_identifiers(super().format(plain)[:LONGEST], self._names())
         error = record.exc_info[1] if record.exc_info else None
         return text if error is None else f"{text}\n{where(error)}"
+
+
+def _without_texts(args: object) -> object:
+    """Put kind and places of an exception where a message would quote its text."""
+    if isinstance(args, tuple):
+        return tuple(where(arg) if isinstance(arg, BaseException) else arg for arg in args)
+    return args
 
 
 class _Private(RotatingFileHandler):

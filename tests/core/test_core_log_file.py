@@ -1,12 +1,22 @@
+import ast
 import logging
+import re
 import subprocess
 import sys
 import threading
+from pathlib import Path
 
 import pytest
 
+import app
 from app.core import log_file
 from app.core.log_file import LogFile
+
+APP = Path(app.__file__).parent
+LOGS = re.compile(
+    r"(_?log|logging|_?logger|logging\.getLogger\(.*\))"
+    r"\.(debug|info|warning|error|exception|critical|log)"
+)
 
 
 @pytest.fixture
@@ -35,6 +45,42 @@ def test_the_log_tells_where_it_failed_and_nothing_of_files_or_people(log):
     assert "failing" in text
     for secret in ("DOE", "doe", "1.dcm", "AB12CD34"):
         assert secret not in text
+
+
+@pytest.mark.promise("docs/user-guide.md: of an error it keeps kind and place, never its text")
+def test_an_error_that_a_message_quotes_is_logged_by_kind_and_place_too(log):
+    try:
+        failing()
+    except ValueError as error:
+        logging.getLogger("acus.test").warning("the picture of %s is not kept: %s", "x", error)
+    text = log.path.read_text()
+    assert "the picture of x is not kept: ValueError" in text
+    assert "failing" in text
+    assert "doe" not in text.casefold()
+
+
+def test_no_message_to_the_log_is_put_together_before_the_log_sees_its_parts():
+    """What is text already may quote an error, and nobody can tell."""
+    calls = [
+        (path.relative_to(APP), call)
+        for path in sorted(APP.rglob("*.py"))
+        for call in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(call, ast.Call) and LOGS.fullmatch(ast.unparse(call.func))
+    ]
+    assert len(calls) >= 5
+    assert [f"{path}:{call.lineno}" for path, call in calls if not in_parts(call)] == []
+
+
+def in_parts(call: ast.Call) -> bool:
+    """Whether a message is a plain text, and no part of it is made of an error's."""
+    message, *parts = call.args
+    made = (ast.JoinedStr, ast.BinOp)
+    texts = ("str", "repr", "format", "ascii")
+    return isinstance(message, ast.Constant) and not any(
+        isinstance(node, made) or (isinstance(node, ast.Name) and node.id in texts)
+        for part in parts
+        for node in ast.walk(part)
+    )
 
 
 def test_the_log_is_for_its_owner_alone_and_rotates(log, monkeypatch):
