@@ -74,8 +74,9 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=lambda item: rank.get(item.path, len(rank)))
 
 
-# A program that is killed has its files as the system has them; what a disk keeps when the power
-# fails is no test's claim, and waiting for it would take longer than all else about a record.
+# A program that is killed has its files as the system has them, and waiting for the disk would take
+# longer than all else about a record. What it keeps when the power fails is looked at by
+# `test_session_synced` alone, which sees who would have waited.
 os.fsync = lambda _: None
 
 # What hundreds of test files import stays to the end: no collection of garbage looks at it.

@@ -185,6 +185,7 @@ class Journal:
             else:
                 self._fd = fd
                 sync(place)
+                sync(self._folder)  # in which the place of journals may be new
 
     def _wait(self) -> None:
         """Hold the folder alone, where it can be locked."""
