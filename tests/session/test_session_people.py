@@ -83,6 +83,35 @@ def test_wrong_tries_cost_time_and_the_right_pin_too_meanwhile(people: People, w
         people.sign_in("Ada", "0000")
 
 
+@pytest.mark.promise(
+    "docs/people.md: then twice as long each time, up to five minutes; so it is with PINs"
+)
+@pytest.mark.parametrize("who", ["student", "instructor"])
+def test_each_wrong_try_waits_twice_as_long_and_never_more_than_five_minutes(
+    people: People, wall: Wall, who: str
+) -> None:
+    people.add(RosterLine("Ada", pin="1843"))
+    people.set_instructor("correct horse")
+
+    def attempt(right: bool) -> None:
+        if who == "student":
+            people.sign_in("Ada", "1843" if right else "0000")
+        else:
+            people.check_instructor("correct horse" if right else "wrong")
+
+    for _ in range(2):
+        with pytest.raises(WrongPasswordError, match="try again"):
+            attempt(right=False)
+    for wait in (5, 10, 20, 40, 80, 160, 300, 300, 300):
+        with pytest.raises(WrongPasswordError, match=rf"wait {wait} s before"):
+            attempt(right=False)
+        wall.now += wait - 1.0
+        with pytest.raises(WrongPasswordError, match="too many wrong tries: wait 1 s"):
+            attempt(right=True)
+        wall.now += 1.1
+    attempt(right=True)
+
+
 @pytest.fixture
 def compared(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """What is compared with a hash, by the library that does it."""
