@@ -16,7 +16,7 @@ from app.core.progress import Progress
 from app.imaging.library import CtLibrary
 from app.imaging.pacs.association import own_address
 from app.imaging.pacs.client import Pacs
-from app.imaging.pacs.errors import PacsUnreachableError
+from app.imaging.pacs.errors import PacsError, PacsUnreachableError
 from app.imaging.pacs.query import Query
 from app.imaging.pacs.settings import TlsSettings, configured
 from app.imaging.pacs.taking import take
@@ -92,6 +92,25 @@ def test_a_plain_archive_asked_with_tls_and_the_other_way_round_are_told(stored,
             Pacs(settings).echo()
     with pytest.raises(PacsUnreachableError, match="wants TLS"):
         Pacs(encrypted.settings(timeout_s=2.0)).echo()
+
+
+@pytest.mark.promise(
+    "docs/pacs.md: with C-MOVE the archive, which then connects to us, must show one of the same "
+    "authority"
+)
+@pytest.mark.parametrize("shown", ["none", "a stranger's"])
+def test_whoever_connects_for_a_move_without_a_certificate_of_the_authority_brings_nothing(
+    stored, shown
+):
+    server, _ = contexts(wants_ours=True)
+    client = ssl.create_default_context(cafile=file("authority.pem"))
+    if shown == "a stranger's":
+        client.load_cert_chain(file("unknown.pem"), file("unknown.key"))
+    with FakePacs(stored, tls=(server, client)) as pacs:
+        settings = pacs.settings(retrieve="move", tls=TlsSettings(**OURS), timeout_s=5.0)
+        with pytest.raises(PacsError):
+            take(Pacs(settings), "2.25.1", "2.25.1000", CtLibrary(), Progress())
+    assert CtLibrary().entries() == ()
 
 
 def test_an_archive_that_wants_our_certificate_and_gets_none_is_told(encrypted):
