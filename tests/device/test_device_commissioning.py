@@ -421,6 +421,9 @@ def test_a_homing_whose_zero_cannot_be_set_does_not_bring_back_the_offsets_of_th
     assert bench.clearance().homed == 0.0
 
 
+@pytest.mark.promise(
+    "docs/hardware.md: A sign check or force scale that fails takes the earlier one back"
+)
 def test_a_sign_check_that_fails_takes_the_clearance_of_the_one_before_away(parts):
     link, bench, person = parts
     commission(bench, person)
@@ -435,6 +438,9 @@ def test_a_sign_check_that_fails_takes_the_clearance_of_the_one_before_away(part
     assert bench.clearance().homed == 1.0
 
 
+@pytest.mark.promise(
+    "docs/hardware.md: A sign check or force scale that fails takes the earlier one back"
+)
 def test_a_force_scale_that_fails_puts_the_cap_back_also_after_one_of_another_power_cycle(parts):
     link, bench, person = parts
     commission(bench, person)

@@ -167,6 +167,7 @@ def test_the_preamble_is_emptied(tmp_path):
     assert all(p.read_bytes()[:128] == b"\0" * 128 for p in entry.folder.glob("*.dcm"))
 
 
+@pytest.mark.promise("docs/privacy.md: by the same offset for all CTs of a patient")
 def test_dates_move_by_one_offset_of_the_patient_and_intervals_stay(tmp_path):
     key = installation_key()
     shift = dates.shift_of(key, "SECRET-ID", "2.25.1")

@@ -150,6 +150,10 @@ def test_an_attempt_outlives_only_what_arming_again_ends(
     assert (bench.run(0.2).state is State.ABORTED) is ends
 
 
+@pytest.mark.promise(
+    "docs/sessions.md: after the attempt has ended, was aborted or has failed, a key that is "
+    "still down does nothing"
+)
 @pytest.mark.parametrize("ending", ["end", "abort", "fault", "close"])
 def test_a_key_that_stays_down_gives_no_force_after_the_attempt(make: Make, ending: str) -> None:
     bench = make(held_arming=True)

@@ -230,6 +230,10 @@ def test_fine_movements_with_shift_do_not_let_go(window):
     assert window.told == [True]
 
 
+@pytest.mark.promise(
+    "docs/user-guide.md: Another window in front, or anything else that takes the keyboard "
+    "away, counts as letting go"
+)
 @pytest.mark.parametrize(
     "event",
     [
