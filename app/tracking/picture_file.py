@@ -8,13 +8,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from app import MOST_PIXELS
 from app.core.files import read_at_most
 from app.tracking.errors import TrackingError
-from app.tracking.picture_header import size_of
-
-MOST_PIXELS: Final = 1 << 26
-"""No picture that is read has more, 8192 x 8192: 200 MB in colour; cameras for this have 2 to 12
-million pixels, phones up to 50."""
 
 LARGEST_PICTURE: Final = 1 << 28
 """No file of a picture is larger [bytes]; one of the most pixels, not compressed, fits."""
@@ -27,35 +23,37 @@ look at, would move them away from the calibration; it changes with how the came
 def read_pixels(path: Path) -> NDArray[np.uint8]:
     """Return the pixels of a picture file as they are stored, in colour.
 
-    Its header is read first: what stands for more than a picture may have is not decoded.
+    What its header says to have more pixels than a picture may have is not decoded.
 
     Raises:
         OSError: if it cannot be read; with EFBIG if it is larger than `LARGEST_PICTURE`.
         TrackingError: if it is no picture, is damaged, or has more pixels than `MOST_PIXELS`; what
             is wrong follows the name of the file.
     """
-    data = read_at_most(path, LARGEST_PICTURE)
-    size = size_of(data)
-    if size is None:
-        raise TrackingError("is no picture or is damaged")
-    check_size(*size)
+    raw = np.frombuffer(_as_stored(read_at_most(path, LARGEST_PICTURE)), dtype=np.uint8)
     try:
-        image = cv2.imdecode(np.frombuffer(_as_stored(data), dtype=np.uint8), _AS_STORED)
+        image = cv2.imdecode(raw, _AS_STORED) if raw.size else None
     except cv2.error as error:
+        if "CV_IO_MAX_IMAGE" in error.err:
+            raise TrackingError(_TOO_MANY) from error
         raise TrackingError(f"is no picture: {error.err}") from error
     if image is None:
         raise TrackingError("is no picture or is damaged")
+    check_size(image.shape[1], image.shape[0])  # somebody may have loaded OpenCV before us
     return np.asarray(image, dtype=np.uint8)
+
+
+_SIDE: Final = round(MOST_PIXELS**0.5)
+_TOO_MANY: Final = (
+    f"has more than {_SIDE} x {_SIDE} pixels, which are the most: make it smaller, or take it out "
+    "of the folder"
+)
 
 
 def check_size(width: int, height: int) -> None:
     """Raise `TrackingError` for a picture of more pixels than any that is read."""
     if width * height > MOST_PIXELS:
-        side = round(MOST_PIXELS**0.5)
-        raise TrackingError(
-            f"has {width} x {height} pixels, {side} x {side} are the most: make it smaller, or "
-            "take it out of the folder"
-        )
+        raise TrackingError(_TOO_MANY)
 
 
 _ORIENTATION: Final = 274

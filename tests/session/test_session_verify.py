@@ -5,6 +5,8 @@ import os
 import shutil
 import struct
 import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -77,14 +79,23 @@ def test_an_edited_file_beside_the_record_is_believed_nowhere(folder: Path) -> N
     assert sidecar(path).read_text() == text  # and has written it anew
 
 
-def test_a_file_beside_the_record_that_another_station_wrote_is_no_edited_one(
-    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    path = next(folder.glob("*a002.mcap"))
+@contextmanager
+def another_station(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[pytest.MonkeyPatch]:
+    """Be a station with data and a key of its own for a while."""
     StationKey.of()
     with monkeypatch.context() as elsewhere:
         elsewhere.setenv("ACUS_DATA", str(tmp_path / "another"))
         StationKey.of()
+        yield elsewhere
+
+
+def test_a_file_beside_the_record_that_another_station_wrote_is_no_edited_one(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = next(folder.glob("*a002.mcap"))
+    with another_station(tmp_path, monkeypatch):
         fresh_summary(path)
     before = sidecar(path).read_text()
     code, said = run("session", "verify", path.stem, "--folder", str(folder))
@@ -98,11 +109,8 @@ def test_a_file_beside_the_record_of_a_station_with_another_version_is_no_edited
     folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = next(folder.glob("*a002.mcap"))
-    StationKey.of()
-    with monkeypatch.context() as elsewhere:
-        elsewhere.setenv("ACUS_DATA", str(tmp_path / "another"))
+    with another_station(tmp_path, monkeypatch) as elsewhere:
         elsewhere.setattr("app.session.verify.SCORING_VERSION", 1)  # of the record
-        StationKey.of()
         assert list_sessions(folder)
     code, said = run("session", "verify", path.stem, "--folder", str(folder))
     assert f"{path.stem}.json is not sealed by this station" in said

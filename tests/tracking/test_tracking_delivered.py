@@ -70,20 +70,44 @@ def _fixes(rig, folder):
     return fixes
 
 
+def _fix(rig, pair):
+    cameras = (NoCamera(), NoCamera())
+    tracker = Tracker(cameras, rig, VirtualClock(), lambda _: pair.axis, FULCRUM)
+    return tracker.process(*(CameraFrame(image, 0.0) for image in (pair.left, pair.right)))
+
+
+def _maker(tone="srgb"):
+    return CameraPictures(paths.resources() / "cameras" / "wide.yaml", tone)
+
+
 @pytest.mark.parametrize(
     ("tone", "delivery"), [("rec709", "q95-444"), ("gamma2.2", "q90-420"), ("gamma1.8", "q80-422")]
 )
 def test_the_marker_is_found_with_tone_curves_and_colours_that_no_fit_knows(wide, tone, delivery):
-    maker = CameraPictures(paths.resources() / "cameras" / "wide.yaml", tone)
     errors = []
-    for pair in maker.pairs(8, 77, ("clean",), (delivery,)):
-        cameras = (NoCamera(), NoCamera())
-        tracker = Tracker(cameras, wide, VirtualClock(), lambda _t, axis=pair.axis: axis, FULCRUM)
-        fix = tracker.process(*(CameraFrame(image, 0.0) for image in (pair.left, pair.right)))
+    for pair in _maker(tone).pairs(8, 77, ("clean",), (delivery,)):
+        fix = _fix(wide, pair)
         if fix.status is FixStatus.VALID:
             errors.append(float(np.linalg.norm(fix.p_tip_world - pair.tip)))
     assert len(errors) >= 7
     assert max(errors) <= 0.15e-3
+
+
+@pytest.mark.parametrize(
+    ("kind", "delivery", "seed", "number"),
+    [
+        ("occlude", "q80-422", 912, 261),  # the edge beside the visible flank is taken for it
+        ("occlude", "q80-422", 912, 276),
+        ("occlude", "q90-420", 912, 190),
+        ("specular", "q80-420", 941, 44),  # another tone curve says another place as likely
+    ],
+)
+def test_a_fix_that_is_some_tenths_off_says_so(wide, kind, delivery, seed, number):
+    pair = _maker().pair(kind, delivery, np.random.default_rng([seed, number]))
+    fix = _fix(wide, pair)
+    error = fix.p_tip_world - pair.tip
+    off = float(error @ np.linalg.solve(fix.covariance, error))
+    assert fix.status is not FixStatus.VALID or off < LARGEST
 
 
 def test_the_marker_of_another_renderer_is_found_as_cameras_deliver_it(wide):

@@ -103,7 +103,7 @@ def test_a_video_that_loops_goes_on_with_times_that_grow(video):
 
 def test_a_video_of_too_many_pixels_is_refused_before_a_picture_is_decoded(video, monkeypatch):
     monkeypatch.setattr("app.tracking.picture_file.MOST_PIXELS", 48 * 48)
-    with pytest.raises(CameraError, match=r"film\.avi has 64 x 48 pixels, 48 x 48 are the most"):
+    with pytest.raises(CameraError, match=r"film\.avi has more than .* pixels"):
         VideoCamera(video).open()
 
 

@@ -5,6 +5,7 @@ Pereyra 1973, with Kaufman's simplification of the Jacobian); the step in positi
 is Gauss-Newton's. Pixels that fit badly are left out. Derivation: docs/band-fit.md.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Final, NamedTuple
 
@@ -43,7 +44,7 @@ MORE: Final = 2.5
 """By how much the covariance of a fit in a delivered picture is larger than what its left-over
 noise makes: quantised blocks are alike beyond what is looked at."""
 
-OTHERWISE: Final = 0.25
+_OTHERWISE: Final = 0.25
 """Share of the squared difference to the place by a tone curve or a gloss that may be as well: an
 edge that is hardly seen moves with them."""
 
@@ -217,6 +218,13 @@ class BandFitter:
             cost=_cost(best, prior),
             blur=(float(best.blur[0]), float(best.blur[1])),
         )
+
+
+def alternatives(fit: BandFit, others: Sequence[BandFit]) -> FloatArray:
+    """Return what other fits that may be as well add to the covariance of one [px²], (2, 2)."""
+    apart = np.array([other.uv - fit.uv for other in others]).reshape(-1, 2)
+    covariance: FloatArray = _OTHERWISE * apart.T @ apart
+    return covariance
 
 
 _COMPARED: Final = 400.0

@@ -9,14 +9,14 @@ misfit is let pass enlarges the covariance.
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any, Final
 
 import numpy as np
 
 from app.core.arrays import FloatArray, read_only, unit
 from app.tracking.band.delivered_fit import keeps_all_colour
-from app.tracking.band.fit import MISFIT, MORE, OTHERWISE, BandFit, BandFitter
+from app.tracking.band.fit import MISFIT, MORE, BandFit, BandFitter, alternatives
 from app.tracking.band.tone import LINEAR, SRGB, ToneMemory
 from app.tracking.cameras.camera import Image
 from app.tracking.markers.bare_shaft import shaft_evidence
@@ -61,8 +61,8 @@ darker flank is not strong enough), by 0.28 of half the length where an end face
 _QUALITY_ALONE, _ALONE_PX = 0.85, 0.1
 """Least quality and largest standard deviation [px] of a find that no other picture confirms."""
 
-FitDelivered = Callable[..., BandFit | None]
-"""Fits a delivered picture with a tone curve's exponent, glossy or not."""
+CurveFit = Callable[[float, bool], BandFit | None]
+"""Fits a delivered picture: with the exponent of a tone curve, and whether the paint is glossy."""
 
 _ONE = np.eye(2)
 _AS_NOISY: Final = 1.5
@@ -239,31 +239,31 @@ class ModelFit(Extractor):
         """Fit a delivered picture; state how far off the band is by a curve that may be as well."""
         fits: list[BandFit] = []
 
-        def fit(gamma: float, glossy: bool = False) -> BandFit | None:
+        def fit(gamma: float, glossy: bool) -> BandFit | None:
             result = self.fitter.fit_delivered(image, start, axis, gamma, glossy)
             fits.extend(() if result is None else (result,))
             return result
 
         judged = self._by_a_curve(fit, image, start, axis)
-        return _stating(judged, fits) if isinstance(judged, MarkerFix) else judged
+        return _with_alternatives(judged, fits) if isinstance(judged, MarkerFix) else judged
 
     def _by_a_curve(
-        self, fit: FitDelivered, image: Image, start: FloatArray, axis: FloatArray
+        self, fit: CurveFit, image: Image, start: FloatArray, axis: FloatArray
     ) -> MarkerFix | Miss | None:
         """Fit with a camera's tone curve, or with none where that leaves clearly less."""
         memory = self.tone
         plain: BandFit | None = None
         if memory.known(LINEAR):
-            plain = fit(LINEAR)
+            plain = fit(LINEAR, False)
             judged = self._judged_delivered(image, plain, start, axis)
             if isinstance(judged, MarkerFix):
                 return judged
-        matt = fit(SRGB)
+        matt = fit(SRGB, False)
         first = self._judged_delivered(image, matt, start, axis)
         if isinstance(first, MarkerFix) and memory.known(SRGB):
             return first
         if plain is None and not memory.known(SRGB):
-            plain = fit(LINEAR)
+            plain = fit(LINEAR, False)
         shiny: BandFit | None = None
         if not isinstance(first, MarkerFix) or _clearly_less(plain, matt):
             shiny = fit(SRGB, True)
@@ -385,14 +385,11 @@ def _cost_of(fit: BandFit) -> float:
     return fit.cost
 
 
-def _stating(fix: MarkerFix, fits: list[BandFit]) -> MarkerFix:
+def _with_alternatives(fix: MarkerFix, fits: list[BandFit]) -> MarkerFix:
     """Return the fix with what fits that are about as likely say otherwise in its covariance."""
-    cost = next(fit.cost for fit in fits if np.array_equal(fit.uv, fix.uv))
-    covariance = fix.covariance
-    for fit in fits:
-        if fit.cost < cost + _CLEARLY:
-            covariance = covariance + OTHERWISE * np.outer(fit.uv - fix.uv, fit.uv - fix.uv)
-    return fix if covariance is fix.covariance else replace(fix, covariance=covariance)
+    own = next(fit for fit in fits if np.array_equal(fit.uv, fix.uv))
+    likely = [fit for fit in fits if fit.cost < own.cost + _CLEARLY]
+    return fix.with_covariance(fix.covariance + alternatives(own, likely))
 
 
 def _clearly_less(fit: BandFit | None, other: BandFit | None) -> bool:

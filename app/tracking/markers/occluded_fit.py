@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.tracking.band.fit import MISFIT, MORE, OTHERWISE, BandFit, BandFitter
+from app.tracking.band.fit import MISFIT, MORE, BandFit, BandFitter, alternatives
 from app.tracking.band.outline import Outline, strips, trace
 from app.tracking.cameras.camera import Image
 from app.tracking.markers.bare_shaft import differences
@@ -47,9 +47,11 @@ _FLANK_PX: Final = 0.2
 """What is added across where a flank is hidden: one edge alone says where the band lies."""
 
 _BLURS: Final = 2.0
+"""Standard deviation of the centre for each pixel by which the blur along differs from that across:
+one lens blurs both, so an edge that is softer or sharper is not the band's alone."""
+
 _APART: Final = 0.3
-"""How far off a band may be for each pixel by which its blur along and across differ, and most of
-that: where one lens blurs both, an edge that is softer or sharper is not the band's alone."""
+"""Largest such difference of a band [px]."""
 
 _FLANKS: Final = (OccludedSide.LEFT, OccludedSide.RIGHT)
 _QUALITY: Final = 0.5
@@ -165,9 +167,7 @@ class OccludedBandFit:
         if occlusion.side in _FLANKS:
             across = np.array([-outline.ev, outline.eu])
             covariance = covariance + _FLANK_PX**2 * np.outer(across, across)
-        for other in fits[1:]:
-            apart = other.uv - fit.uv
-            covariance = covariance + OTHERWISE * np.outer(apart, apart)
+        covariance = covariance + alternatives(fit, fits[1:])
         return MarkerFix(
             fit.uv, covariance, fit.area, _QUALITY, Centre.BAND, alone=False, occluded=True
         )
