@@ -10,7 +10,7 @@ import pytest
 
 SCRIPT = Path(__file__).resolve().parents[1] / "tools" / "install-system"
 STUBS = {
-    "apt-get": '#!/bin/sh\n[ "$1" = update ] || { touch "$STARTED"; sleep 60; }\n',
+    "apt-get": '#!/bin/sh\n[ "$1" = update ] || { touch "$STARTED"; exec sleep 60; }\n',
     "id": "#!/bin/sh\necho 0\n",
 }
 
