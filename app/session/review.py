@@ -37,6 +37,8 @@ from app.session.result import AttemptResult
 from app.session.risks import risk_marks
 from app.session.samples import Samples
 from app.session.scored import renders_force
+from app.session.signature import Signed, judge_whole
+from app.session.station import this_station
 from app.session.summary import derive
 from app.session.timeline import Span, TimeMark, marks, spans
 from app.session.touching import KIND, TASK, TargetMarks, marks_at, radius_of
@@ -256,13 +258,15 @@ class Review:
 def review(recording: Recording) -> Review:
     """Gather what the debrief shows of a record.
 
-    A stored score that cannot be read is no reason to show nothing: it becomes a problem line.
+    A stored score that cannot be read is no reason to show nothing: it becomes a problem line. A
+    record that was altered after it was signed has no score, as in lists.
 
     Raises:
         BrokenRecordingError: if the record holds no plan.
     """
     found = verify(recording)
     summary = CalibrationFlags.read().flagged(derive(recording, found))
+    altered = _altered(recording)
     placed = recording.placed_plan()
     samples = recording.samples
     measured = np.isin(samples.depth_source, FROM_CAMERAS)
@@ -278,8 +282,8 @@ def review(recording: Recording) -> Review:
         duration=summary.duration,
         scans=summary.scans,
         software=summary.software,
-        problems=summary.problems,
-        score=_shown(recording, found),
+        problems=(*summary.problems, *altered),
+        score=None if altered else _shown(recording, found),
         conditions=summary.conditions,
         curves=figures,
         spans=spans(figures.time, samples.state),
@@ -298,6 +302,16 @@ def review(recording: Recording) -> Review:
         touches=tuple(event for event in recording.events if event.kind in (TASK, KIND)),
         motion=motion(samples, placed, needle_length(recording)) if len(samples.time) else None,
     )
+
+
+def _altered(recording: Recording) -> tuple[str, ...]:
+    """Say that a record is not the one that was signed; empty if it is, or nobody signed it."""
+    if not recording.path.is_file():
+        return ()
+    check = judge_whole(recording.path, this_station())
+    if check.verdict is not Signed.ALTERED:
+        return ()
+    return (f"altered after it was signed: {check.why}; it has no points",)
 
 
 def only_measured(figures: Curves, measured: NDArray[np.bool_]) -> Curves:

@@ -29,6 +29,9 @@ from app.session.verify import Change, Verification, verify
 _STILL_WRITTEN: Final = 10.0
 """A record that changed within this time [s] may be under way: nothing is kept of it."""
 
+BEING_RECORDED: Final = "it is being recorded, or was until a moment ago"
+"""Reason in the summary of a record that is under way."""
+
 _OF_ATTEMPT: Final = frozenset(
     ("student", "exercise.id", "state", "score", "score.total", "score.passed", "score.void_reason")
 )
@@ -61,7 +64,15 @@ class Cached:
 
     def fits(self, path: Path) -> bool:
         """Whether a list may trust it: it is intact, and the record has the same size and time."""
-        return self.intact and _size_and_time(path) == (self.size, self.modified_ns)
+        return self.intact and self.is_of(path)
+
+    def is_of(self, path: Path) -> bool:
+        """Whether the record has the same size and time: it has not been written since.
+
+        Raises:
+            OSError: if it has gone.
+        """
+        return _size_and_time(path) == (self.size, self.modified_ns)
 
 
 def sidecar(path: Path) -> Path:
@@ -69,18 +80,20 @@ def sidecar(path: Path) -> Path:
     return path.with_suffix(".json")
 
 
-def write_summary(path: Path, summary: Summary) -> None:
+def write_summary(path: Path, summary: Summary, mark: tuple[int, int] | None = None) -> None:
     """Write the summary beside the record `path`, whole or not at all.
+
+    Args:
+        path: the record.
+        summary: of it.
+        mark: size [bytes] and time [ns] of the record that was read; those of now without it. What
+            was read before the record grew is trusted by no list.
 
     Raises:
         OSError: if the record cannot be read or the file not be written.
     """
-    stat = path.stat()
-    record = {
-        "size": stat.st_size,
-        "modified_ns": stat.st_mtime_ns,
-        "sha256": file_digest(path),
-    }
+    size, modified_ns = mark or _size_and_time(path)
+    record = {"size": size, "modified_ns": modified_ns, "sha256": file_digest(path)}
     document = summary.document() | {"record": record}
     document |= {"digest": _digest(document, this_station())}
     text = json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False)
@@ -128,35 +141,49 @@ def read_kept(path: Path) -> Cached:
 
 def fresh_kept(path: Path) -> Cached:
     """Compute the summary of a record anew, whatever is kept; never raises."""
-    try:
-        size, modified_ns = _size_and_time(path)
-    except OSError:
-        size, modified_ns = 0, 0
-    summary = fresh_summary(path)
+    summary, mark = _computed(path)
     found = cached(path)
-    if (
-        found is not None
-        and found.intact
-        and (found.size, found.modified_ns) == (size, modified_ns)
-    ):
+    if found is not None and found.intact and (found.size, found.modified_ns) == mark:
         return found
     digest = ""
     if summary.state not in (BROKEN, UNFINISHED):
         with suppress(OSError):
             digest = file_digest(path)
-    return Cached(summary, size, modified_ns, digest, intact=False)
+    return Cached(summary, *mark, digest, intact=False)
 
 
 def fresh_summary(path: Path) -> Summary:
     """Return the summary of a record, computed from it, and keep it beside; never raises."""
+    return _computed(path)[0]
+
+
+def under_way(path: Path) -> bool:
+    """Whether a record has no end and was written a moment ago; never raises."""
+    return _computed(path)[0].reason == BEING_RECORDED
+
+
+def _computed(path: Path) -> tuple[Summary, tuple[int, int]]:
+    """Compute a summary and keep it; return it with the record's size and time before it was read.
+
+    A record may be ended while it is read: what was read then is kept nowhere.
+    """
+    mark = (0, 0)
+    with suppress(OSError):  # it has gone: reading it says so
+        mark = _size_and_time(path)
     try:
-        summary = derive(open_recording(path))
+        recording = open_recording(path)
+        summary = derive(recording)
     except BrokenRecordingError as error:
-        return Summary(path.stem, _modified(path), state=BROKEN, reason=str(error), software="")
-    if summary.state != UNFINISHED or _seconds_since(path) > _STILL_WRITTEN:
-        with suppress(OSError):  # a folder that cannot be written: next time again
-            write_summary(path, summary)
-    return summary
+        broken = Summary(path.stem, _modified(path), state=BROKEN, reason=str(error), software="")
+        return broken, mark
+    if summary.state == UNFINISHED and _seconds_since(path) <= _STILL_WRITTEN:
+        if not recording.complete:
+            summary = replace(summary, reason=BEING_RECORDED, problems=())
+        return summary, mark
+    with suppress(OSError):  # a folder that cannot be written: next time again
+        if mark == _size_and_time(path):
+            write_summary(path, summary, mark)
+    return summary, mark
 
 
 def file_digest(path: Path) -> str:

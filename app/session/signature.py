@@ -86,6 +86,9 @@ def judge(path: Path, kept: Cached, key: StationKey | None) -> SignatureCheck:
     found = _read(path, key)
     if isinstance(found, SignatureCheck):
         return found
+    with suppress(OSError):
+        if not kept.is_of(path):  # signed after it was read, and looked at next time
+            return SignatureCheck(Signed.UNSIGNED, "the record was written while it was read")
     if found["record"] != kept.sha256:
         return SignatureCheck(Signed.ALTERED, "the record is not the one that was signed")
     shown = _shown(kept.summary)

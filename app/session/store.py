@@ -16,7 +16,7 @@ from app.session.header import TRASH as TRASH
 from app.session.journal import Journal, move, settle
 from app.session.mcap_file import remove_strays
 from app.session.people import people_folder
-from app.session.sidecar import Cached, fresh_kept, read_kept, sidecar
+from app.session.sidecar import Cached, fresh_kept, read_kept, sidecar, under_way
 from app.session.signature import judged, signature_file
 from app.session.station import this_station
 from app.session.summary import Summary
@@ -82,10 +82,12 @@ def delete(folder: Path, session_id: str) -> Path:
 
     Raises:
         SessionNotFoundError: if there is no such session.
-        SessionError: if it cannot be moved.
+        SessionError: if it is under way, or cannot be moved.
     """
     settled(folder)
     path = find(folder, session_id)
+    if under_way(path):
+        raise SessionError(f"{path.stem} is being recorded: end its attempt first, or wait 10 s")
     with suppress(OSError):
         os.utime(sidecar(path))  # its time tells from now on when the record was deleted
     return _move(path, folder / TRASH, folder)

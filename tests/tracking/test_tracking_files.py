@@ -8,7 +8,7 @@ from app.core.clock import SystemClock, VirtualClock
 from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.cameras.checked import CheckedCamera
 from app.tracking.cameras.feed import CameraFeed
-from app.tracking.cameras.files import FolderCamera, VideoCamera
+from app.tracking.cameras.files import FolderCamera, VideoCamera, pictures_in
 from app.tracking.errors import CameraError
 
 
@@ -105,6 +105,13 @@ def test_a_video_of_too_many_pixels_is_refused_before_a_picture_is_decoded(video
     monkeypatch.setattr("app.tracking.picture_file.MOST_PIXELS", 48 * 48)
     with pytest.raises(CameraError, match=r"film\.avi has more than .* pixels"):
         VideoCamera(video).open()
+
+
+def test_a_file_in_place_of_a_folder_is_called_a_file(tmp_path):
+    path = tmp_path / "one.png"
+    path.touch()
+    with pytest.raises(CameraError, match=r"one\.png is a file; folder:PATH names a folder"):
+        pictures_in(path)
 
 
 def test_what_is_no_video_is_named(tmp_path):

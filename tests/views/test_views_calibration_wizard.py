@@ -20,11 +20,12 @@ from app.tracking.calibration.formats.reading import read_calibration
 from app.tracking.calibration.formats.ros import ros_paths, write_ros
 from app.tracking.calibration.job import CalibrationJob, last_board
 from app.tracking.calibration.placed_board import place
+from app.tracking.calibration.views import Rejection, RejectionReason
 from app.tracking.cameras.camera import CameraFrame
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.rig import load_rig
 from app.views.cameras.wizard import CalibrationWizard
-from app.views.cameras.wizard_words import baseline_sd, verdict_of
+from app.views.cameras.wizard_words import baseline_sd, pairs_words, verdict_of
 from app.views.kit.verdict import Verdict
 
 SPEC = "charuco:9x6:11mm:8mm:DICT_5X5_100"
@@ -350,3 +351,14 @@ def test_the_last_board_is_there_again_and_an_unreadable_one_is_the_usual(wizard
     wizard.board_page.square.setValue(12.5)
     assert last_board(told[-1]) == wizard.job.board
     assert last_board("").spec == last_board("a board of wood").spec == DEFAULT_BOARD
+
+
+def test_each_picture_of_no_use_has_its_own_reason_and_no_pair_is_called_used():
+    refused = [
+        Rejection(RejectionReason.UNREADABLE, "has more than 8192 x 8192 pixels", "left01.png"),
+        Rejection(RejectionReason.UNREADABLE, "is no picture or is damaged", "right01.png"),
+    ]
+    words = pairs_words(0, 0, refused)
+    assert words.startswith("no pair in which both cameras see the board")
+    assert "left01.png (has more than" in words
+    assert "right01.png (is no picture" in words

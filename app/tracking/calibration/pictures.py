@@ -29,7 +29,8 @@ def list_pictures(folder: Path, pattern: str = "*") -> list[Path]:
             `MOST_PICTURES`.
     """
     if not folder.is_dir():
-        raise CalibrationError(f"there is no folder {folder}; give the folder of the pictures")
+        what = f"{folder} is a file" if folder.is_file() else f"there is no folder {folder}"
+        raise CalibrationError(f"{what}; give the folder of the pictures")
     found = sorted(
         path for path in folder.glob(pattern) if path.is_file() and path.suffix.lower() in SUFFIXES
     )

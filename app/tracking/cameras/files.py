@@ -109,7 +109,8 @@ def pictures_in(folder: Path) -> list[Path]:
         CameraError: if there is none, or no such folder.
     """
     if not folder.is_dir():
-        raise CameraError(f"there is no folder {folder}; folder:PATH names one")
+        what = f"{folder} is a file" if folder.is_file() else f"there is no folder {folder}"
+        raise CameraError(f"{what}; folder:PATH names a folder")
     files = sorted(path for path in folder.iterdir() if path.suffix.lower() in ENDINGS)
     if not files:
         raise CameraError(

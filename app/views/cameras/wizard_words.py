@@ -30,6 +30,8 @@ def pairs_words(pairs: int, different: int | None, refused: Sequence[Rejection])
     """
     if different is None:
         words = tr("{pairs} pairs taken: both cameras see the board in each", pairs=pairs)
+    elif not pairs:
+        words = tr("no pair in which both cameras see the board")
     else:
         words = tr(
             "{pairs} pairs, all of which are used; {different} of them show the board unlike the "
@@ -37,10 +39,13 @@ def pairs_words(pairs: int, different: int | None, refused: Sequence[Rejection])
             pairs=pairs,
             different=different,
         )
-    if refused:
-        names = ", ".join(view.name for view in refused[:4])
-        more = " …" if len(refused) > 4 else ""
-        words += "; " + tr("not used: {names} ({why})", names=names + more, why=refused[0].text)
+    if refused and len({view.text for view in refused}) == 1:
+        names = ", ".join(view.name for view in refused[:4]) + (" …" if len(refused) > 4 else "")
+        words += "; " + tr("not used: {names} ({why})", names=names, why=refused[0].text)
+    elif refused:
+        each = [f"{view.name} ({view.text})" for view in refused[:4]]
+        names = ", ".join(each) + (" …" if len(refused) > 4 else "")
+        words += "; " + tr("not used: {names}", names=names)
     return words
 
 

@@ -83,7 +83,7 @@ def connect_messages(
         for signal in over:
             signal.connect(lambda *_, topic=topic: bar.forget(topic))
     panel = conductor.views.panel
-    panel.start_refused.connect(lambda why: bar.show_until(START, why))
+    panel.start_refused.connect(lambda why: bar.show_until(START, why, "warning"))
     panel.start_changed.connect(lambda: bar.forget(START))
     for feature in features:
         feature.noted.connect(bar.show_note)
