@@ -40,7 +40,7 @@ SHADING_PRIOR = np.array([0.0, 1.0, 1.0, *[0.15**-2] * 2, *[0.03**-2] * 2])
 NOWHERE: Final = read_only(np.zeros((0, 0), dtype=np.bool_))
 """No pixel of a picture hidden."""
 
-MORE: Final = 2.5
+MORE: Final = 2.2
 """By how much the covariance of a fit in a delivered picture is larger than what its left-over
 noise makes: quantised blocks are alike beyond what is looked at."""
 
