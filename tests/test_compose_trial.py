@@ -7,7 +7,7 @@ import pytest
 
 from app.compose import trial
 from app.compose.exercise_ct import load_risks
-from app.compose.trainer import TrainerSetup, build_loop
+from app.compose.trainer import TrainerSetup, build_loop, pictures_of
 from app.compose.trial import (
     SkillOutcome,
     Trials,
@@ -33,6 +33,7 @@ from app.simulation.trainee import ScriptPhase
 from app.tracking.fix import FixStatus
 from app.tracking.optics.rig import load_rig
 from app.tracking.simulated.cameras import simulated_cameras
+from app.tracking.simulated.picture_effects import picture_effects
 from app.tracking.simulated.sampled import SampledTracker
 from app.tracking.simulated.scene import MarkerScene
 from app.tracking.tracker import Tracker
@@ -73,7 +74,9 @@ class _Moving:
 
 def _rendered(rig, needle):
     clock = VirtualClock(needle.times[0])
-    cameras = simulated_cameras(rig, needle.scene, clock, 3)
+    exercise = load_exercise("first-insertion")
+    delivered = picture_effects(pictures_of(exercise, device_of(exercise)))
+    cameras = simulated_cameras(rig, needle.scene, clock, 3, delivered)
     tracker = Tracker(cameras, rig, clock, needle.axis, FULCRUM)
     for camera in cameras:
         camera.open()

@@ -29,36 +29,35 @@ from app.tracking.simulated.picture_effects import Blur, Light, Losses, picture_
 from app.tracking.simulated.scene import MarkerScene, Scene
 from app.tracking.solver import FixSolver, SeenMarker
 
-ALONG_PX: Final = 0.015
-ACROSS_PX: Final = 0.02
+ALONG_PX: Final = 0.016
+ACROSS_PX: Final = 0.027
 """Standard deviation of a marker's centre in one picture [px], along the needle as it is seen and
-across it: measured in 333 rendered pictures of rig `wide`, whose noise is 4 grey values, at depths
-from -15 to 108 mm and tilts up to 40°. Robust figures (1.48 times the median): rare
-pictures, further off across the needle (0.035 px with them), are not modelled."""
+across it: measured in 1000 pairs of rig `wide` as its cameras deliver them (photons, sRGB, JPEG),
+at depths from -15 to 108 mm and tilts up to 40°. Robust figures (1.48 times the median): rare
+pictures, further off across the needle (0.04 px with them), are not modelled."""
 
 MISSED: Final = 0.01
-"""Share of pictures in which the marker is not found though it is there: 3 of 336 of them."""
+"""Share of pictures in which the marker is not found though it is there: 12 of 1000 of them."""
 
 NOISE_GREY: Final = 4.0
-"""Noise of the pictures that these were measured in; they grow with it in proportion."""
+"""Noise of that rig's pictures; of pictures that count no photons the two grow with their own."""
 
 WIDER: Final = (
-    (1.0, 1.15, 1.32, 1.41, 1.52, 1.63),
-    (1.0, 1.0, 1.0, 0.95, 0.56, 0.0),
-    (1.0, 1.02, 1.24, 1.31, 1.75, 1.75),
+    (1.0, 1.4, 1.8, 2.2, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0),
+    (1.0, 1.0, 0.99, 0.98, 0.96, 0.79, 0.56, 0.41, 0.03, 0.0),
+    (1.0, 1.16, 1.43, 1.78, 2.1, 3.3, 4.8, 6.4, 20.0, 20.0),
 )
 """Point spread over the lens' own; share of pictures in which the marker is found; noise of its
-centre over the usual. Measured in 84 to 120 rendered pairs of rig `wide` (0.7 px), out of focus by
-0.4, 0.6, 0.7, 0.8 and 0.9 px: the model of the marker knows the lens' spread, and refuses pictures
-that are softer by half. A motion of 2.5 px, of the same spread as 0.7 px, hides as many."""
+centre over the usual. Measured in 300 to 500 pairs a row, as they are delivered, of rig `wide`
+(0.7 px), out of focus by 0.7 to 4.1 px."""
 
 DIMMER: Final = (
-    (0.2, 0.3, 0.6, 1.0, 1.3, 1.8),
-    (0.01, 0.81, 1.0, 1.0, 1.0, 0.41),
-    (2.9, 2.9, 1.55, 1.0, 0.85, 0.85),
+    (0.1, 0.2, 0.3, 0.6, 1.0, 1.3, 1.6, 1.8, 2.0),
+    (0.96, 0.97, 0.99, 1.0, 1.0, 1.0, 1.0, 0.91, 0.71),
+    (2.8, 1.94, 1.55, 1.2, 1.0, 0.93, 0.85, 0.85, 0.82),
 )
-"""Brightness over the rig's; the same two, likewise: the contrast falls with the brightness and the
-noise does not; what saturates is refused."""
+"""Brightness over the rig's; the same two, likewise: of less light fewer photons are counted; what
+saturates is refused."""
 
 PROCESSING: Final = 0.005
 """From a pair's arrival to its fix [s]: a followed pair takes 2 to 5 ms of one processor."""
