@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constr
 TRAINER := $(VENV)/.trainer
 TESTS := $(VENV)/.tests
 
-.PHONY: setup extra demo run test by-hand careless soak check bench trial fuzz kills accuracy promises docs docs-pictures wheel clean
+.PHONY: setup extra demo run test test-long test-all test-changed by-hand careless soak check bench trial fuzz kills accuracy promises tests-page docs docs-pictures wheel clean
 
 setup: $(TESTS)  ## make .venv with all that tests and checks need, and install what the system lacks
 
@@ -41,12 +41,24 @@ AGAIN := --reruns 1 --reruns-delay 2 -rR
 # A process of the tests that dies ends the run; with another in its place pytest-xdist would wait
 # for ever for the tests of the dead one's file.
 DEATHS := --max-worker-restart 0
+PYTEST := ./tools/with-display $(BIN)/python -m pytest -q --numprocesses $(WORKERS) --dist loadfile \
+	--no-loadscope-reorder --durations 20 --durations-min 0.5 $(AGAIN) $(DEATHS)
 # Every process of the tests, and every program that one starts, reads what is compiled already.
-test: export PYTHONDONTWRITEBYTECODE =
-test: setup  ## the tests (no display and no network needed), a file at a time in each process
+test test-long test-changed: export PYTHONDONTWRITEBYTECODE =
+test: setup  ## the tests of five minutes (no display and no network needed), a file at a time in each process
 	$(BIN)/python -m tools.compile_kernels
-	./tools/with-display $(BIN)/python -m pytest -q --numprocesses $(WORKERS) --dist loadfile \
-		--no-loadscope-reorder --durations 10 --durations-min 0.5 $(AGAIN) $(DEATHS) $(TEST)
+	$(PYTEST) -m "not long" $(TEST)
+
+test-long: setup  ## the others: statistics, journeys through real programs, long runs of machines
+	$(BIN)/python -m tools.compile_kernels
+	$(PYTEST) -m long $(TEST)
+
+test-all: test test-long  ## every test
+
+SINCE ?= HEAD
+test-changed: setup  ## of `make test` what the changes since a commit can reach: SINCE=main
+	$(BIN)/python -m tools.compile_kernels
+	$(PYTEST) -m "not long" $$($(BIN)/python -m tools.changed_tests $(SINCE)) $(TEST)
 
 by-hand: setup  ## one insertion in the real window with mouse and keyboard, on an X server of its own
 	env -u DISPLAY ACUS_BY_HAND=1 ./tools/with-display $(BIN)/python -m pytest -q tests/display
@@ -89,6 +101,9 @@ accuracy: setup  ## docs/accuracy from the tables that `acus study all --write` 
 
 promises: setup  ## docs/promises.md from the marks of the tests that hold them
 	$(BIN)/python -m tools.promises
+
+tests-page: setup  ## docs/tests.md from the marks of the long tests
+	$(BIN)/python -m tools.long_tests
 
 docs: setup  ## the user guide as a site, in app/site: Help and F1 open it
 	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict

@@ -28,35 +28,37 @@ sys.path.extend(str(folder) for folder in sorted((ROOT / "tests").iterdir()) if 
 settings.register_profile("seeded", derandomize=True, deadline=None)
 settings.load_profile("seeded")
 
-LONG_FILES = (
-    "simulation/test_simulation_arm_eyes.py",
+FIRST = (
     "views/test_views_arm.py",
-    "careless/test_careless_user.py",
+    "simulation/test_simulation_arm_eyes.py",
     "test_compose_trial.py",
+    "careless/test_careless_user.py",
     "simulation/test_simulation_arm.py",
+    "studies/test_studies_coverage.py",
     "test_packages_of_the_arm.py",
-    "test_compose_hand.py",
-    "test_privacy_leaks.py",
-    "test_without_posix.py",
     "imaging/test_imaging_pacs.py",
-    "views/test_views_room.py",
-    "views/test_views_cameras.py",
+    "views/test_views_author.py",
+    "tracking/test_tracking_marker_coverage.py",
+    "views/test_views_beginning.py",
+    "test_without_posix.py",
+    "device/test_device_link_test.py",
+    "hard/test_hard_needle_axis.py",
+    "test_privacy_leaks.py",
+    "studies/test_studies_batch.py",
+    "fuzz/test_fuzz.py",
+    "views/test_views_again.py",
     "imaging/test_imaging_orthanc.py",
-    "views/test_views_control_scan.py",
-    "tracking/test_tracking_calibration_stereo.py",
-    "views/test_views_window.py",
-    "views/test_views_pen.py",
-    "test_compose.py",
-    "imaging/test_imaging_worker.py",
+    "tracking/test_tracking_moved_camera.py",
+    "exercises/test_exercises_shipped.py",
+    "test_compose_hand.py",
     "views/test_views_scaling.py",
-    "views/test_views_start.py",
-    "session/test_session_pauses.py",
-    "device/test_device_wire_contract.py",
+    "views/test_views_room.py",
+    "mechanisms/test_mechanisms_contract.py",
+    "imaging/test_imaging_pacs_hostile.py",
+    "session/test_session_seals.py",
     "hard/test_hard_depth.py",
-    "imaging/test_imaging_pacs_tls.py",
-    "test_compose_withdrawal.py",
 )
-"""They begin first, so that no process is left with one of them at the end."""
+"""These take longest and begin first, so that no process is left with one of them at the end."""
 
 
 @pytest.hookimpl(trylast=True)
@@ -70,7 +72,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Begin with the files that take longest, each as a whole; the others stay in their order."""
-    rank = {ROOT / "tests" / name: place for place, name in enumerate(LONG_FILES)}
+    rank = {ROOT / "tests" / name: place for place, name in enumerate(FIRST)}
     items.sort(key=lambda item: rank.get(item.path, len(rank)))
 
 

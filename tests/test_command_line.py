@@ -129,6 +129,7 @@ def test_a_demonstration_is_of_the_exercise_of_a_file_or_of_a_name(tmp_path, mon
     assert [one.level for one in offered] == sorted(one.level for one in offered)
 
 
+@pytest.mark.long("journey")
 def test_a_demonstration_of_a_file_that_is_not_there_or_wrong_says_so_in_one_line(tmp_path):
     path = mine(tmp_path, device="leg")
     for file, words in (
@@ -164,6 +165,7 @@ def test_an_unknown_device_is_named_with_those_that_there_are_in_our_own_words()
     assert done.stderr.rstrip().endswith("'--device': 'leg' is not one of 'pantograph', 'arm'.")
 
 
+@pytest.mark.long("journey")
 def test_a_demonstration_on_a_folder_without_ct_is_refused_at_once(tmp_path):
     (tmp_path / "note.txt").write_text("no CT here")
     result = acus("demo", "--headless", "--ct", tmp_path, "--out", tmp_path / "out")

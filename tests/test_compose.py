@@ -73,6 +73,7 @@ def test_the_expert_scores_more_than_the_novice():
     assert guided("expert")[0].score.total > guided("novice")[0].score.total
 
 
+@pytest.mark.long("machine")
 def test_the_same_seed_is_the_same_attempt_to_the_last_digit():
     first, again = guided("novice")[0], run("novice")[0]
     np.testing.assert_array_equal(first.trajectory.tip, again.trajectory.tip)

@@ -76,6 +76,7 @@ def calibration(rig, **changes):
     return StereoCalibration.model_validate(given | changes)
 
 
+@pytest.mark.long("machine")
 def test_a_trainer_measures_the_depth_with_cameras_and_its_record_says_which(
     wide, settings, tmp_path
 ):
@@ -162,6 +163,7 @@ def test_a_calibration_that_was_found_bad_is_refused_though_the_settings_name_it
         real_cameras(settings)
 
 
+@pytest.mark.long("machine")
 def test_exchanged_cameras_are_found_by_the_marker_they_see(wide, leaning):
     CalibrationHistory().keep(calibration(wide))
     assert "as calibrated" in survey_cameras(leaning, "", 0.5).order
@@ -169,6 +171,7 @@ def test_exchanged_cameras_are_found_by_the_marker_they_see(wide, leaning):
     assert "the cameras are swapped" in survey_cameras(swapped, "", 0.5).order
 
 
+@pytest.mark.long("machine")
 def test_the_cone_of_calibrated_cameras_is_drawn_into_their_pictures(wide, leaning, tmp_path):
     CalibrationHistory().keep(calibration(wide))
     aim = aim_of(leaning, "icube")

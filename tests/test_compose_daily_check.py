@@ -1,5 +1,7 @@
 """The daily check on the simulated robot and cameras."""
 
+import pytest
+
 from app.compose.daily_check import DailyCheck, known_point
 from app.planning.registration.plate import load_plate
 from app.session.checks.steps import CheckVerdict, daily_check
@@ -7,6 +9,7 @@ from app.session.checks.steps import CheckVerdict, daily_check
 MM = 1e-3
 
 
+@pytest.mark.long("machine")
 def test_a_check_on_the_simulated_parts_is_green():
     name, point = known_point(load_plate("stepped-plate"), "")
     check = DailyCheck()

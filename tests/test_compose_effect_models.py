@@ -87,6 +87,7 @@ def test_the_next_attempt_is_recorded_with_the_model_that_was_chosen(tmp_path: P
     assert trainer._exercise.effects["lateral_tissue"].model == "winkler"
 
 
+@pytest.mark.long("machine")
 def test_a_running_loop_goes_on_through_a_choice_in_real_time(tmp_path: Path) -> None:
     clock = SystemClock()
     recording = attempt(tmp_path, clock, 2.0, tell=Chooser(tmp_path, clock, {1.0: "winkler"}))

@@ -47,6 +47,7 @@ MOVE = st.one_of(
 )
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize("exercise", ["first-insertion", "against-repulsion", "thick-tissue"])
 @settings(
     max_examples=12, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]

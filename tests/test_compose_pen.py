@@ -91,6 +91,7 @@ def test_the_link_holds_a_direction_for_a_tenth_of_a_second_and_then_lets_it_gro
         link.write(np.array([np.nan, 0.0]), 51.0)
 
 
+@pytest.mark.long("machine")
 def test_the_loop_shows_the_needle_where_the_pen_is(bench):
     bench.trainer.hand(0.15, -0.1, 0.03)
     snapshot = bench.step(2.5)  # half a second of a hand's movement; then the rate has settled
@@ -113,6 +114,7 @@ def test_a_pen_that_is_lost_makes_the_pose_invalid_within_a_quarter_of_a_second(
     assert bench.step(0.3).pose.valid
 
 
+@pytest.mark.long("machine")
 def test_a_whole_exercise_runs_on_simulated_pictures_and_is_scored_recorded_and_replayed(tmp_path):
     bench = Bench(tmp_path, skill="expert")
     bench.step(0.3)

@@ -97,6 +97,7 @@ def attempt(rig, seconds=2.5):
     return rig.trainer.result, max(felt)
 
 
+@pytest.mark.long("machine")
 @pytest.mark.timeout(600)  # a first start compiles the board's and the loop's kernels
 def test_a_whole_attempt_on_a_device_that_was_commissioned_over_the_wire(emulator, tmp_path):
     clearance = commission(emulator)
@@ -206,6 +207,7 @@ def test_a_port_that_is_not_there_is_told(tmp_path):
     assert build_rig(replace(absent, port=None)).robot is None
 
 
+@pytest.mark.long("machine")
 def test_the_window_is_told_who_answers_and_what_is_commissioned(emulator, tmp_path):
     rig = build_rig(setup(emulator.path, tmp_path))
     run = DesktopRun(rig).run

@@ -90,6 +90,7 @@ def _errors(fixes, needle):
     return errors[usable], float(usable.mean())
 
 
+@pytest.mark.long("machine")
 def test_the_sampled_tracker_measures_like_the_rendered_one():
     rig = load_rig("wide")
     needle = _Moving(rig, 14, 12)
@@ -159,6 +160,7 @@ def test_five_skills_are_scored_in_their_order(trials):
     assert scores[-1].passed
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize(("skill", "rig"), [("novice", ""), ("expert", ""), ("expert", "thesis")])
 def test_a_trial_scores_what_a_running_trainer_scores(first, trials, results, skill, rig):
     """The noise of the cameras is another; the hand is the same to the last bit.
@@ -184,6 +186,7 @@ def test_a_trial_scores_what_a_running_trainer_scores(first, trials, results, sk
         assert row.value == pytest.approx(other.value, abs=noise), row.name
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize("skill", ["novice", "expert"])
 def test_a_trial_of_touches_scores_what_a_running_trainer_scores(skill):
     exercise = load_exercise("laparoscopic-tool")
@@ -198,6 +201,7 @@ def test_a_trial_of_touches_scores_what_a_running_trainer_scores(skill):
         assert ours.score.row(name).value == pytest.approx(value, abs=near), name
 
 
+@pytest.mark.long("machine")
 def test_a_guided_attempt_at_targets_is_done_by_a_trainer_that_aims_at_each(monkeypatch):
     exercise = load_exercise("laparoscopic-tool")
     guided = exercise.model_copy(update={"laws": {"fixture": LawPart()}, "assistance": 0.5})
@@ -212,6 +216,7 @@ def test_a_guided_attempt_at_targets_is_done_by_a_trainer_that_aims_at_each(monk
     assert found.score.row("targets_touched").value == 100.0
 
 
+@pytest.mark.long("machine")
 def test_an_attempt_that_a_trainer_would_have_to_judge_is_done_by_one(first, monkeypatch):
     """Cameras that see nothing from 40 mm on: the attempt would pause."""
     done = []
@@ -267,6 +272,7 @@ def test_the_depth_is_measured_as_in_a_real_attempt(results):
         assert result.score.row("tracking_valid").value > 95.0
 
 
+@pytest.mark.long("machine")
 def test_a_trial_leaves_nothing_behind_and_is_the_same_twice(first, trials, results):
     again = attempt(*first, "expert", 1)
     assert again.score.total == results["expert"].score.total
@@ -332,6 +338,7 @@ def test_the_order_within_seeds_counts_no_tie_and_no_score_as_least():
     assert ordered_seeds([low]) == 1.0
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize("name", trial_table.shipped())
 def test_in_every_shipped_exercise_novices_fail_and_experts_pass_in_their_order(name):
     """Three skills and two seeds; `make trial` asks for all five and a hundred."""
@@ -346,6 +353,7 @@ def test_in_every_shipped_exercise_novices_fail_and_experts_pass_in_their_order(
     assert all(found[-1].passed)
 
 
+@pytest.mark.long("machine")
 def test_attempts_are_kept_and_judged_by_bands_that_came_later(tmp_path, monkeypatch):
     kept, done = tmp_path / "trials.jsonl", []
     name = "first-insertion"

@@ -86,6 +86,7 @@ def start(student: Student) -> tuple[float, float]:
     return float(np.degrees(np.hypot(*row[sv.AXIS][:2]))), 1e3 * depth(student)
 
 
+@pytest.mark.long("machine")
 def test_every_attempt_begins_where_the_first_one_did_wherever_the_last_one_ended(
     student: Student,
 ) -> None:
@@ -213,6 +214,7 @@ def test_the_hand_obeys_nobody_while_it_brings_the_needle_out(student: Student) 
     assert depth(student) < 0.0
 
 
+@pytest.mark.long("machine")
 def test_a_scripted_trainee_is_withdrawn_too_and_inserts_again(tmp_path: Path) -> None:
     student = Student(tmp_path, skill="expert")
     try:

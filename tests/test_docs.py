@@ -96,6 +96,7 @@ def site(tmp_path_factory):
     return folder
 
 
+@pytest.mark.long("journey")
 def test_no_page_of_the_site_takes_anything_from_another_host(site):
     taken = set()
     for file in site.rglob("*.html"):

@@ -49,6 +49,7 @@ def test_every_how_to_of_the_page_has_a_test():
     assert all((ROOT / path).is_file() for path in TESTED_ELSEWHERE.values())
 
 
+@pytest.mark.long("journey")
 def test_a_force_law_acts(save):
     from app.device.control import laws
 
@@ -61,6 +62,7 @@ def test_a_force_law_acts(save):
     assert state[sv.FORCE] == pytest.approx([3.0 * 0.48, 0.0, 3.0 * 0.36])
 
 
+@pytest.mark.long("journey")
 def test_an_effect_is_simulated(save):
     from app.simulation.consumers import DevicePort
     from app.simulation.plan import compile
@@ -137,6 +139,7 @@ def test_an_unknown_extractor_is_refused_with_the_known_ones(save):
         extractors(load_rig("wide"), "magic")
 
 
+@pytest.mark.long("journey")
 def test_a_machine_points_the_needle_in_a_whole_attempt(tmp_path, monkeypatch):
     from machine_records import Made, make
 

@@ -15,6 +15,7 @@ STUBS = {
 }
 
 
+@pytest.mark.long("journey")
 @pytest.mark.skipif(os.name != "posix", reason="needs a shell")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_while_it_installs_leaves_no_policy(tmp_path: Path, number: int) -> None:

@@ -107,6 +107,7 @@ def said(text):
     return float(re.search(r"[-+]?\d+\.\d", text)[0])
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("exercise", ["first-insertion", "breathing-liver"])
 def test_panel_bullseye_slices_record_and_score_say_the_same_of_a_tick(
     exercise, tmp_path, application
@@ -150,6 +151,7 @@ def test_panel_bullseye_slices_record_and_score_say_the_same_of_a_tick(
     )
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("gauge", [18, 22])
 def test_a_bent_needle_is_one_needle_for_panel_slices_record_and_score(
     gauge, tmp_path, application

@@ -55,6 +55,7 @@ def test_old_records_open_whole_with_what_they_said_then(old: Path) -> None:
         assert contents(recording).ticks >= 5000
 
 
+@pytest.mark.long("journey")
 def test_old_records_are_listed_with_and_without_the_files_beside_them(old: Path) -> None:
     for beside in (old / "none", *sorted(old.glob("*.json"))):
         beside.unlink(missing_ok=True)
@@ -68,6 +69,7 @@ def test_old_records_are_listed_with_and_without_the_files_beside_them(old: Path
             assert (summary.score or {})["total"] == pytest.approx(100.0)
 
 
+@pytest.mark.long("journey")
 def test_old_records_are_debriefed_and_reported(old: Path) -> None:
     application = QApplication.instance() or QApplication([])
     assert application is not None
@@ -79,6 +81,7 @@ def test_old_records_are_debriefed_and_reported(old: Path) -> None:
         assert report_bytes(shown).startswith(b"%PDF")
 
 
+@pytest.mark.long("journey")
 def test_old_records_are_exported(old: Path) -> None:
     table = score_table(list_sessions(old)).splitlines()
     assert len(table) == 4

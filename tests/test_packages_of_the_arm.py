@@ -113,11 +113,13 @@ def imported(code, folder):
     return found.stdout.splitlines()[-1].removeprefix("imported:").split()
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("code", USES.values(), ids=USES)
 def test_it_imports_none_of_them(code, tmp_path):
     assert imported(code, tmp_path) == []
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("package", [one for one in PACKAGES if find_spec(one)])
 def test_one_that_is_imported_is_told(package, tmp_path):
     assert package in imported(f"import {package}", tmp_path)

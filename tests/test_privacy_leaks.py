@@ -35,6 +35,7 @@ def spoilt(source: Path, target: Path) -> Path:
     return target
 
 
+@pytest.mark.long("journey")
 @pytest.mark.promise("docs/sessions.md: A record holds pseudonyms, never a patient's data")
 @pytest.mark.timeout(900)
 def test_no_identifier_of_a_ct_reaches_anything_that_is_written(tmp_path, capfd, source, words):
@@ -68,6 +69,7 @@ def test_no_identifier_of_a_ct_reaches_anything_that_is_written(tmp_path, capfd,
     assert leaks(acus.said.encode(), words) == []
 
 
+@pytest.mark.long("journey")
 @pytest.mark.timeout(900)
 def test_no_identifier_reaches_the_log_of_the_window_or_what_it_writes(
     tmp_path, capfd, source, words

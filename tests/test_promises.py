@@ -41,6 +41,7 @@ def test_a_mark_without_page_and_sentence_is_refused(tmp_path, mark):
         promises(tmp_path)
 
 
+@pytest.mark.long("journey")
 def test_what_holds_a_promise_is_run_by_the_tests_and_asserts_something():
     for one in promises():
         file, _, name = one.test.partition("::")

@@ -131,6 +131,7 @@ def test_a_hand_led_attempt_at_any_exercise_is_recomputed_to_the_last_bit(
     assert replay_recording(recording).identical
 
 
+@pytest.mark.long("journey")
 def test_a_breath_held_on_command_is_told_recorded_and_recomputed(tmp_path: Path) -> None:
     seen: dict[float, Any] = {}
 
@@ -203,6 +204,7 @@ def test_only_a_patient_who_holds_on_command_can_be_told_to(tmp_path: Path) -> N
     attempt(tmp_path, VirtualClock(50.0), 0.04, "breathing-liver", tell=tell)
 
 
+@pytest.mark.long("journey")
 def test_an_attempt_in_real_time_is_recomputed_to_the_last_bit(tmp_path: Path) -> None:
     recording = attempt(tmp_path, SystemClock(), 1.5)
     report = replay_recording(recording)

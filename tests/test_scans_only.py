@@ -25,6 +25,7 @@ CAREFUL_MM = 45.0
 """So deep the student pushes before the first scan."""
 
 
+@pytest.mark.long("journey")
 def test_a_needle_is_brought_to_the_target_by_control_scans_alone(tmp_path) -> None:
     exercise, clock = load_exercise("scans-only"), VirtualClock(100.0)
     assert exercise.guidance_mode is GuidanceMode.CONTROL_CT

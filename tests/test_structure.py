@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
+import pytest
+
 import app
 from tools.structure import MOST_ALONE, MOST_NAMES, Structure, read
 
@@ -76,6 +78,7 @@ def structure() -> Structure:
     return read()
 
 
+@pytest.mark.long("journey")
 def test_no_modules_import_each_other_in_a_circle_not_even_late_or_for_types():
     assert structure().circles == ()
 
@@ -100,6 +103,7 @@ def test_nothing_is_kept_from_the_formatter_to_save_lines():
     assert skipped == []
 
 
+@pytest.mark.long("journey")
 def test_only_the_shell_names_the_windows_class():
     naming = [
         name

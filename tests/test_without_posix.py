@@ -46,6 +46,7 @@ def demonstration(
     return said, inside
 
 
+@pytest.mark.long("journey")
 @pytest.mark.timeout(600)
 def test_a_whole_headless_demonstration_runs_without_the_modules_that_only_unix_has(demonstration):
     said, inside = demonstration

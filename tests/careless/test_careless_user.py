@@ -84,6 +84,7 @@ def test_cut_texts_are_found_and_whole_and_elided_ones_are_not(application):
     window.close()
 
 
+@pytest.mark.long("journey")
 @pytest.mark.display
 @pytest.mark.timeout(900)
 @pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="xvfb-run is not installed")

@@ -38,6 +38,7 @@ def run(*arguments: str) -> str:
     return result.stdout
 
 
+@pytest.mark.long("journey")
 def test_stereo_says_what_json_docs_list_and_writes_its_file(folder: Path, tmp_path: Path) -> None:
     file = tmp_path / "cameras.yaml"
     text = run(

@@ -88,6 +88,7 @@ def test_show_says_what_two_folders_deliver(monkeypatch, capsys, folders):
     assert (folders / "out" / "right.png").is_file()
 
 
+@pytest.mark.long("journey")
 def test_a_learned_colour_is_kept_with_its_cameras_shown_and_forgotten(
     monkeypatch, capsys, folders
 ):

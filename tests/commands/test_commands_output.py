@@ -20,6 +20,7 @@ from app.core.words import printable
 EVIL = "a\x1b]0;owned\x07b\x9b2Jc\rd\u202ee"
 
 
+@pytest.mark.long("journey")
 @given(st.text())
 def test_nothing_that_steers_a_terminal_is_left_and_nothing_else_is_touched(text):
     shown = printable(text)
@@ -59,6 +60,7 @@ def test_tables_and_bars_set_colours_and_let_no_text_do_it(capsys, colours):
     assert not set(own) & set("\x1b\x07\x9b\r\u202e")
 
 
+@pytest.mark.long("journey")
 def test_nobody_prints_past_the_door():
     root, past = Path(app.__file__).parent, []
     for path in sorted(root.rglob("*.py")):

@@ -39,6 +39,7 @@ def test_a_simulated_pen_an_unknown_one_and_a_source_that_cannot_be_read_are_ref
         acus("calibrate", "--source", "phone")
 
 
+@pytest.mark.long("journey")
 def test_pictures_of_a_rocked_and_rolled_pen_give_its_tip_and_its_shaft(tmp_path):
     model, tip = camera(), np.array([0.001, -0.001, 0.172])
     shaft = tip / np.linalg.norm(tip) + np.array([0.02, -0.01, 0.0])  # not through the middle

@@ -54,6 +54,7 @@ def attempts(*students):
         bench.trainer.end()
 
 
+@pytest.mark.long("journey")
 def test_a_course_from_roster_to_gradebook(acus, tmp_path):
     (tmp_path / "r.csv").write_text("pseudonym,name,pin,group\nAda,Lovelace,1843,A\nBob,,,A\n")
     taken = acus("people", "roster", tmp_path / "r.csv")
@@ -104,6 +105,7 @@ def test_wrong_rosters_end_with_code_3_and_take_nothing(acus, tmp_path):
     assert "cannot read" in acus("people", "roster", tmp_path / "none.csv", code=2)
 
 
+@pytest.mark.long("journey")
 def test_what_changes_people_or_deletes_needs_the_instructor(acus, monkeypatch, tmp_path):
     attempts("s")
     name = next(sessions().glob("*.mcap")).stem
@@ -121,6 +123,7 @@ def test_what_changes_people_or_deletes_needs_the_instructor(acus, monkeypatch, 
     assert (sessions() / f"{name}.mcap").exists()
 
 
+@pytest.mark.long("journey")
 def test_the_instructor_deletes_restores_remarks_and_erases(acus, monkeypatch, tmp_path):
     added = acus("people", "add", "Ada", "--name", "Lovelace", "--pin", "1843")
     acus("people", "pin", "Ada", "7777")
@@ -195,6 +198,7 @@ def test_an_attempt_that_was_cut_off_is_listed_and_closed(acus):
     assert acus("session", "recover")["interrupted"] == []
 
 
+@pytest.mark.long("journey")
 def test_results_that_a_course_holds_are_shown_to_the_instructor_alone(acus, monkeypatch, tmp_path):
     added = acus("people", "add", "Ada", "--pin", "1843")
     attempts(added["key"])
@@ -224,6 +228,7 @@ OPEN_TO_ALL = {
 moves records from a folder that its own account owns and shows none."""
 
 
+@pytest.mark.long("journey")
 @pytest.mark.promise("docs/people.md: The window and the command line ask the same answer")
 def test_what_the_window_closes_is_closed_on_the_command_line(acus, tmp_path):
     key = acus("people", "add", "Ada", "--pin", "1843")["key"]
@@ -314,6 +319,7 @@ def test_an_id_that_fits_none_or_several_names_none_to_who_may_not_see_them(acus
     assert completed_sessions("") == []
 
 
+@pytest.mark.long("journey")
 def test_a_question_for_a_password_without_a_terminal_is_a_question_and_no_warning():
     People().set_instructor("correct horse")
     command = [sys.executable, "-m", "app", "people", "list", "--json"]

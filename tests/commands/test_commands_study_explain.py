@@ -23,6 +23,7 @@ def test_studies_are_listed() -> None:
     }
 
 
+@pytest.mark.long("journey")
 def test_a_study_prints_json_and_writes_table_and_picture(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     arguments = ["study", "lateral_tissue", "--json=1", "--repeats", "1", "--out", str(tmp_path)]
@@ -60,6 +61,7 @@ def test_explain_for_the_real_robot_drops_what_it_cannot_render() -> None:
     assert "shaft_friction\n    dropped: it gives the force along the needle" in done.stdout
 
 
+@pytest.mark.long("journey")
 def test_explain_does_not_compile_the_loop_that_it_does_not_run() -> None:
     code = (
         "import sys; from app.exercises.library import load_exercise as load\n"
@@ -73,6 +75,7 @@ def test_explain_does_not_compile_the_loop_that_it_does_not_run() -> None:
         assert f"'app.device.control.{heavy}" not in imported, heavy
 
 
+@pytest.mark.long("journey")
 def test_no_figure_of_a_table_is_cut_where_no_terminal_limits_it() -> None:
     done = RUN.invoke(build(), ["study", "stereo", "--repeats", "1"])
     assert done.exit_code == 0

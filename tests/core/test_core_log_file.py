@@ -59,6 +59,7 @@ def test_an_error_that_a_message_quotes_is_logged_by_kind_and_place_too(log):
     assert "doe" not in text.casefold()
 
 
+@pytest.mark.long("statistics")
 def test_no_message_to_the_log_is_put_together_before_the_log_sees_its_parts():
     """What is text already may quote an error, and nobody can tell."""
     calls = [
@@ -83,6 +84,7 @@ def in_parts(call: ast.Call) -> bool:
     )
 
 
+@pytest.mark.long("statistics")
 def test_the_log_is_for_its_owner_alone_and_rotates(log, monkeypatch):
     monkeypatch.setattr(log_file, "LONGEST", 300)
     for _ in range(6 * log_file.LARGEST_BYTES // 300):

@@ -232,6 +232,7 @@ def test_force_and_energy_of_the_impedance_are_bounded_on_any_motion(seed, inert
         assert 0.0 <= done[sv.POTENTIAL] <= law.bound + 1e-12
 
 
+@pytest.mark.long("machine")
 @FEW
 @given(st.integers(0, 10_000))
 def test_the_impedance_gives_out_no_more_than_it_was_given(seed):

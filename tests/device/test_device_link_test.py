@@ -29,6 +29,7 @@ def test_the_verdict_is_one_plain_sentence():
     assert silent.verdict.startswith("the board fell silent 2.50 s after the beginning: 2500 of")
 
 
+@pytest.mark.long("machine")
 @pytest.mark.timeout(300)
 @pytest.mark.parametrize(
     ("order", "good"), [("", True), ("cut on", False), ("freeze on", False), ("drop 0.1", False)]

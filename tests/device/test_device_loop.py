@@ -237,6 +237,7 @@ def test_measuring_a_stages_cost_changes_nothing():
         assert np.array_equal(item.parameters, before)
 
 
+@pytest.mark.long("machine")
 def test_the_end_of_the_program_closes_the_loop():
     """A program that forgets to close ends by itself, without hanging and with code 0."""
     code = (
@@ -247,6 +248,7 @@ def test_the_end_of_the_program_closes_the_loop():
     assert done.returncode == 0
 
 
+@pytest.mark.long("machine")
 def test_every_kernel_of_a_second_start_comes_from_the_disk():
     code = (
         "import numba.core.dispatcher as d\n"

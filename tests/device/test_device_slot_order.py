@@ -35,6 +35,7 @@ def outcomes():
     return dict(zip(orders, json.loads(done.stdout), strict=True))
 
 
+@pytest.mark.long("statistics")
 def test_however_lines_are_shuffled_the_tick_stays_the_same_bit_for_bit(outcomes):
     for seed in range(4):
         assert outcomes[f"shuffled {seed}"] == outcomes["as it is"], seed

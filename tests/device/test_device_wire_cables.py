@@ -80,6 +80,7 @@ def test_a_board_of_the_other_version_is_refused_with_both():
         acus.read_info(one, 2)
 
 
+@pytest.mark.long("machine")
 def test_the_emulated_machine_behind_a_terminal_is_homed_armed_and_holds(tmp_path):
     with emulator(tmp_path, "tensegrity", "--hand", "rest") as process:
         link = SerialLink(process.path, PROFILE)

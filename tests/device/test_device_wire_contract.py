@@ -95,6 +95,7 @@ def robot(request, processes):
     return Robot(request.param, processes)
 
 
+@pytest.mark.long("machine")
 def test_every_robot_opens_reads_angles_sends_torques_and_ends_at_zero(robot):
     with robot.loop:
         assert robot.link.info().protocol

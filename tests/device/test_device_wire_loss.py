@@ -62,6 +62,7 @@ class Client:
         return " | ".join(event.message for event in self.link.events.drain())
 
 
+@pytest.mark.long("machine")
 @pytest.mark.promise("docs/protocol.md: at most 20 ms later: torque 0, tripped")
 def test_a_killed_program_leaves_the_motors_at_zero_within_the_watchdogs_time(robot):
     environment = dict(os.environ, PYTHONPATH=f"{TESTS.parent}:{TESTS}")

@@ -99,6 +99,7 @@ def test_a_phantoms_exercise_comes_back_equal(tmp_path, elsewhere):
     assert unpack(tmp_path / "a.acusx").known
 
 
+@pytest.mark.long("journey")
 def test_with_the_ct_it_needs_nothing_else_and_tells_nobodys_name(tmp_path, ct, elsewhere):
     volume = load_ct(ct)
     corner = np.zeros(volume.hu.shape, bool)
@@ -247,6 +248,7 @@ def test_members_that_none_has_are_refused_before_anything_is_written(
     assert left_of(tmp_path) == before
 
 
+@pytest.mark.long("journey")
 def test_a_bomb_is_not_unpacked(file, ct, elsewhere):
     big = io.BytesIO(bytes(300 << 20))
     rewritten(file, {"structures/1.seg.nrrd": big.getvalue()})

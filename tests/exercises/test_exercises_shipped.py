@@ -77,6 +77,7 @@ def test_a_perfect_attempt_scores_100(name: str) -> None:
     assert result.passed
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("name", SHIPPED)
 @pytest.mark.parametrize("seed", range(5))
 def test_the_score_falls_with_everything_that_gets_worse(name: str, seed: int) -> None:

@@ -101,6 +101,7 @@ def exercises(draw):
 SCHEMA = jsonschema.Draft202012Validator(schema_document())
 
 
+@pytest.mark.long("statistics")
 @settings(deadline=None, max_examples=100, suppress_health_check=[HealthCheck.too_slow])
 @given(exercises())
 def test_what_is_written_reads_back_equal_and_keeps_to_the_schema(exercise: Exercise) -> None:
@@ -243,6 +244,7 @@ def test_the_published_schema_is_that_of_the_reader() -> None:
     assert published == schema_text()
 
 
+@pytest.mark.long("statistics")
 def test_shipped_files_and_short_forms_keep_to_the_schema_and_typos_do_not() -> None:
     schema = json.loads(schema_text())
     jsonschema.Draft202012Validator.check_schema(schema)

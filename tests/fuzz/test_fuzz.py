@@ -24,6 +24,7 @@ def known(tmp_path_factory):
     return {seed.name: seed for seed in seeds(tmp_path_factory.mktemp("seeds"))}
 
 
+@pytest.mark.long("journey")
 @pytest.mark.filterwarnings("ignore")  # what pydicom says of a value while it writes the seeds
 def test_mutated_files_of_every_kind_end_in_a_named_error_or_something_right(tmp_path):
     tally = campaign(tmp_path, 420, seed=2024)
@@ -119,6 +120,7 @@ def test_compressed_pixels_cut_short_are_told_at_the_scan(tmp_path, known):
             filled([header], np.dtype(np.int16))
 
 
+@pytest.mark.long("journey")
 def test_archives_and_records_of_the_programs_own_have_their_place(tmp_path):
     names = {name for name, *_ in archives(tmp_path)}
     assert names == {
@@ -128,6 +130,7 @@ def test_archives_and_records_of_the_programs_own_have_their_place(tmp_path):
     }  # fmt: skip
 
 
+@pytest.mark.long("journey")
 def test_a_piece_that_is_cut_out_of_an_exercises_file_anywhere_is_a_named_error(tmp_path):
     kind = next(one for one in archives(tmp_path / "made") if one[0] == "acusx")
     _, whole, lay, read = kind
@@ -142,6 +145,7 @@ def test_a_piece_that_is_cut_out_of_an_exercises_file_anywhere_is_a_named_error(
     assert seen
 
 
+@pytest.mark.long("journey")
 def test_a_backup_whose_list_of_people_is_no_utf_8_is_a_named_error(tmp_path):
     kind = next(one for one in archives(tmp_path / "made") if one[0] == "people of a backup")
     _, whole, lay, read = kind

@@ -74,6 +74,7 @@ def test_every_arm_angle_of_every_branch_meets_the_pose_however_aligned_it_is(q,
     assert (np.abs(found.q) <= np.pi).all()
 
 
+@pytest.mark.long("statistics")
 @given(postures)
 def test_all_eight_decoupled_solutions_meet_the_pose_however_aligned_it_is(q):
     there = forward(ARM, q)
@@ -105,6 +106,7 @@ def test_towards_the_first_axis_the_pose_is_met_at_every_distance(k, azimuth, ri
         assert (ArmSingularity.FIRST_AXIS in one.singular) == on_axis
 
 
+@pytest.mark.long("statistics")
 @given(directions, st.integers(3, 16), st.booleans())
 def test_across_the_outer_skin_there_is_an_answer_or_a_named_error(direction, k, inside):
     distance = OUTER * (1.0 - 10.0**-k if inside else 1.0 + 10.0**-k)
@@ -204,6 +206,7 @@ def test_whatever_is_asked_the_pose_offered_is_reached_within_limits(direction, 
     assert offer.shift >= max(shell.inner - distance, distance - shell.outer) - 1e-9
 
 
+@pytest.mark.long("statistics")
 @given(postures)
 def test_the_size_of_a_twist_is_never_lost_near_half_a_turn(q):
     here = forward(ARM, q)
@@ -221,6 +224,7 @@ def test_the_size_of_a_twist_is_never_lost_near_half_a_turn(q):
         assert size == pytest.approx(0.25 * turn, abs=1e-8)
 
 
+@pytest.mark.long("statistics")
 def test_nothing_finite_comes_of_what_is_not_and_the_kernel_says_so():
     rotation, position = np.empty((3, 3)), np.empty(3)
     forward_kernel(np.full(7, 0.3), ARM.lengths, rotation, position)

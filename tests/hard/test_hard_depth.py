@@ -47,6 +47,7 @@ def test_with_the_band_hidden_no_hand_feels_more_than_its_limit(name, depth, cap
     assert "at most" in force_words(said)
 
 
+@pytest.mark.long("statistics")
 @settings(derandomize=True, deadline=None, max_examples=12)
 @given(
     name=st.sampled_from(RIGS),

@@ -91,6 +91,7 @@ def test_another_coloured_thing_beside_the_marker_does_not_move_it(renderer, fit
     assert min(np.linalg.norm(one.uv - true) for one in finds) < 1.0
 
 
+@pytest.mark.long("statistics")
 def test_with_the_marker_hidden_red_cloth_and_orange_are_not_taken_for_it(renderer, fit, scene):
     rng = np.random.default_rng(5)
     empty = renderer.render(MarkerScene(scene.p_world, scene.axis_world, visible=False))

@@ -43,6 +43,7 @@ def closed_paths(draw: st.DrawFn) -> tuple[np.ndarray, np.ndarray]:
     return np.array(depths), random.choice([0.25e-3, 1e-3, 5e-3], len(depths))
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(("name", "model"), CASES)
 @QUICK
 @given(closed_paths())

@@ -26,6 +26,7 @@ def full(tmp_path_factory: pytest.TempPathFactory, whole: bytes) -> Recording:
     return read(tmp_path_factory.mktemp("full"), whole)
 
 
+@pytest.mark.long("statistics")
 def test_a_file_cut_off_anywhere_gives_its_beginning_or_says_why_not(
     tmp_path: Path, whole: bytes, full: Recording
 ) -> None:
@@ -47,6 +48,7 @@ def test_a_file_cut_off_anywhere_gives_its_beginning_or_says_why_not(
         seen = len(part.samples.time)
 
 
+@pytest.mark.long("statistics")
 def test_every_cut_file_has_a_summary(tmp_path: Path, whole: bytes) -> None:
     path = tmp_path / "cut.mcap"
     for length in range(0, len(whole), 601):
@@ -54,6 +56,7 @@ def test_every_cut_file_has_a_summary(tmp_path: Path, whole: bytes) -> None:
         assert read_summary(path).state in ("broken", "unfinished")
 
 
+@pytest.mark.long("statistics")
 @settings(derandomize=True, deadline=None, max_examples=60)
 @given(place=st.floats(0.0, 1.0, exclude_max=True), bits=st.integers(1, 255))
 def test_one_flipped_byte_anywhere_never_crashes_and_never_gives_nan_or_other_numbers(

@@ -252,6 +252,7 @@ def test_random_attempts_are_bounded(n: int, seed: int, size: float) -> None:
     assert_bounded(result)
 
 
+@pytest.mark.long("statistics")
 def test_a_million_samples_are_scored() -> None:
     n = 1_000_000
     felt = np.zeros((n, 3))

@@ -48,6 +48,7 @@ def off_mm(folder) -> float:
     return worst
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.promise(
     "README.md: every voxel within 0.01 mm of where its own file's IPP and IOP put it, or "
     "refused with the reason"

@@ -53,6 +53,7 @@ def test_any_pixels_have_finite_moments(pixels):
     assert found.angle is None or -np.pi / 2 < found.angle <= np.pi / 2
 
 
+@pytest.mark.long("statistics")
 @FEW
 @given(
     st.tuples(st.floats(-0.3, 0.35), st.floats(-0.3, 0.4), st.floats(0.0, 0.3)),
@@ -141,6 +142,7 @@ def test_parallel_lines_are_degenerate_wherever_they_lie(places, towards):
     assert not found.p_world.any()
 
 
+@pytest.mark.long("statistics")
 @MANY
 @given(st.floats(0.0, 89.9), st.floats(0.0, 6.28), st.integers(0, 1000))
 def test_a_ring_at_any_angle_is_right_or_has_a_name(tilt_deg, turn, seed):

@@ -120,6 +120,7 @@ def test_a_law_so_stiff_that_the_tick_is_unstable_stays_bounded_and_slow(stiffne
     assert run.excess_speed <= PROFILE.let_go.speed
 
 
+@pytest.mark.long("statistics")
 def test_ten_minutes_of_rest_do_not_slow_the_tick():
     """Subnormal numbers would: decaying memories are snapped to zero."""
     rig = held()

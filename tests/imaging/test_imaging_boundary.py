@@ -67,6 +67,7 @@ def test_a_path_beside_touching_and_through_a_box_is_told_exactly():
     assert through.through_mm == pytest.approx(16.0, abs=1.0)
 
 
+@pytest.mark.long("statistics")
 def test_the_distance_of_a_large_structure_is_as_exact_as_that_of_a_small_one():
     volume = made((230, 230, 200), (1.0, 1.0, 1.0))
     one = box(volume, (5, 5, 5), (200, 200, 190))
@@ -102,6 +103,7 @@ def test_a_line_without_length_is_a_point():
     assert (point.depth_mm, point.through_mm) == (0.0, 0.0)
 
 
+@pytest.mark.long("statistics")
 def test_the_nearest_place_of_a_path_has_no_better_neighbour():
     volume = made((64, 64, 48), (0.8, 0.8, 2.0), turn=turned())
     centre = middle(volume)
@@ -114,6 +116,7 @@ def test_the_nearest_place_of_a_path_has_no_better_neighbour():
         assert nearest.distance_mm <= field.boundary.at(dense).min() + 0.05
 
 
+@pytest.mark.long("statistics")
 def test_a_line_that_is_surely_no_nearer_is_passed_by_and_any_other_is_told_exactly():
     volume = made((60, 60, 40), (0.8, 0.8, 2.0))
     field = SignedDistance.of(box(volume, (20, 20, 10), (39, 39, 29)))

@@ -56,6 +56,7 @@ def test_the_length_through_a_plate_of_one_voxel_is_its_thickness_over_the_cosin
         assert nearest.distance_mm < 0.0
 
 
+@pytest.mark.long("statistics")
 def test_a_line_through_the_corner_of_a_voxel_is_never_missed():
     volume = made((20, 20, 20), (0.7, 0.7, 0.7))
     mask = np.zeros(volume.hu.shape, bool)

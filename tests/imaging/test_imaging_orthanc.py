@@ -39,6 +39,7 @@ def orthanc(tmp_path_factory, stored):
         yield archive
 
 
+@pytest.mark.long("journey")
 def test_it_answers(orthanc):
     assert Pacs(orthanc.settings()).echo() < 5.0
 
@@ -55,6 +56,7 @@ def test_what_was_stored_is_found_by_patient_and_by_date(orthanc):
     assert client.find_studies(Query(patient_id="SECRET*", modality="MR")) == []
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("way", ["get", "move"])
 def test_a_series_enters_the_library_with_the_same_voxels_and_no_names(orthanc, stored, way):
     settings = orthanc.settings(retrieve=way)
@@ -67,6 +69,7 @@ def test_a_series_enters_the_library_with_the_same_voxels_and_no_names(orthanc, 
     assert not Incoming(settings, SERIES).folder.exists()
 
 
+@pytest.mark.long("journey")
 def test_only_what_is_missing_is_fetched_again(orthanc):
     settings = orthanc.settings()
     incoming = Incoming(settings, SERIES).open()
@@ -105,6 +108,7 @@ def test_a_series_it_has_not_got_is_said(orthanc):
     assert CtLibrary().entries() == ()
 
 
+@pytest.mark.long("journey")
 def test_killed_in_mid_retrieve_it_leaves_nothing_half_imported(tmp_path, stored):
     with Orthanc(tmp_path / "orthanc") as archive:
         archive.store(stored)

@@ -101,6 +101,7 @@ def fates(tmp_path_factory):
     }
 
 
+@pytest.mark.long("journey")
 def test_every_row_of_the_table_has_the_action_that_orthanc_takes(fates):
     assert len(fates) > 440
     expected = {"X": "removed", "Z": "emptied", "D": "emptied", "U": "changed", "K": "kept"}

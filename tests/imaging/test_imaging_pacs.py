@@ -145,6 +145,7 @@ def test_nobody_there_a_wrong_name_and_something_else_there_are_told_apart():
             Pacs(there).echo()
 
 
+@pytest.mark.long("journey")
 def test_silence_ends_after_the_configured_time(stored):
     with FakePacs(stored, "silent") as pacs:
         start = time.monotonic()
@@ -156,6 +157,7 @@ def test_silence_ends_after_the_configured_time(stored):
 # --- retrieving goes wrong
 
 
+@pytest.mark.long("journey")
 @pytest.mark.promise(
     "docs/pacs.md: nothing enters the library; what came is kept aside for a day; the same "
     "command again fetches only the rest"
@@ -176,6 +178,7 @@ def test_a_cut_in_the_middle_leaves_nothing_and_is_resumed(stored, way):
     assert not incoming(settings).folder.exists()
 
 
+@pytest.mark.long("journey")
 def test_a_stall_in_the_middle_ends_in_time_and_is_resumed(stored):
     with FakePacs(stored, "stalls") as pacs:
         settings = pacs.settings(timeout_s=1.0)

@@ -180,6 +180,7 @@ def test_a_listing_without_an_end_is_refused(stored: Path, monkeypatch: pytest.M
     assert len(pacs.sent) < 10_000
 
 
+@pytest.mark.long("journey")
 def test_answers_that_drip_past_every_silence_end_with_the_clock_of_the_request(
     stored: Path,
 ) -> None:
@@ -252,6 +253,7 @@ def test_a_greeting_of_four_gigabytes_is_not_read() -> None:
         Pacs(settings).echo()
 
 
+@pytest.mark.long("journey")
 def test_a_greeting_that_drips_past_every_timeout_ends_with_the_clock() -> None:
     def drip(connection: socket.socket, over: threading.Event) -> None:
         connection.sendall(struct.pack(">BBL", 2, 0, 100_000))
@@ -347,6 +349,7 @@ with Large(Path(sys.argv[2])) as pacs:
 """
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("way", ["get", "move"])
 def test_a_large_picture_goes_to_the_disk_as_it_comes(stored: Path, way: str) -> None:
     """The archive is another process: what it takes itself counts nothing."""

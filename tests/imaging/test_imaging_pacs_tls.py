@@ -58,6 +58,7 @@ def encrypted(stored):
         yield pacs
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("way", ["get", "move"])
 def test_a_series_is_found_and_retrieved_over_an_encrypted_connection(encrypted, way):
     settings = encrypted.settings(retrieve=way, tls=TlsSettings(**OURS), timeout_s=10.0)
@@ -94,6 +95,7 @@ def test_a_plain_archive_asked_with_tls_and_the_other_way_round_are_told(stored,
         Pacs(encrypted.settings(timeout_s=2.0)).echo()
 
 
+@pytest.mark.long("journey")
 @pytest.mark.promise(
     "docs/pacs.md: with C-MOVE the archive, which then connects to us, must show one of the same "
     "authority"
@@ -173,6 +175,7 @@ def test_the_command_line_adds_an_encrypted_archive_with_whole_paths(encrypted, 
     assert "answers in" in CliRunner().invoke(command_line(), ["pacs", "echo"]).output
 
 
+@pytest.mark.long("journey")
 def test_a_stranger_who_connects_and_says_nothing_keeps_nobody_waiting(stored):
     """The network library shakes hands with whoever connects, one after the other."""
     silent = []

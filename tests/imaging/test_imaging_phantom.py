@@ -40,6 +40,7 @@ def test_its_files_carry_every_required_tag_and_a_pseudonym(small_phantom):
     assert file.file_meta.TransferSyntaxUID == "1.2.840.10008.1.2.1"
 
 
+@pytest.mark.long("statistics")
 def test_only_patients_from_seed_1000_on_have_a_nodule_which_lies_in_the_lung():
     assert make_patient(1).nodule is None
     assert make_patient(999).nodule is None

@@ -101,6 +101,7 @@ def folder(tmp_path):
     return tmp_path / "in"
 
 
+@pytest.mark.long("statistics")
 def test_a_name_in_a_faulty_element_reaches_no_log_and_no_message(folder, tmp_path):
     environment = os.environ | {"PYTHONWARNINGS": "always", "ACUS_DATA": str(tmp_path / "data"),
                                 "ACUS_SETTINGS": str(tmp_path / "settings")}  # fmt: skip

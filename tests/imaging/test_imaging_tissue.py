@@ -119,6 +119,7 @@ def test_what_is_no_ct_or_begins_outside_is_refused() -> None:
         tissue_along(slabs(SLABS), (0.0, -90.0, 0.0), (0.0, 60.0, 0.0))
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("noise", [0.0, 40.0])
 @pytest.mark.parametrize("seed", [1, 3])
 def test_a_phantoms_own_path_leads_through_its_wall_into_the_liver(seed: int, noise: float) -> None:

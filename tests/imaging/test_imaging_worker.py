@@ -64,6 +64,7 @@ def test_a_file_that_breaks_its_reader_is_named_and_the_others_are_read(hostile,
     assert "JANE" not in found[1]
 
 
+@pytest.mark.long("journey")
 def test_a_file_that_hangs_its_reader_is_given_up_after_two_seconds(hostile):
     reasons(hostile, "warm")
     begin = time.monotonic()
@@ -79,6 +80,7 @@ def test_a_file_that_never_comes_is_given_up_too(hostile, monkeypatch):
     assert "waited longer than 1 s" in reasons(hostile, "sleep")[0]
 
 
+@pytest.mark.long("journey")
 def test_a_long_job_that_tells_how_far_it_is_is_not_given_up_and_shows_it(hostile):
     told = []
     progress = Progress(lambda fraction, text: told.append((fraction, text)))
@@ -87,6 +89,7 @@ def test_a_long_job_that_tells_how_far_it_is_is_not_given_up_and_shows_it(hostil
     assert (0.5, "step 5") in told
 
 
+@pytest.mark.long("journey")
 def test_a_file_that_takes_long_is_told_to_whoever_waits(hostile):
     told = []
     progress = Progress(lambda fraction, text: told.append(text))
@@ -116,6 +119,7 @@ def test_closing_twice_is_closing_once_and_the_next_task_starts_anew(hostile):
     assert reasons(hostile, "b") == ["read b"]
 
 
+@pytest.mark.long("journey")
 def test_a_cancelled_task_leaves_no_child_behind(hostile):
     progress = Progress()
     threading.Timer(1.0, progress.cancel).start()
@@ -201,6 +205,7 @@ print(CtLibrary().import_series(scan_folder(folder / "dicom").series[0]).report.
 """
 
 
+@pytest.mark.long("journey")
 def test_the_program_parses_nothing_itself(tmp_path):
     paths = Slices().write(tmp_path / "dicom")
     (tmp_path / "nifti").mkdir()
@@ -223,6 +228,7 @@ def test_the_program_parses_nothing_itself(tmp_path):
     assert done.stdout.splitlines() == ["[5, 5, 5, 5]", "[]", "5"], done.stderr
 
 
+@pytest.mark.long("journey")
 def test_whoever_waits_for_a_child_is_told_and_may_cancel(hostile):
     told = []
     first = threading.Thread(target=lambda: reasons(hostile, "slow"))

@@ -338,6 +338,7 @@ def test_tool_and_wrist_poses_are_inverse_through_base_flange_and_tool():
     assert np.allclose(straight.translation, there @ np.array([0.0, 0.0, 0.126]))
 
 
+@pytest.mark.long("statistics")
 def test_the_covariance_of_the_tool_is_that_of_many_drawn_errors():
     arm = replace(
         ARM,

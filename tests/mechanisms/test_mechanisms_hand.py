@@ -362,6 +362,7 @@ def test_two_opposed_contacts_have_the_margin_of_their_closed_form(way, mu, scal
     assert found.margin == pytest.approx(1.0 / np.sqrt(1.0 + mu**-2 + lever**2), rel=1e-9)
 
 
+@pytest.mark.long("statistics")
 def test_two_contacts_in_the_plane_close_where_each_is_inside_the_others_cone():
     rng, closed = np.random.default_rng(5), 0
     for _ in range(200):
@@ -395,6 +396,7 @@ def random_grasp(rng: np.random.Generator) -> Contacts:
     return Contacts(points, normals, rng.uniform(0.3, 1.2), float(rng.choice([0.0, 0.1])))
 
 
+@pytest.mark.long("statistics")
 def test_hull_and_linear_programme_agree_in_space_and_the_programme_never_says_less():
     rng, closed = np.random.default_rng(6), 0
     for _ in range(60):

@@ -19,6 +19,7 @@ GEOMETRY = PROFILE.pantograph
 _EXACT = {"xatol": 1e-12, "fatol": 1e-15, "maxiter": 4000}
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(
     ("tilt_deg", "radius_mm", "left", "right", "condition", "lever"),
     [

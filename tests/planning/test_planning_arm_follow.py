@@ -99,6 +99,7 @@ def test_arc_ends_where_it_should_and_turns_right_handed():
         PoseArc(HERE, RigidTransform(DOWN, [0.3, 0.5, 0.3]), [0.3, 0.2, 0.3], [0.0, 0.0, 1.0])
 
 
+@pytest.mark.long("statistics")
 def test_a_line_out_of_reach_is_refused_with_place_reason_and_a_base_that_could():
     line = PoseLine(HERE, RigidTransform(DOWN, [0.9, 0.4, 0.3]))
     with pytest.raises(MotionRefusedError, match=r"unreachable.*with its base at") as caught:
@@ -121,6 +122,7 @@ def test_a_start_that_is_not_the_motions_own_is_refused():
         follow(ARM, MOTIONS["line"], HAND, start=np.full(7, 0.5), suggest=False)
 
 
+@pytest.mark.long("statistics")
 def test_dexterity_asked_for_is_kept_or_refused():
     with pytest.raises(MotionRefusedError, match="dexterity falls to"):
         follow(ARM, MOTIONS["line"], HAND, least_dexterity=0.9, suggest=False)

@@ -61,6 +61,7 @@ def test_along_the_trocars_axis_there_is_nothing_to_turn():
     assert angle_between(end.axis_world, PIVOT.inward_world) < 1e-6
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("lean", [1e-3, 1.1e-6, 0.9e-6, 1e-12])
 def test_a_direction_that_hardly_leans_makes_no_jump(lean):
     aside = unit(np.cross(PIVOT.inward_world, [1.0, 0.0, 0.0]))
@@ -73,6 +74,7 @@ def test_a_direction_that_hardly_leans_makes_no_jump(lean):
     assert (np.abs(np.diff(q, axis=0)) <= 1.001 * ARM.speed * np.diff(times)[0] + 1e-9).all()
 
 
+@pytest.mark.long("statistics")
 def test_with_the_tool_in_the_hand_it_is_as_careful_as_asked(done):
     share = 0.3
     slow = pick_and_place(PIVOT, replace(TASK, careful=share), START, POST, lambda tool: POST)
@@ -96,6 +98,7 @@ def test_whether_it_can_be_is_told_without_a_search(monkeypatch):
     assert not can_place(PIVOT, far, START, POST, lambda tool: POST)
 
 
+@pytest.mark.long("statistics")
 def test_a_refusal_names_the_phase_that_was_come_to_and_what_was_touched():
     blocked = Collisions(
         lambda q: PIVOT.state(q).depth < 0.05, names=lambda q: "the tip comes to a bone"
@@ -165,6 +168,7 @@ def test_the_shaft_stays_in_the_fulcrum_while_it_goes_in_and_the_tool_is_held_fr
     assert [phase.held for phase in done.phases] == [False, False, *[True] * 5]
 
 
+@pytest.mark.long("statistics")
 def test_the_same_plan_comes_out_again(done):
     again = pick_and_place(PIVOT, TASK, START, POST, lambda tool: POST)
     assert again.duration == done.duration
@@ -172,6 +176,7 @@ def test_the_same_plan_comes_out_again(done):
     assert all((again.at(float(t)) == done.at(float(t))).all() for t in times)
 
 
+@pytest.mark.long("statistics")
 def test_a_tray_out_of_reach_and_a_blocked_trocar_are_named_by_phase():
     far = RigidTransform(LYING.rotation, [1.5, 0.4, 0.1])
     with pytest.raises(MotionError, match="grasp: the arm gets 0 %"):

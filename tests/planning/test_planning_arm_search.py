@@ -91,6 +91,7 @@ def test_without_ompl_the_extra_is_named(monkeypatch):
         search(ARM, POST, START, GOAL)
 
 
+@pytest.mark.long("statistics")
 def test_the_tip_goes_around_something_within_the_body_with_the_shaft_in_the_fulcrum():
     first = PIVOT.p_world + [-0.03, 0.0, -0.1]
     goal = PIVOT.p_world + [0.04, 0.0, -0.1]
@@ -115,6 +116,7 @@ def test_the_tip_goes_around_something_within_the_body_with_the_shaft_in_the_ful
         search_tips(PIVOT, things, start, vessel)
 
 
+@pytest.mark.long("statistics")
 def test_neither_package_is_imported_before_it_is_used():
     code = (
         "import sys, app.planning.arm.pick_place;"

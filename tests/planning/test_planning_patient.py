@@ -1,9 +1,12 @@
 """How a patient is opened: what it waits for is said."""
 
+import pytest
+
 from app.core.progress import Progress
 from app.planning import patient
 
 
+@pytest.mark.long("statistics")
 def test_what_a_patient_waits_for_last_is_said_before_it_is_waited_for(monkeypatch):
     said = []
     monkeypatch.setattr(patient, "_load_verdict", lambda: said.append("waited"))

@@ -100,6 +100,7 @@ def test_the_predicted_error_is_fitzpatricks_formula(name: str) -> None:
     assert target_error(fit).rms(point) ** 2 == pytest.approx(expected, rel=1e-9)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("name", SPREADS)
 def test_monte_carlo_agrees_with_error_estimate_and_prediction(name: str) -> None:
     """FLE is unbiased in the square, TRE has the right covariance, 95 % ellipsoids hold 95 %."""

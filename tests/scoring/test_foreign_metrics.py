@@ -63,6 +63,7 @@ def save(folder: Path, name: str, head: str = "", body: str = "return 4.5") -> P
     return path
 
 
+@pytest.mark.long("statistics")
 def test_whatever_a_metric_does_costs_its_own_row_which_names_it_and_says_what(
     folder: Path,
 ) -> None:
@@ -82,6 +83,7 @@ def test_whatever_a_metric_does_costs_its_own_row_which_names_it_and_says_what(
     assert (found.row("fine").value, found.row("fine").sd) == (4.5, 0.25)
 
 
+@pytest.mark.long("statistics")
 def test_what_cost_its_process_once_is_not_run_again_before_it_is_changed(folder: Path) -> None:
     path = save(folder, "waits", "import time", "time.sleep(1e6)")
     trajectory = Attempt().trajectory()
@@ -134,6 +136,7 @@ def test_a_machine_of_the_programs_own_cannot_be_taken(folder: Path) -> None:
     assert "'pantograph' is a name of the program's own; rename the folder" in refused.refused
 
 
+@pytest.mark.long("statistics")
 def test_the_list_imports_each_file_in_a_process_of_its_own_and_says_what_rights_it_has(
     folder: Path,
 ) -> None:
@@ -192,6 +195,7 @@ def test_an_effect_whose_parameters_end_the_program_is_refused_by_name(folder: P
         effects.parameters_of("mine", {}, None)  # type: ignore[arg-type]
 
 
+@pytest.mark.long("statistics")
 def test_a_file_that_loops_at_import_costs_five_seconds_and_longer_on_a_slow_computer_alone(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

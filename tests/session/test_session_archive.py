@@ -226,6 +226,7 @@ def test_a_damaged_or_newer_backup_is_refused(one: Place, tmp_path: Path) -> Non
         assert not (one.folder / "new.mcap").exists()
 
 
+@pytest.mark.long("journey")
 def test_two_programs_read_and_write_one_index_and_lose_nothing(one: Place) -> None:
     code = (
         "import sys; from pathlib import Path; from app.session.index import Index\n"

@@ -182,6 +182,7 @@ def listed(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[str]]:
     return {line.split("\t")[0]: line.split("\t")[1:] for line in lines} | {"spent": last.split()}
 
 
+@pytest.mark.long("journey")
 def test_a_folder_of_bombs_is_listed_in_seconds_and_little_memory(
     listed: dict[str, list[str]],
 ) -> None:
@@ -233,6 +234,7 @@ def test_columns_that_do_not_say_their_size_are_not_ours() -> None:
         sample_columns.unpack(data, ReadingBudget("a.mcap", len(data)))
 
 
+@pytest.mark.long("journey")
 def test_an_honest_record_takes_less_than_two_thirds_of_what_it_may(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

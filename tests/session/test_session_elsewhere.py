@@ -65,6 +65,7 @@ def printed(home: Path, *words: str, **more: str) -> str:
     return done.stdout
 
 
+@pytest.mark.long("journey")
 def test_each_user_of_a_source_tree_has_a_folder_of_his_own(tmp_path: Path) -> None:
     for name in ("ada", "bob"):
         home = tmp_path / name
@@ -133,6 +134,7 @@ def test_what_this_station_signed_comes_whole_and_what_others_did_stays(
     assert len(found.records) == 1
 
 
+@pytest.mark.long("journey")
 def test_killed_at_any_step_nothing_is_lost_and_the_next_look_finishes_or_undoes_it(
     tree: Path, tmp_path: Path
 ) -> None:

@@ -279,6 +279,7 @@ for line in sys.stdin:
 """
 
 
+@pytest.mark.long("journey")
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
 @pytest.mark.timeout(1200)
 def test_no_kill_loses_a_finished_attempt_and_the_index_is_rebuilt_equal(tmp_path: Path) -> None:

@@ -71,6 +71,7 @@ for _ in range(programs):
 """
 
 
+@pytest.mark.long("journey")
 @pytest.mark.promise("docs/sessions.md: so that one under its own name can always be replayed")
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
 def test_every_record_that_a_killed_program_leaves_can_be_replayed(tmp_path: Path) -> None:
@@ -99,6 +100,7 @@ def test_every_record_that_a_killed_program_leaves_can_be_replayed(tmp_path: Pat
     assert sum(count > 0 for count in held) >= 4  # those that lived long enough on this machine
 
 
+@pytest.mark.long("journey")
 def test_what_a_kill_loses_is_bounded_from_the_first_block_on(tmp_path: Path) -> None:
     clock = VirtualClock(50.0)
     state = row(50.0, 0)

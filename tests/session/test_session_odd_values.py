@@ -96,6 +96,7 @@ def works(file: str) -> list[Callable[[], object]]:
     ]
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     ("file", "sealed", "kind"),
     [

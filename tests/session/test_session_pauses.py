@@ -73,6 +73,7 @@ def test_without_a_measured_depth_in_the_body_the_attempt_pauses_and_goes_on_by_
     assert "goes on" in told[1]
 
 
+@pytest.mark.long("journey")
 def test_a_pause_stands_in_the_record_and_in_the_times_and_too_long_ones_void_the_score(
     bench: Bench,
 ) -> None:
@@ -250,6 +251,7 @@ def test_a_busy_window_pauses_and_the_attempt_goes_on_where_it_was(
     assert told[1]["duration_s"] == pytest.approx(2.0 + BACK, abs=0.1)
 
 
+@pytest.mark.long("journey")
 def test_a_window_that_was_busy_for_long_voids_nothing(bench: Bench) -> None:
     bench.trainer.begin()
     bench.insertion()

@@ -342,6 +342,7 @@ def test_who_is_erased_leaves_nothing_but_a_random_key(people: People) -> None:
         assert text not in data
 
 
+@pytest.mark.long("journey")
 def test_two_programs_add_students_at_once_and_none_is_lost(tmp_path: Path) -> None:
     code = (
         "import sys; from pathlib import Path; from app.session.people import *\n"

@@ -334,6 +334,7 @@ def test_names_and_persons_change_together_or_not_at_all(
     assert {summary.signature for summary in list_sessions(one.folder)} == {"verified"}
 
 
+@pytest.mark.long("journey")
 @pytest.mark.promise(
     "README.md: no finished attempt is lost or unsigned, and nothing is left over after "
     "the next start"

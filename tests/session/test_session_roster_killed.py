@@ -44,6 +44,7 @@ def holding(folder: Path, name: str) -> list[str]:
     )
 
 
+@pytest.mark.long("journey")
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
 def test_a_roster_that_is_killed_at_any_step_leaves_no_names(tmp_path, monkeypatch):
     steps = take(begun(tmp_path / "counted"))

@@ -146,6 +146,7 @@ def test_the_arm_stands_against_gravity_and_follows_a_line():
             running.follow(beyond)
 
 
+@pytest.mark.long("machine")
 def test_the_tool_is_lifted_without_slipping():
     for seed in (0, 1, 4):
         with RunningScene(ArmScene.seeded(seed)) as running:
@@ -162,6 +163,7 @@ def test_the_tool_is_lifted_without_slipping():
         assert abs(done["grasp"]["force_N"]) < 1.0
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize("azimuth", [20.0, 200.0])
 def test_the_tool_goes_through_the_trocar_along_a_leaning_path_without_touching_it(azimuth):
     axis, depth = leaning(25.0, azimuth), 0.09
@@ -180,6 +182,7 @@ def test_the_tool_goes_through_the_trocar_along_a_leaning_path_without_touching_
     assert done["insert"]["ring_N"] == 0.0
 
 
+@pytest.mark.long("machine")
 def test_a_carried_tool_keeps_to_the_curves_of_the_hand():
     # along the tangent it would leave this curve by 1.7 mm
     scene = ArmScene.seeded(2, ToolBody().reaching(0.056), leaning(22.4, 108.0))
@@ -189,6 +192,7 @@ def test_a_carried_tool_keeps_to_the_curves_of_the_hand():
     assert done["transfer"]["slip_mm"] < 0.6
 
 
+@pytest.mark.long("machine")
 def test_a_trocar_that_is_elsewhere_than_thought_is_pressed_or_missed():
     with RunningScene(SCENE) as running:
         known = Insertion.known(SCENE, DOWN, DEPTH, running.state.T_world_tool)
@@ -212,6 +216,7 @@ def test_a_path_too_aslant_for_the_ring_is_refused_before_anything_moves():
     assert not could_carry(SCENE, leaning(40.0), DEPTH)
 
 
+@pytest.mark.long("machine")
 def test_a_plan_of_the_same_scene_is_the_same_and_can_be_broken_off():
     wanted = Insertion.known(SCENE, DOWN, DEPTH)
     first, again = plan(SCENE, wanted), plan(SCENE, wanted)
@@ -249,6 +254,7 @@ def test_the_watch_sees_the_scene_every_20_ms():
     assert (seen[-1].q == last.q).all()
 
 
+@pytest.mark.long("machine")
 def test_joint_2_lets_go_of_its_motor_when_pressed_hard_and_is_taken_along_again():
     with RunningScene(SCENE) as running:
         phases(running, to="grasp", force=9.0)
@@ -263,6 +269,7 @@ def test_joint_2_lets_go_of_its_motor_when_pressed_hard_and_is_taken_along_again
         assert np.abs(running.state.fingers).max() < 0.02
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize(
     ("shift", "failure", "says"),
     [
@@ -280,6 +287,7 @@ def test_a_tool_that_is_not_where_it_is_thought_fails_by_name(shift, failure, sa
     assert caught.value.failure is failure
 
 
+@pytest.mark.long("machine")
 def test_a_slippery_tool_is_said_to_slip_or_to_fall():
     with (
         RunningScene(replace(SCENE, friction=0.02)) as running,

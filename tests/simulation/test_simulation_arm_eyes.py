@@ -83,6 +83,7 @@ def acus(*words, code=""):
     )
 
 
+@pytest.mark.long("machine")
 def test_the_eyes_find_tool_and_trocar_in_the_pictures_of_the_scene():
     found = []
     for seed in range(5):
@@ -96,6 +97,7 @@ def test_the_eyes_find_tool_and_trocar_in_the_pictures_of_the_scene():
     assert median["fulcrum_mm"] < 0.5
 
 
+@pytest.mark.long("machine")
 def test_the_longest_tool_is_whole_in_both_pictures_whichever_way_it_lies():
     for seed in range(8):
         scene = ArmScene.seeded(seed, ToolBody().reaching(DEEPEST))
@@ -103,6 +105,7 @@ def test_the_longest_tool_is_whole_in_both_pictures_whichever_way_it_lies():
         assert look(scene, scene.T_world_tool, pair).errors["tool_along_mm"] < 1.0
 
 
+@pytest.mark.long("machine")
 def test_pictures_repeat_themselves_and_hold_the_scene():
     scene = ArmScene.seeded(2)
     first = pictures(scene, scene.T_world_tool, MODELS, 2)
@@ -115,6 +118,7 @@ def test_pictures_repeat_themselves_and_hold_the_scene():
     assert caught.value.failure is CarryFailure.NOT_SEEN
 
 
+@pytest.mark.long("machine")
 def test_a_tool_in_line_with_both_cameras_is_not_reached_for():
     scene = ArmScene.seeded(24)
     beside = eyes(distance=0.9)
@@ -136,6 +140,7 @@ def drawn(*tools):
     return first, second
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize(
     ("tools", "words"),
     [
@@ -160,6 +165,7 @@ def test_a_seed_aims_within_25_degrees_and_the_tool_reaches_so_deep():
     assert (aimed(3)[0] != aimed(4)[0]).any()
 
 
+@pytest.mark.long("machine")
 @needs_the_extra
 def test_the_tool_is_fetched_and_inserted_by_pictures_alone(tmp_path):
     told = []
@@ -181,6 +187,7 @@ def test_the_tool_is_fetched_and_inserted_by_pictures_alone(tmp_path):
     assert any("times real time" in line for line in told)
 
 
+@pytest.mark.long("machine")
 @needs_the_extra
 @pytest.mark.parametrize(("azimuth", "stands"), [(135.0, 0.0), (250.0, 90.0)])
 def test_a_leaning_plan_is_carried_out_on_the_bench(azimuth, stands):
@@ -194,6 +201,7 @@ def test_a_leaning_plan_is_carried_out_on_the_bench(azimuth, stands):
     assert np.degrees(np.arctan2(turned[1], turned[0])) == pytest.approx(stands)
 
 
+@pytest.mark.long("machine")
 @needs_the_extra
 def test_a_timeline_is_what_the_scene_was_moment_by_moment():
     axis, depth = aimed(6)
@@ -230,6 +238,7 @@ def test_a_timeline_is_what_the_scene_was_moment_by_moment():
         assert np.linalg.norm(at - before) < 1.5e-3
 
 
+@pytest.mark.long("machine")
 @needs_the_extra
 def test_the_same_plan_and_seed_are_carried_out_the_same():
     plan = placed(10.0, 60.0, 0.05)
@@ -239,6 +248,7 @@ def test_the_same_plan_and_seed_are_carried_out_the_same():
     assert first.phases == again.phases
 
 
+@pytest.mark.long("machine")
 @needs_the_extra
 @pytest.mark.parametrize(
     ("tilt", "azimuth", "depth", "failures"),
@@ -270,6 +280,7 @@ def test_paths_too_deep_or_too_flat_are_refused_at_once():
     assert caught.value.could_stand_deg is None
 
 
+@pytest.mark.long("machine")
 @needs_the_extra
 def test_it_can_be_cancelled_at_any_time_and_says_how_far_it_is():
     plan, told = placed(10.0, 60.0, 0.05), []
@@ -290,6 +301,7 @@ def test_it_can_be_cancelled_at_any_time_and_says_how_far_it_is():
     assert "the hand closes on the tool" in words
 
 
+@pytest.mark.long("machine")
 def test_the_pictures_of_the_arm_show_it():
     pytest.importorskip("mujoco", reason="needs the extra arm: make extra NAME=arm")
     with RunningScene(ArmScene.seeded(1)) as running:
@@ -305,6 +317,7 @@ def test_the_pictures_of_the_arm_show_it():
     assert (np.abs(image.astype(int) - moved).max(axis=2) > 30).mean() > 0.01
 
 
+@pytest.mark.long("machine")
 def test_without_the_extra_the_command_says_which_to_install():
     code = (
         "import sys; sys.modules['mujoco'] = None;"
@@ -318,6 +331,7 @@ def test_without_the_extra_the_command_says_which_to_install():
     assert len(found.stderr.strip().splitlines()) == 1
 
 
+@pytest.mark.long("machine")
 def test_what_the_arm_cannot_show_is_refused():
     found = acus("demo", "--device", "arm", "--pen")
     assert found.returncode == 2

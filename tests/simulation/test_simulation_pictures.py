@@ -68,6 +68,7 @@ print([m for m in sys.modules if "camera" in m or "cv2" in m])
 """
 
 
+@pytest.mark.long("statistics")
 def test_the_simulation_imports_neither_them_nor_opencv() -> None:
     done = subprocess.run(
         [sys.executable, "-c", CODE], capture_output=True, text=True, check=True, timeout=110

@@ -160,6 +160,7 @@ def test_its_end_waits_for_the_rest_between_two_breaths(period: float) -> None:
     assert not rows[:, 4].any()
 
 
+@pytest.mark.long("statistics")
 def test_it_does_not_wait_for_a_rest_that_never_comes() -> None:
     rows = breathing_run(lambda _t, _a: 0.005, holds=False)
     still = breathing_run(lambda _t, _a: 0.0, holds=False)

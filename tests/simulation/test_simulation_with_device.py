@@ -91,6 +91,7 @@ def test_the_guided_expert_reaches_the_target_within_tolerance(guided_expert: Fl
     assert guided_expert[-1, sv.FAULT] == 0.0
 
 
+@pytest.mark.long("statistics")
 def test_guidance_brings_the_novice_nearer() -> None:
     assert miss(attempt("novice", 1, 1.0))[0] < 0.8 * miss(attempt("novice", 1, 0.0))[0]
 

@@ -11,6 +11,7 @@ def found() -> Found:
     return soak(180.0, seed=2, idle_minutes=1.0)
 
 
+@pytest.mark.long("machine")
 @pytest.mark.promise("README.md: nothing broken, no force beyond 5 N, no memory grown")
 def test_nothing_is_ever_no_number_and_no_force_is_beyond_five_newton(found):
     assert found.broken == 0

@@ -19,6 +19,7 @@ needs_pinocchio = pytest.mark.skipif(
 )
 
 
+@pytest.mark.long("statistics")
 @needs_pinocchio
 def test_the_closed_forms_meet_every_pose_and_the_printed_signs_none():
     found = arm_ik.measured(TINY)
@@ -31,6 +32,7 @@ def test_the_closed_forms_meet_every_pose_and_the_printed_signs_none():
     assert printed == {"as printed": (10, 16, 0, 0), "with errata D3 to D5": (10, 8, 8, 8)}
 
 
+@pytest.mark.long("statistics")
 @needs_pinocchio
 def test_its_pictures_are_drawn():
     figure_module = pytest.importorskip("matplotlib.figure")

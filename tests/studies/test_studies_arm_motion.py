@@ -10,6 +10,7 @@ pytest.importorskip("ompl", reason="the extra `arm` is not installed")
 pytest.importorskip("ruckig", reason="the extra `arm` is not installed")
 
 
+@pytest.mark.long("statistics")
 def test_it_holds_what_it_says_and_draws():
     found = measured(MotionSize(1, (1000,)))
     assert found.passed
@@ -32,5 +33,6 @@ def test_the_post_stands_between_the_ends():
     assert post.collisions(0.02).distance is None
 
 
+@pytest.mark.long("statistics")
 def test_the_runner_knows_it():
     assert examine("arm_motion", quick=True).findings.passed

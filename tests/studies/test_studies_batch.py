@@ -64,6 +64,7 @@ def outcomes(done):
     return {one.name: one.outcome for one in done}
 
 
+@pytest.mark.long("statistics")
 def test_a_broken_study_is_told_and_does_not_end_the_run(folder):
     done = run_all(NAMES, folder, repeats=1)
     assert outcomes(done) == {
@@ -77,6 +78,7 @@ def test_a_broken_study_is_told_and_does_not_end_the_run(folder):
     assert {".csv", ".json"} <= suffixes
 
 
+@pytest.mark.long("statistics")
 def test_what_is_finished_is_not_measured_again_unless_that_is_asked_for(folder):
     run_all(NAMES, folder, repeats=2)
     assert outcomes(run_all(NAMES, folder, repeats=2))["batch_a"] is StudyOutcome.KEPT
@@ -85,6 +87,7 @@ def test_what_is_finished_is_not_measured_again_unless_that_is_asked_for(folder)
     assert outcomes(again)["batch_b"] is StudyOutcome.MEASURED
 
 
+@pytest.mark.long("statistics")
 def test_a_cancelled_run_keeps_what_is_finished_and_the_next_goes_on(folder):
     progress = Progress()
     with pytest.raises(Cancelled):
@@ -95,6 +98,7 @@ def test_a_cancelled_run_keeps_what_is_finished_and_the_next_goes_on(folder):
     assert found["batch_b"] is StudyOutcome.MEASURED
 
 
+@pytest.mark.long("statistics")
 def test_a_study_that_changed_or_a_file_that_is_cut_short_is_measured_anew(folder):
     run_all(NAMES, folder, repeats=1)
     path = folder / "batch_a.json"
@@ -105,6 +109,7 @@ def test_a_study_that_changed_or_a_file_that_is_cut_short_is_measured_anew(folde
     assert found["batch_a"] is found["batch_b"] is StudyOutcome.MEASURED
 
 
+@pytest.mark.long("statistics")
 def test_the_command_runs_all_goes_on_and_ends_with_1_where_one_is_broken(folder, monkeypatch):
     monkeypatch.setattr(runner, "study_names", lambda: NAMES)
     command = ["study", "all", "--quick", "--out", str(folder), "--json"]

@@ -17,6 +17,7 @@ def test_the_cosines_of_a_breath_sum_to_its_power(n):
         assert lujan(phase, float(n)) == pytest.approx(exact, abs=1e-15)
 
 
+@pytest.mark.long("statistics")
 def test_the_finest_table_of_a_breath_is_off_by_what_its_curvature_says():
     result = run("breathing_waveform", repeats=1)
     worst = {p.way: p for p in result.summary()}
@@ -27,6 +28,7 @@ def test_the_finest_table_of_a_breath_is_off_by_what_its_curvature_says():
     assert {(f.way, f.setting) for f in result.failures} == {("cosines", "n = 2.5")}
 
 
+@pytest.mark.long("statistics")
 def test_the_closed_form_of_the_inverse_is_exact_and_newton_squares_its_error():
     worst = {p.way: p.error for p in run("inverse_kinematics", repeats=1).summary()}
     assert worst["closed form"] < 1e-12

@@ -22,6 +22,7 @@ def pooled() -> dict[str, CoverageTally]:
     return sums
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("name", QUANTITIES)
 def test_errors_of_calibration_pose_and_tip_are_as_large_as_they_are_stated(pooled, name):
     tally = pooled[name]
@@ -37,6 +38,7 @@ def test_the_sphere_round_the_tip_holds_it_as_often_as_it_says(pooled):
     assert 0.90 <= tally.within / tally.points <= 0.99
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_error_at_the_target_holds_whatever_the_touches_errors_look_like(kind):
     cell = CoverageCell("touches", lambda seed: touched(kind, seed))

@@ -104,6 +104,7 @@ def test_each_of_pydicoms_files_is_refused_for_the_reason_that_stands_in_the_tab
     assert own <= {case.name for case in pydicoms}
 
 
+@pytest.mark.long("statistics")
 def test_every_one_of_those_reasons_is_confirmed_by_pydicom(pydicoms, facts):
     for case in pydicoms:
         assert justified(case.found.reason, facts(case)), case.name

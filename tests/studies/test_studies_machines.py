@@ -53,6 +53,7 @@ def test_beyond_its_reach_a_machine_has_no_numbers():
     assert np.isnan(found["force"])
 
 
+@pytest.mark.long("statistics")
 def test_a_further_machine_is_one_more_entry(monkeypatch):
     def half_reach(d):
         if d[0] > 0.0:
@@ -211,6 +212,7 @@ def test_beyond_the_trocars_tilt_or_with_the_grip_at_the_skin_it_holds_nothing()
         ArmInTrocar.standing(L_OUT, DEPTH, 1.5).posture(DIRECTIONS[0])
 
 
+@pytest.mark.long("statistics")
 def test_the_picture_has_every_machine_and_the_reach_by_turn():
     canvas = figure.Figure(figsize=(16.0, 7.0))
     machines.draw(canvas)

@@ -25,6 +25,7 @@ def rows(sheet):
     return {row[0]: dict(zip(sheet.columns, row, strict=True)) for row in sheet.rows}
 
 
+@pytest.mark.long("statistics")
 def test_everything_closes_to_rounding():
     found = rows(pantograph_tables.closures(GEOMETRY))
     for name, row in found.items():
@@ -117,6 +118,7 @@ def test_five_newtons_at_the_skin_need_nearly_twice_the_torque_of_the_thesis():
     assert found[0.0]["cone of 39°, 0.6 N·m [N]"] == pytest.approx(2.76, abs=5e-3)
 
 
+@pytest.mark.long("statistics")
 def test_only_studies_import_the_wrong_formulas():
     folder = Path(app.__file__).parent
     for path in folder.rglob("*.py"):

@@ -65,6 +65,7 @@ def test_it_needs_the_joined_arm_and_eyes_lent():
         examine("pick_place", quick=True)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.skipif(
     any(find_spec(name) is None for name in ("mujoco", "ompl", "ruckig")),
     reason="needs the extra arm: make extra NAME=arm",

@@ -116,6 +116,7 @@ def test_table_csv_and_json_say_the_same() -> None:
     assert float(rows[1]["error"]) == data["points"][1]["error"]
 
 
+@pytest.mark.long("statistics")
 def test_a_picture_is_written_with_the_failing_ways_in_its_foot(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     svg = draw(run(small(), repeats=1), tmp_path / "new" / "small.svg")

@@ -114,6 +114,7 @@ def test_the_edge_of_a_map_is_below_the_first_oscillation():
     assert edge[1] == 0.0
 
 
+@pytest.mark.long("statistics")
 def test_the_study_says_when_something_oscillates(monkeypatch):
     monkeypatch.setattr("app.studies.stability.RATES", (1000.0,))
     monkeypatch.setattr("app.studies.stability.DELAYS", (1,))
@@ -124,6 +125,7 @@ def test_the_study_says_when_something_oscillates(monkeypatch):
     assert len(findings.sheets[1].rows) == 4
 
 
+@pytest.mark.long("statistics")
 def test_a_quick_look_sweeps_two_of_nine_pairs_and_draws_them_in_their_places(monkeypatch):
     monkeypatch.setattr("app.studies.stability.STIFFNESS", np.array([100.0, 5000.0]))
     monkeypatch.setattr("app.studies.stability.DAMPING", np.array([0.0, 0.1, 0.3, 1.0]))

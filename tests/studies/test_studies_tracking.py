@@ -57,6 +57,7 @@ def test_the_default_filter_is_calm_at_rest_and_close_in_motion():
     assert strokes < errors["one euro, 5 Hz"][0]
 
 
+@pytest.mark.long("statistics")
 def test_the_study_of_the_marker_orders_the_ways_and_none_is_below_the_bound(monkeypatch):
     monkeypatch.setattr(marker, "_SCENES", 5)
     result = run("marker", repeats=1)

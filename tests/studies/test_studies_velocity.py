@@ -34,6 +34,7 @@ def test_the_lag_of_a_delayed_truth_is_its_delay():
     assert lag(seen, late) == pytest.approx(7e-3, abs=3e-4)
 
 
+@pytest.mark.long("statistics")
 def test_the_study_finds_the_adaptive_window_quiet_and_quick():
     result = run("velocity", repeats=1)
     assert result.failures == ()

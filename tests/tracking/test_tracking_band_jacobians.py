@@ -96,6 +96,7 @@ def test_of_a_needle_that_tapers_only_the_points_own_shares_leave_a_part_out(poi
     assert 0.01 < _error(pointed, 1, slice(BAND + SPLINES, None)) < 0.6
 
 
+@pytest.mark.long("statistics")
 def test_the_gradient_with_the_colours_eliminated_is_that_of_the_least_sum_of_squares(blunt):
     good, paint = blunt.pixels.usable, blunt.paint()
     _, equations = blunt.least(np.zeros(MOVES), good, paint)

@@ -67,6 +67,7 @@ def test_the_equations_of_the_colours_are_those_of_dense_matrices(pixels):
     assert shared == pytest.approx(wanted, rel=1e-9, abs=1e-9)
 
 
+@pytest.mark.long("statistics")
 def test_the_equations_of_the_moves_are_those_of_dense_matrices(pixels):
     near, model, good = pixels
     rows, seen, first, weights, colours = _unpacked(near, model)

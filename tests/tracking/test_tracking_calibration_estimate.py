@@ -168,6 +168,7 @@ def test_standard_deviations_hold_whatever_the_tangential_coefficients_are(tange
     assert np.mean(squares) == pytest.approx(1.0, abs=0.25)  # 3 standard errors of 160 squares
 
 
+@pytest.mark.long("statistics")
 def test_standard_deviations_hold_for_a_rational_lens_that_nobody_named() -> None:
     """What means the same in every model: focal lengths and centre, and rays where boards were."""
     true, rng = scene("usual", "rational"), np.random.default_rng(3)

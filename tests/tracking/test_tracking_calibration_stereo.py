@@ -52,6 +52,7 @@ def turned(views: Views, which: set[int]) -> Views:
     return [view.reordered(order) if i in which else view for i, view in enumerate(views)]
 
 
+@pytest.mark.long("statistics")
 def test_the_pose_is_within_its_stated_uncertainty(result: StereoResult, rig: Rig) -> None:
     error, sd = twist_error(result.calibration, rig)
     assert (np.abs(error) < 4.0 * sd).all()
@@ -183,6 +184,7 @@ def test_a_calibration_can_be_cancelled(pairs: tuple[Views, Views]) -> None:
         calibrate_pairs(*pairs, progress=progress)
 
 
+@pytest.mark.long("statistics")
 def test_small_blurred_pictures_are_calibrated_from_disk_to_within_what_is_stated(
     tmp_path: Path,
 ) -> None:
@@ -200,6 +202,7 @@ def test_small_blurred_pictures_are_calibrated_from_disk_to_within_what_is_state
     assert found.calibration.rms_px < 0.3
 
 
+@pytest.mark.long("statistics")
 def test_too_few_pairs_are_refused_with_the_commonest_reason(tmp_path: Path) -> None:
     rig = usual_rig()
     for i, T in enumerate(rig.poses(3, 21)):

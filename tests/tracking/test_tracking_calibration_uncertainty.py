@@ -101,6 +101,7 @@ def test_the_pixel_changes_with_the_parameters_as_finite_differences_say(thesis)
     np.testing.assert_allclose(analytic, numeric, rtol=1e-6, atol=1e-7)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("place", [(0.0, 0.0, -0.06), (0.04, -0.03, -0.02), (-0.03, 0.02, -0.1)])
 def test_the_spread_of_points_over_possible_calibrations_is_the_stated_one(wide, place):
     calibration = _calibration(wide)

@@ -73,6 +73,7 @@ def outline_middle(
     return np.array(sums) / (3.0 * cross.sum())
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("rig", ["wide", "thesis"])
 def test_the_rendered_band_lies_where_opencv_projects_its_outline(rig: str) -> None:
     pictures, rng = CameraPictures(CAMERAS / f"{rig}.yaml"), np.random.default_rng(5)
@@ -196,6 +197,7 @@ def test_as_much_of_the_band_is_covered_as_is_asked(wide_pictures: CameraPicture
         assert 1.0 - left == pytest.approx(share, abs=0.002)
 
 
+@pytest.mark.long("statistics")
 def test_a_pair_is_the_same_by_its_seed_and_number(wide_pictures: CameraPictures) -> None:
     def made(count: int, seed: int) -> PicturePair:
         return list(wide_pictures.pairs(count, seed, ("clean", "occlude")))[1]

@@ -185,6 +185,7 @@ def test_rendered_pictures_are_found_kept_and_refused_when_blurred() -> None:
     assert "no ChArUco board" in collector.offer((empty,)).words
 
 
+@pytest.mark.long("statistics")
 def test_a_rendered_picture_shows_its_corners_where_the_model_says() -> None:
     errors = []
     for x_deg, y_deg, roll_deg in ((15.0, -20.0, 10.0), (0.0, 0.0, 33.0), (-25.0, 10.0, 120.0)):

@@ -94,6 +94,7 @@ def test_a_charuco_board_of_other_counts_is_named() -> None:
     assert "fit charuco:9x7" in inner.text
 
 
+@pytest.mark.long("statistics")
 def test_a_board_larger_than_its_counts_say_is_named() -> None:
     rig = usual_rig()
     image = BoardRenderer(rig.left, rig.board, 2).render(facing(rig.board, 0.45, (20, 10, 5)))
@@ -103,6 +104,7 @@ def test_a_board_larger_than_its_counts_say_is_named() -> None:
         assert found.reason in (RejectionReason.OTHER_BOARD, RejectionReason.NO_BOARD)
 
 
+@pytest.mark.long("statistics")
 def test_a_board_on_edge_is_refused_or_not_seen() -> None:
     rig = usual_rig()
     found = seen(rig, facing(rig.board, 0.35, (0, 84, 0)))

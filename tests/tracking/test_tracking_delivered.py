@@ -80,6 +80,7 @@ def _maker(tone="srgb"):
     return CameraPictures(paths.resources() / "cameras" / "wide.yaml", tone)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(
     ("tone", "delivery"), [("rec709", "q95-444"), ("gamma2.2", "q90-420"), ("gamma1.8", "q80-422")]
 )

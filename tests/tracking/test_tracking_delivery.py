@@ -28,6 +28,7 @@ def flat(light: float, size: int = 200) -> np.ndarray:
     return np.full((size, size, 3), round(WHITE * light), np.uint16)
 
 
+@pytest.mark.long("statistics")
 def test_the_tone_curve_has_the_values_of_the_standard() -> None:
     """IEC 61966-2-1: the knee, and the grey that is half as bright as white."""
     assert srgb([0.0, 0.0031308, 1.0]) == pytest.approx([0.0, 0.04045, 1.0], abs=1e-5)

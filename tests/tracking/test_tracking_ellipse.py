@@ -50,6 +50,7 @@ def test_points_on_a_line_or_a_hyperbola_or_too_few_are_no_ellipse():
     assert fit_conic(CIRCLE[:5], CIRCLE[:5]) is None
 
 
+@pytest.mark.long("statistics")
 def test_the_covariance_of_the_ellipse_is_that_of_repeated_noise(
     wide, wide_renderers, ellipses, scene_at
 ):

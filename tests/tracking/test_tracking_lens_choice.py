@@ -43,6 +43,7 @@ def test_the_views_choose_the_model_of_the_lens(lens, model, distance) -> None:
     assert np.abs(still.project_camera(points)[0] - projected(lens, points)).max() < 1.0
 
 
+@pytest.mark.long("statistics")
 def test_the_deviation_of_rays_holds_for_a_rational_lens() -> None:
     """Mean squared error over the stated variance, pooled; the model is the true one."""
     rays = np.random.default_rng(6).uniform(-0.7, 0.7, (60, 2))
@@ -81,6 +82,7 @@ def _wide_pairs(count: int, noise: float = 0.02) -> tuple[list[BoardView], list[
     return pairs[0][:count], pairs[1][:count]
 
 
+@pytest.mark.long("statistics")
 def test_two_fisheye_cameras_are_calibrated_and_tell_how_sure_they_are(tmp_path: Path) -> None:
     left, right = _wide_pairs(12)
     found = calibrate_stereo(left, right)

@@ -87,6 +87,7 @@ def test_the_outline_model_agrees_with_the_rendered_band(wide, wide_renderers, s
         assert np.linalg.norm(centre - shift - model.pixel(scene.p_world)) < 0.35
 
 
+@pytest.mark.long("statistics")
 def test_the_covariance_of_the_centroid_agrees_with_repeated_noise(wide, wide_renderers, scene_at):
     clean = wide_renderers[0].render(scene_at(0.05, 15.0, 40.0))
     rng = np.random.default_rng(8)
@@ -146,6 +147,7 @@ def test_the_picture_shows_a_red_band_on_a_grey_needle_where_the_model_says(
     assert np.array_equal(image[v, u], wide_renderers[0]._background[v, u])  # beyond the tip
 
 
+@pytest.mark.long("statistics")
 def test_the_marked_pixels_are_those_of_every_second_pixel_in_numpy():
     rng = np.random.default_rng(8)
     image = rng.integers(0, 256, (61, 83, 3)).astype(np.uint8)

@@ -43,6 +43,7 @@ def test_unknowns_only_make_the_bound_larger_and_by_little(wide, wide_renderers,
             assert 1.0 < np.sqrt(np.trace(joint) / np.trace(alone)) < 1.3
 
 
+@pytest.mark.long("statistics")
 def test_the_joint_bound_is_the_fits_covariance_and_that_of_repeated_noise(
     wide, wide_renderers, scene_at
 ):
@@ -63,6 +64,7 @@ def test_the_joint_bound_is_the_fits_covariance_and_that_of_repeated_noise(
     assert 0.85 < ratio < 1.2  # 150 pictures tell it to 6 %
 
 
+@pytest.mark.long("statistics")
 def test_the_outlines_centroid_stays_within_a_few_times_the_bound(wide, wide_renderers, scene_at):
     finders = extractors(wide, ExtractorName.OUTLINE_CENTROID)
     rng, squares, bounds = np.random.default_rng(3), [], []

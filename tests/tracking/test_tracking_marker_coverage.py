@@ -26,6 +26,7 @@ def _held(trials, kinds, count):
     return sum(square <= LIMIT for square in squares), len(squares)
 
 
+@pytest.mark.long("statistics")
 def test_the_ellipsoid_of_95_percent_holds_the_tip_in_95_percent_of_clean_pairs(trials):
     held, used = _held(trials, ("clean",), 150)
     assert used >= 148
@@ -33,6 +34,7 @@ def test_the_ellipsoid_of_95_percent_holds_the_tip_in_95_percent_of_clean_pairs(
     assert binom.ppf(5e-4, used, 0.94) <= held <= binom.ppf(1 - 5e-4, used, 0.96)
 
 
+@pytest.mark.long("statistics")
 def test_a_hidden_or_lit_up_marker_is_refused_or_its_ellipsoid_holds_the_tip(trials):
     held, used = _held(trials, ("finger", "highlight"), 80)
     assert 5 <= used <= 60
@@ -63,6 +65,7 @@ def test_a_band_too_narrow_or_short_costs_what_its_hidden_side_moves_its_centre(
         assert 0.5 * pixels < narrow < pixels
 
 
+@pytest.mark.long("statistics")
 def test_without_the_marker_no_red_or_orange_thing_gives_a_fix():
     said, false = Hidden(5).fixes(40)
     assert said.total() == 40

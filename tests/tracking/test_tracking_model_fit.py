@@ -31,6 +31,7 @@ def _poses(wide, rng, count):
         yield MarkerScene.from_tip(tip, axis, wide.needle.marker_offset)
 
 
+@pytest.mark.long("statistics")
 def test_the_error_stays_near_the_cramer_rao_bound(wide, wide_renderers, fits):
     rng = np.random.default_rng(3)
     errors, bounds = [], []

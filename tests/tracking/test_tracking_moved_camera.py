@@ -34,6 +34,7 @@ def _rolled(pixels, axis):
     return lambda pictures: [pictures[0], np.roll(pictures[1], pixels, axis)]
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(
     ("pixels", "axis", "start"), [(20, 0, 0), (-60, 0, 5), (-20, 1, 5), (60, 1, 0)]
 )
@@ -49,6 +50,7 @@ def test_a_camera_that_was_bumped_by_more_than_a_marker_s_width_is_named(
     assert "daily check, then calibrate" in said[-1]
 
 
+@pytest.mark.long("statistics")
 def test_cameras_that_are_exchanged_while_they_run_are_named(wide, wide_renderers, scene_at):
     start = 5
     fixes, _ = _run(wide, wide_renderers, scene_at, lambda pictures: pictures[::-1], start, 66)
@@ -57,12 +59,14 @@ def test_cameras_that_are_exchanged_while_they_run_are_named(wide, wide_renderer
     assert "swapped" in fixes[-1].reason
 
 
+@pytest.mark.long("statistics")
 def test_cameras_that_are_exchanged_while_they_run_are_the_cause(wide, wide_renderers, scene_at):
     fixes, said = _run(wide, wide_renderers, scene_at, lambda pictures: pictures[::-1], 5, 66)
     assert fixes[-1].discrepancy.cause is DiscrepancyCause.SWAPPED_CAMERAS
     assert "swapped" in said[-1]
 
 
+@pytest.mark.long("statistics")
 def test_a_red_thing_in_one_picture_while_the_other_shows_the_marker_gives_no_fix(
     wide, wide_renderers, scene_at
 ):

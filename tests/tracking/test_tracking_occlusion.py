@@ -44,6 +44,7 @@ def _fix(rig, pair, name=None):
     return tracker.process(*(CameraFrame(image.copy(), 0.0) for image in (pair.left, pair.right)))
 
 
+@pytest.mark.long("statistics")
 def test_a_band_behind_a_finger_or_a_tool_is_measured_within_what_it_states(wide, pairs):
     fixes = [(_fix(wide, pair), pair) for pair in pairs]
     valid = [(fix, pair) for fix, pair in fixes if fix.status is FixStatus.VALID]

@@ -58,6 +58,7 @@ def looks():
     return [known.observe(picture(draw, scene(t), k, time=t)) for k, t in enumerate(times)]
 
 
+@pytest.mark.long("statistics")
 def test_a_rocked_pen_covers_all_sides_and_each_position_counts_for_the_side_it_leans_to(looks):
     rocking = Rocking()
     assert rocking.missing == SIDES

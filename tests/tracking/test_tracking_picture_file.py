@@ -166,6 +166,7 @@ def test_a_small_file_that_stands_for_gigabytes_is_refused_before_it_is_decoded(
     assert (result.name, "8192 x 8192" in result.text) == ("bomb.png", True)
 
 
+@pytest.mark.long("statistics")
 def test_a_picture_of_a_large_camera_is_read(tmp_path: Path) -> None:
     for ending in ("png", "jpg", "bmp", "webp", "pgm", "tif", "tiff"):
         image = np.zeros((3000, 4000) if ending == "pgm" else (3000, 4000, 3), np.uint8)

@@ -24,6 +24,7 @@ def edges(maker: CameraPictures, kind: str, seed: int) -> list[float]:
     return found
 
 
+@pytest.mark.long("statistics")
 def test_an_edge_is_as_sharp_through_jpeg_and_wider_out_of_focus(maker: CameraPictures) -> None:
     sharp, soft = edges(maker, "clean", 9), edges(maker, "defocus", 22)
     # A lens of 0.6 px, a pixel's own width and the operator: 2.5 px.
@@ -42,6 +43,7 @@ def test_the_noise_of_an_even_picture_is_its_standard_deviation(sd: float) -> No
     assert noise_level(picture.astype(np.uint8)) == pytest.approx(sd, rel=0.1)
 
 
+@pytest.mark.long("statistics")
 def test_a_picture_in_low_light_is_noisier_than_a_well_lit_one(maker: CameraPictures) -> None:
     lit, dim = [], []
     for seed in range(4):

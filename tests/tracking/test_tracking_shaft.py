@@ -43,6 +43,7 @@ def test_every_band_on_a_shaft_is_found_and_counts_alone(wide, wide_renderers, f
     assert np.mean(alone) > 0.85
 
 
+@pytest.mark.long("statistics")
 def test_a_band_that_hangs_in_the_air_is_no_marker(wide, wide_renderers, fits, scene_at):
     rng, tile = np.random.default_rng(1), NoiseTile.make((640, 480), 4.0, 2)
     refused, shapes = 0, 0

@@ -73,6 +73,7 @@ def _stepped(wide, renderers, needle, skew=0.0, **options):
     return tracker, cameras
 
 
+@pytest.mark.long("statistics")
 def test_the_tip_is_within_its_figure_over_the_whole_range(wide, wide_renderers):
     rng = np.random.default_rng(6)
     tile = NoiseTile.make((640, 480), wide.noise_grey, 1)
@@ -97,6 +98,7 @@ def test_the_tip_is_within_its_figure_over_the_whole_range(wide, wide_renderers)
     assert valid >= 38
 
 
+@pytest.mark.long("statistics")
 def test_a_search_fits_the_band_whose_outlines_lie_off_each_others_epipolar_line(wide):
     # where the needle leans, outlines of large pictures miss the line by more than the gate allows
     larger = [
@@ -124,6 +126,7 @@ def test_a_search_fits_the_band_whose_outlines_lie_off_each_others_epipolar_line
     assert max(apart) > SIGMAS
 
 
+@pytest.mark.long("statistics")
 def test_the_stated_radius_is_of_the_size_of_the_error(wide, wide_renderers):
     # over places: what the background does to the fit is the same in all pictures of one place
     rng, tile = np.random.default_rng(6), NoiseTile.make((640, 480), 4.0, 9)
@@ -389,6 +392,7 @@ def test_the_thread_publishes_fixes_pictures_and_figures_and_closes_twice(runnin
     assert all(camera.closed for camera in cameras)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(
     ("mode", "text"), [("hang", "no picture"), ("frozen", "change"), ("error", "unplugged")]
 )

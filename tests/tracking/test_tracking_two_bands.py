@@ -150,6 +150,7 @@ def test_without_the_robots_direction_both_bands_give_axis_and_tip(rig, pictures
     assert max(errors) < 1.3 * fix.radius(0.999)
 
 
+@pytest.mark.long("statistics")
 def test_with_one_band_hidden_the_robots_direction_serves_and_without_it_there_is_no_tip(
     rig, pictures
 ):

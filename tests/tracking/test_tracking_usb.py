@@ -168,6 +168,7 @@ def test_nothing_at_the_port_is_an_error_that_says_what_is_there(bus, camera):
         UsbCamera("1-1.2", opener=bus.open, ports=bus.ports).read()
 
 
+@pytest.mark.long("statistics")
 def test_a_driver_that_hangs_hangs_nobody_else_and_is_said_when_opened_again(bus, camera):
     camera.open()
     bus.captures[0].mode = "hang"
@@ -243,6 +244,7 @@ def _state(reader):
     return reader.health(time.monotonic()).state
 
 
+@pytest.mark.long("statistics")
 def test_an_unplugged_camera_is_noticed_and_comes_back_at_its_port(bus, reader):
     reader.open()
     _until(lambda: _state(reader) is CameraState.LIVE)

@@ -218,6 +218,7 @@ def test_while_something_is_measured_nothing_else_can_be_and_cancel_is_answered(
     assert window.message_bar.isHidden()
 
 
+@pytest.mark.long("journey")
 def test_no_diagram_has_a_factor_beside_its_axis_or_a_label_cut_at_its_edge(window, settle) -> None:
     diagram = Diagram(window)
     diagram.resize(1060, 300)
@@ -247,6 +248,7 @@ def test_no_diagram_has_a_factor_beside_its_axis_or_a_label_cut_at_its_edge(wind
     diagram.close()
 
 
+@pytest.mark.long("journey")
 def test_four_ways_of_a_study_are_seen_in_a_low_window(window, settle) -> None:
     window.resize(1366, 768)
     feature = window.feature(AccuracyFeature)

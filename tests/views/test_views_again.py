@@ -84,6 +84,7 @@ def answer(monkeypatch, button):
 
 
 # --- where the needle begins ------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_again_begins_where_the_first_attempt_began_wherever_the_hand_was_left(real, settle):
     controller, bullseye = real.conductor.controller, real.workspace.bullseye
     panel = real.workspace.exercise_panel
@@ -119,6 +120,7 @@ def test_again_begins_where_the_first_attempt_began_wherever_the_hand_was_left(r
 
 
 # --- what is missing is said, and F5 says it ------------------------------------------------------
+@pytest.mark.long("journey")
 def test_f5_while_robot_and_cameras_are_started_says_so_until_an_attempt_can_begin(
     window, settle, services, monkeypatch
 ):
@@ -143,6 +145,7 @@ def test_f5_while_robot_and_cameras_are_started_says_so_until_an_attempt_can_beg
     assert state(window) is State.READY
 
 
+@pytest.mark.long("journey")
 def test_again_where_the_student_plans_is_no_dead_end_after_the_plan_was_discarded(
     window, beginning, lesion, settle, monkeypatch
 ):
@@ -165,6 +168,7 @@ def test_again_where_the_student_plans_is_no_dead_end_after_the_plan_was_discard
     assert settle(lambda: state(window) is State.ALIGNING)
 
 
+@pytest.mark.long("journey")
 def test_again_twice_and_a_question_that_is_cancelled_leave_the_debrief_as_it_is(
     window, beginning, lesion, settle, monkeypatch
 ):
@@ -186,6 +190,7 @@ def test_again_twice_and_a_question_that_is_cancelled_leave_the_debrief_as_it_is
     assert state(window) is State.ENDED
 
 
+@pytest.mark.long("journey")
 def test_the_line_asks_for_f5_exactly_while_start_can_be_pressed(
     window, beginning, lesion, settle, somebody
 ):
@@ -218,6 +223,7 @@ def test_the_line_asks_for_f5_exactly_while_start_can_be_pressed(
     assert start(window).isEnabled()
 
 
+@pytest.mark.long("journey")
 def test_a_plan_that_is_mended_later_begins_nothing_that_was_wanted_before(
     window, beginning, settle, monkeypatch
 ):
@@ -237,6 +243,7 @@ def test_a_plan_that_is_mended_later_begins_nothing_that_was_wanted_before(
 
 
 # --- how the hand steers -------------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_the_long_tools_steering_is_not_remembered_and_the_next_exercise_has_the_students_own(
     window, beginning, settle
 ):
@@ -320,6 +327,7 @@ def drawn(paths):
     return paths.scores is not None or any(layer._map is not None for layer in paths._layers)
 
 
+@pytest.mark.long("journey")
 def test_the_instructors_map_of_entries_goes_with_the_instructor(window, mapped, settle, somebody):
     ACCESS.sign_in(None, instructor=True)
     paths = mapped()
@@ -334,6 +342,7 @@ def test_the_instructors_map_of_entries_goes_with_the_instructor(window, mapped,
     assert paths.panel.make.isEnabled()
 
 
+@pytest.mark.long("journey")
 def test_a_map_of_entries_is_not_there_for_who_takes_the_exercise_or_begins_the_attempt(
     window, mapped, settle, monkeypatch
 ):
@@ -350,6 +359,7 @@ def test_a_map_of_entries_is_not_there_for_who_takes_the_exercise_or_begins_the_
     assert not drawn(paths)
 
 
+@pytest.mark.long("journey")
 def test_who_is_faster_than_the_window_has_begun_and_nothing_more_is_wanted(
     window, beginning, settle
 ):

@@ -55,6 +55,7 @@ def fetched(planned, settle):
 
 
 # --- asked for, and refused ---------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_without_a_plan_it_says_what_to_do_first(window, patient, settle) -> None:
     arm, said = window.feature(ArmFeature), []
     arm.failed.connect(said.append)
@@ -66,6 +67,7 @@ def test_without_a_plan_it_says_what_to_do_first(window, patient, settle) -> Non
     assert not arm.is_busy
 
 
+@pytest.mark.long("journey")
 def test_an_attempt_that_runs_is_not_taken_away(planned) -> None:
     window, arm = planned
     window.conductor.controller.run.trainer.state = State.INSERTING
@@ -74,6 +76,7 @@ def test_an_attempt_that_runs_is_not_taken_away(planned) -> None:
     assert not arm.is_busy
 
 
+@pytest.mark.long("journey")
 def test_why_it_was_not_done_is_said_no_longer_than_it_is_true(window, patient, settle) -> None:
     window.show_patient(patient)
     arm, bar = window.feature(ArmFeature), window.message_bar
@@ -89,6 +92,7 @@ def test_why_it_was_not_done_is_said_no_longer_than_it_is_true(window, patient, 
     assert bar.isHidden()
 
 
+@pytest.mark.long("journey")
 def test_an_assessment_is_done_by_the_student(planned) -> None:
     window, arm = planned
     taken = window.conductor.exercise
@@ -98,6 +102,7 @@ def test_an_assessment_is_done_by_the_student(planned) -> None:
     assert not arm.is_busy
 
 
+@pytest.mark.long("journey")
 def test_a_missing_extra_is_named(planned, services, settle) -> None:
     _window, arm = planned
     services.cannot = SimulationError("MuJoCo is not installed: make extra NAME=arm")
@@ -108,6 +113,7 @@ def test_a_missing_extra_is_named(planned, services, settle) -> None:
     assert arm.bar.isHidden()
 
 
+@pytest.mark.long("journey")
 def test_where_the_arm_could_stand_is_offered(planned, services, settle) -> None:
     _window, arm = planned
     services.cannot = CarryError(CarryFailure.UNREACHABLE, "it cannot reach the entry", 90.0)
@@ -121,6 +127,7 @@ def test_where_the_arm_could_stand_is_offered(planned, services, settle) -> None
     assert services.carried[-1][2] == 90.0
 
 
+@pytest.mark.long("journey")
 def test_an_offer_may_be_left(planned, services, settle) -> None:
     window, arm = planned
     services.cannot = CarryError(CarryFailure.COLLIDES, "something stands in the way", -45.0)
@@ -132,6 +139,7 @@ def test_an_offer_may_be_left(planned, services, settle) -> None:
 
 
 # --- led ------------------------------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_while_it_fetches_no_needle_is_shown_but_in_3d(planned, settle) -> None:
     window, arm = planned
     shapes = []
@@ -147,6 +155,7 @@ def test_while_it_fetches_no_needle_is_shown_but_in_3d(planned, settle) -> None:
     assert "Simulated arm" in arm.bar.words.text()
 
 
+@pytest.mark.long("journey")
 def test_its_attempt_is_the_arms_and_led_along_the_plan(planned, settle) -> None:
     window, arm, trainer = fetched(planned, settle)
     assert trainer.begun == ("", "arm")
@@ -162,6 +171,7 @@ def test_its_attempt_is_the_arms_and_led_along_the_plan(planned, settle) -> None
     assert depths[0] < OUTSIDE
 
 
+@pytest.mark.long("journey")
 def test_a_pause_keeps_the_needle_where_it_is(planned, settle) -> None:
     _window, arm, trainer = fetched(planned, settle)
     assert settle(lambda: trainer.hands[-1][2] > 0.0)
@@ -174,6 +184,7 @@ def test_a_pause_keeps_the_needle_where_it_is(planned, settle) -> None:
     assert settle(lambda: trainer.hands[-1][2] > depth)
 
 
+@pytest.mark.long("journey")
 def test_nothing_goes_on_behind_a_question(planned, settle) -> None:
     window, arm, trainer = fetched(planned, settle)
     assert settle(lambda: trainer.hands[-1][2] > 0.0)
@@ -186,6 +197,7 @@ def test_nothing_goes_on_behind_a_question(planned, settle) -> None:
     assert settle(lambda: trainer.hands[-1][2] > depth)
 
 
+@pytest.mark.long("journey")
 def test_a_step_goes_on_for_its_time_then_stands(planned, settle) -> None:
     _window, arm, _trainer = fetched(planned, settle)
     arm.play.pause()
@@ -195,6 +207,7 @@ def test_a_step_goes_on_for_its_time_then_stands(planned, settle) -> None:
     assert arm.play.t == pytest.approx(t + STEP_S)
 
 
+@pytest.mark.long("journey")
 def test_a_step_of_a_fast_insertion_is_as_long_as_it_is_watched(planned, settle) -> None:
     _window, arm, _trainer = fetched(planned, settle)
     arm.play.pause()
@@ -204,6 +217,7 @@ def test_a_step_of_a_fast_insertion_is_as_long_as_it_is_watched(planned, settle)
     assert arm.play.t == pytest.approx(t + 0.25 * STEP_S)
 
 
+@pytest.mark.long("journey")
 def test_the_fetching_may_be_left_out(planned, settle) -> None:
     _window, arm = planned
     arm.watch()
@@ -213,6 +227,7 @@ def test_the_fetching_may_be_left_out(planned, settle) -> None:
     assert settle(lambda: arm.play.state is PlayState.INSERTING)
 
 
+@pytest.mark.long("journey")
 def test_taken_over_the_mouse_goes_on_from_exactly_there(planned, settle) -> None:
     window, arm, trainer = fetched(planned, settle)
     assert settle(lambda: trainer.hands[-1][2] > 0.003)
@@ -233,6 +248,7 @@ def test_taken_over_the_mouse_goes_on_from_exactly_there(planned, settle) -> Non
     assert not arm.is_busy
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     "at", [PlayState[name] for name in ("WAITING", "FETCHING", "INSERTING", "HOLDING")]
 )
@@ -264,6 +280,7 @@ def test_it_is_stopped_at_any_time_and_all_is_as_before(planned, settle, at) -> 
     assert not window.conductor.controller.is_absent
 
 
+@pytest.mark.long("journey")
 def test_started_twice_it_goes_on_with_the_first(planned, services, settle) -> None:
     _window, arm, _ = fetched(planned, settle)
     play = arm.play
@@ -272,6 +289,7 @@ def test_started_twice_it_goes_on_with_the_first(planned, services, settle) -> N
     assert len(services.carried) == 1
 
 
+@pytest.mark.long("journey")
 def test_another_patient_ends_it(planned, patient, settle) -> None:
     window, arm, trainer = fetched(planned, settle)
     window.show_patient(patient)
@@ -280,6 +298,7 @@ def test_another_patient_ends_it(planned, patient, settle) -> None:
     assert settle(lambda: trainer.state is State.ABORTED)
 
 
+@pytest.mark.long("journey")
 def test_another_patient_while_it_works_out_its_way_ends_that(
     planned, services, patient, settle
 ) -> None:
@@ -294,6 +313,7 @@ def test_another_patient_while_it_works_out_its_way_ends_that(
     assert arm.said == []
 
 
+@pytest.mark.long("journey")
 def test_the_window_may_close_meanwhile(planned, settle) -> None:
     window, arm, _ = fetched(planned, settle)
     window.editor.saved(None)
@@ -301,6 +321,7 @@ def test_the_window_may_close_meanwhile(planned, settle) -> None:
     assert not arm.is_busy
 
 
+@pytest.mark.long("journey")
 def test_a_plan_that_changed_meanwhile_is_not_the_one_to_show(planned, services, settle) -> None:
     from app.views.slices.viewing import Tool
 
@@ -316,6 +337,7 @@ def test_a_plan_that_changed_meanwhile_is_not_the_one_to_show(planned, services,
     assert not arm.is_busy
 
 
+@pytest.mark.long("journey")
 def test_no_place_is_offered_for_a_plan_that_changed(planned, services, settle) -> None:
     from app.views.slices.viewing import Tool
 
@@ -327,6 +349,7 @@ def test_no_place_is_offered_for_a_plan_that_changed(planned, services, settle) 
     assert settle(arm.bar.isHidden)
 
 
+@pytest.mark.long("journey")
 @pytest.mark.promise("docs/mechanism.md: It is a simulation only and never drives a real arm")
 def test_a_real_robot_is_left_alone_and_comes_back(planned, services, settle) -> None:
     window, arm = planned
@@ -340,6 +363,7 @@ def test_a_real_robot_is_left_alone_and_comes_back(planned, services, settle) ->
     assert settle(lambda: services.opened[-1].setup.robot.port == "/dev/ttyACM0")
 
 
+@pytest.mark.long("journey")
 def test_what_nobody_sees_does_not_happen(planned, settle) -> None:
     window, arm, _ = fetched(planned, settle)
     window.show_start()
@@ -348,6 +372,7 @@ def test_what_nobody_sees_does_not_happen(planned, settle) -> None:
     assert arm.play is not None
 
 
+@pytest.mark.long("journey")
 def test_the_same_plan_is_not_worked_out_twice(planned, services, settle) -> None:
     _window, arm, _ = fetched(planned, settle)
     arm.bar.stop.click()
@@ -356,6 +381,7 @@ def test_the_same_plan_is_not_worked_out_twice(planned, services, settle) -> Non
     assert len(services.carried) == 1
 
 
+@pytest.mark.long("journey")
 def test_who_begins_by_himself_meanwhile_is_not_disturbed(planned, services, settle) -> None:
     window, arm = planned
     services.arm_waits.clear()
@@ -369,6 +395,7 @@ def test_who_begins_by_himself_meanwhile_is_not_disturbed(planned, services, set
     assert arm.bar.isHidden()
 
 
+@pytest.mark.long("journey")
 def test_nothing_begins_while_the_needle_is_not_there(planned, settle) -> None:
     window, arm = planned
     arm.watch()
@@ -378,6 +405,7 @@ def test_nothing_begins_while_the_needle_is_not_there(planned, settle) -> None:
     assert window.conductor.controller.run.trainer.begun is None
 
 
+@pytest.mark.long("journey")
 def test_where_scans_guide_the_arm_takes_them_on_its_way(planned, settle) -> None:
     window, arm, trainer = fetched(planned, settle)
     scans = []
@@ -390,6 +418,7 @@ def test_where_scans_guide_the_arm_takes_them_on_its_way(planned, settle) -> Non
 
 
 # --- where its parts are --------------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_the_tool_is_drawn_along_the_path_through_the_trocar_at_the_entry(planned) -> None:
     window, _ = planned
     placed = window.editor.verdict.placed
@@ -409,6 +438,7 @@ def played(window, settle):
     return results
 
 
+@pytest.mark.long("journey")
 def test_it_plays_to_the_end_is_scored_and_counts_for_nobody(real, settle) -> None:
     results = played(real, settle)
     assert settle(lambda: results)
@@ -448,6 +478,7 @@ def test_it_plays_to_the_end_is_scored_and_counts_for_nobody(real, settle) -> No
     assert not real.feature(ArmFeature).is_busy
 
 
+@pytest.mark.long("journey")
 def test_taken_over_there_is_no_jump_and_the_record_says_so(real, settle) -> None:
     results = played(real, settle)
     arm, controller = real.feature(ArmFeature), real.conductor.controller
@@ -480,6 +511,7 @@ def test_taken_over_there_is_no_jump_and_the_record_says_so(real, settle) -> Non
     assert not arm.is_busy
 
 
+@pytest.mark.long("journey")
 def test_stopped_in_the_body_the_attempt_is_kept_as_broken_off_and_no_debrief_opens(
     real, settle
 ) -> None:
@@ -498,6 +530,7 @@ def test_stopped_in_the_body_the_attempt_is_kept_as_broken_off_and_no_debrief_op
     assert shown.conditions.hand == "arm"
 
 
+@pytest.mark.long("journey")
 def test_the_arm_of_the_scene_does_it_to_the_end(real, settle) -> None:
     for package in ("mujoco", "ompl", "ruckig"):
         pytest.importorskip(package, reason="needs the extra arm: make extra NAME=arm")

@@ -183,6 +183,7 @@ def test_typed_letters_are_one_step_and_undo_and_redo_go_through_all(form, autho
     assert author.editor.get("description") == "Look first.\nThen go."
 
 
+@pytest.mark.long("journey")
 def test_the_types_set_path_pictures_and_dial(form, author):
     write(form.task.name, "X")
     box = form.task.kind
@@ -199,6 +200,7 @@ def test_the_types_set_path_pictures_and_dial(form, author):
     assert isinstance(author.editor.exercise.plan, PlanPoints)
 
 
+@pytest.mark.long("journey")
 def test_path_and_position_are_taken_anew_from_the_window(opened, form, author):
     write(form.task.name, "X")
     form.show_page(1)
@@ -208,6 +210,7 @@ def test_path_and_position_are_taken_anew_from_the_window(opened, form, author):
     assert "prone" in form.patient.where.text()
 
 
+@pytest.mark.long("journey")
 def test_window_and_slab_are_taken_from_the_axial_pane(opened, form, author):
     write(form.task.name, "X")
     form.show_page(3)
@@ -227,6 +230,7 @@ def test_window_and_slab_are_taken_from_the_axial_pane(opened, form, author):
     assert author.editor.exercise.reading.window is None
 
 
+@pytest.mark.long("journey")
 def test_structures_of_risk_are_written_and_go_along(opened, author, settle):
     volume = opened.conductor.patient.volume
     mask = np.zeros(volume.hu.shape, bool)
@@ -264,6 +268,7 @@ def painted(opened, author):
     return author.dialog
 
 
+@pytest.mark.long("journey")
 def test_a_kept_exercise_with_a_painted_structure_goes_on_living(painted, author):
     for _ in range(2):  # kept, and kept again without a change
         painted.keep.click()
@@ -278,6 +283,7 @@ def test_a_kept_exercise_with_a_painted_structure_goes_on_living(painted, author
     assert load_exercise("past-it-copy").structures[0].file.is_file()
 
 
+@pytest.mark.long("journey")
 def test_what_is_painted_after_keeping_is_in_the_next_version(opened, painted, author):
     painted.keep.click()
     book = opened.editors.structures
@@ -294,6 +300,7 @@ def test_what_is_painted_after_keeping_is_in_the_next_version(opened, painted, a
     assert author.unsaved() == ""
 
 
+@pytest.mark.long("journey")
 def test_a_painted_structure_of_risk_that_was_removed_is_no_reason_to_lose_its_file(
     opened, painted, author
 ):
@@ -306,6 +313,7 @@ def test_a_painted_structure_of_risk_that_was_removed_is_no_reason_to_lose_its_f
     assert read_structures(kept.structures[0].file, volume).find("vessel").mask.any()
 
 
+@pytest.mark.long("journey")
 def test_effects_say_live_why_they_are_simulated_or_left_out_and_what_they_cost(
     form, author, settle
 ):
@@ -323,6 +331,7 @@ def test_effects_say_live_why_they_are_simulated_or_left_out_and_what_they_cost(
     assert settle(lambda: "each tick" in form.effects.cost.text())
 
 
+@pytest.mark.long("journey")
 def test_an_effect_is_of_an_organ_and_computed_in_a_way_that_is_chosen(form, author):
     write(form.task.name, "X")
     form.show_page(4)
@@ -340,6 +349,7 @@ def test_an_effect_is_of_an_organ_and_computed_in_a_way_that_is_chosen(form, aut
     assert author.editor.exercise.effects[name].model == way.currentData()
 
 
+@pytest.mark.long("journey")
 def test_bands_are_edited_in_the_table_and_their_rings_drawn_on_the_ct(opened, form, author):
     write(form.task.name, "X")
     form.show_page(5)
@@ -356,6 +366,7 @@ def test_bands_are_edited_in_the_table_and_their_rings_drawn_on_the_ct(opened, f
     assert opened.workspace.viewing.tolerances_mm == pytest.approx((0.6, 2.7))
 
 
+@pytest.mark.long("journey")
 def test_fading_is_chosen_and_its_mistakes_are_said(form, author):
     write(form.task.name, "X")
     form.show_page(2)
@@ -381,6 +392,7 @@ def test_it_can_be_tried_without_being_kept(opened, form, author, settle):
     assert not (folders()[1] / "tried.yaml").exists()
 
 
+@pytest.mark.long("journey")
 def test_a_changed_exercise_is_a_new_version_and_a_copy_another_exercise(opened, form, author):
     write(form.task.name, "Mine")
     form.keep.click()
@@ -395,12 +407,14 @@ def test_a_changed_exercise_is_a_new_version_and_a_copy_another_exercise(opened,
     assert load_exercise("mine").version == 2
 
 
+@pytest.mark.long("journey")
 def test_an_exercise_that_comes_with_acus_is_copied_before_it_is_changed(opened, author):
     author.change()
     assert "this is a copy" in said(author.dialog)
     assert author.editor.get("id") == "first-insertion-copy"
 
 
+@pytest.mark.long("journey")
 def test_the_present_exercise_is_changed_where_it_is_ones_own(opened, form, author):
     write(form.task.name, "Mine")
     form.keep.click()
@@ -413,6 +427,7 @@ def test_the_present_exercise_is_changed_where_it_is_ones_own(opened, form, auth
     assert load_exercise("mine").version == 2
 
 
+@pytest.mark.long("journey")
 def test_one_that_is_not_kept_is_asked_about(opened, form, author, monkeypatch):
     write(form.task.name, "Mine")
     answers = [QMessageBox.StandardButton.Cancel, QMessageBox.StandardButton.Save]
@@ -430,6 +445,7 @@ def test_with_the_patient_the_form_goes(opened, form, patient):
     assert opened.feature(AuthorFeature).dialog is None
 
 
+@pytest.mark.long("journey")
 def test_an_exercise_is_exported_and_imported_elsewhere(
     opened, form, author, settle, tmp_path, monkeypatch
 ):
@@ -455,6 +471,7 @@ def test_an_exercise_is_exported_and_imported_elsewhere(
     ]
 
 
+@pytest.mark.long("journey")
 def test_an_exercise_on_the_ct_that_is_open_is_imported_without_asking_for_it(
     window, patient, author, settle, tmp_path, monkeypatch
 ):
@@ -481,6 +498,7 @@ def test_an_exercise_on_the_ct_that_is_open_is_imported_without_asking_for_it(
     assert not errors
 
 
+@pytest.mark.long("journey")
 def test_another_ct_in_the_exercises_folder_is_said(opened, form, author, settle):
     write(form.task.name, "Mine")
     form.keep.click()
@@ -497,6 +515,7 @@ def edit_cell(box, row, place, text):
     box.table.item(row, place).setText(text)
 
 
+@pytest.mark.long("journey")
 def test_the_ct_fills_the_layers_along_the_path_and_undo_takes_it_back(author, form):
     write(form.task.name, "Layered")
     form.show_page(4)
@@ -515,6 +534,7 @@ def test_the_ct_fills_the_layers_along_the_path_and_undo_takes_it_back(author, f
     assert author.editor.exercise.layers_from == "ct"
 
 
+@pytest.mark.long("journey")
 def test_layers_of_tissue_are_a_table_each_change_of_which_undo_takes_back(author, form):
     write(form.task.name, "Layered")
     form.show_page(4)
@@ -557,6 +577,7 @@ ROWS = [
 ]
 
 
+@pytest.mark.long("journey")
 def test_what_skills_would_score_is_tried_while_the_page_is_looked_at_and_left_on_a_change(
     author, form, settle, monkeypatch
 ):
@@ -638,6 +659,7 @@ def test_an_assessment_is_shown_with_the_locks_and_views_that_it_has(author, for
     assert not any(box.isChecked() for box in sight.locks.values())
 
 
+@pytest.mark.long("journey")
 def test_bone_before_the_target_is_said_with_its_depth_and_layers_end_there(author, form):
     write(form.task.name, "X")
     path = author.editor.exercise.plan.plan()

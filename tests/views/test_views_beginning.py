@@ -21,6 +21,7 @@ from app.views.exercise.feature import ExerciseFeature
 PHANTOM = Plan((-70.0, -109.0, 180.0), (-70.0, -20.0, 180.0), "phantom")
 
 
+@pytest.mark.long("journey")
 def test_begin_on_the_start_page_shows_the_briefing_and_enter_begins_the_attempt(
     window, beginning, settle
 ):
@@ -36,6 +37,7 @@ def test_begin_on_the_start_page_shows_the_briefing_and_enter_begins_the_attempt
     assert beginning.wish is BeginWish.NOTHING
 
 
+@pytest.mark.long("journey")
 def test_enter_pressed_twice_begins_one_attempt(window, beginning, settle, services):
     choose(window, "first-insertion")
     press(window, Qt.Key.Key_Return)
@@ -45,6 +47,7 @@ def test_enter_pressed_twice_begins_one_attempt(window, beginning, settle, servi
     assert len(services.opened) == 1
 
 
+@pytest.mark.long("journey")
 def test_back_returns_to_the_start_page_and_nothing_begins_later(window, beginning, settle):
     choose(window, "first-insertion")
     press(window, Qt.Key.Key_Escape)
@@ -53,6 +56,7 @@ def test_back_returns_to_the_start_page_and_nothing_begins_later(window, beginni
     assert window.conductor.patient is None
 
 
+@pytest.mark.long("journey")
 def test_looking_around_first_starts_nothing_until_f5_which_asks_nothing_more(
     window, beginning, settle
 ):
@@ -65,6 +69,7 @@ def test_looking_around_first_starts_nothing_until_f5_which_asks_nothing_more(
     assert settle(lambda: state(window) is State.ALIGNING)
 
 
+@pytest.mark.long("journey")
 def test_f5_on_an_exercise_taken_from_the_list_shows_its_briefing_first(window, beginning, settle):
     window.feature(ExerciseFeature).begin("first-insertion")
     assert settle(lambda: window.workspace.exercise_panel.buttons.start.isEnabled())
@@ -78,6 +83,7 @@ def test_f5_on_an_exercise_taken_from_the_list_shows_its_briefing_first(window, 
     assert settle(lambda: state(window) is State.ALIGNING)
 
 
+@pytest.mark.long("journey")
 @pytest.mark.promise("docs/user-guide.md: an assessment always has its briefing")
 def test_do_not_show_again_holds_for_that_exercise_and_never_for_an_assessment(
     window, beginning, settle
@@ -102,6 +108,7 @@ def test_do_not_show_again_holds_for_that_exercise_and_never_for_an_assessment(
     assert not beginning._is_known(beginning.exercise)
 
 
+@pytest.mark.long("journey")
 def test_an_exercise_that_the_student_plans_leads_to_the_plan(window, beginning, settle):
     choose(window, "plan-it-yourself")
     assert not beginning.page.show_me.isEnabled()
@@ -112,6 +119,7 @@ def test_an_exercise_that_the_student_plans_leads_to_the_plan(window, beginning,
     assert state(window) is None
 
 
+@pytest.mark.long("journey")
 def test_a_demonstration_runs_apart_ends_by_itself_and_leaves_no_attempt(
     window, beginning, settle, services
 ):
@@ -143,6 +151,7 @@ def test_a_demonstration_runs_apart_ends_by_itself_and_leaves_no_attempt(
     assert not window.conductor.controller.run.demonstrates
 
 
+@pytest.mark.long("journey")
 def test_a_demonstration_can_be_stopped_at_any_time(window, beginning, settle, services):
     choose(window, "first-insertion")
     press(window, Qt.Key.Key_D)
@@ -160,6 +169,7 @@ def test_a_demonstration_can_be_stopped_at_any_time(window, beginning, settle, s
     assert not window.conductor.controller.run.demonstrates
 
 
+@pytest.mark.long("journey")
 def test_another_patient_ends_a_demonstration(window, beginning, settle, patient):
     choose(window, "first-insertion")
     press(window, Qt.Key.Key_D)
@@ -170,6 +180,7 @@ def test_another_patient_ends_a_demonstration(window, beginning, settle, patient
     assert not beginning.bar.isVisible()
 
 
+@pytest.mark.long("journey")
 def test_somebody_who_goes_elsewhere_meanwhile_finds_no_attempt_begun(window, beginning, settle):
     choose(window, "first-insertion")
     window.services.refuses = "the robot is away"
@@ -193,6 +204,7 @@ def test_the_words_say_what_counts_what_helps_and_what_is_locked():
     assert "what moves the hand" in locked_words(scans)[0]
 
 
+@pytest.mark.long("journey")
 def test_enter_pressed_once_too_often_does_not_end_the_attempt(window, beginning, settle):
     ended = []
     window.workspace.exercise_panel.buttons.end_requested.connect(lambda: ended.append(1))
@@ -205,6 +217,7 @@ def test_enter_pressed_once_too_often_does_not_end_the_attempt(window, beginning
     assert state(window) is State.ALIGNING
 
 
+@pytest.mark.long("journey")
 def test_again_from_the_debrief_begins_at_once_and_another_exercise_is_briefed(
     window, beginning, settle
 ):
@@ -225,6 +238,7 @@ def test_again_from_the_debrief_begins_at_once_and_another_exercise_is_briefed(
     assert beginning.page.title.text() == "Thick tissue"
 
 
+@pytest.mark.long("journey")
 def test_a_demonstration_says_when_it_is_a_recorded_attempt(window, beginning, settle, monkeypatch):
     monkeypatch.setattr(ShownMotion, "kept", lambda *_: "somebody's")
     beginning.brief("first-insertion")

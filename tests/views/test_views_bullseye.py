@@ -91,6 +91,7 @@ def test_the_mouse_in_the_window_takes_the_chosen_end_where_it_goes_however_the_
         assert float(other @ way) < 0.0
 
 
+@pytest.mark.long("journey")
 def test_the_bullseye_is_the_largest_instrument_of_the_exercise_on_a_small_screen(
     application, at_work, settle
 ):
@@ -142,6 +143,7 @@ def test_the_legend_is_hidden_and_shown_and_the_choice_outlives_the_window(at_wo
     assert not window.workspace.status.is_detailed
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("after", [State.PAUSED, State.ENDED, State.ABORTED])
 def test_a_key_that_is_held_while_the_attempt_pauses_or_ends_moves_nothing_more(at_work, after):
     window = at_work()
@@ -163,6 +165,7 @@ def test_a_key_that_is_held_while_the_attempt_pauses_or_ends_moves_nothing_more(
     QTest.keyRelease(bullseye.pad, Qt.Key.Key_PageDown)
 
 
+@pytest.mark.long("journey")
 def test_large_text_at_the_smallest_size_cuts_no_word_of_the_bullseye(application, at_work, settle):
     window = at_work()
     try:

@@ -89,6 +89,7 @@ def titles(wizard: CalibrationWizard) -> list[str]:
     return [wizard.list.item(i).text() for i in range(wizard.list.count())]
 
 
+@pytest.mark.long("journey")
 def test_from_pictures_to_a_calibration_in_use(wizard, job, pictures, at_place, settle) -> None:
     assert titles(wizard) == ["✔ Board", "– Pictures", "– Result", "– Place", "– Save"]
     wizard.show_page(1)

@@ -85,6 +85,7 @@ def test_asking_for_real_cameras_where_none_are_chosen_is_over_once_they_are(win
     window.equipment.dialog.reject()
 
 
+@pytest.mark.long("journey")
 def test_aiming_lets_the_run_go_shows_the_cone_and_gives_the_cameras_back(
     running, services, settle
 ):
@@ -102,6 +103,7 @@ def test_aiming_lets_the_run_go_shows_the_cone_and_gives_the_cameras_back(
     assert len(services.opened) == 2
 
 
+@pytest.mark.long("journey")
 def test_a_cone_that_nobody_measured_is_not_told_as_seen(running, services, settle, monkeypatch):
     found = services.aim(None, "icube", None)
     found.assumed, found.cone.share = True, 1.0
@@ -124,6 +126,7 @@ def test_a_camera_that_stops_is_said_below_its_darkened_picture(running, service
     running.equipment.dialog.reject()
 
 
+@pytest.mark.long("journey")
 def test_a_camera_that_cannot_be_opened_is_said_where_its_picture_would_be(
     running, services, settle
 ):
@@ -135,6 +138,7 @@ def test_a_camera_that_cannot_be_opened_is_said_where_its_picture_would_be(
     running.equipment.dialog.reject()
 
 
+@pytest.mark.long("journey")
 def test_the_settings_take_what_is_chosen_and_refuse_what_cannot_work(window, services, settle):
     window.feature(CamerasFeature).set_up()
     dialog = window.equipment.dialog
@@ -170,6 +174,7 @@ def test_what_was_measured_goes_with_its_camera(window):
     dialog.reject()
 
 
+@pytest.mark.long("journey")
 def test_the_latency_is_measured_by_the_blinking_patch_and_kept(running, services, settle):
     running.feature(CamerasFeature).measure_latency("right")
     dialog = running.equipment.dialog

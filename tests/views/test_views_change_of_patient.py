@@ -175,6 +175,7 @@ def fill(window, settle, live=True):
     return trainer
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("live", [True, False])
 def test_nothing_of_the_old_patient_is_left_in_any_widget(
     application, tmp_path, patients, settle, destroy, live
@@ -206,6 +207,7 @@ def test_nothing_of_the_old_patient_is_left_in_any_widget(
     assert more == [], more
 
 
+@pytest.mark.long("journey")
 def test_a_patient_without_a_plan_leaves_no_robot_of_the_last_one(
     window, patients, settle, services
 ):
@@ -291,6 +293,7 @@ def test_what_would_be_replaced_is_named_and_cancelling_changes_nothing(
     assert window.workspace.exercise_panel.exercise.currentData() == "first-insertion"
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("end", ["fails", "is cancelled"])
 def test_until_the_new_patient_is_there_the_old_one_is_whole(
     window, patients, settle, answers, slow, end
@@ -323,6 +326,7 @@ def test_until_the_new_patient_is_there_the_old_one_is_whole(
     assert window.workspace.exercise_panel.exercise.currentData() == "first-insertion"
 
 
+@pytest.mark.long("journey")
 def test_then_the_attempt_is_saved_and_the_new_patient_has_its_exercise(
     window, patients, settle, answers, slow
 ):

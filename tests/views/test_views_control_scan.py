@@ -85,6 +85,7 @@ def shown_with(window, trainer, snapshot) -> dict[str, object]:
     return telling(window)
 
 
+@pytest.mark.long("journey")
 def test_no_widget_tells_where_the_needle_is(guided, settle) -> None:
     window, trainer = guided
     controller, placed = window.conductor.controller, trainer.placed

@@ -90,6 +90,7 @@ def test_what_cannot_come_is_said_and_can_be_asked_for_again(tree, window, settl
     assert settle(lambda: len(records(paths.own_sessions())) == 2)
 
 
+@pytest.mark.long("journey")
 def test_without_any_there_is_no_entry_and_no_word(window, settle):
     settle(lambda: False, 0.5)
     assert not window.feature(DebriefFeature).gathering.entry.isVisible()

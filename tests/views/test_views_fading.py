@@ -30,6 +30,7 @@ def opened(window, patient, settle):
     return window
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     ("totals", "dial", "views"),
     [
@@ -53,6 +54,7 @@ def test_the_next_attempt_begins_with_the_dial_that_the_last_ones_earned(
     assert opened.conductor.exercise.fading == exercise.fading
 
 
+@pytest.mark.long("journey")
 def test_of_a_student_who_is_signed_in_the_attempts_under_the_own_key_are_looked_up(
     opened, exercise, settle, monkeypatch
 ):
@@ -67,6 +69,7 @@ def test_of_a_student_who_is_signed_in_the_attempts_under_the_own_key_are_looked
     assert asked[0][1] == "p-0123456789ab"
 
 
+@pytest.mark.long("journey")
 def test_start_waits_until_the_attempts_are_looked_up(opened, exercise, settle, monkeypatch):
     monkeypatch.setattr(index, "totals_of", lambda *_: [])
     waited = []
@@ -77,6 +80,7 @@ def test_start_waits_until_the_attempts_are_looked_up(opened, exercise, settle, 
     assert waited[1] == ""
 
 
+@pytest.mark.long("journey")
 def test_without_fading_nothing_is_looked_up(opened, settle, monkeypatch):
     asked = []
     monkeypatch.setattr(index, "totals_of", lambda *what: asked.append(what) or [])

@@ -305,6 +305,7 @@ def test_a_needle_taken_away_stays_away_whatever_was_to_be_followed(room, settle
     assert one.viewing.needle is None
 
 
+@pytest.mark.long("journey")
 def test_what_moves_by_less_than_can_be_seen_is_not_painted_anew(room, settle):
     one = room()
     tip = one.viewing.cursor_mm + [1.0, 2.0, 3.0]

@@ -39,6 +39,7 @@ def test_a_label_in_a_pane_is_never_cut(x, y, width):
     assert top + h <= PANE[1] + 1e-9
 
 
+@pytest.mark.long("journey")
 def test_a_mark_outside_the_pane_has_no_label():
     assert arrange([label(-5.0, 10.0), label(100.0, 301.0)], PANE) == [None, None]
 

@@ -179,6 +179,7 @@ def test_a_look_that_is_cancelled_keeps_nothing(desk, tmp_path):
     assert desk.entries() == []
 
 
+@pytest.mark.long("journey")
 def test_the_panel_searches_shows_and_hands_over(desk, tmp_path):
     Slices().write(tmp_path / "stored")
     with FakePacs(tmp_path / "stored") as pacs:
@@ -199,6 +200,7 @@ def test_the_panel_searches_shows_and_hands_over(desk, tmp_path):
     assert aside() == 0
 
 
+@pytest.mark.long("journey")
 def test_a_retrieved_series_that_is_given_up_is_deleted(desk, tmp_path):
     Slices().write(tmp_path / "stored")
     with FakePacs(tmp_path / "stored") as pacs:
@@ -212,6 +214,7 @@ def test_a_retrieved_series_that_is_given_up_is_deleted(desk, tmp_path):
     assert desk.entries() == []
 
 
+@pytest.mark.long("journey")
 def test_an_interrupted_retrieval_is_shown_and_resumed(desk, tmp_path):
     Slices().write(tmp_path / "stored")
     failed = []

@@ -96,6 +96,7 @@ def test_the_test_asks_the_archive_of_the_form_without_keeping_it(open_dialog, p
     assert not pacs_path().exists()
 
 
+@pytest.mark.long("journey")
 def test_a_test_of_a_silent_archive_can_be_cancelled(open_dialog, pacs, settle):
     pacs.ill = "silent"
     dialog = open_dialog()

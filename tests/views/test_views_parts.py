@@ -6,6 +6,7 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
+import pytest
 from PySide6.QtCore import QLocale, QObject
 from PySide6.QtWidgets import QWidget
 
@@ -249,6 +250,7 @@ print("alive")
 """
 
 
+@pytest.mark.long("journey")
 def test_work_whose_callback_holds_the_last_reference_to_its_owner_ends_both_once():
     # freed memory is overwritten at once: what is destroyed twice shows
     environment = os.environ | {"MALLOC_PERTURB_": "165"}

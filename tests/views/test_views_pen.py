@@ -207,6 +207,7 @@ def test_another_webcam_is_opened_a_moment_after_it_was_chosen_and_the_first_is_
 
 
 # --- the tip --------------------------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_a_rocked_pen_is_measured_with_progress_sides_and_positions_held_back(
     page, services, settle, looks
 ):
@@ -258,6 +259,7 @@ def test_too_few_positions_cannot_be_computed_and_a_pen_held_still_is_refused_by
     assert page.tip.begin.isEnabled()
 
 
+@pytest.mark.long("journey")
 def test_another_pen_stops_the_measurement(page, services, looks, settle):
     rock(page, services, looks, 5)
     page.choice.body.setCurrentIndex(page.choice.body.findData("ring"))

@@ -325,6 +325,7 @@ def cell(sessions, name, column):
     return model.index(rows[name], column).data()
 
 
+@pytest.mark.long("journey")
 def test_the_instructor_goes_from_the_board_to_the_attempts_says_things_and_the_student_reads_them(
     window, feature, settle
 ):

@@ -56,6 +56,7 @@ def literal_words(node):
     return isinstance(node, ast.Constant)
 
 
+@pytest.mark.long("journey")
 def test_every_label_is_plain():
     made = [f"{file}:{node.lineno}" for file, node, name in calls() if name == "QLabel"]
     assert [one for one in made if one.partition(":")[0] not in RICH] == []

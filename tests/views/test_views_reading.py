@@ -383,6 +383,7 @@ def test_slab_and_turn_work_along_oblique_planes_too(viewing):
     assert viewing.plane(PaneId.IN_PLANE).half_slab_mm == 3.0
 
 
+@pytest.mark.long("journey")
 def test_the_words_in_the_corners_stay_where_they_are_while_the_view_is_panned(
     window, patient, settle
 ):

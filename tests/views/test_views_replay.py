@@ -191,6 +191,7 @@ def test_a_needle_that_tissue_bent_is_drawn_bent(shown, settle):
     assert settle(lambda: len(needle_of(shown).points_mm) > 2)
 
 
+@pytest.mark.long("journey")
 def test_slices_lie_along_the_needle_or_along_the_planned_path_as_one_chooses(shown):
     frame = shown.views.planes.frame
     assert shown.views.planes.along is Along.NEEDLE
@@ -348,6 +349,7 @@ def test_beside_an_attempt_stand_the_ideal_path_and_comparable_ones_by_their_poi
     assert window.feature(DebriefFeature).page._ghost.title == "ideal"
 
 
+@pytest.mark.long("journey")
 def test_a_click_into_an_attempt_of_three_minutes_does_not_hold_the_window(shown, settle):
     volume = shown.views.viewing.volume
     long = attempted(volume, seconds=180.0)
@@ -402,6 +404,7 @@ def test_the_list_tells_a_student_no_result_that_is_held_and_the_instructor_ever
     assert held_back([("a", assessed.key, "first-insertion", 1)]) == {}
 
 
+@pytest.mark.long("journey")
 def test_whoever_signs_in_sees_of_the_attempt_on_the_page_what_he_may(
     window, patient, assessed, settle
 ):
@@ -441,6 +444,7 @@ def test_whoever_signs_in_sees_of_the_attempt_on_the_page_what_he_may(
     assert not page.table.isVisibleTo(page)
 
 
+@pytest.mark.long("journey")
 def test_structures_that_the_patient_has_are_drawn_in_the_replay_too(shown, window, settle):
     volume = window.conductor.patient.volume
     voxels = np.ones((8, 6, 10), dtype=bool)

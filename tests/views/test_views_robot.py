@@ -81,6 +81,7 @@ def test_the_clearance_of_this_moment_counts():
     assert [i.text for g in groups for i in g.items if i.title == "Force limit"] == ["1 N"]
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("status", [*LinkStatus, 77])
 def test_every_state_of_the_link_has_words_and_what_to_do(status):
     item = link_item(int(status), True)

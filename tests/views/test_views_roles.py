@@ -116,6 +116,7 @@ def guarded(window, patient, settle, monkeypatch):
     feature.close()
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("signed_in", [False, True])
 def test_no_action_that_a_student_may_not_use_is_enabled_or_does_anything(
     guarded, settle, signed_in
@@ -140,6 +141,7 @@ def test_no_action_that_a_student_may_not_use_is_enabled_or_does_anything(
     assert files() == before
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("signed_in", [False, True])
 def test_no_button_of_people_and_attempts_does_what_a_student_may_not(guarded, settle, signed_in):
     window, ada, asked = guarded
@@ -166,6 +168,7 @@ def test_no_button_of_people_and_attempts_does_what_a_student_may_not(guarded, s
     assert ("Erase…" in tried) == signed_in
 
 
+@pytest.mark.long("journey")
 def test_an_exercise_that_was_open_when_the_instructor_left_is_not_kept_by_whoever_comes(
     guarded, settle
 ):

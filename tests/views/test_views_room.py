@@ -87,6 +87,7 @@ def test_style_sheets_change_colour_and_size_and_back():
 
 
 # --- projector --------------------------------------------------------------------------------
+@pytest.mark.long("journey")
 def test_projector_mode_is_light_large_and_without_names_and_ends(window, patient, desk_again):
     window.show_patient(patient)
     dark, small = QApplication.instance().styleSheet(), window.workspace.side.width()
@@ -144,6 +145,7 @@ def test_in_the_smallest_window_every_title_of_the_status_strip_is_whole_in_larg
     strip.close()
 
 
+@pytest.mark.long("journey")
 def test_in_the_smallest_window_work_beside_it_leaves_the_menus_free_in_large_text(
     application, window, desk_again, settle
 ):
@@ -181,6 +183,7 @@ def test_a_status_strip_without_room_ends_its_words_in_an_ellipsis(application, 
     strip.close()
 
 
+@pytest.mark.long("journey")
 def test_titles_of_the_robots_health_are_whole_in_large_text(window, patient, desk_again, settle):
     window.show_patient(patient)
     plan(window)
@@ -199,6 +202,7 @@ def titles_of(panel):
     return [line._title for line in panel.findChildren(_Line) if line.isVisible()]
 
 
+@pytest.mark.long("journey")
 def test_pictures_stay_on_black_and_keep_their_colours(window, patient, desk_again):
     window.show_patient(patient)
     window.projector.set_light(True)
@@ -286,6 +290,7 @@ def test_what_an_exercise_does_not_name_it_does_not_lock(window, patient):
     assert window.workspace.viewing.greys.common == WindowLevel(500.0, 5.0)
 
 
+@pytest.mark.long("journey")
 def test_the_debrief_and_the_map_stay_readable_when_the_light_goes_on(window, patient, desk_again):
     window.show_patient(patient)
     page = window.feature(DebriefFeature).page

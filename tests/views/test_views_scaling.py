@@ -32,6 +32,7 @@ def answers():
     return dict(zip(SCREENS, map(json.loads, lines), strict=True))
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("screen", SCREENS)
 def test_a_click_lands_on_what_is_seen_at_every_scaling(answers, screen):
     factor, width, height = screen

@@ -377,6 +377,7 @@ def test_the_home_view_takes_the_robot_in_until_one_looks_elsewhere(view):
     assert view.orbit is elsewhere
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("share", [0.05, 0.25, 0.6, 0.9])
 def test_a_cancel_is_obeyed_inside_the_filters(share):
     """The first report past `share` cancels; the last one heard shows how much was still done."""

@@ -71,12 +71,14 @@ def both(view):
     return frozenset(ViewName), frozenset(ViewName) - {view}
 
 
+@pytest.mark.long("journey")
 def test_the_needle_is_on_the_slices_by_live_overlay(shows):
     on, off = both(ViewName.LIVE_OVERLAY)
     assert shows(on).workspace.viewing.needle is not None
     assert shows(off).workspace.viewing.needle is None
 
 
+@pytest.mark.long("journey")
 def test_the_bullseye_is_empty_without_its_view_and_says_no_offset(shows):
     on, off = both(ViewName.BULLSEYE)
     window = shows(on)
@@ -101,6 +103,7 @@ def test_the_bullseyes_cell_is_gone_where_nothing_would_be_in_it(shows):
     assert shows(frozenset({ViewName.FORCE_GAUGE}), interactive=False).workspace.has_bullseye
 
 
+@pytest.mark.long("journey")
 def test_the_3d_pane_says_that_it_is_off_and_draws_nothing(shows, settle):
     on, off = both(ViewName.THREE_D)
     scene = shows(on).workspace.scene

@@ -172,6 +172,7 @@ def test_the_mixer_plays_where_there_is_a_sound_card(monkeypatch):
     mixer.close()
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
 def test_with_sounds_the_program_can_still_be_ended_by_a_signal(number):
     pytest.importorskip("pygame")

@@ -65,6 +65,7 @@ def run(code, tmp_path):
     return set(out.stdout.split())
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     "code", [START, "import sys, app.views.shell.window, app.compose.desktop\n"]
 )
@@ -72,6 +73,7 @@ def test_the_start_page_loads_nothing_heavy(code, tmp_path):
     assert not run(code + LOADED, tmp_path) & {*HEAVY, *OF_PEOPLE}
 
 
+@pytest.mark.long("journey")
 def test_heavy_parts_load_beside_the_window_from_several_threads(tmp_path):
     assert set(HEAVY) - {"cv2"} <= run(START + PREPARE + LOADED, tmp_path)
 

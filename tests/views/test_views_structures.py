@@ -349,6 +349,7 @@ def filled(volume: Volume, centre):
     return mask
 
 
+@pytest.mark.long("journey")
 def test_structures_of_an_exercise_come_with_its_ct(
     window, patient, with_structures, settle, monkeypatch
 ) -> None:

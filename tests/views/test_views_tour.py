@@ -88,6 +88,7 @@ def test_it_can_be_left_at_any_time_and_repeated(window, tour):
     assert tour.number is None
 
 
+@pytest.mark.long("journey")
 def test_the_first_patient_comes_beside_it_and_it_stays_where_it_is(window, tour, settle):
     tour.begin()
     tour.move(1)

@@ -150,6 +150,7 @@ def test_a_click_beside_the_patient_in_3d_is_told(window, patient):
     assert "body" in window.message_bar.text
 
 
+@pytest.mark.long("journey")
 def test_a_pause_is_said_on_every_page_until_the_attempt_goes_on(window):
     seen = window.conductor.controller.event_seen
     seen.emit(Event(1.0, "state", "paused", {}))

@@ -109,6 +109,7 @@ def test_keys_end_and_scan_only_while_the_attempt_runs(panel):
         assert (len(ended), len(scanned)) == (count, count)
 
 
+@pytest.mark.long("journey")
 def test_escape_aborts_only_when_it_is_held(panel):
     aborted = []
     panel.buttons.abort_requested.connect(lambda: aborted.append(1))

@@ -107,6 +107,7 @@ def test_the_first_word_of_a_run_is_said_at_once_whatever_was_set_before(qt):
     assert "Target 1 of 6" in line.text()
 
 
+@pytest.mark.long("journey")
 def test_a_touch_is_told_in_another_colour_and_then_what_comes(qt):
     line = NextStepLine()
     line.begin(the_run())

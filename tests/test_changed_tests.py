@@ -1,0 +1,44 @@
+"""`make test-changed` runs what a change can reach, and leaves out what it cannot."""
+
+import subprocess
+
+import pytest
+
+from tools import changed_tests
+from tools.changed_tests import ALWAYS, PAGES, ROOT, changed_files
+
+
+def test_a_module_reaches_the_tests_of_its_layer_and_above_only():
+    picked = set(changed_tests.tests_for(["app/imaging/window.py"], ROOT))
+    assert "tests/imaging/test_imaging_window.py" in picked
+    assert "tests/views/test_views_window.py" in picked
+    assert not any(name.startswith("tests/mechanisms/") for name in picked)
+
+
+@pytest.mark.parametrize(
+    ("changed", "reached"),
+    [
+        ("app/scoring/metrics/path_ratio.py", "tests/scoring/test_scoring_metrics.py"),
+        ("app/commands/ct.py", "tests/test_command_line.py"),
+        ("app/simulation/effects/bevel.py", "tests/simulation/test_simulation_compiler.py"),
+    ],
+)
+def test_what_is_found_by_being_there_reaches_who_looks_for_it(changed, reached):
+    assert reached in changed_tests.tests_for([changed], ROOT)
+
+
+def test_a_helper_of_tests_reaches_the_tests_that_import_it_at_any_remove():
+    assert "tests/test_replay_machines.py" in changed_tests.tests_for(
+        ["tests/machine_records.py"], ROOT
+    )
+
+
+def test_a_page_reaches_its_own_tests_and_a_resource_every_one():
+    assert set(changed_tests.tests_for(["docs/json.md"], ROOT)) == {*PAGES, *ALWAYS}
+    every = {str(path.relative_to(ROOT)) for path in (ROOT / "tests").rglob("test_*.py")}
+    assert set(changed_tests.tests_for(["resources/exercises/first-insertion.yaml"], ROOT)) == every
+
+
+def test_a_commit_that_git_does_not_know_is_an_error():
+    with pytest.raises(subprocess.CalledProcessError):
+        changed_files("no-such-commit")

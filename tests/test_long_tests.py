@@ -1,0 +1,25 @@
+"""What `make test` leaves out is marked with its kind, listed on a page, and run all the same."""
+
+import pytest
+
+from tools.long_tests import PAGE, ROOT, long_tests, written
+
+
+def test_the_page_of_tests_is_what_they_are_marked_with():
+    assert PAGE.read_text(encoding="utf-8") == written(long_tests()), "write it: make tests-page"
+
+
+def test_the_two_halves_leave_nothing_out_and_continuous_integration_runs_both():
+    recipes = (ROOT / "Makefile").read_text(encoding="utf-8")
+    assert "\ntest: setup" in recipes
+    assert '-m "not long" $(TEST)' in recipes
+    assert "$(PYTEST) -m long $(TEST)" in recipes
+    steps = (ROOT / ".ci/run").read_text(encoding="utf-8").splitlines()
+    assert {"make test", "make test-long"} <= set(steps)
+
+
+@pytest.mark.parametrize("mark", ["long", "long()", "long('slow')", "long(1)"])
+def test_a_mark_without_a_kind_is_refused(tmp_path, mark):
+    (tmp_path / "test_a.py").write_text(f"import pytest\n@pytest.mark.{mark}\ndef test_a(): ...\n")
+    with pytest.raises(ValueError, match=r"test_a.py: pytest.mark.long.* names none of statistics"):
+        long_tests(tmp_path)

@@ -1,0 +1,90 @@
+"""Write docs/tests.md from the marks of the long tests: `python -m tools.long_tests`.
+
+A test that takes a second or more of a busy core is marked with its kind:
+
+    @pytest.mark.long("journey")
+
+`make test` leaves these out and `make test-long` runs them. The tests' syntax is read, nothing is
+run; a test sees that the page is what the marks say.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections import Counter
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGE = ROOT / "docs" / "tests.md"
+MARK = "pytest.mark.long"
+
+KINDS = {
+    "statistics": "many seeds, rendered pictures or drawn examples: a share, a covariance, a bound",
+    "journey": "real programs, a whole window, another process or another program's archive",
+    "machine": "seconds to minutes of a machine's motion, in the loop and beside it",
+}
+
+HEAD = """# What is tested where
+<!-- written by python -m tools.long_tests; do not edit -->
+
+| command | runs | on two cores |
+|---|---|---|
+| `make test` | all but the long tests | five minutes; seven where no kernel is compiled yet |
+| `make test-changed SINCE=main` | of these what changes since a commit can reach | less |
+| `make test-long` | the long ones | nine minutes |
+| `make test-all` | both | fourteen minutes |
+| `make careless`, `soak`, `kills`, `fuzz`, `by-hand`, `bench` | a campaign each | your choice |
+
+Continuous integration runs style, types and structure, both halves of the tests and a minute of
+`kills`. Each half ends with its twenty slowest tests.
+
+Long tests are marked with their kind, in the test's own file:
+
+| kind | what |
+|---|---|
+"""
+
+
+def long_tests(folder: Path = ROOT / "tests") -> dict[str, Counter[str]]:
+    """Return how many tests of each file are marked as long: path -> kind -> functions.
+
+    Raises:
+        ValueError: for a mark without one of the kinds.
+    """
+    marked: dict[str, Counter[str]] = {}
+    for path in sorted(folder.rglob("test_*.py")):
+        text = path.read_text(encoding="utf-8")
+        if MARK not in text:
+            continue
+        name = path.relative_to(folder.parent).as_posix()
+        for node in ast.walk(ast.parse(text)):
+            for mark in node.decorator_list if isinstance(node, ast.FunctionDef) else ():
+                if ast.unparse(mark).split("(")[0] == MARK:
+                    marked.setdefault(name, Counter())[_kind(mark, name)] += 1
+    return marked
+
+
+def _kind(mark: ast.expr, name: str) -> str:
+    match mark:
+        case ast.Call(args=[ast.Constant(value=str(kind))]) if kind in KINDS:
+            return kind
+    raise ValueError(f"{name}: {ast.unparse(mark)} names none of {', '.join(KINDS)}")
+
+
+def written(marked: dict[str, Counter[str]]) -> str:
+    """Return the text of the page."""
+    lines = [HEAD + "\n".join(f"| {kind} | {text} |" for kind, text in KINDS.items())]
+    lines += ["", f"| file | {' | '.join(KINDS)} |", "|---|" + "---|" * len(KINDS)]
+    for name, counts in marked.items():
+        lines.append(f"| {name} | {' | '.join(str(counts[kind] or '') for kind in KINDS)} |")
+    return "\n".join(lines) + "\n"
+
+
+def main() -> None:
+    """Write the page."""
+    PAGE.write_text(written(long_tests()), encoding="utf-8")
+    print(f"wrote {PAGE}")
+
+
+if __name__ == "__main__":
+    main()
