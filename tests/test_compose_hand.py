@@ -144,6 +144,7 @@ def test_a_window_that_is_blocked_has_no_torque_on_the_board_after_a_second() ->
     assert row[sv.FAULT] == Fault.HEARTBEAT_LOST
 
 
+@pytest.mark.long("machine")
 @pytest.mark.parametrize("silence", [700, 800, 950, 1500, 3000])
 @pytest.mark.parametrize("pixels", [150.0, 2000.0])
 def test_a_window_that_is_busy_while_the_hand_moves_voids_nothing(

@@ -110,6 +110,7 @@ def test_no_page_of_the_site_takes_anything_from_another_host(site):
     assert taken == set()
 
 
+@pytest.mark.long("journey")
 def test_help_finds_its_pages_and_headings_in_the_site(site):
     for page in (*PAGES.values(), HOME):
         name, _, heading = page.partition("#")
@@ -117,12 +118,14 @@ def test_help_finds_its_pages_and_headings_in_the_site(site):
         assert not heading or f'id="{heading}"' in text, page
 
 
+@pytest.mark.long("journey")
 def test_the_search_works_without_a_server(site):
     assert (site / "search" / "search_index.js").is_file()
     assert "search_in_files.js" in (site / "index.html").read_text(encoding="utf-8")
     assert (site / "search_in_files.js").is_file()
 
 
+@pytest.mark.long("journey")
 def test_the_reference_lists_every_room_and_what_others_import_from_it(site):
     text = (site / "reference" / "core.html").read_text(encoding="utf-8")
     assert "RigidTransform" in text

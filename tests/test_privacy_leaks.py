@@ -87,6 +87,7 @@ def test_no_identifier_reaches_the_log_of_the_window_or_what_it_writes(
     assert leaks(acus.said.encode(), words) == []
 
 
+@pytest.mark.long("journey")
 @pytest.mark.promise("docs/reading.md: Messages never quote a header")
 def test_errors_of_an_import_quote_neither_values_nor_paths(tmp_path, capfd, source, words):
     annotated = shutil.copytree(source, tmp_path / "outside" / FOLDER)

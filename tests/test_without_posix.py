@@ -56,6 +56,7 @@ def test_a_whole_headless_demonstration_runs_without_the_modules_that_only_unix_
     assert list((inside / "out").rglob("*.pdf"))
 
 
+@pytest.mark.long("journey")
 @pytest.mark.timeout(600)
 def test_no_identifier_reaches_the_log_the_record_or_the_report_of_an_attempt_in_the_window(
     ct, demonstration

@@ -39,6 +39,7 @@ def application():
     return found
 
 
+@pytest.mark.long("journey")
 def test_a_seed_draws_the_same_actions_and_they_can_be_written_down_and_read(tmp_path):
     first, again = random.Random(7), random.Random(7)
     drawn = [draw(first, SCREEN) for _ in range(300)]
@@ -48,6 +49,7 @@ def test_a_seed_draws_the_same_actions_and_they_can_be_written_down_and_read(tmp
     assert {"click", "drag", "wheel", "key", "wait", "title", "size"} <= {a.kind for a in drawn}
 
 
+@pytest.mark.long("journey")
 def test_nobody_types_at_random_into_a_dialog_of_files():
     from dataclasses import replace
 
@@ -56,6 +58,7 @@ def test_nobody_types_at_random_into_a_dialog_of_files():
     assert {draw(rng, dialog) for _ in range(50)} == {Action("key", words="Escape")}
 
 
+@pytest.mark.long("journey")
 def test_cut_texts_are_found_and_whole_and_elided_ones_are_not(application):
     window = QWidget()
     window.resize(400, 300)

@@ -342,6 +342,7 @@ def test_one_student_is_one_student(acus, monkeypatch, capsys, tmp_path):
     assert "1 student added, 0 updated" in capsys.readouterr().out
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("harm", ["cut", "altered"])
 def test_a_signed_record_that_was_harmed_is_not_said_to_be_whole(acus, harm):
     attempts("s")

@@ -114,6 +114,7 @@ def test_every_robot_opens_reads_angles_sends_torques_and_ends_at_zero(robot):
     assert robot.torques() == (0.0, 0.0)
 
 
+@pytest.mark.long("machine")
 def test_every_robot_ends_at_zero_after_an_exception_and_can_be_opened_again(robot):
     def attempt():
         with robot.loop:

@@ -44,6 +44,7 @@ def test_it_answers(orthanc):
     assert Pacs(orthanc.settings()).echo() < 5.0
 
 
+@pytest.mark.long("journey")
 def test_what_was_stored_is_found_by_patient_and_by_date(orthanc):
     client = Pacs(orthanc.settings())
     for query in (Query(patient_id="SECRET*"), Query(date="20240201-20240301")):
@@ -87,6 +88,7 @@ def test_only_what_is_missing_is_fetched_again(orthanc):
     incoming.forget()
 
 
+@pytest.mark.long("journey")
 def test_a_caller_it_does_not_know_is_refused_in_words(orthanc):
     stranger = orthanc.settings(own_title="STRANGER")
     with pytest.raises(PacsError):
@@ -95,6 +97,7 @@ def test_a_caller_it_does_not_know_is_refused_in_words(orthanc):
         Pacs(orthanc.settings(title="OTHER")).echo()
 
 
+@pytest.mark.long("journey")
 def test_a_destination_it_does_not_know_is_said(orthanc):
     elsewhere = orthanc.settings(retrieve="move", own_port=1 + orthanc.own_port)
     with pytest.raises(PacsError):
@@ -102,6 +105,7 @@ def test_a_destination_it_does_not_know_is_said(orthanc):
     assert CtLibrary().entries() == ()
 
 
+@pytest.mark.long("journey")
 def test_a_series_it_has_not_got_is_said(orthanc):
     with pytest.raises(PacsDataError, match="no such study or series"):
         take(Pacs(orthanc.settings()), STUDY, "2.25.404", CtLibrary(), Progress())

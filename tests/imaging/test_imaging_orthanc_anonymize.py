@@ -116,6 +116,7 @@ def test_every_row_of_the_table_has_the_action_that_orthanc_takes(fates):
             assert theirs == expected[action[0]], (keyword, action)
 
 
+@pytest.mark.long("journey")
 def test_nothing_that_orthanc_takes_out_stays_with_us_but_for_the_two_declared_options(fates):
     stays = {
         name for name, (_, theirs, ours) in fates.items() if ours == "kept" and theirs != "kept"
@@ -129,6 +130,7 @@ def test_nothing_that_orthanc_takes_out_stays_with_us_but_for_the_two_declared_o
     assert other == SHIFTED | (NAMES - {"PatientName", "PatientID"})
 
 
+@pytest.mark.long("journey")
 def test_we_take_out_whatever_orthanc_takes_out_and_more(fates):
     more = {
         name for name, (_, theirs, ours) in fates.items() if theirs == "kept" and ours == "removed"

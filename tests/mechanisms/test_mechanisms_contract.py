@@ -78,6 +78,7 @@ def test_joints_and_axis_are_inverse_of_each_other(name, share, azimuth):
         assert low < q < high
 
 
+@pytest.mark.long("statistics")
 @FAST
 @given(share=tilts, azimuth=azimuths, qd=rates)
 @pytest.mark.parametrize("name", profile_names())
@@ -131,6 +132,7 @@ def matrix(state: FloatArray, block: slice) -> FloatArray:
     return np.array([[left, cross], [cross, right]])
 
 
+@pytest.mark.long("statistics")
 @FAST
 @given(share=tilts, azimuth=azimuths, qd=rates, depth=st.floats(0.0, 1.0))
 @pytest.mark.parametrize("name", profile_names())

@@ -30,6 +30,7 @@ def fine(found):
     )
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("planner", Planner)
 def test_a_way_around_a_post_is_free_all_along_and_shorter_than_it_was_found(planner):
     assert POST.stopped(ARM, JointPath.straight(START, GOAL)) is not None

@@ -63,6 +63,7 @@ def test_the_record_is_closed_and_sealed_before_somebody_elses_metric_runs(
     assert shown.row("looks").value == 4.5
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize("body", ["raise SystemExit", "os._exit(1)", "while True: pass"])
 def test_a_metric_that_would_end_the_program_leaves_a_verified_attempt(
     attempt: Bench, tmp_path: Path, body: str

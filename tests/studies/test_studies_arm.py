@@ -42,6 +42,7 @@ def test_its_pictures_are_drawn():
         assert figure.axes
 
 
+@pytest.mark.long("statistics")
 @needs_pinocchio
 def test_without_eaik_the_study_names_it_as_left_out(monkeypatch):
     monkeypatch.setitem(sys.modules, "eaik.IK_DH", None)

@@ -33,6 +33,7 @@ def test_errors_of_calibration_pose_and_tip_are_as_large_as_they_are_stated(pool
     assert 0.90 <= tally.held / tally.trials <= 0.99
 
 
+@pytest.mark.long("statistics")
 def test_the_sphere_round_the_tip_holds_it_as_often_as_it_says(pooled):
     tally = pooled["tip"]
     assert 0.90 <= tally.within / tally.points <= 0.99
@@ -48,6 +49,7 @@ def test_the_error_at_the_target_holds_whatever_the_touches_errors_look_like(kin
     assert tally.within / tally.points >= 0.915
 
 
+@pytest.mark.long("statistics")
 def test_a_run_that_was_broken_off_goes_on_where_it_was(tmp_path):
     kind = next(iter(KINDS))
     whole = CoverageCell("touches", lambda seed: touched(kind, seed))

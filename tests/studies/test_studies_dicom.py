@@ -111,6 +111,7 @@ def test_every_one_of_those_reasons_is_confirmed_by_pydicom(pydicoms, facts):
         assert meaning(case.found.reason), case.found.reason
 
 
+@pytest.mark.long("statistics")
 def test_hardly_another_reason_would_have_been_confirmed(pydicoms, facts):
     """No other modality for any file, and nothing at all but "a single slice" for a sound slice."""
     for case in pydicoms[::3]:

@@ -147,6 +147,7 @@ def test_what_narrow_views_cannot_tell_is_dropped_and_the_camera_stays_true() ->
     assert any("k3" in note and "±" in note for note in result.notes)
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize("tangential", [0.0, 4e-4])
 def test_standard_deviations_hold_whatever_the_tangential_coefficients_are(tangential) -> None:
     """The corners are OpenCV's; nobody tells the calibration which coefficients the lens has."""

@@ -537,6 +537,7 @@ def test_what_is_no_matrix_in_a_file_of_opencv_is_named(tmp_path: Path, text: st
         read_calibration([path], unit=0.01, image_size=(640, 480))
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(
     "text",
     [

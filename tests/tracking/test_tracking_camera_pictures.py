@@ -120,6 +120,7 @@ def red_area(picture: np.ndarray, near: np.ndarray) -> np.ndarray:
     return ((red > 0.5 * np.median(red[inside])) & (near > 0)).astype(float)
 
 
+@pytest.mark.long("statistics")
 def test_a_band_drawn_by_the_shared_cases_renderer_has_the_same_middle(
     cases: Path, wide_pictures: CameraPictures
 ) -> None:

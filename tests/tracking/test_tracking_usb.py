@@ -259,6 +259,7 @@ def test_an_unplugged_camera_is_noticed_and_comes_back_at_its_port(bus, reader):
     assert {capture.node for capture in bus.captures} == {RIGHT.node}
 
 
+@pytest.mark.long("statistics")
 @pytest.mark.parametrize(
     ("mode", "state", "word"),
     [

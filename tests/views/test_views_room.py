@@ -339,6 +339,7 @@ def test_scheme_hand_and_kept_windows_are_remembered(services, window, patient, 
     assert "Mine" in again.workspace.viewing.greys.kept
 
 
+@pytest.mark.long("journey")
 @pytest.mark.parametrize(
     "stored",
     [

@@ -184,6 +184,7 @@ def test_an_unsaved_plan_can_keep_the_window_open(window, patient, monkeypatch):
     assert not window.close()
 
 
+@pytest.mark.long("journey")
 def test_closing_leaves_no_thread_behind(application, services, patient, settle, destroy):
     window = MainWindow(services)
     destroy(window)
