@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import pyqtgraph as pg
 import pytest
-from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtCore import QPoint, QPointF, QSize, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QToolButton
@@ -22,6 +22,7 @@ from app.views.accuracy.budget import EffectCost, SceneCost, advice, lowering, t
 from app.views.accuracy.diagram import Diagram
 from app.views.accuracy.feature import AccuracyFeature
 from app.views.accuracy.page import AccuracyPage, share_words
+from app.views.accuracy.panel import EffectsPanel
 
 DEAR = EffectCost("a", "Dear", "fine", {"fine": "", "rough": ""}, {"fine": 9e-4, "rough": 1e-6}, "")
 CHEAP = EffectCost("b", "Cheap", "one", {"one": "only"}, {"one": 1e-7}, "")
@@ -168,9 +169,9 @@ def test_the_keys_of_the_attempt_work_whichever_panel_is_in_front(running, windo
 
 
 def test_a_warning_brings_no_button_that_helps_nobody_and_moves_nothing(running, settle) -> None:
-    panel = running.panel
-    running._shell.show_panel(panel)
-    settle()
+    panel = EffectsPanel()  # none that the running trainer writes into meanwhile
+    panel.resize(running.panel.size().expandedTo(QSize(320, 600)))
+    panel.show()
     little = replace(DEAR, costs={"fine": 2e-6, "rough": 1e-6})
     placed, places = running._runs.run.placed, []
     for number, (effect, missed, lowered) in enumerate(
@@ -187,6 +188,7 @@ def test_a_warning_brings_no_button_that_helps_nobody_and_moves_nothing(running,
         assert panel.lowering.isVisible() == lowered
         places.append(panel.rows[0].y())
     assert len(set(places)) == 1
+    panel.close()
 
 
 def test_while_something_is_measured_nothing_else_can_be_and_cancel_is_answered(
