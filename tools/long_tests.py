@@ -31,8 +31,8 @@ HEAD = """# What is tested where
 |---|---|---|
 | `make test` | all but the long tests | five minutes; seven where no kernel is compiled yet |
 | `make test-changed SINCE=main` | of these what changes since a commit can reach | less |
-| `make test-long` | the long ones | nine minutes |
-| `make test-all` | both | fourteen minutes |
+| `make test-long` | the long ones | seven minutes |
+| `make test-all` | both | twelve minutes |
 | `make careless`, `soak`, `kills`, `fuzz`, `by-hand`, `bench` | a campaign each | your choice |
 
 Continuous integration runs style, types and structure, both halves of the tests and a minute of
