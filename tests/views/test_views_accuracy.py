@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import pyqtgraph as pg
 import pytest
-from PySide6.QtCore import QPoint, QPointF, QSize, Qt
+from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QToolButton
@@ -84,8 +84,9 @@ def test_hard_cases_are_shown_with_their_verdict(window) -> None:
 def running(window, patient, settle):
     window.show_patient(patient)
     plan(window)
-    settle()
-    return window.feature(AccuracyFeature)
+    feature = window.feature(AccuracyFeature)
+    assert settle(lambda: feature._runs.run is not None and feature.panel._scene is not None)
+    return feature
 
 
 def test_a_model_is_chosen_in_the_panel_and_shown(running, settle) -> None:
@@ -168,12 +169,12 @@ def test_the_keys_of_the_attempt_work_whichever_panel_is_in_front(running, windo
     assert asked == ["scan", "breath", "end"]
 
 
-def test_a_warning_brings_no_button_that_helps_nobody_and_moves_nothing(running, settle) -> None:
-    panel = EffectsPanel()  # none that the running trainer writes into meanwhile
-    panel.resize(running.panel.size().expandedTo(QSize(320, 600)))
+def test_a_warning_brings_no_button_that_helps_nobody_and_moves_nothing(settle) -> None:
+    panel = EffectsPanel()  # none that a running trainer writes into meanwhile
+    panel.resize(320, 600)
     panel.show()
     little = replace(DEAR, costs={"fine": 2e-6, "rough": 1e-6})
-    placed, places = running._runs.run.placed, []
+    places = []
     for number, (effect, missed, lowered) in enumerate(
         ((DEAR, 0, False), (little, 300, False), (DEAR, 300, True))
     ):
@@ -183,7 +184,7 @@ def test_a_warning_brings_no_button_that_helps_nobody_and_moves_nothing(running,
         start = 1e6 * (number + 1)
         for time, ticks, late in ((start, 1000, 0), (start + 1.0, 2000, missed)):
             timing = SimpleNamespace(cost=cost, rate_hz=1000.0, ticks=ticks, missed=late)
-            panel.show_snapshot(snapshot(placed, timing=timing, time=time), 0.0)
+            panel.show_snapshot(snapshot(timing=timing, time=time, tracker=None), 0.0)
         settle()
         assert panel.lowering.isVisible() == lowered
         places.append(panel.rows[0].y())
