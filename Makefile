@@ -58,7 +58,7 @@ test-all: test test-long  ## every test
 SINCE ?= HEAD
 test-changed: setup  ## of `make test` what the changes since a commit can reach: SINCE=main
 	$(BIN)/python -m tools.compile_kernels
-	$(PYTEST) -m "not long" $$($(BIN)/python -m tools.changed_tests $(SINCE)) $(TEST)
+	files=$$($(BIN)/python -m tools.changed_tests $(SINCE)) && $(PYTEST) -m "not long" $$files $(TEST)
 
 by-hand: setup  ## one insertion in the real window with mouse and keyboard, on an X server of its own
 	env -u DISPLAY ACUS_BY_HAND=1 ./tools/with-display $(BIN)/python -m pytest -q tests/display

@@ -1,7 +1,5 @@
 """`make test-changed` runs what a change can reach, and leaves out what it cannot."""
 
-import subprocess
-
 import pytest
 
 from tools import changed_tests
@@ -9,7 +7,7 @@ from tools.changed_tests import ALWAYS, PAGES, ROOT, changed_files
 
 
 def test_a_module_reaches_the_tests_of_its_layer_and_above_only():
-    picked = set(changed_tests.tests_for(["app/imaging/window.py"], ROOT))
+    picked = set(changed_tests.tests_for(["app/imaging/window.py"]))
     assert "tests/imaging/test_imaging_window.py" in picked
     assert "tests/views/test_views_window.py" in picked
     assert not any(name.startswith("tests/mechanisms/") for name in picked)
@@ -24,21 +22,31 @@ def test_a_module_reaches_the_tests_of_its_layer_and_above_only():
     ],
 )
 def test_what_is_found_by_being_there_reaches_who_looks_for_it(changed, reached):
-    assert reached in changed_tests.tests_for([changed], ROOT)
+    assert reached in changed_tests.tests_for([changed])
 
 
-def test_a_helper_of_tests_reaches_the_tests_that_import_it_at_any_remove():
-    assert "tests/test_replay_machines.py" in changed_tests.tests_for(
-        ["tests/machine_records.py"], ROOT
-    )
+@pytest.mark.parametrize(
+    ("changed", "reached"),
+    [
+        ("tests/machine_records.py", "tests/test_replay_machines.py"),
+        ("tests/session/session_fakes.py", "tests/session/test_session_under_way.py"),
+        ("tests/views/conftest.py", "tests/views/test_views_accuracy.py"),
+        ("app/views/shell/message_bar.py", "tests/views/test_views_notices.py"),
+        ("app/session/tries.py", "tests/commands/test_commands_output.py"),
+        ("app/mechanisms/pantograph/dynamics.py", "tests/device/test_device_force_path.py"),
+        ("app/scoring/__init__.py", "tests/scoring/test_scoring_metrics.py"),
+    ],
+)
+def test_what_a_helper_or_a_fixture_brings_reaches_the_tests_that_use_it(changed, reached):
+    assert reached in changed_tests.tests_for([changed])
 
 
 def test_a_page_reaches_its_own_tests_and_a_resource_every_one():
-    assert set(changed_tests.tests_for(["docs/json.md"], ROOT)) == {*PAGES, *ALWAYS}
+    assert set(changed_tests.tests_for(["docs/json.md"])) == {*PAGES, *ALWAYS}
     every = {str(path.relative_to(ROOT)) for path in (ROOT / "tests").rglob("test_*.py")}
-    assert set(changed_tests.tests_for(["resources/exercises/first-insertion.yaml"], ROOT)) == every
+    assert set(changed_tests.tests_for(["resources/exercises/first-insertion.yaml"])) == every
 
 
-def test_a_commit_that_git_does_not_know_is_an_error():
-    with pytest.raises(subprocess.CalledProcessError):
+def test_a_commit_that_git_does_not_know_is_named():
+    with pytest.raises(ValueError, match="git knows no commit no-such-commit"):
         changed_files("no-such-commit")

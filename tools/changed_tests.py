@@ -2,9 +2,11 @@
 
 Changed is what differs from a commit (the last one, if none is named), and what git does not know
 yet. A change in a module of `app` reaches the modules that import it, in its own layer and the ones
-above, and the tests that import any of these. A module may be found by being there (an effect, a
-metric, a feature of the window): who imports its package is reached too. Anything else that lies in
-the checkout is read by whoever likes, and reaches every test; pages reach their own.
+above, and the tests that import any of these, by themselves, by a helper or by a `conftest.py`
+above them. A module may be found by being there (an effect, a metric, a feature of the window): who
+imports its package is reached too. A test that starts programs is reached by whatever `acus` is
+made of. Anything else that lies in the checkout is read by whoever likes, and reaches every test;
+pages reach their own.
 """
 
 import ast
@@ -12,6 +14,10 @@ import subprocess
 import sys
 from collections.abc import Iterable, Set
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from grimp import ImportGraph
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -24,56 +30,69 @@ def changed_files(since: str = "HEAD") -> set[str]:
     """Return the paths below the checkout that differ from a commit, or are new.
 
     Raises:
-        subprocess.CalledProcessError: if git does not know the commit.
+        ValueError: if git does not know the commit.
     """
-    asked = (
-        ["git", "diff", "--name-only", since],
-        ["git", "ls-files", "--others", "--exclude-standard"],
-    )
-    run = (
-        subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=True)
-        for words in asked
-    )
-    return {line for done in run for line in done.stdout.splitlines()}
+    differing = _git("diff", "--name-only", since, "--")
+    if differing is None:
+        raise ValueError(
+            f"git knows no commit {since}; SINCE=main names a branch, SINCE=HEAD~3 too"
+        )
+    return {*differing, *(_git("ls-files", "--others", "--exclude-standard") or ())}
 
 
-def tests_for(changed: Iterable[str], root: Path) -> list[str]:
+def _git(*words: str) -> list[str] | None:
+    """Return the lines of git's answer; None if it refuses."""
+    done = subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True, check=False)
+    return None if done.returncode else done.stdout.splitlines()
+
+
+def tests_for(changed: Iterable[str]) -> list[str]:
     """Return the test files that changed paths reach, as paths below the checkout, in order."""
+    files = {_module(path): path for path in _paths()}
+    tests = {path for path in files.values() if path.rpartition("/")[2].startswith("test_")}
     changed = set(changed)
-    files = {_name(path, root): path for path in sorted((root / "tests").rglob("*.py"))}
-    every = [path for path in files.values() if path.name.startswith("test_")]
-    modules = {name for name in map(_module, changed) if name}
-    pages = {name for name in changed if name.startswith("docs/") or name.endswith(".md")}
-    others = {name for name in changed if not _module(name)} - pages
-    if others or "tests.conftest" in modules:
-        picked = set(every)
-    else:
-        reached = reached_modules({name for name in modules if name.split(".")[0] != "tests"})
-        reached |= {name for name in modules if name.split(".")[0] == "tests"}
-        imports = {name: _imports(path) for name, path in files.items()}
-        while more := {name for name in files if name not in reached and imports[name] & reached}:
-            reached |= more
-        picked = {path for name, path in files.items() if name in reached and path in set(every)}
-    picked |= {root / name for name in (PAGES if pages else ())}
-    picked |= {root / name for name in ALWAYS}
-    return sorted(str(path.relative_to(root)) for path in picked if path.exists())
+    modules = {_module(path) for path in changed} - {""}
+    pages = {path for path in changed if path.endswith(".md")}
+    picked = set(ALWAYS) | set(PAGES if pages else ())
+    if any(not _module(path) for path in changed - pages):
+        return sorted(tests | picked)
+    reached = reached_modules({name for name in modules if not name.startswith("tests.")}) | modules
+    imports = {name: _imports(ROOT / path, files) for name, path in files.items()}
+    while more := {name for name in imports.keys() - reached if imports[name] & reached}:
+        reached |= more
+    return sorted(picked | {path for name, path in files.items() if name in reached} & tests)
+
+
+def _paths() -> list[str]:
+    return sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "tests").rglob("*.py"))
 
 
 def reached_modules(changed: Set[str]) -> set[str]:
-    """Return changed modules of `app` and `tools`, and all that import them, at any remove."""
+    """Return changed modules of `app` and `tools`, and all that rest on them, at any remove."""
     import grimp
 
     graph = grimp.build_graph("app", exclude_type_checking_imports=False, cache_dir=None)
-    reached = set(changed)
-    for name in sorted(changed):
-        if name in graph.modules:
-            reached |= graph.find_downstream_modules(name)
+    inside = {name: graph.find_descendants(name) for name in changed & graph.modules}
+    waiting = [*changed, *(below for names in inside.values() for below in names)]
+    reached: set[str] = set()
+    while waiting:
+        name = waiting.pop()
+        if name in reached:
+            continue
+        reached.add(name)
+        importers = _importers(graph, name)
         package = name.rpartition(".")[0]
-        while "." in package and not graph.find_modules_that_directly_import(package):
-            package = package.rpartition(".")[0]
-        if "." in package:
-            reached |= {package} | graph.find_downstream_modules(package)
+        if all(importer.startswith(f"{package}.") for importer in importers):
+            # Nobody outside its folder names it: who looks into the folders around it may load it.
+            while "." in package:
+                waiting.append(package)
+                package = package.rpartition(".")[0]
+        waiting += importers
     return reached
+
+
+def _importers(graph: "ImportGraph", name: str) -> set[str]:
+    return graph.find_modules_that_directly_import(name) if name in graph.modules else set()
 
 
 def _module(path: str) -> str:
@@ -84,12 +103,12 @@ def _module(path: str) -> str:
     return path.removesuffix(".py").replace("/", ".").removesuffix(".__init__")
 
 
-def _name(path: Path, root: Path) -> str:
-    return _module(str(path.relative_to(root)))
+def _imports(path: Path, files: Iterable[str]) -> set[str]:
+    """Return the dotted names that a file of tests rests on, and of `from a import b` a and a.b.
 
-
-def _imports(path: Path) -> set[str]:
-    """Return the dotted names that a file imports, and of `from a import b` both a and a.b."""
+    Helpers are imported by their own name (their folders are on the path); a `conftest` above a
+    file by nobody.
+    """
     names = set()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
@@ -97,12 +116,22 @@ def _imports(path: Path) -> set[str]:
         elif isinstance(node, ast.ImportFrom) and node.module:
             names.add(node.module)
             names |= {f"{node.module}.{alias.name}" for alias in node.names}
+    if "subprocess" in names:
+        names.add("app.__main__")
+    own = _module(path.relative_to(ROOT).as_posix())
+    for name in files:
+        folder, _, last = name.rpartition(".")
+        if last in names or (last == "conftest" and own.startswith(f"{folder}.") and own != name):
+            names.add(name)
     return names
 
 
 def main() -> None:
     """Print them, a line each."""
-    print(*tests_for(changed_files(*sys.argv[1:2]), ROOT), sep="\n")
+    try:
+        print(*tests_for(changed_files(*sys.argv[1:2])), sep="\n")
+    except ValueError as error:
+        sys.exit(str(error))
 
 
 if __name__ == "__main__":

@@ -14,9 +14,10 @@ import ast
 from collections import Counter
 from pathlib import Path
 
+from tools.marks import marks
+
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "tests.md"
-MARK = "pytest.mark.long"
 
 KINDS = {
     "statistics": "many seeds, rendered pictures or drawn examples: a share, a covariance, a bound",
@@ -52,23 +53,13 @@ def long_tests(folder: Path = ROOT / "tests") -> dict[str, Counter[str]]:
         ValueError: for a mark without one of the kinds.
     """
     marked: dict[str, Counter[str]] = {}
-    for path in sorted(folder.rglob("test_*.py")):
-        text = path.read_text(encoding="utf-8")
-        if MARK not in text:
-            continue
-        name = path.relative_to(folder.parent).as_posix()
-        for node in ast.walk(ast.parse(text)):
-            for mark in node.decorator_list if isinstance(node, ast.FunctionDef) else ():
-                if ast.unparse(mark).split("(")[0] == MARK:
-                    marked.setdefault(name, Counter())[_kind(mark, name)] += 1
+    for file, test, arguments in marks(folder, "long"):
+        match arguments:
+            case [ast.Constant(value=str(kind))] if kind in KINDS:
+                marked.setdefault(file, Counter())[kind] += 1
+            case _:
+                raise ValueError(f"{file}: {test} is marked as long by none of {', '.join(KINDS)}")
     return marked
-
-
-def _kind(mark: ast.expr, name: str) -> str:
-    match mark:
-        case ast.Call(args=[ast.Constant(value=str(kind))]) if kind in KINDS:
-            return kind
-    raise ValueError(f"{name}: {ast.unparse(mark)} names none of {', '.join(KINDS)}")
 
 
 def written(marked: dict[str, Counter[str]]) -> str:

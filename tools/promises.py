@@ -13,13 +13,13 @@ from __future__ import annotations
 import ast
 import re
 import sys
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from tools.marks import marks
+
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "promises.md"
-MARK = "pytest.mark.promise"
 WRITTEN = "<!-- written by python -m tools.promises; do not edit -->"
 
 WATCHED = (
@@ -71,22 +71,11 @@ def promises(folder: Path = ROOT / "tests") -> list[Promise]:
     Raises:
         ValueError: for a mark that is no text of page and sentence.
     """
-    found = []
-    for path in sorted(folder.rglob("*.py")):
-        text = path.read_text(encoding="utf-8")
-        if MARK not in text:
-            continue
-        for node in ast.walk(ast.parse(text)):
-            if isinstance(node, ast.FunctionDef):
-                test = f"{path.relative_to(folder.parent).as_posix()}::{node.name}"
-                found += [Promise(*_told(mark, test), test) for mark in _marks(node)]
-    return sorted(found)
-
-
-def _marks(node: ast.FunctionDef) -> Iterator[ast.expr]:
-    for one in node.decorator_list:
-        if isinstance(one, ast.Call) and ast.unparse(one.func) == MARK:
-            yield from one.args
+    return sorted(
+        Promise(*_told(mark, f"{file}::{test}"), f"{file}::{test}")
+        for file, test, arguments in marks(folder, "promise")
+        for mark in arguments
+    )
 
 
 def _told(mark: ast.expr, test: str) -> tuple[str, str]:
