@@ -18,8 +18,9 @@ def marks(folder: Path, name: str) -> Iterator[tuple[str, str, list[ast.expr]]]:
         if dotted not in text:
             continue
         file = path.relative_to(folder.parent).as_posix()
-        for node in ast.walk(ast.parse(text)):
-            for mark in node.decorator_list if isinstance(node, ast.FunctionDef) else ():
-                called = isinstance(mark, ast.Call)
-                if ast.unparse(mark.func if called else mark) == dotted:
-                    yield file, node.name, mark.args if called else []
+        functions = (n for n in ast.walk(ast.parse(text)) if isinstance(n, ast.FunctionDef))
+        for function in functions:
+            for mark in function.decorator_list:
+                call = mark if isinstance(mark, ast.Call) else ast.Call(mark, [], [])
+                if ast.unparse(call.func) == dotted:
+                    yield file, function.name, call.args

@@ -1,8 +1,8 @@
 """What the debrief shows of one attempt, as values; page and report draw the same ones."""
 
 import json
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Final
 
 import numpy as np
@@ -21,6 +21,7 @@ from app.scoring.conditions import Conditions
 from app.scoring.result import Score
 from app.scoring.risks import RiskMark
 from app.scoring.score import with_shown
+from app.scoring.tolerance import Bands
 from app.session.calibration_flag import CalibrationFlags
 from app.session.conditions import EXERCISE_FILE
 from app.session.control_scan import ControlScan
@@ -37,12 +38,13 @@ from app.session.result import AttemptResult
 from app.session.risks import risk_marks
 from app.session.samples import Samples
 from app.session.scored import renders_force
+from app.session.sidecar import BEING_RECORDED, under_way
 from app.session.signature import Signed, judge_whole
 from app.session.station import this_station
 from app.session.summary import derive
 from app.session.timeline import Span, TimeMark, marks, spans
 from app.session.touching import KIND, TASK, TargetMarks, marks_at, radius_of
-from app.session.verify import Verification, verify
+from app.session.verify import Verification, judged_by, verify
 from app.simulation.scene import Binding
 
 __all__ = [
@@ -185,6 +187,7 @@ class Review:
         motion: where the needle was in the patient; None where nothing can be replayed.
         said: what the instructor says of it; no part of the record.
         touches: events that tell of targets to be touched; none where there were none.
+        tolerances: of the attempt's exercise, by metric; those left out are the default's.
     """
 
     id: str
@@ -216,6 +219,7 @@ class Review:
     motion: NeedleMotion | None = None
     said: Remarks = NOTHING_SAID
     touches: tuple[Event, ...] = ()
+    tolerances: Mapping[str, Bands] = field(default_factory=dict)
 
     def targets(self, row: int) -> TargetMarks | None:
         """Return the targets that were to be touched as they stood at a sample; None without."""
@@ -225,11 +229,10 @@ class Review:
 
     @property
     def rings(self) -> tuple[float, float]:
-        """Rings of the pad by the tolerances that the attempt was judged by [m]."""
+        """Rings of the pad by the tolerances of the attempt, whether it has points or not [m]."""
         if radius := radius_of(self.touches):
             return touch_rings(radius)
-        rows = self.score.rows if self.score is not None else ()
-        return rings({row.name: row.tolerance for row in rows if row.tolerance is not None})
+        return rings(self.tolerances)
 
     @property
     def frame(self) -> PathFrame:
@@ -259,14 +262,15 @@ def review(recording: Recording) -> Review:
     """Gather what the debrief shows of a record.
 
     A stored score that cannot be read is no reason to show nothing: it becomes a problem line. A
-    record that was altered after it was signed has no score, as in lists.
+    record that was altered after it was signed has no score, as in lists; nor has one that is being
+    recorded, of which the end is no fault either.
 
     Raises:
         BrokenRecordingError: if the record holds no plan.
     """
     found = verify(recording)
     summary = CalibrationFlags.read().flagged(derive(recording, found))
-    altered = _altered(recording)
+    withheld = _withheld(recording)
     placed = recording.placed_plan()
     samples = recording.samples
     measured = np.isin(samples.depth_source, FROM_CAMERAS)
@@ -278,12 +282,12 @@ def review(recording: Recording) -> Review:
         exercise=summary.exercise_title or summary.exercise_id,
         started=summary.started,
         state=summary.state,
-        reason=summary.reason,
+        reason=withheld or summary.reason,
         duration=summary.duration,
         scans=summary.scans,
         software=summary.software,
-        problems=(*summary.problems, *altered),
-        score=None if altered else _shown(recording, found),
+        problems=() if withheld == BEING_RECORDED else summary.problems,
+        score=None if withheld else _shown(recording, found),
         conditions=summary.conditions,
         curves=figures,
         spans=spans(figures.time, samples.state),
@@ -300,18 +304,21 @@ def review(recording: Recording) -> Review:
         risks=risk_marks(recording.events),
         correction=correction(samples, measured, side_force(recording)),
         touches=tuple(event for event in recording.events if event.kind in (TASK, KIND)),
+        tolerances=judged_by(recording, found.standing)[0],
         motion=motion(samples, placed, needle_length(recording)) if len(samples.time) else None,
     )
 
 
-def _altered(recording: Recording) -> tuple[str, ...]:
-    """Say that a record is not the one that was signed; empty if it is, or nobody signed it."""
+def _withheld(recording: Recording) -> str:
+    """Say why a record has no points whatever it holds; empty if it has them."""
     if not recording.path.is_file():
-        return ()
+        return ""
+    if under_way(recording.path):
+        return BEING_RECORDED
     check = judge_whole(recording.path, this_station())
     if check.verdict is not Signed.ALTERED:
-        return ()
-    return (f"altered after it was signed: {check.why}; it has no points",)
+        return ""
+    return f"altered after it was signed: {check.why}; it has no points"
 
 
 def only_measured(figures: Curves, measured: NDArray[np.bool_]) -> Curves:

@@ -158,8 +158,11 @@ def fresh_summary(path: Path) -> Summary:
 
 
 def under_way(path: Path) -> bool:
-    """Whether a record has no end and was written a moment ago; never raises."""
-    return _computed(path)[0].reason == BEING_RECORDED
+    """Tell whether a record has no end and was written a moment ago; never raises."""
+    try:
+        return _seconds_since(path) <= _STILL_WRITTEN and not open_recording(path).complete
+    except BrokenRecordingError:
+        return False
 
 
 def _computed(path: Path) -> tuple[Summary, tuple[int, int]]:

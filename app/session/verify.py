@@ -193,7 +193,7 @@ def written_score(recording: Recording) -> tuple[Score | None, str]:
 
 
 def _recomputed(recording: Recording, written: Score | None) -> tuple[Score | None, str]:
-    tolerances, rules = _judged_by(recording, written)
+    tolerances, rules = judged_by(recording, written)
     try:
         return score(recording.trajectory(), tolerances, rules), ""
     except AcusError as error:
@@ -208,14 +208,14 @@ def _as_then(recording: Recording, written: Score, now: Score) -> Score:
             pauses_end_stays=written.version < FIRST_OVER_PAUSES,
             force_in_body=True,
         )
-        now = score(then, *_judged_by(recording, written))
+        now = score(then, *judged_by(recording, written))
     return now.by_version(written.version)
 
 
-def _judged_by(
+def judged_by(
     recording: Recording, written: Score | None
 ) -> tuple[Mapping[str, Tolerance], ScoreRules]:
-    """Tolerances and rules: the attached exercise's, read by name, else the written score's."""
+    """Return tolerances and rules: the attached exercise's, else those of the written score."""
     try:
         exercise = json.loads(recording.attachments[EXERCISE_FILE])
         tolerances = {

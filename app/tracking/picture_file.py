@@ -89,3 +89,8 @@ def _as_stored(data: bytes) -> bytes:
     except struct.error:  # cut off: the decoder will say so
         return data
     return data
+
+
+def no_folder(path: Path) -> str:
+    """Say that a path is no folder: a file, or not there."""
+    return f"{path} is a file" if path.is_file() else f"there is no folder {path}"

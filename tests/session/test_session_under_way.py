@@ -74,10 +74,21 @@ def test_a_running_attempt_is_said_to_be_recorded_and_is_not_deleted(tmp_path: P
 
 def test_the_debrief_of_an_altered_record_shows_no_points_either(tmp_path: Path) -> None:
     record = ended(tmp_path / "records")
-    assert review(open_recording(record)).problems == ()
+    before = review(open_recording(record))
+    assert before.problems == ()
+    assert before.score is not None
     data = bytearray(record.read_bytes())
     data[len(data) // 2] ^= 1
     record.write_bytes(bytes(data))
     shown = review(open_recording(record))
     assert shown.score is None
-    assert any(problem.startswith("altered after it was signed") for problem in shown.problems)
+    assert shown.reason.startswith("altered after it was signed")
+    assert shown.rings == before.rings
+
+
+def test_the_debrief_of_a_running_attempt_finds_no_fault_in_its_missing_end(tmp_path: Path) -> None:
+    record = ended(tmp_path / "records")
+    cut(record, 1.0)
+    shown = review(open_recording(record))
+    assert (shown.score, shown.problems) == (None, ())
+    assert shown.reason == beside.BEING_RECORDED

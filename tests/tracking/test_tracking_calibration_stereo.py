@@ -14,8 +14,9 @@ from app.tracking.calibration.boards import parse_board
 from app.tracking.calibration.checks import check_baseline, check_second_board
 from app.tracking.calibration.corner_order import CornerAgreement, PosedPair, agree
 from app.tracking.calibration.pairing import pair_folder
+from app.tracking.calibration.pictures import read_views
 from app.tracking.calibration.run import StereoResult, calibrate_pairs, calibrate_stereo
-from app.tracking.calibration.sets import stereo_set
+from app.tracking.calibration.sets import none_seen, stereo_set
 from app.tracking.calibration.stereo import estimate_stereo, mirrored_view
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
@@ -213,6 +214,14 @@ def test_too_few_pairs_are_refused_with_the_commonest_reason(tmp_path: Path) -> 
     reason = r"1 of 3 pairs show the board to both .* right1\.png: .*check the counts"
     with pytest.raises(CalibrationError, match=reason):
         stereo_set(pair_folder(tmp_path).pairs, rig.board)
+
+
+def test_pictures_of_no_use_are_refused_with_each_reason(tmp_path: Path) -> None:
+    (tmp_path / "a.png").write_text("no picture")
+    cv2.imwrite(str(tmp_path / "b.png"), np.zeros((480, 640), np.uint8))
+    read = read_views([tmp_path / "a.png", tmp_path / "b.png"], usual_rig().board)
+    assert "a.png: " in none_seen(read)
+    assert "; b.png: " in none_seen(read)
 
 
 def test_pictures_of_two_sizes_are_remarked(rig: Rig, pairs: tuple[Views, Views]) -> None:

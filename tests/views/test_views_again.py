@@ -372,3 +372,14 @@ def test_who_is_faster_than_the_window_has_begun_and_nothing_more_is_wanted(
     press(window, Qt.Key.Key_F5)
     assert state(window) is State.ALIGNING
     assert beginning.wish is BeginWish.NOTHING
+
+
+def test_a_list_that_is_shown_is_read_again_when_an_attempt_has_ended(window, monkeypatch):
+    debrief, read = window.feature(DebriefFeature), []
+    monkeypatch.setattr(debrief._controller, "show_result", lambda _: None)
+    monkeypatch.setattr(debrief.sessions, "refresh", lambda: read.append("again"))
+    debrief.show_result(None)
+    assert read == []
+    debrief._show_list()
+    debrief.show_result(None)
+    assert read == ["again", "again"]  # when it was opened, and when the attempt had ended

@@ -12,6 +12,7 @@ from views_exercise_attempts import placed_plan, review, score
 from app.core.disclaimer import DISCLAIMER
 from app.core.events import Event
 from app.scoring.conditions import Conditions
+from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.risks import RiskMark
 from app.scoring.rows import Row
 from app.session.curves import Curves
@@ -255,13 +256,17 @@ def test_a_depth_that_was_only_the_models_is_a_gap_and_the_angle_is_kept():
 def test_rings_follow_the_tolerances_of_the_attempt():
     assert review().rings == pytest.approx((0.002, 0.005))
     assert review(score=None).rings == pytest.approx((0.002, 0.005))
-    rows = tuple(
-        replace(row, tolerance=row.tolerance.model_copy(update={"expert": 1.0}))
-        if row.name == "lateral_error"
-        else row
-        for row in score().rows
-    )
-    assert review(score=replace(score(), rows=rows)).rings == pytest.approx((0.001, 0.005))
+    bands = DEFAULT_TOLERANCES["lateral_error"].model_copy(update={"expert": 1.0})
+    judged = {"lateral_error": bands}
+    assert review(tolerances=judged).rings == pytest.approx((0.001, 0.005))
+    assert review(tolerances=judged, score=None).rings == pytest.approx((0.001, 0.005))
+
+
+def test_points_that_are_withheld_say_why_in_place_of_not_scored():
+    assert verdict(review(score=None, reason="")).count("This attempt was not scored.") == 1
+    colour, sign, why = verdict(review(score=None, reason="altered after it was signed: x"))
+    assert (sign, why) == ("–", "Altered after it was signed: x.")
+    assert colour == theme.TEXT_DIM
 
 
 def test_spans_cover_the_whole_time_without_gaps():

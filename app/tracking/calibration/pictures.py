@@ -13,7 +13,7 @@ from app.tracking.calibration.boards import Board
 from app.tracking.calibration.corners import find_corners
 from app.tracking.calibration.views import BoardView, Rejection, RejectionReason
 from app.tracking.errors import CalibrationError, TrackingError
-from app.tracking.picture_file import read_pixels
+from app.tracking.picture_file import no_folder, read_pixels
 
 SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".webp")
 
@@ -29,8 +29,7 @@ def list_pictures(folder: Path, pattern: str = "*") -> list[Path]:
             `MOST_PICTURES`.
     """
     if not folder.is_dir():
-        what = f"{folder} is a file" if folder.is_file() else f"there is no folder {folder}"
-        raise CalibrationError(f"{what}; give the folder of the pictures")
+        raise CalibrationError(f"{no_folder(folder)}; give the folder of the pictures")
     found = sorted(
         path for path in folder.glob(pattern) if path.is_file() and path.suffix.lower() in SUFFIXES
     )

@@ -1,5 +1,6 @@
 """Pictures of one or two cameras on disk: read at, then calibrated."""
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -64,7 +65,7 @@ def mono_set(
     """Calibrate one camera from its pictures; see `calibrate_mono`.
 
     Raises:
-        CalibrationError: if too few pictures show the board, with the commonest reason; see
+        CalibrationError: if too few pictures show the board, with the commonest reasons; see
             `calibrate_mono`.
         Cancelled: through `progress`.
     """
@@ -118,7 +119,7 @@ def stereo_set(
     if both < LEAST_PAIRS:
         raise CalibrationError(
             f"{both} of {len(pairs)} pairs show the board to both cameras; at least {LEAST_PAIRS} "
-            f"are needed, 15 to 30 are good; {commonest(read)}"
+            f"are needed, 15 to 30 are good; {common_reasons(read)}"
         )
     lefts, rights = lone[: len(alone[0])], lone[len(alone[0]) :]
     result = calibrate_pairs(
@@ -150,13 +151,14 @@ def seen_by_both(pairs: Sequence[Pair], board: Board, estimate: StereoEstimate) 
 
 
 def none_seen(read: Sequence[Seen]) -> str:
-    """Say that no picture shows the board, and the commonest reason."""
-    return f"the board is usable in none of {len(read)} pictures (or pairs); {commonest(read)}"
+    """Say that no picture shows the board, and the commonest reasons."""
+    return f"the board is usable in none of {len(read)} pictures (or pairs); {common_reasons(read)}"
 
 
-def commonest(read: Sequence[Seen]) -> str:
-    """Name a picture that was refused for the commonest reason, and the reason."""
-    texts = [view.text for view in read if isinstance(view, Rejection)]
-    common = max(texts, key=texts.count, default="")
-    name = next((v.name for v in read if isinstance(v, Rejection) and v.text == common), "")
-    return f"{name}: {common}"
+def common_reasons(read: Sequence[Seen]) -> str:
+    """Name a picture for each of the commonest reasons, three at most, and the reason."""
+    refused = [view for view in read if isinstance(view, Rejection)]
+    common = Counter(view.text for view in refused).most_common(3)
+    return "; ".join(
+        f"{next(view.name for view in refused if view.text == text)}: {text}" for text, _ in common
+    )

@@ -13,7 +13,7 @@ from app.core.clock import Clock, SystemClock
 from app.core.units import MILLISECOND
 from app.tracking.cameras.camera import Camera, CameraFrame, Image
 from app.tracking.errors import CameraError, TrackingError
-from app.tracking.picture_file import check_size, read_pixels
+from app.tracking.picture_file import check_size, no_folder, read_pixels
 
 ENDINGS: Final = frozenset({".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp"})
 
@@ -109,8 +109,7 @@ def pictures_in(folder: Path) -> list[Path]:
         CameraError: if there is none, or no such folder.
     """
     if not folder.is_dir():
-        what = f"{folder} is a file" if folder.is_file() else f"there is no folder {folder}"
-        raise CameraError(f"{what}; folder:PATH names a folder")
+        raise CameraError(f"{no_folder(folder)}; folder:PATH names a folder")
     files = sorted(path for path in folder.iterdir() if path.suffix.lower() in ENDINGS)
     if not files:
         raise CameraError(

@@ -40,7 +40,7 @@ MISSED: Final = 0.01
 """Share of pictures in which the marker is not found though it is there: 12 of 1000 of them."""
 
 NOISE_GREY: Final = 4.0
-"""Noise of that rig's pictures; of pictures that count no photons the two grow with their own."""
+"""Noise by that rig's profile; the two grow with it in proportion."""
 
 WIDER: Final = (
     (1.0, 1.4, 1.8, 2.2, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0),

@@ -39,13 +39,12 @@ def pairs_words(pairs: int, different: int | None, refused: Sequence[Rejection])
             pairs=pairs,
             different=different,
         )
-    if refused and len({view.text for view in refused}) == 1:
-        names = ", ".join(view.name for view in refused[:4]) + (" …" if len(refused) > 4 else "")
-        words += "; " + tr("not used: {names} ({why})", names=names, why=refused[0].text)
-    elif refused:
-        each = [f"{view.name} ({view.text})" for view in refused[:4]]
+    if refused:
+        alike = len({view.text for view in refused}) == 1
+        each = [view.name if alike else f"{view.name} ({view.text})" for view in refused[:4]]
         names = ", ".join(each) + (" …" if len(refused) > 4 else "")
         words += "; " + tr("not used: {names}", names=names)
+        words += f" ({refused[0].text})" if alike else ""
     return words
 
 

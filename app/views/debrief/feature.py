@@ -860,4 +860,6 @@ class DebriefFeature(Feature):
     def show_result(self, result: AttemptResult) -> None:
         """Show the debrief of an attempt that ended."""
         self.context.editors.plan.set_locked(False)
+        if self.sessions.isVisible():  # it lists the attempt as being recorded
+            self.sessions.refresh()
         self._controller.show_result(result)

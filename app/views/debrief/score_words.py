@@ -384,7 +384,7 @@ def proposal_words(proposal: Proposal) -> str:
         )
         + cost,
         ProposalReason.YOURSELF: tr("Now you: {title}.", title=proposal.title),
-        ProposalReason.VOID: tr("The same again: this attempt was not judged."),
+        ProposalReason.VOID: tr("The same again: this attempt has no points."),
         ProposalReason.DONE: tr("All exercises that are open to you are passed.") + cost,
         ProposalReason.CLOSED: "",
     }
@@ -426,7 +426,8 @@ def verdict(review: Review) -> tuple[str, str, str]:
         why = tr("Declared void by the instructor: {why}", why=review.said.void)
         return theme.WARNING, tr("▲ Void"), tr("{why} It counts nowhere.", why=_ended(why))
     if score is None:
-        return theme.TEXT_DIM, "–", review.reason or tr("This attempt was not scored.")
+        why = review.reason[:1].upper() + review.reason[1:]
+        return theme.TEXT_DIM, "–", _ended(why) if why else tr("This attempt was not scored.")
     if score.void_reason:
         why = score.void_reason[:1].upper() + score.void_reason[1:]
         return theme.WARNING, tr("▲ Void"), f"{why}. {remedy(score, review.conditions)}"
