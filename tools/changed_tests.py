@@ -12,7 +12,8 @@ pages reach their own.
 import ast
 import subprocess
 import sys
-from collections.abc import Iterable, Set
+from collections.abc import Iterable, Mapping, Set
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -57,7 +58,7 @@ def tests_for(changed: Iterable[str]) -> list[str]:
     if any(not _module(path) for path in changed - pages):
         return sorted(tests | picked)
     reached = reached_modules({name for name in modules if not name.startswith("tests.")}) | modules
-    imports = {name: _imports(ROOT / path, files) for name, path in files.items()}
+    imports = _imports_of_tests()
     while more := {name for name in imports.keys() - reached if imports[name] & reached}:
         reached |= more
     return sorted(picked | {path for name, path in files.items() if name in reached} & tests)
@@ -69,9 +70,7 @@ def _paths() -> list[str]:
 
 def reached_modules(changed: Set[str]) -> set[str]:
     """Return changed modules of `app` and `tools`, and all that rest on them, at any remove."""
-    import grimp
-
-    graph = grimp.build_graph("app", exclude_type_checking_imports=False, cache_dir=None)
+    graph = _graph()
     inside = {name: graph.find_descendants(name) for name in changed & graph.modules}
     waiting = [*changed, *(below for names in inside.values() for below in names)]
     reached: set[str] = set()
@@ -91,6 +90,13 @@ def reached_modules(changed: Set[str]) -> set[str]:
     return reached
 
 
+@cache
+def _graph() -> "ImportGraph":
+    import grimp
+
+    return grimp.build_graph("app", exclude_type_checking_imports=False, cache_dir=None)
+
+
 def _importers(graph: "ImportGraph", name: str) -> set[str]:
     return graph.find_modules_that_directly_import(name) if name in graph.modules else set()
 
@@ -101,6 +107,12 @@ def _module(path: str) -> str:
     if top not in ("app", "tests", "tools") or not path.endswith(".py"):
         return ""
     return path.removesuffix(".py").replace("/", ".").removesuffix(".__init__")
+
+
+@cache
+def _imports_of_tests() -> Mapping[str, set[str]]:
+    names = {_module(path): ROOT / path for path in _paths()}
+    return {name: _imports(path, names) for name, path in names.items()}
 
 
 def _imports(path: Path, files: Iterable[str]) -> set[str]:
