@@ -10,7 +10,8 @@ def test_a_module_reaches_the_tests_of_its_layer_and_above_only():
     picked = set(changed_tests.tests_for(["app/imaging/window.py"]))
     assert "tests/imaging/test_imaging_window.py" in picked
     assert "tests/views/test_views_window.py" in picked
-    assert not any(name.startswith("tests/mechanisms/") for name in picked)
+    assert "tests/mechanisms/test_mechanisms_contract.py" not in picked
+    assert "tests/core/test_core_transform.py" not in picked
 
 
 @pytest.mark.parametrize(
@@ -34,6 +35,12 @@ def test_what_is_found_by_being_there_reaches_who_looks_for_it(changed, reached)
         ("app/views/shell/message_bar.py", "tests/views/test_views_notices.py"),
         ("app/session/tries.py", "tests/commands/test_commands_output.py"),
         ("app/mechanisms/pantograph/dynamics.py", "tests/device/test_device_force_path.py"),
+        ("app/tracking/markers/model_fit.py", "tests/studies/test_studies_tracking.py"),
+        (
+            "tests/simulation/test_simulation_bent_needle.py",
+            "tests/simulation/test_simulation_dragged_needle.py",
+        ),
+        ("tools/structure.py", "tests/test_structure.py"),
         ("app/scoring/__init__.py", "tests/scoring/test_scoring_metrics.py"),
     ],
 )

@@ -57,7 +57,7 @@ def tests_for(changed: Iterable[str]) -> list[str]:
     picked = set(ALWAYS) | set(PAGES if pages else ())
     if any(not _module(path) for path in changed - pages):
         return sorted(tests | picked)
-    reached = reached_modules({name for name in modules if not name.startswith("tests.")}) | modules
+    reached = reached_modules({name for name in modules if name.startswith("app")}) | modules
     imports = _imports_of_tests()
     while more := {name for name in imports.keys() - reached if imports[name] & reached}:
         reached |= more
@@ -65,11 +65,13 @@ def tests_for(changed: Iterable[str]) -> list[str]:
 
 
 def _paths() -> list[str]:
-    return sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "tests").rglob("*.py"))
+    """Return the files of tests, and of tools, which some of them import."""
+    found = (path for top in ("tests", "tools") for path in (ROOT / top).rglob("*.py"))
+    return sorted(path.relative_to(ROOT).as_posix() for path in found)
 
 
 def reached_modules(changed: Set[str]) -> set[str]:
-    """Return changed modules of `app` and `tools`, and all that rest on them, at any remove."""
+    """Return changed modules of `app` and all that rest on them, at any remove."""
     graph = _graph()
     inside = {name: graph.find_descendants(name) for name in changed & graph.modules}
     waiting = [*changed, *(below for names in inside.values() for below in names)]
@@ -82,9 +84,10 @@ def reached_modules(changed: Set[str]) -> set[str]:
         importers = _importers(graph, name)
         package = name.rpartition(".")[0]
         if all(importer.startswith(f"{package}.") for importer in importers):
-            # Nobody outside its folder names it: who looks into the folders around it may load it.
+            # Nobody outside its folder names it: who looks into the folders around it may load it,
+            # and lies in one of them.
             while "." in package:
-                waiting.append(package)
+                waiting += {package} | _files_in(graph, package)
                 package = package.rpartition(".")[0]
         waiting += importers
     return reached
@@ -109,6 +112,12 @@ def _module(path: str) -> str:
     return path.removesuffix(".py").replace("/", ".").removesuffix(".__init__")
 
 
+def _files_in(graph: "ImportGraph", package: str) -> set[str]:
+    if package not in graph.modules:
+        return set()
+    return {name for name in graph.find_children(package) if not graph.find_children(name)}
+
+
 @cache
 def _imports_of_tests() -> Mapping[str, set[str]]:
     names = {_module(path): ROOT / path for path in _paths()}
@@ -118,8 +127,8 @@ def _imports_of_tests() -> Mapping[str, set[str]]:
 def _imports(path: Path, files: Iterable[str]) -> set[str]:
     """Return the dotted names that a file of tests rests on, and of `from a import b` a and a.b.
 
-    Helpers are imported by their own name (their folders are on the path); a `conftest` above a
-    file by nobody.
+    Helpers are imported by their own name or with their folder's (both are on the path); a
+    `conftest` above a file by nobody.
     """
     names = set()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
@@ -133,7 +142,8 @@ def _imports(path: Path, files: Iterable[str]) -> set[str]:
     own = _module(path.relative_to(ROOT).as_posix())
     for name in files:
         folder, _, last = name.rpartition(".")
-        if last in names or (last == "conftest" and own.startswith(f"{folder}.") and own != name):
+        above = last == "conftest" and own.startswith(f"{folder}.") and own != name
+        if above or names & {last, name.removeprefix("tests.")}:
             names.add(name)
     return names
 
