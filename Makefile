@@ -7,7 +7,7 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constr
 TRAINER := $(VENV)/.trainer
 TESTS := $(VENV)/.tests
 
-.PHONY: setup extra demo run test test-long test-all test-changed by-hand careless soak check bench trial fuzz kills accuracy promises tests-page docs docs-pictures wheel clean
+.PHONY: setup extra demo run test test-long test-all test-changed by-hand careless soak check bench trial fuzz kills accuracy promises tests-page portraits docs docs-pictures wheel clean
 
 setup: $(TESTS)  ## make .venv with all that tests and checks need, and install what the system lacks
 
@@ -104,6 +104,9 @@ promises: setup  ## docs/promises.md from the marks of the tests that hold them
 
 tests-page: setup  ## docs/tests.md from the marks of the long tests
 	$(BIN)/python -m tools.long_tests
+
+portraits: setup  ## pictures of the shipped exercises' patients, which the start page shows at once
+	$(BIN)/python -m tools.portraits
 
 docs: setup  ## the user guide as a site, in app/site: Help and F1 open it
 	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict

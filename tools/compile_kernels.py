@@ -19,6 +19,8 @@ from importlib import import_module
 from multiprocessing import get_context
 from pathlib import Path
 
+from app.compose.first_start import rehearse_tracking, rehearsed_file
+
 
 def kernel_modules() -> Mapping[str, Set[str]]:
     """Return every module that holds kernels with the ones that its import imports before it."""
@@ -53,29 +55,6 @@ def import_module_of(name: str) -> None:
     import_module(name)
 
 
-def find_first(name: str) -> None:
-    """Render a needle and find its marker this way: compiles what is built for its arguments."""
-    import numpy as np
-
-    from app.tracking.markers.choice import ExtractorName, extractors
-    from app.tracking.optics.rig import load_rig
-    from app.tracking.simulated.cameras import NeedleRenderer
-    from app.tracking.simulated.delivery import Tone, develop
-    from app.tracking.simulated.scene import MarkerScene
-    from app.tracking.solver import FixSolver
-    from app.tracking.tracker import rehearse
-
-    rig = load_rig("wide")
-    fulcrum, axis = np.array([0.0, 0.16, 0.09]), np.array([0.0, 0.0, -1.0])
-    scene = MarkerScene.from_tip(fulcrum + 0.05 * axis, axis, rig.needle.marker_offset)
-    pair = extractors(rig, ExtractorName(name))
-    sensor = Tone.of(np.array([0.0, 4000.0, 8.0]))
-    light = NeedleRenderer(rig.models[0], rig.needle, rig.blur_px, 0, light=True).render(scene)
-    picture = develop(light, sensor, np.random.default_rng(0))
-    pair[0].search(picture)
-    rehearse(rig, fulcrum, pair, FixSolver(rig, fulcrum))
-
-
 def main() -> None:
     """Compile, and say how many modules in how much time."""
     begin = time.perf_counter()
@@ -86,7 +65,8 @@ def main() -> None:
     modules = kernel_modules()
     with ProcessPoolExecutor(os.cpu_count(), get_context("spawn")) as processes:
         compile_all(modules, processes)
-        list(processes.map(find_first, ("model_fit", "outline_centroid")))
+        list(processes.map(rehearse_tracking, ("model_fit", "outline_centroid")))
+    rehearsed_file().touch()
     done.touch()
     print(f"kernels of {len(modules)} modules ready after {time.perf_counter() - begin:.0f} s")
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from app.compose.first_start import TrackerKernels
 from app.core import paths
 from app.core.loading import load_modules, turn
 from app.core.progress import Progress
@@ -80,6 +81,7 @@ class Desktop:
     ) -> None:
         self._skill, self._seed, self._besides = skill, seed, besides
         self._sessions = sessions or paths.sessions()
+        self._kernels = TrackerKernels()
 
     def exercises(self) -> tuple[Exercise, ...]:
         """Exercises to choose from, easiest first."""
@@ -123,12 +125,14 @@ class Desktop:
         sweep_temporary()
         with contextlib.suppress(WorkerError):  # said by the first folder that is opened
             shared_worker().warm()
-        load_modules(HEAVY_MODULES, progress)
+        self._kernels.start()
+        load_modules(HEAVY_MODULES, progress.part(0.0, 0.5))
         from app.imaging.worker.service import load_decoders
 
         with contextlib.suppress(WorkerError, WorkerLostError):
             load_decoders(Progress())  # a moment, of which nobody need be told
             shared_worker().warm(2)  # a folder is read by both
+        self._kernels.wait(progress.part(0.5, 1.0))
         from app.compose.plugins import refused_files
 
         return tuple(file.refused for file in refused_files())
@@ -193,6 +197,7 @@ class Desktop:
             from app.core.temporary import temporary_folder
             from app.exercises.tissue import with_tissue
             from app.session.motion import ShownMotion
+        self._kernels.wait(progress)
         risks = load_risks(setup.exercise, setup.volume, progress.part(0.0, 0.1))
         progress.report(0.1, "compiling the loop")
         seed = setup.exercise.seed if self._seed is None else self._seed

@@ -2,7 +2,7 @@
 
 import threading
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from importlib import import_module
 from typing import Final
@@ -26,6 +26,38 @@ _LOOK: Final = 0.1
 """How often [s] who waits for a turn says so and may be cancelled."""
 
 
+class CompiledKernels:
+    """Count of the kernels that this process has compiled; a bar of a first start goes by it.
+
+    Attributes:
+        count: how many.
+    """
+
+    ABOUT: Final = 360
+    """Compiled by a whole first start, numba's own among them, but for the tracker's."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self._listener: Callable[[], object] = int
+
+    def listen(self, listener: Callable[[], object]) -> None:
+        """Have a function called after each kernel, in the thread that compiled it."""
+        self._listener = listener
+
+    def add(self) -> None:
+        """Count a kernel."""
+        self.count += 1
+        self._listener()
+
+    @property
+    def share(self) -> float:
+        """About how far a first start's compiling is, 0 to 0.99."""
+        return min(self.count / self.ABOUT, 0.99)
+
+
+COMPILED: Final = CompiledKernels()
+
+
 @contextmanager
 def turn(progress: Progress) -> Iterator[None]:
     """Hold `ONE_AT_A_TIME`; as long as somebody else loads, say so and how long already.
@@ -41,7 +73,7 @@ def turn(progress: Progress) -> Iterator[None]:
     while not ONE_AT_A_TIME.acquire(timeout=_LOOK):
         waited = time.monotonic() - begin
         progress.report(
-            0.0,
+            COMPILED.share,
             f"waiting {waited:.0f} s for the program to load (the first start after an "
             "installation compiles, for a minute or two)",
         )

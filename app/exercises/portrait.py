@@ -1,8 +1,9 @@
 """A picture of an exercise's patient: three coarse slices through the target, kept in the cache.
 
 It holds grey values of the CT and the plan's two points, and nothing of whose they are; its file is
-named by a digest of exercise and patient. Whoever opens the patient makes it at hardly any cost;
-else it is made beside the window, once.
+named by a digest of exercise and patient. Those of the shipped exercises on built-in patients ship
+with them (`tools.portraits`). Whoever opens another patient makes it at hardly any cost; else it is
+made in the background, once.
 """
 
 from __future__ import annotations
@@ -74,28 +75,48 @@ class Portrait:
         return x, 1.0 - y if down == 2 else y
 
 
-def portrait_file(exercise: Exercise) -> Path:
-    """Where the picture of an exercise's patient is kept, made or not."""
+def portrait_file(exercise: Exercise, folder: Path | None = None) -> Path:
+    """Return where the picture of an exercise's patient is kept, made or not.
+
+    Args:
+        exercise: whose patient.
+        folder: of pictures; the cache's without it.
+    """
     ct = exercise.ct
-    said = (_VERSION, ct.model_dump_json(), exercise.model_dump_json(include={"plan"}))
-    name = hashlib.sha256(repr(said).encode()).hexdigest()[:24]
-    return paths.cache() / "portraits" / f"{name}.npz"
+    content = (_VERSION, ct.model_dump_json(), exercise.model_dump_json(include={"plan"}))
+    name = hashlib.sha256(repr(content).encode()).hexdigest()[:24]
+    return (folder or paths.cache() / "portraits") / f"{name}.npz"
+
+
+def shipped_portraits() -> Path:
+    """Return the folder of the pictures that ship with the program."""
+    return paths.resources() / "portraits"
 
 
 def kept_portrait(exercise: Exercise) -> Portrait | None:
-    """Return the picture that is kept; None where there is none, or none that can be read."""
+    """Return the picture that ships or is kept; None if there is none, or none can be read."""
+    shipped = _read(portrait_file(exercise, shipped_portraits()))
+    return shipped or _read(portrait_file(exercise))
+
+
+def _read(file: Path) -> Portrait | None:
     try:
-        with np.load(portrait_file(exercise), allow_pickle=False) as kept:
-            slices = {name: read_only(kept[name].astype(np.uint8)) for name in ACROSS}
-            low, high, target = (tuple(kept[name].tolist()) for name in ("low", "high", "target"))
-            entry = tuple(kept["entry"].tolist()) or None
+        with np.load(file, allow_pickle=False) as content:
+            slices = {name: read_only(content[name].astype(np.uint8)) for name in ACROSS}
+            low, high, target = (tuple(content[n].tolist()) for n in ("low", "high", "target"))
+            entry = tuple(content["entry"].tolist()) or None
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
         return None
     return Portrait(slices, low, high, target, entry)
 
 
-def make_portrait(exercise: Exercise, volume: Volume) -> Portrait:
+def make_portrait(exercise: Exercise, volume: Volume, folder: Path | None = None) -> Portrait:
     """Make and keep the picture of a patient who is open; some ten milliseconds.
+
+    Args:
+        exercise: whose patient.
+        volume: his CT.
+        folder: where pictures are kept; in the cache without it.
 
     Raises:
         AcusError: if the exercise's plan cannot be read.
@@ -109,7 +130,7 @@ def make_portrait(exercise: Exercise, volume: Volume) -> Portrait:
     packed = io.BytesIO()
     ends = {"low": made.low_mm, "high": made.high_mm, "target": made.target_mm}
     np.savez_compressed(packed, **made.slices, **ends, entry=np.array(entry or ()))  # type: ignore[arg-type]
-    write_atomically(portrait_file(exercise), packed.getvalue())
+    write_atomically(portrait_file(exercise, folder), packed.getvalue())
     return made
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from app.core.arrays import frozen, read_only
-from app.core.loading import ONE_AT_A_TIME
+from app.core.loading import ONE_AT_A_TIME, turn
 from app.core.progress import Progress
 from app.imaging.series import Remedy, Series
 from app.imaging.volume import Volume
@@ -47,10 +47,6 @@ class Patient:
     phantom_seed: int | None = None
 
 
-LOADING: Final = "loading the program (the first start compiles, for a minute or two)"
-"""What a patient waits for last: on a first start for all that compiles beside it."""
-
-
 def load_phantom(seed: int, progress: Progress) -> Patient:
     """Make (once) and read the procedural patient.
 
@@ -64,13 +60,12 @@ def load_phantom(seed: int, progress: Progress) -> Patient:
         from app.imaging.phantom.series import phantom_series
         from app.imaging.reading import load_ct
 
-    folder = phantom_series(seed, progress.part(0.0, 0.6))
-    volume = load_ct(folder, progress=progress.part(0.6, 0.9))
+    folder = phantom_series(seed, progress.part(0.0, 0.5))
+    volume = load_ct(folder, progress=progress.part(0.5, 0.8))
     known = anatomy(seed)
     plan = Plan(frozen(known.entry_mm), frozen(known.lesion_mm), f"phantom-{seed}")
-    body = find_body(volume, progress.part(0.9, 0.97))
-    progress.report(0.97, LOADING)
-    _load_verdict()
+    body = find_body(volume, progress.part(0.8, 0.85))
+    _load_verdict(progress.part(0.85, 1.0))
     return Patient(volume, body, f"Phantom {seed}", plan, phantom_seed=seed)
 
 
@@ -87,10 +82,9 @@ def read_patient(
         from app.imaging.body import find_body
         from app.imaging.resampling import read_with
 
-    volume = read_with(series, remedy, progress.part(0.0, 0.85))
-    body = find_body(volume, progress.part(0.85, 0.97))
-    progress.report(0.97, LOADING)
-    _load_verdict()
+    volume = read_with(series, remedy, progress.part(0.0, 0.75))
+    body = find_body(volume, progress.part(0.75, 0.85))
+    _load_verdict(progress.part(0.85, 1.0))
     return Patient(volume, body, label_of(volume), folder=folder)
 
 
@@ -102,17 +96,17 @@ def label_of(volume: Volume) -> str:
     return ", ".join(filter(None, (series.pseudonym, kind, tilt, *volume.made)))
 
 
-def _load_verdict() -> None:
+def _load_verdict(progress: Progress) -> None:
     """Load the kernels behind the verdict on a plan, by asking for two, and those of its pictures.
 
-    First called on the window's thread they would wait there for all that other threads compile.
+    First called on the window's thread they would wait there for all that other threads compile: a
+    first start waits here, and shows how far that is.
     """
+    with turn(progress):
+        from app.imaging.screen import STROKE, draw_strokes, screen_pixels
     profile = load_profile(DEVICE)
     for entry in ((0.0, -50.0, 0.0), (50.0, -10.0, 0.0)):  # straight down, and too oblique
         reach(Plan(frozen(entry), frozen((0.0, 0.0, 0.0))), Placement(), profile)
-    with ONE_AT_A_TIME:
-        from app.imaging.screen import STROKE, draw_strokes, screen_pixels
-
     soft, place = PRESETS["Soft tissue"], (0.0, 0.0, 1.0, 1.0)
     for kind in (np.int16, np.float32):
         for values in (np.zeros((1, 1), kind), read_only(np.zeros((1, 1), kind))):

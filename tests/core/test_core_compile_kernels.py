@@ -5,6 +5,7 @@ from graphlib import CycleError
 
 import pytest
 
+from app.compose.first_start import rehearse_tracking
 from tools import compile_kernels
 
 
@@ -41,4 +42,4 @@ def test_the_kernels_of_the_program_are_found_with_what_they_are_compiled_from()
 
 
 def test_a_marker_is_found_so_that_what_is_built_for_its_arguments_is_there_too() -> None:
-    compile_kernels.find_first("outline_centroid")
+    rehearse_tracking("outline_centroid")

@@ -5,7 +5,7 @@ import pytest
 
 from app.core.progress import Progress
 from app.exercises import portrait
-from app.exercises.library import load_exercise
+from app.exercises.library import library, load_exercise
 from app.exercises.portrait import (
     ACROSS,
     PIXELS,
@@ -13,6 +13,7 @@ from app.exercises.portrait import (
     kept_portrait,
     make_portrait,
     portrait_file,
+    shipped_portraits,
 )
 from app.imaging.series import Series
 from app.imaging.volume import Volume
@@ -38,7 +39,10 @@ def exercise(tmp_path, monkeypatch):
     monkeypatch.setattr(
         "app.exercises.scene.plan_of", lambda _: Plan(np.array(ENTRY), np.array(TARGET), "plan")
     )
-    return load_exercise("first-insertion")
+    exercise = load_exercise("first-insertion")
+    phantom = exercise.ct.phantom.model_copy(update={"seed": 4711})  # whose picture does not ship
+    ct = exercise.ct.model_copy(update={"phantom": phantom})
+    return exercise.model_copy(update={"ct": ct})
 
 
 def test_left_back_and_head_stand_where_radiologists_look_for_them(exercise):
@@ -93,3 +97,15 @@ def test_another_plan_or_patient_has_another_picture(exercise):
 def test_a_ct_that_cannot_be_read_leaves_no_picture_and_no_error(exercise, tmp_path):
     ct = exercise.ct.model_copy(update={"phantom": None, "folder": tmp_path / "gone"})
     assert find_portrait(exercise.model_copy(update={"ct": ct})) is None
+
+
+@pytest.mark.parametrize("shipped", list(library()), ids=lambda exercise: exercise.id)
+def test_the_picture_of_a_shipped_exercise_ships_with_it(shipped, tmp_path, monkeypatch):
+    """A first start would make it for minutes; `python -m tools.portraits` makes what lacks."""
+    monkeypatch.setenv("ACUS_CACHE", str(tmp_path / "nothing in it"))
+    assert kept_portrait(shipped) is not None
+
+
+def test_no_picture_ships_of_what_no_exercise_shows():
+    wanted = {portrait_file(one, shipped_portraits()) for one in library()}
+    assert set(shipped_portraits().glob("*")) == wanted

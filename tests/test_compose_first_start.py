@@ -1,0 +1,64 @@
+"""The tracker's kernels on a first start: a process of their own, shown, given up, not left."""
+
+import subprocess
+import sys
+
+import pytest
+
+from app.compose import first_start
+from app.compose.first_start import COMMAND, TrackerKernels
+from app.core.progress import Cancelled, Progress
+
+THREE = "for _ in range(3): print(flush=True)\nimport sys; sys.stdin.read()"
+
+
+@pytest.fixture
+def rehearsed(tmp_path, monkeypatch):
+    """The file that says that the cache holds the kernels; it does not."""
+    file = tmp_path / "rehearsed"
+    monkeypatch.setattr(first_start, "rehearsed_file", lambda: file)
+    return file
+
+
+def nothing_to_wait_for(*_):
+    pytest.fail("there was nothing to wait for")
+
+
+def test_a_cache_that_holds_the_kernels_needs_no_process(rehearsed):
+    rehearsed.touch()
+    kernels = TrackerKernels(("no", "such", "program"))
+    kernels.start()
+    kernels.wait(Progress(nothing_to_wait_for))
+
+
+def test_whoever_waits_sees_how_many_are_compiled_and_can_cancel(rehearsed):
+    kernels, shares = TrackerKernels((sys.executable, "-c", THREE)), []
+    kernels.start()
+    kernels.start()  # the same process
+
+    def listen(share, _text):
+        shares.append(share)
+        if share >= 3 / first_start.ABOUT:
+            progress.cancel()
+
+    progress = Progress(listen)
+    with pytest.raises(Cancelled):
+        kernels.wait(progress)
+    assert shares == sorted(shares)
+    kernels.close()
+    kernels.close()
+    kernels.wait(Progress(nothing_to_wait_for))
+
+
+def test_a_process_that_fails_is_not_waited_for(rehearsed):
+    kernels = TrackerKernels((sys.executable, "-c", "raise SystemExit(1)"))
+    kernels.start()
+    kernels.wait(Progress())
+    kernels.close()
+    assert not rehearsed.exists()
+
+
+def test_the_process_ends_with_whoever_started_it():
+    with subprocess.Popen(COMMAND, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL) as child:
+        child.stdin.close()
+        assert child.wait(60) == 1
