@@ -132,7 +132,7 @@ class Desktop:
         with contextlib.suppress(WorkerError, WorkerLostError):
             load_decoders(Progress())  # a moment, of which nobody need be told
             shared_worker().warm(2)  # a folder is read by both
-        self._kernels.wait(progress.part(0.5, 1.0))
+        self._kernels.load(progress.part(0.5, 1.0))
         from app.compose.plugins import refused_files
 
         return tuple(file.refused for file in refused_files())

@@ -30,7 +30,7 @@ ABOUT: Final = 300
 COMMAND: Final = (sys.executable, "-W", "ignore", "-m", "app.compose.first_start")
 
 _LOOK: Final = 0.1
-_DEFAULT: Final = "model_fit"
+DEFAULT: Final = "model_fit"
 
 
 def rehearse_tracking(extractor: str) -> None:
@@ -118,6 +118,16 @@ class TrackerKernels:
             progress.report(share, "the first start compiles what follows the marker")
             time.sleep(_LOOK)
 
+    def load(self, progress: Progress) -> None:
+        """Wait for the child, then load what it compiled, so that no scene has to.
+
+        Raises:
+            Cancelled: if `progress` was cancelled.
+        """
+        self.wait(progress)
+        with ONE_AT_A_TIME:
+            rehearse_tracking(DEFAULT)
+
     def close(self) -> None:
         """End the child if it still compiles; closing twice is fine."""
         if self._child is not None:
@@ -143,7 +153,7 @@ def main() -> None:
     from app.core import loading
 
     loading.COMPILED.listen(lambda: os.write(sys.stdout.fileno(), b"\n"))
-    rehearse_tracking(_DEFAULT)
+    rehearse_tracking(DEFAULT)
     rehearsed_file().touch()
 
 
