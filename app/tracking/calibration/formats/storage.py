@@ -9,7 +9,7 @@ takes the first of two of the same name and stops at a control character; both a
 import re
 from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from app.imaging.errors import FileDamagedError, WorkerLostError
 from app.imaging.worker.jobs import Job
 from app.imaging.worker.limits import PACKAGE_SECONDS, for_file, size_of
 from app.imaging.worker.pool import shared_worker
+from app.imaging.worker.values import ATTACHED
 from app.tracking.errors import CalibrationError
 
 if TYPE_CHECKING:
@@ -42,7 +43,7 @@ _CONTROL = re.compile(r"[\0-\x08\x0b\x0c\x0e-\x1f\x7f]")
 _PARSER = re.compile(r"\((\d+)\): ([^()\n]{1,100})$")
 """How OpenCV's parser ends a complaint: with the line, and what is wrong with it."""
 
-Matrices = tuple[tuple[str, FloatArray], ...]
+Matrices = tuple[tuple[str, Annotated[FloatArray, ATTACHED]], ...]
 MATRICES: Job[Matrices] = Job("app.tracking.calibration.formats.storage:matrices_in", Matrices)
 
 
