@@ -202,12 +202,17 @@ def set_instructor(
         return Answer({"recovery_key": None}, ["the password was changed"])
     if people.has_instructor():
         old = secret("Password now")
-        people.change_password(old, _new_password())
-        return Answer({"recovery_key": None}, ["the password was changed"])
-    recovery = people.set_instructor(_new_password())
+        recovery = people.change_password(old, _new_password())
+        lines = ["the password was changed"]
+        if not recovery:
+            return Answer({"recovery_key": None}, lines)
+        lines.append("the recovery key that was printed before is worth nothing any more")
+    else:
+        recovery, lines = people.set_instructor(_new_password()), []
     return Answer(
         {"recovery_key": recovery},
         [
+            *lines,
             f"recovery key: {recovery}",
             "Print it and lock it away: it sets a new password, and opens the station's key in a "
             "backup. It is kept nowhere.",

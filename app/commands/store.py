@@ -84,16 +84,24 @@ def backup(
     from app.commands.doors import instructor
     from app.session import archive
     from app.session.people import People
+    from app.session.station import opens
     from app.session.store import records_folder
 
     people, place = People(), records_folder(folder)
     instructor(people)
     count = with_progress(lambda progress: archive.backup(out, place, people, progress))
-    key = bool(people.wrapped_key())
+    wrapped = people.wrapped_key()
+    key = bool(wrapped) and opens(wrapped)
     lines = [f"{counted(count, '1 record', f'{count} records')} written to {out}"]
     left = archive.left_out()
     lines += [f"not in it: {line}" for line in left]
-    if not key:
+    if wrapped and not key:
+        lines.append(
+            "the station's key in it was sealed by an earlier build, and nothing opens it any "
+            "more: change the password (`acus people instructor`), which prints a new recovery "
+            "key, and make the backup again"
+        )
+    elif not key:
         lines.append(
             "without the station's key: set a password first (`acus people instructor`) if its "
             "records are to be verified on another computer"

@@ -10,7 +10,7 @@ import contextlib
 import struct
 import warnings
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, BinaryIO, Final, NamedTuple
+from typing import TYPE_CHECKING, Any, BinaryIO, Final, NamedTuple
 
 from app.imaging.deflated import inflated_head
 from app.imaging.elements import Elements, text
@@ -288,6 +288,10 @@ class Walk:
 def read_by_pydicom(stream: BinaryIO, wanted: Sequence[int], forced: bool) -> Elements:
     """Read the wanted elements before the pixels; the stream then stands at the pixels.
 
+    Of the file meta information nothing but the transfer syntax is read: what is wrong with the
+    rest of it is nobody's concern. A deflated data set is inflated here and no further than its
+    header may reach; pydicom would inflate all of it.
+
     Args:
         stream: the file.
         wanted: tags.
@@ -296,42 +300,43 @@ def read_by_pydicom(stream: BinaryIO, wanted: Sequence[int], forced: bool) -> El
     Raises:
         Exception: nearly anything, at hostile bytes.
     """
-    found = None if forced else _elements_by_pydicom(stream, wanted)
-    return found or _dataset_by_pydicom(stream, wanted, forced)
+    from pydicom.filereader import dcmread, read_dataset
+
+    tags: list[BaseTag | int] = list(wanted)
+    with warnings.catch_warnings():  # what is wrong with a file is said by name, by us
+        warnings.simplefilter("ignore")
+        syntax, start = ("", 0) if forced else _meta_by_pydicom(stream)
+        if syntax == DEFLATED:  # explicit and little endian (PS3.5 A.5)
+            body = inflated_head(stream)
+            found = read_dataset(body, False, True, stop_when=_at_pixels, specific_tags=tags)
+            return Elements(_raw(found, wanted), syntax, body, start)
+        if syntax in RAW or syntax in DECODERS:
+            ways = syntax == IMPLICIT_LITTLE, syntax != EXPLICIT_BIG
+            found = read_dataset(stream, *ways, stop_when=_at_pixels, specific_tags=tags)
+            return Elements(_raw(found, wanted), syntax)
+        stream.seek(0)
+        file = dcmread(stream, stop_before_pixels=True, specific_tags=tags, force=forced)
+    syntax = str(file.file_meta.get("TransferSyntaxUID", "") or "")
+    if not syntax or syntax in RAW:  # how it is written counts, not what it says of that
+        syntax = _assumed_syntax(file)
+    return Elements(_raw(file, wanted), syntax)
 
 
-def _elements_by_pydicom(stream: BinaryIO, wanted: Sequence[int]) -> Elements | None:
-    """Read a file that is what it says; None for one that needs pydicom's whole care."""
+def _meta_by_pydicom(stream: BinaryIO) -> tuple[str, int]:
+    """Return the transfer syntax, and where the data set starts; the stream then stands there."""
     from pydicom.filereader import data_element_generator
 
     stream.seek(PREAMBLE)
     meta = data_element_generator(
-        stream, False, True, _after_meta, None, "iso8859", [TRANSFER_SYNTAX]
+        stream, False, True, stop_when=_after_meta, specific_tags=[TRANSFER_SYNTAX]
     )
-    syntax = text(Elements({int(e.tag): e for e in meta}, ""), TRANSFER_SYNTAX)
-    if syntax == DEFLATED:
-        return _deflated_by_pydicom(stream, wanted)
-    if syntax not in DECODERS and syntax not in RAW:
-        return None
-    start = stream.read(6)
-    stream.seek(-len(start), 1)
-    implicit, little = syntax == IMPLICIT_LITTLE, syntax != EXPLICIT_BIG
-    if (start[4:6].isalpha() and start[4:6].isupper()) == implicit:
-        return None
-    found = data_element_generator(
-        stream, implicit, little, _at_pixels, None, "iso8859", list(wanted)
-    )
-    return Elements({int(element.tag): element for element in found}, syntax)
+    syntax = text(Elements({int(one.tag): one for one in meta}, ""), TRANSFER_SYNTAX)
+    return syntax, stream.tell()
 
 
-def _deflated_by_pydicom(stream: BinaryIO, wanted: Sequence[int]) -> Elements:
-    """Read the elements of a deflated data set, which is explicit and little endian (PS3.5 A.5)."""
-    from pydicom.filereader import data_element_generator
-
-    start = stream.tell()
-    body = inflated_head(stream)
-    found = data_element_generator(body, False, True, _at_pixels, None, "iso8859", list(wanted))
-    return Elements({int(element.tag): element for element in found}, DEFLATED, body, start)
+def _raw(found: "Dataset", wanted: Sequence[int]) -> dict[int, Any]:
+    """Return the wanted elements as they stand in the file, unconverted."""
+    return {int(one.tag): one for one in found.values() if one.tag in wanted}
 
 
 def _after_meta(tag: "BaseTag", vr: str | None, length: int) -> bool:
@@ -340,24 +345,6 @@ def _after_meta(tag: "BaseTag", vr: str | None, length: int) -> bool:
 
 def _at_pixels(tag: "BaseTag", vr: str | None, length: int) -> bool:
     return tag >= FIRST_PIXEL_TAG
-
-
-def _dataset_by_pydicom(stream: BinaryIO, wanted: Sequence[int], forced: bool) -> Elements:
-    import pydicom
-    from pydicom.dataset import Dataset
-
-    stream.seek(0)
-    with warnings.catch_warnings():  # what is wrong with a file is said by name, by us
-        warnings.simplefilter("ignore")
-        header = pydicom.dcmread(
-            stream, stop_before_pixels=True, specific_tags=list(wanted), force=forced
-        )
-    values = {tag: header.get_item(tag) for tag in wanted if tag in header}
-    meta: Dataset = getattr(header, "file_meta", Dataset())
-    syntax = str(meta.get("TransferSyntaxUID", "") or "")
-    if not syntax or syntax in RAW:  # how it is written counts, not what it says of that
-        syntax = _assumed_syntax(header)
-    return Elements(values, syntax)
 
 
 def _assumed_syntax(header: "Dataset") -> str:

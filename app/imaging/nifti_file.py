@@ -7,7 +7,7 @@ import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,7 @@ from app.core.progress import Progress
 from app.imaging.elements import FURTHEST_MM
 from app.imaging.errors import FileDamagedError
 from app.imaging.structures.extras import extra
+from app.imaging.worker.values import ATTACHED
 
 _UNITS_MM = {"mm": 1.0, "unknown": 1.0, "meter": 1000.0, "micron": 0.001}
 _SQUARE_MM = 0.01
@@ -55,7 +56,7 @@ class NiftiValues:
         affine_mm: as in the header.
     """
 
-    values: NDArray[Any]
+    values: Annotated[NDArray[Any], ATTACHED]
     lowest: float
     affine_mm: tuple[float, ...]
 

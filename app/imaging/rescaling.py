@@ -16,6 +16,7 @@ from app.imaging import codecs
 from app.imaging.decoding import read_stored, stored_type
 from app.imaging.errors import FileDamagedError, NotExactError, SeriesRefusedError
 from app.imaging.header import Rescale, SliceHeader
+from app.imaging.worker.values import reader
 
 _shared: dict[str, int] = {}
 _scratch: dict[str, NDArray[Any]] = {}
@@ -31,6 +32,7 @@ def take_volume(descriptor: int) -> None:
 def load_decoders(progress: Progress) -> None:
     """Load what decodes slices; what is not installed is told by the first file that needs it."""
     codecs.load()
+    reader(SliceHeader)  # of the headers that name what is to be decoded
 
 
 def fill(header: SliceHeader, place: int, dtype: str, progress: Progress) -> None:

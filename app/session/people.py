@@ -29,7 +29,7 @@ from app.session.database import BUSY_SECONDS, Database, number, words
 from app.session.errors import PeopleError
 from app.session.journal import Journal, Step, move, removal, settle
 from app.session.roster import RosterLine, checked_pin, judged_lines
-from app.session.station import StationKey, new_recovery_key
+from app.session.station import StationKey, new_recovery_key, opens
 from app.session.tries import (
     INSTRUCTOR,
     NO_SIGN_IN,
@@ -161,29 +161,48 @@ class People:
             raise PeopleError("no instructor is set: `acus people instructor` sets a password")
         return self._tries().compare(INSTRUCTOR, known, password)
 
-    def change_password(self, old: str, new: str) -> None:
+    def change_password(self, old: str, new: str) -> str:
         """Change the password; the recovery key stays.
+
+        Returns:
+            A new recovery key where an earlier build had sealed the station's key, in a form that
+            nothing reads any more; else empty.
 
         Raises:
             WrongPasswordError, PeopleError: as `check_instructor`, or if the new one is too short.
+            SignatureError: if the station's key cannot be sealed anew.
         """
         _checked_password(new)
         self.check_instructor(old)
+        wrapped = self.wrapped_key()
+        recovery = new_recovery_key() if wrapped and not opens(wrapped) else ""
+        anew = json.dumps(StationKey.of(self.folder).wrapped(recovery)) if recovery else ""
         with self.database.write() as connection:
             _set(connection, "password", hashed_secret(new))
+            if anew:
+                _set(connection, "wrapped", anew)
+        return recovery
 
     def recover(self, recovery: str, new: str) -> None:
         """Set another password with the recovery key.
 
         Raises:
             SignatureError: for a wrong key.
-            PeopleError: if the new password is too short, or none was ever set.
+            PeopleError: if the new password is too short, none was ever set, or an earlier build
+                set it, whose recovery keys are no longer read.
         """
         _checked_password(new)
-        wrapped = self._setting("wrapped")
+        wrapped = self.wrapped_key()
         if not wrapped:
             raise PeopleError("no instructor is set: `acus people instructor` sets a password")
-        StationKey.unwrapped(json.loads(wrapped), recovery)
+        if not opens(wrapped):
+            raise PeopleError(
+                "this recovery key is one of an earlier build, in a form that is no longer read: "
+                "change the password with the one that holds (`acus people instructor`), which "
+                f"prints a new recovery key; if nobody knows it, move {self.folder / PEOPLE} away "
+                "and begin a new list of people"
+            )
+        StationKey.unwrapped(wrapped, recovery)
         with self.database.write() as connection:
             _set(connection, "password", hashed_secret(new))
             connection.execute(_failures().delete())

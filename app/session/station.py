@@ -21,7 +21,8 @@ from app.core.files import step, write_atomically
 from app.session.errors import SessionError
 
 _RECOVERY_BYTES: Final = 20
-_SCRYPT: Final[dict[str, int]] = {"n": 2**14, "r": 8, "p": 1, "dklen": 64}
+_NONCE_BYTES: Final = 12
+_SCRYPT: Final[dict[str, int]] = {"n": 2**14, "r": 8, "p": 1, "dklen": 32}
 
 
 class SignatureError(SessionError):
@@ -76,35 +77,53 @@ class StationKey:
     def wrapped(self, recovery: str) -> dict[str, str]:
         """Encrypt the key with a recovery key: a document that may travel.
 
-        The 64 bytes that scrypt (RFC 7914) makes of the recovery key and a fresh salt are a
-        one-time pad for the secret and the key of a MAC over it.
+        AES-256-GCM (NIST SP 800-38D) under what scrypt (RFC 7914) makes of the recovery key and a
+        salt, with a nonce of 96 random bits and the station's id as associated data. Salt and nonce
+        are drawn anew each time, so that no key ever meets a nonce twice.
 
         Raises:
             SignatureError: if that is no recovery key.
         """
-        salt = secrets.token_bytes(16)
-        pad, key = _stretched(recovery, salt)
-        body = bytes(a ^ b for a, b in zip(self.secret, pad, strict=True))
-        tag = hmac.new(key, salt + body + self.station.encode(), hashlib.sha256).hexdigest()
-        return {"station": self.station, "salt": salt.hex(), "secret": body.hex(), "tag": tag}
+        from cryptography.hazmat.primitives.ciphers.aead import AESGCM
+
+        salt, nonce = secrets.token_bytes(16), secrets.token_bytes(_NONCE_BYTES)
+        cipher = AESGCM(_stretched(recovery, salt))
+        sealed = cipher.encrypt(nonce, self.secret, _context(self.station))
+        parts = {"salt": salt.hex(), "nonce": nonce.hex(), "sealed": sealed.hex()}
+        return {"station": self.station, **parts}
 
     @classmethod
     def unwrapped(cls, document: Mapping[str, str], recovery: str) -> StationKey:
         """Decrypt what `wrapped` gave.
 
         Raises:
-            SignatureError: for another recovery key, or a damaged document.
+            SignatureError: for another recovery key, a damaged document, or one of an earlier
+                build.
         """
+        from cryptography.exceptions import InvalidTag
+        from cryptography.hazmat.primitives.ciphers.aead import AESGCM
+
+        if document and not opens(document):
+            raise SignatureError(
+                "the station's key in this backup was sealed by an earlier build, in a form that "
+                "is no longer read: change the password where it was made (`acus people "
+                "instructor`), which prints a new recovery key, and make the backup again; or "
+                "restore it without `--key`, and admit its attempts"
+            )
         try:
             station, salt = str(document["station"]), bytes.fromhex(document["salt"])
-            body, tag = bytes.fromhex(document["secret"]), str(document["tag"])
+            nonce, sealed = bytes.fromhex(document["nonce"]), bytes.fromhex(document["sealed"])
+            if len(nonce) != _NONCE_BYTES:
+                raise ValueError(f"a nonce of {len(nonce)} bytes")
         except (ValueError, LookupError, TypeError) as error:
             raise SignatureError("the station's key in this backup is damaged") from error
-        pad, key = _stretched(recovery, salt)
-        right = hmac.new(key, salt + body + station.encode(), hashlib.sha256).hexdigest()
-        if not hmac.compare_digest(tag, right):
-            raise SignatureError("that is not the recovery key that was printed: type it again")
-        return cls(station, bytes(a ^ b for a, b in zip(body, pad, strict=True)))
+        try:
+            secret = AESGCM(_stretched(recovery, salt)).decrypt(nonce, sealed, _context(station))
+        except InvalidTag as error:
+            raise SignatureError(
+                "that is not the recovery key that was printed: type it again"
+            ) from error
+        return cls(station, secret)
 
     def keep(self, folder: Path | None = None) -> None:
         """Make it the key of this station.
@@ -119,6 +138,14 @@ class StationKey:
             path.chmod(0o600)
         except OSError as error:
             raise SignatureError(f"cannot write {path}: {error.strerror or error}") from error
+
+
+def opens(document: Mapping[str, str]) -> bool:
+    """Whether a wrapped key is in the form that `StationKey.unwrapped` reads.
+
+    Builds from before the first release wrote another one, without a nonce.
+    """
+    return "nonce" in document
 
 
 def key_file(folder: Path | None = None) -> Path:
@@ -174,7 +201,13 @@ def _draw(path: Path) -> None:
         beside.unlink(missing_ok=True)
 
 
-def _stretched(recovery: str, salt: bytes) -> tuple[bytes, bytes]:
+def _context(station: str) -> bytes:
+    """Return what a wrapped key is bound to: to being one, and to its station."""
+    return b"acus station key\0" + station.encode("utf-8", "surrogatepass")
+
+
+def _stretched(recovery: str, salt: bytes) -> bytes:
+    """Return the key of 256 bits that a recovery key stands for with this salt."""
     letters = "".join(c for c in recovery.upper() if c.isalnum())
     swapped = letters.translate(str.maketrans("018", "OIB"))  # digits that base 32 does not have
     try:
@@ -183,8 +216,7 @@ def _stretched(recovery: str, salt: bytes) -> tuple[bytes, bytes]:
         raise SignatureError(_NO_RECOVERY_KEY) from error
     if len(raw) != _RECOVERY_BYTES:
         raise SignatureError(_NO_RECOVERY_KEY)
-    made = hashlib.scrypt(raw, salt=salt, **_SCRYPT)
-    return made[:32], made[32:]
+    return hashlib.scrypt(raw, salt=salt, **_SCRYPT)
 
 
 _NO_RECOVERY_KEY: Final = (

@@ -13,13 +13,13 @@ sys.path.append(str(Path(__file__).parents[1] / "session"))
 from session_fakes import Bench
 
 from app.__main__ import main
-from app.commands import build
+from app.commands import build, store
 from app.commands.completion import courses, students
 from app.commands.completion import sessions as completed_sessions
 from app.core.paths import sessions
 from app.exercises.library import load_exercise
 from app.session.course import find_course, read_course
-from app.session.people import People
+from app.session.people import People, tables
 
 
 @pytest.fixture
@@ -145,6 +145,22 @@ def test_the_instructor_deletes_restores_remarks_and_erases(acus, monkeypatch, t
     assert acus("people", "erase", "Ada", "--records")["records"] == 2
     done = acus("store", "restore", tmp_path / "b")
     assert (done["records"], done["erased"], done["people"]) == (0, 2, "kept")
+
+
+def test_a_backup_with_a_key_that_an_earlier_build_wrapped_says_so(acus, monkeypatch, tmp_path):
+    people = People()
+    people.set_instructor("correct horse")
+    monkeypatch.setenv("ACUS_INSTRUCTOR_PASSWORD", "correct horse")
+    assert acus("store", "backup", "--out", tmp_path / "b")["key"] is True
+    settings = tables()["settings"]
+    former = json.dumps({"station": "0" * 16, "salt": "00", "secret": "00", "tag": "00"})
+    with people.database.write() as connection:
+        change = settings.update().where(settings.c.name == "wrapped")
+        connection.execute(change.values(value=former))
+    assert acus("store", "backup", "--out", tmp_path / "c")["key"] is False
+    said = store.backup(tmp_path / "d").lines[-1]
+    assert "sealed by an earlier build" in said
+    assert "`acus people instructor`" in said
 
 
 def test_an_altered_record_is_told_by_verify_and_in_the_list(acus):

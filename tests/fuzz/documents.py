@@ -1,7 +1,7 @@
 """Files of settings, rigs, plans and records, as they come from elsewhere: how they are read.
 
-Beside `kinds`, which has what scanners and archives send. All of these are read in the program
-itself, by its own readers; a spoilt one must end in a named error, in time.
+Beside `kinds`, which has what scanners and archives send. All of these but OpenCV's are read in the
+program itself, by its own readers; a spoilt one must end in a named error, in time.
 """
 
 from collections.abc import Callable, Iterator

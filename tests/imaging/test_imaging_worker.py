@@ -1,13 +1,16 @@
 """The worker process: what crashes, hangs or fills the memory there is named, and nothing else."""
 
+import json
 import os
 import signal
 import subprocess
 import sys
 import threading
 import time
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Annotated, Any
 
 import nibabel
 import numpy as np
@@ -20,12 +23,14 @@ from app.imaging.errors import FileDamagedError, WorkerError, WorkerLostError
 from app.imaging.filling import filled
 from app.imaging.header import ImagePlane, SliceHeader
 from app.imaging.header_reading import file_headers
+from app.imaging.series import Ignored
+from app.imaging.structures.structure import StructureKind
 from app.imaging.worker import limits, service
 from app.imaging.worker.answers import lost as lost_error
 from app.imaging.worker.attachments import Attachments, AttachmentsError, opened
 from app.imaging.worker.pool import ImagingWorker
 from app.imaging.worker.service import read_headers
-from app.imaging.worker.values import ForeignValueError, plain, reader
+from app.imaging.worker.values import ATTACHED, ForeignValueError, plain, reader
 from tests.imaging.dicom_factory import Slices
 
 HOSTILE = "tests.imaging.hostile_child"
@@ -242,6 +247,19 @@ def test_whoever_waits_for_a_child_is_told_and_may_cancel(hostile):
     assert told[0].startswith("waiting until other files are read")
 
 
+def test_a_file_whose_name_is_no_utf8_is_read_all_the_same(tmp_path):
+    paths = Slices().write(tmp_path)
+    odd = [path.rename(os.fsdecode(os.fsencode(path) + b"\xff")) for path in paths]
+    headers = [found[0] for found in read_headers(odd, Progress())]
+    assert [header.path for header in headers] == odd
+    for path in odd:
+        data = pydicom.dcmread(path)
+        data.compress(pydicom.uid.RLELossless, generate_instance_uid=False)
+        data.save_as(path)
+    headers = [found[0] for found in read_headers(odd, Progress())]
+    assert len(filled(headers, np.dtype(np.int16))) == len(odd)
+
+
 def test_headers_come_through_the_process_as_they_are(tmp_path):
     for path in Slices().write(tmp_path):
         (here,) = file_headers(path)
@@ -249,16 +267,63 @@ def test_headers_come_through_the_process_as_they_are(tmp_path):
         assert there == here
 
 
-@pytest.mark.parametrize("spoilt", [[], "text", None, [1, 2], [[1.0, 2.0, "3"], [0.0] * 6, [1, 1]]])
+@dataclass(frozen=True)
+class Fault:
+    number: int
+    at: str = "nowhere"
+
+
+PLANE = ImagePlane((1.0, 2.0, 3.0), (1.0, 0.0, 0.0, 0.0, 1.0, 0.0), (0.5, 0.5))
+
+
+@pytest.mark.parametrize(
+    "spoilt",
+    [
+        [],
+        "text",
+        None,
+        [1, 2],
+        [[1.0, 2.0, "3"], [0.0] * 6, [1, 1]],
+        {},
+        plain(PLANE) | {"position_mm": [1.0, 2.0, "3"]},
+        plain(PLANE) | {"position_mm": [1.0, 2.0]},
+        plain(PLANE) | {"position_mm": [1.0, 2.0, True]},
+        plain(PLANE) | {"position_mm": [1.0, 2.0, float("inf")]},
+        plain(PLANE) | {"position_mm": [1.0, 2.0, float("nan")]},
+        plain(PLANE) | {"position_mm": None},
+        plain(PLANE) | {"more": 1},
+        {"position_mm": [1.0, 2.0, 3.0], "orientation": [0.0] * 6},
+    ],
+)
 def test_a_value_of_the_wrong_type_is_refused(spoilt):
     with pytest.raises(ForeignValueError):
         reader(ImagePlane)(spoilt)
 
 
+@pytest.mark.parametrize(
+    ("kind", "value"),
+    [(str, 1), (int, "1"), (int, 1 << 63), (int, 1.0), (int, True), (float, "1.0"),
+     (float, True), (bool, 1), (Path, 1), (None, 0), (tuple[int, ...], {"0": 1}),
+     (tuple[int, int], [1]), (Mapping[str, int], {"a": "1"}), (Fault, plain(Fault(1)) | {"at": 1}),
+     (Fault, {"number": 1}), (SliceHeader | Ignored, ["a", "b"])],
+)  # fmt: skip
+def test_nothing_is_made_into_another_type(kind, value):
+    with pytest.raises(ForeignValueError):
+        reader(kind)(value)
+
+
+def test_what_is_wrong_with_a_value_is_told_with_its_place():
+    spoilt = plain(PLANE) | {"position_mm": [1.0, 2.0, "3"]}
+    with pytest.raises(ForeignValueError, match=r"^position_mm\.2: Input should be a valid number"):
+        reader(ImagePlane)(spoilt)
+
+
 def test_values_keep_their_types():
-    plane = ImagePlane((1.0, 2.0, 3.0), (1.0, 0.0, 0.0, 0.0, 1.0, 0.0), (0.5, 0.5))
-    assert reader(ImagePlane | None)(plain(plane)) == plane
+    assert reader(ImagePlane | None)(json.loads(json.dumps(plain(PLANE)))) == PLANE
     assert reader(ImagePlane | None)(None) is None
+    assert reader(StructureKind)("risk") is StructureKind.RISK
+    assert reader(Path)("/a/\udcff") == Path("/a/\udcff")  # a name that is no UTF-8
+    assert type(reader(float)(1)) is float
 
 
 def test_arrays_travel_beside_the_message_and_cannot_be_changed_on_the_way():
@@ -267,9 +332,9 @@ def test_arrays_travel_beside_the_message_and_cannot_be_changed_on_the_way():
     message = plain(values, attachments)
     descriptor = attachments.descriptor()
     kept = os.dup(descriptor)
-    found = reader(tuple[NDArray[np.int16], NDArray[np.float64], NDArray[np.bool_]])(
-        opened(message, descriptor)
-    )
+    kinds = (Annotated[NDArray[kind], ATTACHED] for kind in (np.int16, np.float64, np.bool_))
+    arrays = opened(message, descriptor)
+    found = reader(tuple[*kinds])(arrays)
     for one, other in zip(found, values, strict=True):
         np.testing.assert_array_equal(one, other)
         assert one.dtype == other.dtype
@@ -277,6 +342,11 @@ def test_arrays_travel_beside_the_message_and_cannot_be_changed_on_the_way():
     with pytest.raises(PermissionError):
         os.pwrite(kept, b"x", 0)
     os.close(kept)
+    assert reader(Annotated[NDArray[Any], ATTACHED])(arrays[0]) is arrays[0]
+    with pytest.raises(ForeignValueError, match="an array of int16, not of int32"):
+        reader(Annotated[NDArray[np.int32], ATTACHED])(arrays[0])
+    with pytest.raises(ForeignValueError, match="list where an array is wanted"):
+        reader(Annotated[NDArray[Any], ATTACHED])([1, 2])
 
 
 @pytest.mark.parametrize(

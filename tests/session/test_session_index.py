@@ -1,5 +1,7 @@
 """The index of attempts and their signatures: made anew equal, nothing lost to a kill."""
 
+import base64
+import hashlib
 import os
 import random
 import shutil
@@ -12,6 +14,9 @@ import time
 from pathlib import Path
 
 import pytest
+from cryptography.hazmat.primitives.ciphers import Cipher
+from cryptography.hazmat.primitives.ciphers.algorithms import AES256
+from cryptography.hazmat.primitives.ciphers.modes import GCM
 from session_fakes import Bench
 
 from app.core.progress import Cancelled, Progress
@@ -132,6 +137,36 @@ def test_the_key_travels_only_under_the_recovery_key(tmp_path: Path) -> None:
         StationKey.unwrapped(wrapped, "ABCD")
     with pytest.raises(SignatureError, match="damaged"):
         StationKey.unwrapped({**wrapped, "salt": "?"}, recovery)
+    with pytest.raises(SignatureError, match="damaged"):
+        StationKey.unwrapped({**wrapped, "nonce": wrapped["nonce"] + "00"}, recovery)
+    for name in wrapped:  # the station's id is bound to it as well
+        text = wrapped[name]
+        other = ("0" if text[0] != "0" else "1") + text[1:]
+        with pytest.raises(SignatureError, match="not the recovery key"):
+            StationKey.unwrapped({**wrapped, name: other}, recovery)
+    again = key.wrapped(recovery)
+    assert not {again[name] for name in ("salt", "nonce", "sealed")} & set(wrapped.values())
+
+
+def test_a_wrapped_key_is_opened_by_any_aes_gcm(tmp_path: Path) -> None:
+    # scrypt and AES-256-GCM as docs/privacy.md tells them, without the program's own code
+    key, recovery = StationKey.of(tmp_path), new_recovery_key()
+    wrapped = {name: text for name, text in key.wrapped(recovery).items() if name != "station"}
+    salt, nonce, sealed = (bytes.fromhex(wrapped[name]) for name in ("salt", "nonce", "sealed"))
+    assert (len(salt), len(nonce), len(sealed)) == (16, 12, 32 + 16)
+    raw = base64.b32decode(recovery.replace("-", ""))
+    stretched = hashlib.scrypt(raw, salt=salt, n=2**14, r=8, p=1, dklen=32)
+    opened = Cipher(AES256(stretched), GCM(nonce, sealed[32:])).decryptor()
+    opened.authenticate_additional_data(b"acus station key\0" + key.station.encode())
+    assert opened.update(sealed[:32]) + opened.finalize() == key.secret
+
+
+def test_a_key_that_an_earlier_build_wrapped_says_what_to_do() -> None:
+    with pytest.raises(SignatureError, match=r"earlier build.*instructor.*without `--key`"):
+        StationKey.unwrapped(
+            {"station": "0" * 16, "salt": "00" * 16, "secret": "00" * 32, "tag": "00" * 32},
+            new_recovery_key(),
+        )
 
 
 def test_two_programs_that_start_together_draw_one_key(tmp_path: Path) -> None:

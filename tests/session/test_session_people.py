@@ -15,6 +15,7 @@ import pytest
 from app.session.database import DatabaseError
 from app.session.errors import PeopleError
 from app.session.people import NAMES_FILE, PEOPLE, People, WrongPasswordError
+from app.session.people import tables as people_tables
 from app.session.roster import RosterLine, checked_pseudonym, read_roster
 from app.session.station import SignatureError, StationKey
 
@@ -220,6 +221,24 @@ def test_the_instructor_has_a_password_and_a_recovery_key(people: People, wall: 
     with pytest.raises(PeopleError, match="at least 8 characters"):
         people.change_password("third password", "short")
     assert StationKey.unwrapped(people.wrapped_key(), recovery) == StationKey.of(people.folder)
+
+
+@pytest.mark.promise("docs/people.md: the next change of the password prints a new one")
+def test_a_recovery_key_of_an_earlier_build_is_replaced(people: People) -> None:
+    former = people.set_instructor("correct horse")
+    old = {"station": "0" * 16, "salt": "00" * 16, "secret": "00" * 32, "tag": "00" * 32}
+    with people.database.write() as connection:
+        table = people_tables()["settings"]
+        new = table.update().where(table.c.name == "wrapped").values(value=json.dumps(old))
+        connection.execute(new)
+    with pytest.raises(PeopleError, match=f"earlier build.*instructor.*move .*{PEOPLE}"):
+        people.recover(former, "new password")
+    people.check_instructor("correct horse")
+    recovery = people.change_password("correct horse", "new password")
+    assert recovery not in ("", former)
+    assert StationKey.unwrapped(people.wrapped_key(), recovery) == StationKey.of(people.folder)
+    people.recover(recovery, "third password")
+    assert people.change_password("third password", "fourth password") == ""
 
 
 @pytest.mark.promise("docs/people.md: Passwords and PINs are kept as Argon2id hashes only")

@@ -528,13 +528,66 @@ def test_damaged_files_of_opencv_end_in_a_named_error_and_never_end_the_program(
         "%YAML:1.0\nM1: !!opencv-matrix\n  {rows: 99999999, cols: 9999, dt: d, data: [1.]}",
         "%YAML:1.0\nM1: !!opencv-matrix\n  {rows: 1, cols: 1, dt: d, data: '$base64$AA'}",
         '{"M1": ' + "[" * 5000,
+        "%YAML:1.0\nM1: !!opencv-matrix\n  {rows: 1, cols: 2, dt: d, data: [1.]}",
+        "%YAML:1.0\nM1: !!opencv-matrix\n  {rows: 9999, cols: 9999, dt: d, data: [1.]}",
+        "%YAML:1.0\nM1: !!opencv-matrix\n  {rows: 1, cols: 1, dt: d, data: [one]}",
+        "%YAML:1.0\nM1: !!opencv-matrix\n  {rows: 1, cols: 1, dt: d, data: [[1.]]}",
+        "%YAML:1.0\nM1: !!opencv-matrix\n  {rows: 1, cols: 1, dt: q, data: [1.]}",
+        "%YAML:1.0\nM1: !!opencv-matrix\n  {rows: 1, cols: 1, dt: d, data: [99999999999999999999]}",
+        "%YAML:1.0\nM1: 5",
     ],
 )
 def test_what_is_no_matrix_in_a_file_of_opencv_is_named(tmp_path: Path, text: str) -> None:
     path = tmp_path / "intrinsics.yml"
     path.write_text(text + "\n# opencv-matrix\n")
-    with pytest.raises(CalibrationError, match=r"intrinsics.yml"):
+    with pytest.raises(CalibrationError, match=r"intrinsics.yml") as caught:
         read_calibration([path], unit=0.01, image_size=(640, 480))
+    assert "\n" not in str(caught.value)
+    assert "opencv/modules" not in str(caught.value)
+
+
+ONE = "%YAML:1.0\n---\nM1: !!opencv-matrix\n   rows: 1\n   cols: 1\n   dt: d\n   data: [ 1. ]\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (ONE.replace("   dt", "\tdt"), "line 6: Tabs are prohibited"),
+        (ONE + ONE[14:], "M1 is given twice"),
+        (ONE.replace("   dt", "   cols: 2\n   dt"), "cols is given twice"),
+        (ONE + "\0" + ONE, "control characters"),
+        (ONE.replace("1. ", "1e999"), "M1: a matrix of finite numbers is needed, got inf"),
+        (ONE.replace("1. ", "one"), "M1: a matrix of finite numbers is needed, got 'one'"),
+        (ONE.replace("rows: 1", "rows: 0"), "M1: rows: a whole number from 1 to 10000"),
+        (ONE + " " * (1 << 20), "larger than 1 MB"),
+        ('{"M1": ' + "[" * 500_000 + "opencv-matrix", "process that read it was ended by SIGSEGV"),
+        ("%YAML:1.0\n---\nM1: " + "[" * 500_000, "process that read it was ended by SIGSEGV"),
+    ],
+)
+def test_a_file_that_opencv_takes_for_something_else_or_crashes_on_is_named(
+    tmp_path: Path, text: str, words: str
+) -> None:
+    path = tmp_path / "both.yml"
+    path.write_text(text)
+    with pytest.raises(CalibrationError, match=words) as caught:
+        read_matrices(path, ("M1", "R"))
+    assert str(caught.value).startswith(f"{path}: ")
+    path.write_text(ONE)  # and the next file is read
+    assert read_matrices(path, ("M1", "R"))["M1"].tolist() == [[1.0]]
+
+
+def test_opencv_parses_none_of_it_in_the_program(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = storage(tmp_path / "one.yml", M1=MATRIX)
+    monkeypatch.delattr(cv2, "FileStorage")
+    assert read_matrices(path, ("M1",))["M1"].tolist() == MATRIX.tolist()
+
+
+def test_a_file_that_cannot_be_read_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "none.yml"
+    with pytest.raises(CalibrationError, match=r"cannot read .*none.yml: No such file"):
+        read_matrices(path, ("M1",))
 
 
 @pytest.mark.long("statistics")

@@ -10,7 +10,7 @@ import pytest
 from app.compose.desktop import HEAVY_MODULES
 
 HEAVY = ("numba", "llvmlite", "vtkmodules", "scipy", "pydicom", "cv2")
-OF_PEOPLE = ("sqlalchemy", "argon2")
+OF_PEOPLE = ("sqlalchemy", "argon2", "cryptography")
 
 START = """
 import sys

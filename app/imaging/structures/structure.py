@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +18,7 @@ from app.core.arrays import FloatArray, frozen, read_only
 from app.imaging.interpolation import interpolate
 from app.imaging.structures.errors import StructureError
 from app.imaging.volume import Volume
+from app.imaging.worker.values import ATTACHED
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,7 +33,7 @@ class PlacedStructure:
     name: str
     kind: StructureKind
     colour: Colour
-    mask: NDArray[np.bool_]
+    mask: Annotated[NDArray[np.bool_], ATTACHED]
     corner: Index
     warn_mm: float
 

@@ -105,7 +105,9 @@ def _placed(value: Any, memory: Any, size: int) -> Any:
     if isinstance(value, list):
         return [_placed(item, memory, size) for item in value]
     if isinstance(value, dict):
-        return _array(value.get(_KEY), memory, size)
+        if value.keys() == {_KEY}:
+            return _array(value[_KEY], memory, size)
+        return {name: _placed(item, memory, size) for name, item in value.items()}
     return value
 
 

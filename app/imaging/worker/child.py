@@ -10,6 +10,7 @@ import socket
 import warnings
 from collections.abc import Callable, Sequence
 from functools import cache
+from pathlib import Path
 from typing import Any, get_type_hints
 
 from app.core.progress import Progress
@@ -89,9 +90,9 @@ def _job(place: str) -> tuple[Callable[..., Any], tuple[Convert, ...]]:
     """Find the function of a job, and what makes its arguments of JSON; the progress comes last."""
     module, name = place.split(":")
     work = getattr(importlib.import_module(module), name)
-    hints = get_type_hints(work)
+    hints = get_type_hints(work, include_extras=True)
     kinds = [hints[argument] for argument in hints if argument not in ("progress", "return")]
-    return work, tuple(reader(kind) for kind in kinds)
+    return work, tuple(Path if kind is Path else reader(kind) for kind in kinds)
 
 
 def _progress(channel: WorkerChannel) -> Progress:

@@ -18,6 +18,7 @@ from app.imaging.worker.answers import DONE, PROGRESS, outcome
 from app.imaging.worker.channel import VOLUME, ChannelError, WorkerChannel
 from app.imaging.worker.jobs import Task
 from app.imaging.worker.limits import processor_seconds
+from app.imaging.worker.values import reader
 
 ENTRY = "app.imaging.worker"
 """Module that a child runs."""
@@ -102,6 +103,7 @@ class Child:
         finally:
             if descriptor is not None:
                 os.close(descriptor)
+        reader(task.job.gives)  # made while the child comes up: 20 ms, once for each type
 
     def give(self, descriptor: int) -> None:
         """Give it the memory that slices are written to.

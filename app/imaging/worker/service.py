@@ -19,6 +19,7 @@ from app.imaging.series import Ignored
 from app.imaging.worker.jobs import FILL, LOAD_DECODERS, READ_HEADERS, Task
 from app.imaging.worker.limits import Allowance, for_file, size_of
 from app.imaging.worker.pool import ImagingWorker, shared_worker
+from app.imaging.worker.values import reader
 
 _LONG = 10_000_000
 """Pixels that take so long to decode that two do it sooner, though the second must come up first:
@@ -42,6 +43,7 @@ def load_decoders(progress: Progress, worker: ImagingWorker | None = None) -> No
         Cancelled: if `progress` was cancelled.
     """
     (worker or shared_worker()).call(LOAD_DECODERS, (), _LOADING, progress)
+    reader(READ_HEADERS.gives)
 
 
 def read_headers(

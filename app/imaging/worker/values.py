@@ -1,20 +1,28 @@
-"""Frozen dataclasses to JSON and back, checked by their annotations.
+"""Frozen dataclasses to JSON and back, checked by pydantic against their annotations.
 
 Nothing that comes from the child is taken as it is: a value of another type than the annotation
-says is refused, and no class is made but those that the reader names (which pickle would do).
+says is refused, as is one that is missing or too much, and no class is made but those that the
+reader names (which pickle would do). pydantic is loaded with the first reader: the child needs none
+for headers, of which every folder is full.
 """
 
-import types
 from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any, Union, get_args, get_origin, get_type_hints
+from typing import Any, get_args
 
 from app.imaging.worker.attachments import Attachments, is_array
 
 Convert = Callable[[Any], Any]
 _AS_THEY_ARE = frozenset((str, int, float, bool, type(None)))
+_LEAVES: Mapping[str, Mapping[str, Any]] = {
+    "str": {"strict": True},
+    "int": {"strict": True, "ge": -(1 << 63), "lt": 1 << 63},
+    "float": {"strict": True, "allow_inf_nan": False},
+    "bool": {"strict": True},
+}
+"""What is asked of the plain values, by their name in pydantic's schemas."""
 
 
 class ForeignValueError(ValueError):
@@ -22,7 +30,7 @@ class ForeignValueError(ValueError):
 
 
 def plain(value: Any, attachments: Attachments | None = None) -> Any:
-    """Turn a value into what JSON holds: a dataclass becomes the list of its fields.
+    """Turn a value into what JSON holds: a dataclass becomes its fields by name.
 
     Args:
         value: the value.
@@ -32,7 +40,7 @@ def plain(value: Any, attachments: Attachments | None = None) -> Any:
         return value
     if is_dataclass(value):
         cls: Any = type(value)
-        return [plain(getattr(value, name), attachments) for name in _names(cls)]
+        return {name: plain(getattr(value, name), attachments) for name in _names(cls)}
     if isinstance(value, tuple):
         return [plain(item, attachments) for item in value]
     if attachments is not None and is_array(value):
@@ -47,106 +55,66 @@ def _names(cls: Any) -> tuple[str, ...]:
 
 @cache
 def reader(kind: Any) -> Convert:
-    """Make the function that turns JSON into values of a type.
+    """Return the function that turns JSON into values of a type.
 
     Args:
-        kind: a dataclass, tuple, mapping, union, array, Path, str, int, float, bool or None, or
-            made of these.
+        kind: a dataclass, tuple, mapping, union, Path, str, int, float, bool or None, or made of
+            these; arrays in it are annotated with `ATTACHED`.
 
     Returns:
         A function; it raises ForeignValueError for anything else than such a value.
     """
-    if is_dataclass(kind):
-        return _dataclass_reader(kind)
-    if get_origin(kind) in (Union, types.UnionType):
-        return _union_reader(get_args(kind))
-    if get_origin(kind) is tuple:
-        return _tuple_reader(get_args(kind))
-    if getattr(get_origin(kind), "__module__", "") == "numpy":
-        return _array_reader(get_args(get_args(kind)[1])[0])
-    if get_origin(kind) is Mapping:
-        return _mapping_reader(*get_args(kind))
-    if kind is None:
-        kind = type(None)
-    if kind is Path:
-        return lambda value: Path(_checked(value, str))
-    if kind is float:
-        return _float
-    if isinstance(kind, type) and issubclass(kind, str) and kind is not str:
-        return lambda value: kind(_checked(value, str))
-    return lambda value: _checked(value, kind)
+    from pydantic import ConfigDict, TypeAdapter, ValidationError
+    from pydantic_core import SchemaValidator
 
+    # Lists become tuples, mappings dataclasses, texts paths; the plain values nothing but what they
+    # are. pydantic's own strictness is all or nothing, and its strict JSON knows no path whose
+    # bytes are no UTF-8. A dataclass takes no configuration, but those inside a tuple have its.
+    loose = TypeAdapter[Any](tuple[kind], config=ConfigDict(extra="forbid"))
+    validator = SchemaValidator(_with_strict_leaves(loose.core_schema))
 
-def _checked(value: Any, kind: Any) -> Any:
-    if type(value) is not kind:
-        raise ForeignValueError(f"{type(value).__name__} where {kind.__name__} is wanted")
-    return value
-
-
-def _float(value: Any) -> float:
-    if type(value) not in (float, int):
-        raise ForeignValueError(f"{type(value).__name__} where a number is wanted")
-    return float(value)
-
-
-def _array_reader(scalar: Any) -> Convert:
     def read(value: Any) -> Any:
-        if not is_array(value):
-            raise ForeignValueError(f"{type(value).__name__} where an array is wanted")
-        import numpy as np
-
-        if scalar is not Any and value.dtype != np.dtype(scalar):
-            raise ForeignValueError(f"an array of {value.dtype}, not of {np.dtype(scalar)}")
-        return value
+        try:
+            (found,) = validator.validate_python((value,))
+        except ValidationError as error:
+            first = error.errors(include_url=False, include_input=False, include_context=False)[0]
+            where = ".".join(map(str, first["loc"][1:]))
+            raise ForeignValueError(f"{where}: {first['msg']}" if where else first["msg"]) from None
+        return found
 
     return read
 
 
-def _dataclass_reader(kind: Any) -> Convert:
-    hints = get_type_hints(kind)
-    converts = [reader(hints[name]) for name in _names(kind)]
-
-    def read(value: Any) -> Any:
-        items = _checked(value, list)
-        if len(items) != len(converts):
-            raise ForeignValueError(f"{kind.__name__} has {len(converts)} fields, not {len(items)}")
-        return kind(*(convert(item) for convert, item in zip(converts, items, strict=True)))
-
-    return read
+def _with_strict_leaves(schema: Any) -> Any:
+    if isinstance(schema, dict):
+        if schema.get("type") == "default":  # of a field, which is always sent
+            return _with_strict_leaves(schema["schema"])
+        inner = {name: _with_strict_leaves(part) for name, part in schema.items()}
+        return {**inner, **_LEAVES.get(schema.get("type", ""), {})}
+    if isinstance(schema, list | tuple):
+        return type(schema)(map(_with_strict_leaves, schema))
+    return schema
 
 
-def _tuple_reader(kinds: tuple[Any, ...]) -> Convert:
-    if len(kinds) == 2 and kinds[1] is Ellipsis:
-        convert = reader(kinds[0])
-        return lambda value: tuple(convert(item) for item in _checked(value, list))
-    converts = [reader(kind) for kind in kinds]
+class _Attached:
+    """Tells pydantic what an array is: one of numbers, or of one type of them."""
 
-    def read(value: Any) -> Any:
-        items = _checked(value, list)
-        if len(items) != len(converts):
-            raise ForeignValueError(f"{len(items)} values where {len(converts)} are wanted")
-        return tuple(convert(item) for convert, item in zip(converts, items, strict=True))
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        from pydantic_core import core_schema
 
-    return read
+        (scalar,) = get_args(get_args(source)[1])
+
+        def read(value: Any) -> Any:
+            if not is_array(value):
+                raise ValueError(f"{type(value).__name__} where an array is wanted")
+            import numpy as np
+
+            if scalar is not Any and value.dtype != np.dtype(scalar):
+                raise ValueError(f"an array of {value.dtype}, not of {np.dtype(scalar)}")
+            return value
+
+        return core_schema.no_info_plain_validator_function(read)
 
 
-def _mapping_reader(keys: Any, values: Any) -> Convert:
-    key, convert = reader(keys), reader(values)
-    return lambda found: {key(k): convert(v) for k, v in _checked(found, dict).items()}
-
-
-def _union_reader(kinds: tuple[Any, ...]) -> Convert:
-    converts = [reader(kind) for kind in kinds if kind is not type(None)]
-    may_be_none = type(None) in kinds
-
-    def read(value: Any) -> Any:
-        if value is None and may_be_none:
-            return None
-        for convert in converts:
-            try:
-                return convert(value)
-            except ForeignValueError as error:
-                refused = error
-        raise refused
-
-    return read
+ATTACHED = _Attached()
+"""Stands in the annotation of an array that travels beside a message: `Annotated[…, ATTACHED]`."""

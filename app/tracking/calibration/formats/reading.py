@@ -9,8 +9,8 @@ What a file leaves out (unit of lengths, size of pictures) is asked for.
 - OpenCV's FileStorage, as the sample `stereo_calib` writes it: `intrinsics.yml` holds M1, D1, M2,
   D2 (camera matrices and distortion of left and right), `extrinsics.yml` R, T (x_right = R·x_left +
   T) beside what follows from them. One file may hold all six. T is in the unit of the board's
-  square; neither the unit nor the pictures' size is in them. XML and JSON are read as well. The
-  files are parsed by `storage`, not OpenCV.
+  square; neither the unit nor the pictures' size is in them. XML and JSON are read as well, by
+  OpenCV in the worker process (`storage`).
 - TemugeB's text files, `cameraN_intrinsics.dat` and `[world_to_]cameraN_rot_trans.dat`: neither the
   picture's size nor a unit; lengths are in the unit the board's square was typed in.
 """
@@ -183,6 +183,7 @@ def read_opencv(
 
     Raises:
         CalibrationError: if something is missing or cannot be; says what.
+        WorkerError: if the process that reads the files cannot be started.
     """
     found: dict[str, tuple[Path, FloatArray]] = {}
     for path in files:
@@ -333,6 +334,7 @@ def read_calibration(
 
     Raises:
         CalibrationError: if the files are not of a known format, or one is wrong: named.
+        WorkerError: if the process that reads OpenCV's files cannot be started.
     """
     if len(files) == 1 and files[0].is_dir():
         return _text_files(files[0], unit, image_size, names)

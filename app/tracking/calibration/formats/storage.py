@@ -1,33 +1,50 @@
-"""Matrices of OpenCV's FileStorage files (YAML, XML, JSON), read without OpenCV.
+"""Matrices of OpenCV's FileStorage files (YAML, XML, JSON), read by OpenCV in the worker process.
 
-OpenCV's own parser frees memory twice on damaged files and ends the program with it; these files
-come from elsewhere. What is read here is the part of the format that calibrations use: named
-matrices at the top, each with rows, cols, dt and data row by row.
+These files come from elsewhere, and OpenCV's parser ends the process that it runs in on some of
+them (a list nested half a million deep, for one). What is read is the part of the format that
+calibrations use: named matrices at the top, each with rows, cols, dt and data row by row. OpenCV
+takes the first of two of the same name and stops at a control character; both are refused here.
 """
 
-import json
 import re
-import xml.etree.ElementTree as ET
-from collections.abc import Mapping
 from math import isfinite
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.core.configuration import LARGEST_FILE, parse_yaml, shown
-from app.core.errors import ConfigurationError
+from app.core.configuration import LARGEST_FILE, shown
+from app.core.errors import AcusError
+from app.core.progress import Progress
+from app.imaging.errors import FileDamagedError, WorkerLostError
+from app.imaging.worker.jobs import Job
+from app.imaging.worker.limits import PACKAGE_SECONDS, for_file, size_of
+from app.imaging.worker.pool import shared_worker
+from app.imaging.worker.values import ATTACHED
 from app.tracking.errors import CalibrationError
 
-_TYPE: Final = "opencv-matrix"
-_YAML_TAG: Final = re.compile(r"!!opencv-matrix\b")
-_KIND: Final = re.compile(r"\(?(\d{0,2})[ucwsifdh]\)?")
+if TYPE_CHECKING:
+    import cv2
+
+_HEADS = (b"%YAML:1.0", b"<?xml", b"<opencv_storage")
+_TYPE = b"opencv-matrix"
+_FIELDS = ("rows", "cols", "dt", "data")
+_KIND = re.compile(r"\(?(\d{0,2})[ucwsifdh]\)?")
 """dt: how many numbers each element has (1 if left out), and which type they had in memory."""
 
-_NUMBER: Final = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
-_MOST: Final = 10_000
+_MOST = 10_000
 """Numbers of a matrix; a calibration's have at most 16."""
+
+_WHOLE = 2**53
+"""Whole numbers from here on are not exact any more; OpenCV cuts those off that it cannot hold."""
+
+_CONTROL = re.compile(r"[\0-\x08\x0b\x0c\x0e-\x1f\x7f]")
+_PARSER = re.compile(r"\((\d+)\): ([^()\n]{1,100})$")
+"""How OpenCV's parser ends a complaint: with the line, and what is wrong with it."""
+
+Matrices = tuple[tuple[str, Annotated[FloatArray, ATTACHED]], ...]
+MATRICES: Job[Matrices] = Job("app.tracking.calibration.formats.storage:matrices_in", Matrices)
 
 
 def is_storage(path: Path) -> bool:
@@ -43,107 +60,117 @@ def is_storage(path: Path) -> bool:
         raise CalibrationError(
             f"cannot read {path}: {error.strerror or error}; check its name and that it may be read"
         ) from error
-    heads = (b"%YAML:1.0", b"<?xml", b"<opencv_storage")
-    return head.startswith(heads) or _TYPE.encode() in head  # OpenCV 5 begins as any other YAML
+    return head.startswith(_HEADS) or _TYPE in head  # OpenCV 5 begins as any other YAML
 
 
 def read_matrices(path: Path, keys: tuple[str, ...]) -> dict[str, FloatArray]:
-    """Read those of the named matrices that a file holds.
+    """Read those of the named matrices that a file holds, in the worker process.
 
     Returns:
         Matrices of shape (rows, cols); elements of several numbers stand side by side.
 
     Raises:
-        CalibrationError: naming the file, the matrix and what is wrong.
+        CalibrationError: naming the file, the matrix and what is wrong, or how the file ended the
+            process that read it.
     """
-    document = _document(path)
-    if not isinstance(document, Mapping):
-        raise CalibrationError(f"{path}: a file of named matrices is needed; it names none")
-    return {key: _matrix(f"{path}: {key}", document[key]) for key in keys if key in document}
-
-
-def _document(path: Path) -> Any:
-    damaged = f"{path} begins as a file of OpenCV's FileStorage but is damaged"
+    allowed = for_file(size_of(path), least=PACKAGE_SECONDS)
     try:
-        with path.open("rb") as file:
-            data = file.read(LARGEST_FILE + 1)
-        if len(data) > LARGEST_FILE:
-            raise CalibrationError(
-                f"{path} is larger than {LARGEST_FILE >> 20} MB; a calibration is not"
-            )
-        text = data.decode("utf-8")
-        if text.lstrip().startswith("<"):
-            return _xml(text)
-        if text.lstrip().startswith("{"):
-            return json.loads(text)
-        lines = text.lstrip().splitlines()
-        if lines and lines[0].startswith("%YAML"):  # `%YAML:1.0` is no directive of YAML's own
-            lines = lines[1:]
-        return parse_yaml(_YAML_TAG.sub("", "\n".join(lines)), str(path))
+        arguments = (path.absolute(), keys)
+        found: Matrices = shared_worker().call(MATRICES, arguments, allowed, Progress())
+    except WorkerLostError as error:
+        raise CalibrationError(f"{path}: {error}; write it again") from error
+    except FileDamagedError as error:
+        raise CalibrationError(f"{path}: {error}") from error
     except OSError as error:
+        if isinstance(error, AcusError):
+            raise
         raise CalibrationError(f"cannot read {path}: {error.strerror or error}") from error
-    except ConfigurationError as error:
-        raise CalibrationError(f"{error}; write it again") from error
-    except (ValueError, ET.ParseError, RecursionError) as error:
-        reason = " ".join(str(error).split())[:200]
-        raise CalibrationError(f"{damaged} ({reason}); write it again") from error
+    return dict(found)
 
 
-def _xml(text: str) -> dict[str, Any]:
-    """Matrices of an XML file as the YAML has them."""
-    if "<!" in re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL):
-        raise ValueError("declarations and entities are not read")
-    root = ET.fromstring(text)  # no declarations, so no entities
-    if root.tag != "opencv_storage":
-        raise ValueError(f"its outermost element is {root.tag!r}, not 'opencv_storage'")
-    found: dict[str, Any] = {}
-    for node in root:
-        if node.tag in found:
-            raise ValueError(f"{node.tag} is given twice")
-        fields: dict[str, Any] = {child.tag: (child.text or "").strip() for child in node}
-        if "data" in fields:
-            fields["data"] = fields["data"].split()
-        found[node.tag] = fields
-    return found
+def matrices_in(path: Path, keys: tuple[str, ...], progress: Progress) -> Matrices:
+    """Read the named matrices of a file; in the worker process.
 
+    Raises:
+        CalibrationError: naming the matrix and what is wrong, but not the file.
+        OSError: if it cannot be read.
+    """
+    import cv2
 
-def _matrix(where: str, node: Any) -> FloatArray:
-    if not isinstance(node, Mapping) or not {"rows", "cols", "dt", "data"} <= set(node):
-        raise CalibrationError(f"{where}: a matrix with rows, cols, dt and data is needed")
-    kind = _KIND.fullmatch(node["dt"]) if isinstance(node["dt"], str) else None
-    if kind is None:
+    with path.open("rb") as file:
+        data = file.read(LARGEST_FILE + 1)
+    if len(data) > LARGEST_FILE:
+        raise CalibrationError(f"it is larger than {LARGEST_FILE >> 20} MB; a calibration is not")
+    storage = cv2.FileStorage()
+    try:
+        text = data.decode("utf-8")
+        if _CONTROL.search(text):
+            raise ValueError("control characters are not read")
+        storage.open(text, cv2.FILE_STORAGE_READ | cv2.FILE_STORAGE_MEMORY)
+        top = _fields(storage.root())
+        progress.check()
+        return tuple((key, _matrix(key, top[key])) for key in keys if key in top)
+    except (ValueError, cv2.error) as error:
+        reason = _PARSER.search(getattr(error, "func", ""))
+        words = f"line {reason[1]}: {reason[2]}" if reason else _line(error)
         raise CalibrationError(
-            f"{where}: dt names the numbers' type, e.g. d; got {node['dt']!r:.40}"
-        )
-    rows, columns = (_count(where, key, node[key]) for key in ("rows", "cols"))
+            f"it begins as a file of OpenCV's FileStorage but is damaged ({words}); write it again"
+        ) from error
+    finally:
+        storage.release()
+
+
+def _line(error: Exception) -> str:
+    text = "OpenCV cannot read it" if hasattr(error, "func") else str(error)
+    return " ".join(text.split())[:200]
+
+
+def _fields(node: "cv2.FileNode") -> "dict[str, cv2.FileNode]":
+    """Return what stands in a node by name; nothing if it is no mapping."""
+    names = node.keys() if node.isMap() else ()
+    twice = [name for place, name in enumerate(names) if name in names[:place]]
+    if twice:
+        raise ValueError(f"{twice[0][:40]} is given twice")
+    return {name: node.getNode(name) for name in names}
+
+
+def _matrix(key: str, node: "cv2.FileNode") -> FloatArray:
+    fields = _fields(node)
+    if not set(_FIELDS) <= set(fields):
+        raise CalibrationError(f"{key}: a matrix with rows, cols, dt and data is needed")
+    dt = _value(fields["dt"])
+    kind = _KIND.fullmatch(dt) if isinstance(dt, str) else None
+    if kind is None:
+        raise CalibrationError(f"{key}: dt names the numbers' type, e.g. d; got {shown(dt)}")
+    rows, columns = (_count(f"{key}: {name}", fields[name]) for name in ("rows", "cols"))
     columns *= int(kind[1] or 1)
-    data = node["data"]
-    if isinstance(data, str | bytes):
-        raise CalibrationError(f"{where}: data in base64 is not read; write it as numbers")
-    if not isinstance(data, list) or len(data) != rows * columns:
-        count = f"{len(data)} values" if isinstance(data, list) else "none"
-        raise CalibrationError(f"{where}: {rows} x {columns} numbers are needed, got {count}")
-    numbers = [_number(where, value) for value in data]
+    data = fields["data"]
+    if rows * columns > _MOST:
+        raise CalibrationError(f"{key}: {rows} x {columns} numbers; at most {_MOST} are read")
+    count = data.size() if data.isSeq() else 0
+    if count != rows * columns:
+        raise CalibrationError(f"{key}: {rows} x {columns} numbers are needed, got {count} values")
+    numbers = [_number(key, data.at(place)) for place in range(count)]
     return np.array(numbers, dtype=np.float64).reshape(rows, columns)
 
 
-def _count(where: str, key: str, value: Any) -> int:
-    text = str(value) if isinstance(value, int | str) and not isinstance(value, bool) else ""
-    if not re.fullmatch(r"\d{1,4}", text) or not 1 <= int(text) <= _MOST:
-        raise CalibrationError(f"{where}: {key}: a whole number from 1 is needed")
-    return int(text)
+def _count(where: str, node: "cv2.FileNode") -> int:
+    if not node.isInt() or not 1 <= node.real() <= _MOST:
+        raise CalibrationError(f"{where}: a whole number from 1 to {_MOST} is needed")
+    return int(node.real())
 
 
-def _number(where: str, value: Any) -> float:
-    if isinstance(value, str) and _NUMBER.fullmatch(value):  # 1e5 is a text to YAML 1.1
-        value = float(value)
-    if isinstance(value, bool) or not isinstance(value, int | float) or not _is_finite(value):
-        raise CalibrationError(f"{where}: a matrix of finite numbers is needed, got {shown(value)}")
-    return float(value)
+def _number(key: str, node: "cv2.FileNode") -> float:
+    value = _value(node)
+    if not isinstance(value, float) or not isfinite(value):
+        raise CalibrationError(f"{key}: a matrix of finite numbers is needed, got {shown(value)}")
+    if node.isInt() and abs(value) >= _WHOLE:
+        raise CalibrationError(f"{key}: a whole number is too large, got {value:.0f} or more")
+    return value
 
 
-def _is_finite(value: float) -> bool:
-    try:
-        return isfinite(value)
-    except OverflowError:  # a whole number beyond any float
-        return False
+def _value(node: "cv2.FileNode") -> float | str | list[str]:
+    """Return a number, a text, or for what is neither its names."""
+    if node.isString():
+        return str(node.string())
+    return float(node.real()) if node.isReal() or node.isInt() else list(node.keys())
