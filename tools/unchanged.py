@@ -10,7 +10,7 @@ version of this script describes another one's tree:
     PYTHONPATH=/other/tree python tools/unchanged.py write FOLDER
 
 The program is asked by its own commands, each in a process of its own, with empty folders of the
-user and a fixed key of this installation; what no command tells, `unchanged_inside.py` reads. The
+user and a fixed key of this installation; what no command tells, `unchanged_*.py` read. The
 records and the page of the wire are the described tree's, real CT comes from ACUS_TEST_DATA.
 
 Left out, as it depends on time or machine: measured costs (`cost_ns`, `picture_ns`,
@@ -37,22 +37,20 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 HERE: Final = Path(__file__).resolve().parent
-INSIDE: Final = HERE / "unchanged_inside.py"
 DIFFERENT: Final = 3
 """Exit code where two folders are not equal."""
 FIRST_LINES: Final = 12
 """Lines of each difference that are printed."""
 PATIENCE_S: Final = 900.0
 """A command that takes longer is broken; a first one compiles kernels [s]."""
-
 KEY: Final = bytes(range(32))
 """Key of the installation: the same pseudonyms everywhere."""
 MEASURED: Final = {
-    *("cost_ns", "picture_ns", "model_costs_ns", "build_changes", "same_build", "ports"),
-    *("trial_s", "trial_states"),
+    *("cost_ns", "picture_ns", "model_costs_ns", "trial_s", "trial_states"),
+    *("build_changes", "same_build", "ports"),
 }
 """Keys of the JSON that depend on the machine."""
 MEASURED_LINES: Final = re.compile(
@@ -60,10 +58,10 @@ MEASURED_LINES: Final = re.compile(
 )
 """Beginnings of lines that depend on the machine."""
 REMEDIES: Final = ("resample", "straighten", "halve")
+LISTED: Final = ("plugin", "law", "study", "device")
 
 
-@dataclass(frozen=True, slots=True)
-class Outcome:
+class Outcome(NamedTuple):
     """What a process has printed, cleaned of what depends on time, machine and folders."""
 
     words: str
@@ -77,15 +75,10 @@ class Outcome:
         err = f"stderr:\n{self.err}\n" if self.err else ""
         return f"$ {self.words}\nexit code {self.code}\n{self.out}\n{err}\n"
 
-    @property
-    def facts(self) -> dict[str, Any]:
-        """Return the facts of an answer in JSON; empty where it is none."""
-        try:
-            document = json.loads(self.out)
-        except ValueError:
-            return {}
-        facts = document.get("facts", {}) if isinstance(document, dict) else {}
-        return facts if isinstance(facts, dict) else {}
+    def rows(self, key: str) -> list[dict[str, Any]]:
+        """Return a list among the facts of an answer in JSON; empty where there is none."""
+        document = json.loads(self.out) if self.out.startswith("{") else {}
+        return list(document.get("facts", {}).get(key, ()))
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,19 +107,13 @@ class Tree:
             if not name.startswith(("ACUS_", "XDG_", "LC_", "QT_")) and name != "LANGUAGE"
         }
         cache = os.environ.get("ACUS_CACHE") or platformdirs.user_cache_dir("acus", appauthor=False)
-        folders = {
-            name: str(self.scratch / name.lower()) for name in ("HOME", "ACUS_DATA", "TMPDIR")
-        }
-        for folder in folders.values():
-            Path(folder).mkdir(exist_ok=True)
-        own = {
-            "ACUS_SETTINGS": self.scratch / "settings",
-            "ACUS_SESSIONS": self.scratch / "records",
-        }
+        places = {"HOME": "home", "TMPDIR": "tmp", "ACUS_DATA": "data"}
+        places |= {"ACUS_SETTINGS": "settings", "ACUS_SESSIONS": "records"}
+        for place in ("home", "tmp"):
+            (self.scratch / place).mkdir(exist_ok=True)
         return (
             kept
-            | folders
-            | {name: str(folder) for name, folder in own.items()}
+            | {name: str(self.scratch / place) for name, place in places.items()}
             | {"ACUS_CACHE": cache, "PYTHONPATH": str(self.root), "PYTHONHASHSEED": "0"}
             | {"LANG": "C.UTF-8", "LC_ALL": "C.UTF-8", "TZ": "UTC", "COLUMNS": "100"}
             | {"NO_COLOR": "1", "TERM": "dumb", "QT_QPA_PLATFORM": "offscreen"}
@@ -137,9 +124,12 @@ class Tree:
         """Run a command of the program."""
         return self._run("acus", "-m", "app", *words)
 
-    def inside(self, *words: str | Path) -> Outcome:
-        """Run a part of what is read through the program's own names."""
-        return self._run("inside", INSIDE, *words)
+    def script(self, name: str, *words: str | Path) -> Outcome:
+        """Run a script beside this one, which reads the program through its own names."""
+        outcome = self._run(name, HERE / f"unchanged_{name}.py", *words)
+        if outcome.code:
+            _tell(f"  !! {outcome.words} failed: {outcome.err.splitlines()[-1:]}")
+        return outcome
 
     def _run(self, name: str, *words: str | Path) -> Outcome:
         texts = [str(word) for word in words]
@@ -238,7 +228,7 @@ def dicom(tree: Tree) -> None:
     _fix_key(tree)
     tree.write("dicom/all.txt", tree.acus("ct", "list", tree.data, "--json"))
     places = {*tree.data.glob("ct_*/"), *tree.data.glob("ct_cases/*/")} - {tree.data / "ct_cases"}
-    for place in sorted(places | set(tree.data.glob("ct_transfer_syntaxes/*.dcm*"))):
+    for place in sorted(places | {*tree.data.glob("ct_transfer_syntaxes/*.dcm*")}):
         name = str(place.relative_to(tree.data)).replace("/", "-")
         _tell(f"  {name}")
         tree.write(f"dicom/{name}.txt", *_series(tree, place))
@@ -253,7 +243,7 @@ def _series(tree: Tree, place: Path) -> Iterator[Outcome | str]:
     if place.is_file():
         return
     yield tree.acus("ct", "list", place)
-    for series in listing.facts.get("series", ()):
+    for series in listing.rows("series"):
         if "CT" not in str(series.get("modality", "CT")):
             continue
         asked = ("ct", "digest", place, "--series", str(series.get("key", series.get("uid"))))
@@ -263,38 +253,24 @@ def _series(tree: Tree, place: Path) -> Iterator[Outcome | str]:
                 yield tree.acus(*asked, "--remedy", remedy, "--json")
     if place.parent.name != "ct_cases":
         return
-    others = sorted(path for path in place.glob("*.dcm") if (place / "ct").is_dir())
-    for path in others:
+    for path in sorted(place.glob("*.dcm")) if (place / "ct").is_dir() else ():
         yield tree.acus("structures", "list", path, "--ct", place / "ct", "--json")
     yield tree.acus("ct", "import", place, "--json")
-    library = tree.scratch / "acus_data"
+    library = tree.scratch / "data"
     yield from _digests(library, "*.dcm")
     shutil.rmtree(library, ignore_errors=True)
-    library.mkdir()
 
 
 def _fix_key(tree: Tree) -> None:
-    settings = tree.scratch / "settings"
-    settings.mkdir(exist_ok=True)
-    (settings / "privacy.key").write_bytes(KEY)
-
-
-def pseudonyms(tree: Tree) -> None:
-    """Write the pseudonyms of some identities."""
-    _fix_key(tree)
-    tree.write("pseudonyms.txt", tree.inside("pseudonyms"))
-
-
-def wire(tree: Tree) -> None:
-    """Write the bytes of both protocols, and what the examples of the page decode to."""
-    tree.write("wire.txt", tree.inside("wire", tree.root / "docs" / "protocol.md"))
+    (tree.scratch / "settings").mkdir(exist_ok=True)
+    (tree.scratch / "settings" / "privacy.key").write_bytes(KEY)
 
 
 def exercises(tree: Tree) -> None:
     """Write the schema of exercises, and each shipped one as it is listed and explained."""
     tree.write("exercises/schema.json", tree.acus("exercise", "schema").out)
     listing = tree.acus("exercise", "list", "--json")
-    names = [str(one.get("id", one.get("name"))) for one in listing.facts.get("exercises", ())]
+    names = [str(one.get("id", one.get("name"))) for one in listing.rows("exercises")]
     tree.write("exercises/all.txt", listing, tree.acus("exercise", "list"))
     for name in names:
         _tell(f"  {name}")
@@ -306,32 +282,29 @@ def exercises(tree: Tree) -> None:
         )
 
 
-def commands(tree: Tree) -> None:
-    """Write the tree of commands with all options."""
-    tree.write("help.txt", tree.inside("commands"))
-
-
 def window(tree: Tree) -> None:
     """Write menus, shortcuts, panels and pages of the window, by role."""
     for state in ("open", "exercise", "guarded"):
         _tell(f"  {state}")
-        for folder in ("acus_data", "records", "settings"):
+        for folder in ("data", "records", "settings"):
             shutil.rmtree(tree.scratch / folder, ignore_errors=True)
-        tree.write(f"window/{state}.txt", tree.inside("window", state))
+        tree.write(f"window/{state}.txt", tree.script("window", state))
 
 
-def plugins(tree: Tree) -> None:
-    """Write everything that declares itself, what the commands list of it, and the version."""
+def program(tree: Tree) -> None:
+    """Write version, commands, plug-ins, pseudonyms, and the bytes of both protocols."""
+    _fix_key(tree)
     tree.write("version.txt", tree.acus("--version"))
-    asked = [("plugin", "list"), ("law", "list"), ("study", "list"), ("device", "list")]
-    lists = [tree.acus(*words, *form) for words in asked for form in ((), ("--json",))]
-    tree.write("plugins/lists.txt", *lists)
-    tree.write("plugins/declared.txt", tree.inside("declared", tree.root))
+    tree.write("help.txt", tree.script("inside", "commands"))
+    asked = [(noun, "list", *form) for noun in LISTED for form in ((), ("--json",))]
+    tree.write("plugins/lists.txt", *(tree.acus(*words) for words in asked))
+    tree.write("plugins/declared.txt", tree.script("inside", "declared", tree.root))
+    tree.write("pseudonyms.txt", tree.script("inside", "pseudonyms"))
+    tree.write("wire.txt", tree.script("inside", "wire", tree.root / "docs" / "protocol.md"))
 
 
 PARTS: Final[dict[str, Callable[[Tree], None]]] = {
-    part.__name__: part
-    for part in (commands, plugins, records, pseudonyms, wire, exercises, window, dicom)
+    part.__name__: part for part in (program, records, exercises, window, dicom)
 }
 
 
@@ -391,12 +364,11 @@ def compare(before: Path, after: Path) -> int:
     """Print what differs between two folders; return 0 where nothing does, else `DIFFERENT`."""
     unequal = list(differences(before, after))
     for name, lines in unequal:
-        more = len(lines) - FIRST_LINES
         _tell(f"≠ {name}")
         for line in lines[:FIRST_LINES]:
             _tell(f"    {line[:200]}")
-        if more > 0:
-            _tell(f"    … and {more} more lines")
+        if len(lines) > FIRST_LINES:
+            _tell(f"    … and {len(lines) - FIRST_LINES} more lines")
     total = len(set(_files(before)) | set(_files(after)))
     _tell(f"{len(unequal)} of {total} files differ" if unequal else f"equal: {total} files")
     return DIFFERENT if unequal else 0
@@ -404,8 +376,9 @@ def compare(before: Path, after: Path) -> int:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Write or compare."""
-    parser = argparse.ArgumentParser(prog="python -m tools.unchanged", description=__doc__)
-    parser.formatter_class = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(
+        prog="python -m tools.unchanged", description="Write what must stay equal; compare."
+    )
     verbs = parser.add_subparsers(dest="verb", required=True)
     writing = verbs.add_parser("write", help="describe the tree")
     writing.add_argument("folder", type=Path)
