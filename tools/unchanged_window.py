@@ -69,8 +69,8 @@ def window(state: str) -> Iterator[str]:
         yield shown.windowTitle()
         yield from _menus(shown)
     else:
-        for role, signed in (("nobody", (None, False)), ("student", (student, False)),
-                             ("instructor", (None, True))):  # fmt: skip
+        roles = {"nobody": (None, False), "student": (student, False), "instructor": (None, True)}
+        for role, signed in roles.items():
             access.sign_in(*signed)
             settle()
             yield f"=== {role}: {shown.windowTitle()}"
