@@ -109,7 +109,7 @@ def _leave_shapes_out() -> None:
 _leave_shapes_out()
 
 
-class _Counter(event.Listener):
+class _KernelCounter(event.Listener):
     """Counts what is compiled, not what is loaded."""
 
     def on_start(self, event: Any) -> None:
@@ -120,7 +120,7 @@ class _Counter(event.Listener):
         COMPILED.add()
 
 
-event.register("numba:compile", _Counter())
+event.register("numba:compile", _KernelCounter())
 
 
 def stage(function: StageFunction) -> StageFunction:
