@@ -49,7 +49,7 @@ def test_no_identifier_of_a_ct_reaches_anything_that_is_written(tmp_path, capfd,
     )
     imported = json.loads(acus.apart("app", "ct", "import", source, "--json=1"))
     acus("ct", "import", source)
-    acus("ct", "library", "--json=1")
+    acus("library", "list", "--json=1")
     acus("ct", "list", imported["folder"], "--json=1")
     acus("ct", "point", imported["folder"], "--voxel", "3,4,5", "--json=1")
     out = tmp_path / "inside" / "out"

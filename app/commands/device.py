@@ -34,7 +34,6 @@ def register(app: typer.Typer) -> None:
     group = Commands(help="Robots on serial ports.")
     group.command("list")(list_ports)
     group.command("show")(show)
-    group.command("info", hidden=True)(show)
     group.command("test")(measure)
     group.command("calibrate")(calibrate)
     group.command("emulate")(emulate)

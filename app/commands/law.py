@@ -12,7 +12,6 @@ app = Commands(help="The force laws, the program's and your own.")
 def register(root: typer.Typer) -> None:
     """Add the group."""
     root.add_typer(app, name="law")
-    root.command("laws", hidden=True)(list_laws)
 
 
 @app.command("list")

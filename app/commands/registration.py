@@ -57,7 +57,6 @@ def check(
 
 
 @plates.command("list")
-@app.command("plates", hidden=True)
 def list_plates() -> Answer:
     """List the plates that come with the program."""
     from app.planning.registration.plate import load_plate, plate_names

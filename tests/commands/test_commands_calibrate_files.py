@@ -1,4 +1,4 @@
-"""`acus calibrate list|show|use|undo|redo|condemn|export|import|board`."""
+"""`acus calibrate list|show|use|undo|redo|reject|export|import|print`."""
 
 import json
 import sys
@@ -39,7 +39,7 @@ def kept() -> CalibrationHistory:
 def test_the_list_says_which_is_in_use_and_which_was_found_bad(acus, kept) -> None:
     assert acus("list") == (0, acus("list")[1])
     assert "* cal-two" in acus("list")[1]
-    assert acus("condemn", "cal-two", "--why", "camera bumped")[1].strip() == "in use: cal-one"
+    assert acus("reject", "cal-two", "--why", "camera bumped")[1].strip() == "in use: cal-one"
     text = acus("list")[1]
     assert "* cal-one" in text
     assert "FOUND BAD: camera bumped" in text
@@ -122,13 +122,13 @@ def test_a_board_is_written_as_pdf_and_an_ambiguous_one_is_said_to_be_so(
     acus, tmp_path: Path
 ) -> None:
     path = tmp_path / "board.pdf"
-    code, text = acus("board", "--board", "checkerboard:7x5:25mm", "--out", str(path))
+    code, text = acus("print", "--board", "checkerboard:7x5:25mm", "--out", str(path))
     assert code == 0
     assert "half a turn" in text
     assert path.read_bytes().startswith(b"%PDF")
-    document = json.loads(acus("board", "--out", str(path), "--json=1")[1])
+    document = json.loads(acus("print", "--out", str(path), "--json=1")[1])
     assert document["pattern_mm"] == [180.0, 120.0]
-    code, text = acus("board", "--board", "checkerboard:7x5:60mm", "--out", str(path))
+    code, text = acus("print", "--board", "checkerboard:7x5:60mm", "--out", str(path))
     assert code == 2
     assert "does not fit on A4" in text
-    assert acus("board", "--out", str(tmp_path / "b.png"))[0] == 2
+    assert acus("print", "--out", str(tmp_path / "b.png"))[0] == 2

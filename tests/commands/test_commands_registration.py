@@ -1,4 +1,4 @@
-"""`acus registration check | plates | list`."""
+"""`acus registration check | list` and `acus plate list`."""
 
 import json
 from pathlib import Path
@@ -10,8 +10,8 @@ from app.__main__ import main
 from app.planning.registration.plate import load_plate
 
 
-def run(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> int:
-    monkeypatch.setattr("sys.argv", ["acus", "registration", *arguments])
+def run(monkeypatch: pytest.MonkeyPatch, *arguments: str, noun: str = "registration") -> int:
+    monkeypatch.setattr("sys.argv", ["acus", noun, *arguments])
     try:
         main()
     except SystemExit as stop:
@@ -70,7 +70,7 @@ def test_a_bad_target_is_named(tmp_path, monkeypatch, capsys, target):
 
 
 def test_plates_are_listed(monkeypatch, capsys):
-    assert run(monkeypatch, "plates", "--json=1") == 0
+    assert run(monkeypatch, "list", "--json=1", noun="plate") == 0
     assert json.loads(capsys.readouterr().out)[0]["name"] == "stepped-plate"
 
 
