@@ -65,7 +65,7 @@ def list_ports() -> Answer:
         )
     lines.append("profiles:")
     lines += [f"  {p['name']:<12} {p['protocol']}, {p['description']}" for p in profiles]
-    return Answer({"ports": rows, "profiles": profiles}, lines, first_form=rows)
+    return Answer({"ports": rows, "profiles": profiles}, lines)
 
 
 def show(port: Port, profile: Profile = "icube") -> Answer:

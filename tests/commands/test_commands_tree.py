@@ -147,18 +147,6 @@ def test_json_is_one_object_of_the_root_form(name, monkeypatch, capsys, tmp_path
     assert code == {None: 0, True: 0, False: 3}[found["answer"]]
 
 
-def test_the_first_form_of_the_json_is_read_still(monkeypatch, capsys):
-    code, out, _ = acus(monkeypatch, capsys, "pen", "list", "--json=1")
-    assert code == 0
-    assert {"name", "description", "tip"} == set(json.loads(out)[0])
-
-
-def test_a_form_that_there_is_not_names_those_that_there_are(monkeypatch, capsys):
-    code, out, err = acus(monkeypatch, capsys, "pen", "list", "--json=9")
-    assert (code, out) == (2, "")
-    assert err == "acus: --json=9: the forms are 1 and 2\n"
-
-
 def test_no_command_is_hidden():
     assert [path for path, one in TREE.items() if one.hidden] == []
 
