@@ -26,7 +26,7 @@ NEEDS_MORE = {
     "pen calibrate", "registration check", "session compare", "session replay", "session show",
     "session verify", "structures distance", "structures export", "structures list",
     "transform export", "transform show", "urdf import", "camera test", "library remove",
-    "course save", "course show", "people add", "people assign", "people erase",
+    "course save", "course show", "people add", "people erase",
     "people instructor", "people pin", "people remark", "people roster", "results curve",
     "results export", "session delete", "session restore", "store restore",
 }  # fmt: skip
