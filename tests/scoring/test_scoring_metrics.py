@@ -42,10 +42,10 @@ def test_a_file_that_is_no_metric_cannot_be_used_and_says_why(
 ) -> None:
     folder = tmp_path / "extra"  # type: ignore[operator]
     folder.mkdir()
-    (folder / "half_a_metric.py").write_text('NAME = "half_a_metric"\n')
+    (folder / "half_a_metric.py").write_text("x = 1\n")
     monkeypatch.setattr(metrics, "__path__", [*metrics.__path__, str(folder)])
     fault = metrics.available()["half_a_metric"].fault
-    assert "half_a_metric.py is not a metric: it has no LABEL" in fault
+    assert "half_a_metric.py has no DECLARATION" in fault
 
 
 @pytest.mark.parametrize("name", NAMES)
