@@ -38,8 +38,6 @@ def commands(group=None, path=()):
     """Every command of the program: its words and what it is."""
     group = typer.main.get_command(build()) if group is None else group
     for name, command in group.commands.items():
-        if command.hidden:  # a name from before
-            continue
         if hasattr(command, "commands"):
             yield from commands(command, (*path, name))
         else:

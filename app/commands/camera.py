@@ -28,7 +28,6 @@ def register(app: typer.Typer) -> None:
     group.command("list")(list_cameras)
     group.command("use")(use)
     group.command("test")(examine)
-    group.command("show", hidden=True)(examine)
     group.command("aim")(aim)
     group.command("latency")(latency)
     app.add_typer(group, name="camera")

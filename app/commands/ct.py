@@ -175,18 +175,6 @@ def remove(name: Annotated[str, typer.Argument(metavar="NAME", help="Which CT.")
     return list_entries()
 
 
-@app.command("library", hidden=True)
-def list_or_remove(
-    remove: Annotated[str | None, typer.Option(metavar="NAME", help="Delete this CT.")] = None,
-) -> Answer:
-    """List the CTs of the library, or delete one."""
-    from app.imaging.library import CtLibrary
-
-    if remove is not None:
-        CtLibrary().remove(remove)
-    return list_entries()
-
-
 def imported_answer(imported: "Imported") -> Answer:
     """Return what `acus ct import`, `acus pacs get` and `acus pacs move` have taken in."""
     return Answer(_imported(imported), _imported_lines(imported))

@@ -92,7 +92,7 @@ def distance(
         through = f", {one.through_mm:.1f} mm inside" if one.through_mm else ""
         where = f"at depth {one.depth_mm:.1f} mm{through}"
         lines.append(f"{one.structure.name}  {far}  {where}  {one.nearness}")
-    return Answer({"structures": rows}, lines, first_form=rows)
+    return Answer({"structures": rows}, lines)
 
 
 def _notes(structures: "StructureSet") -> list[str]:

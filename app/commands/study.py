@@ -146,4 +146,4 @@ def _list() -> Answer:
             title, question = name, f"cannot be used: {error}"
         rows.append({"name": name, "title": title, "question": question})
     lines = [f"{row['name']:24} {row['question']}" for row in rows]
-    return Answer({"studies": rows}, lines, first_form=rows)
+    return Answer({"studies": rows}, lines)

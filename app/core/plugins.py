@@ -142,8 +142,6 @@ class PluginKind(Generic[D]):
         package: whose folders hold such files; empty if they are found otherwise.
         folder: name of the user's own folder; empty if there is none.
         functions: that a file must define at its top level.
-        older: rewrites what a file of an earlier form says into this form; None leaves a file
-            without a declaration refused.
         spared: key of a declaration that spares a file, where it is true, these functions.
         marks: a file of the program's folder counts only if one of these is in it; empty: all do.
     """
@@ -156,7 +154,6 @@ class PluginKind(Generic[D]):
     folder: str = ""
     functions: tuple[str, ...] = ()
     spared: str = ""
-    older: Callable[[Path, PluginText], PluginText] | None = None
     marks: tuple[bytes, ...] = ()
     optional: Mapping[str, Field] = field(default_factory=lambda: MappingProxyType({}))
 
@@ -352,12 +349,10 @@ class PluginText(NamedTuple):
     Attributes:
         document: the literal; None if there is none.
         lines: key, or the name of a parameter, -> line on which its value stands.
-        body: the statements of the file.
     """
 
     document: dict[str, Any] | None
     lines: Mapping[str, int]
-    body: list[ast.stmt]
 
 
 def read_statements(path: Path) -> list[ast.stmt]:
@@ -373,8 +368,6 @@ def read_statements(path: Path) -> list[ast.stmt]:
 def _read(kind: PluginKind[Any], path: Path, text: str) -> Any:
     body = ast.parse(text, str(path)).body
     source = _literal(kind, body, path)
-    if kind.older is not None:
-        source = kind.older(path, source)
     if source.document is None:
         raise kind.error(f"{path} has no {_NAME} = {{...}}; see 'How to add {kind.noun}'")
     given = set(source.document) - set(kind.optional)
@@ -412,8 +405,8 @@ def _literal(kind: PluginKind[Any], body: list[ast.stmt], path: Path) -> PluginT
                     f"{path}, line {node.lineno}: {_NAME} is not a literal: {reason}"
                 ) from reason
             if isinstance(document, dict) and isinstance(node.value, ast.Dict):
-                return PluginText(document, {"": node.lineno, **_lines(node.value)}, body)
-    return PluginText(None, {}, body)
+                return PluginText(document, {"": node.lineno, **_lines(node.value)})
+    return PluginText(None, {})
 
 
 def _lines(node: ast.Dict) -> dict[str, int]:

@@ -315,7 +315,6 @@ def _described(
         pseudonym=first.identity.pseudonym,
         frame_of_reference=_shared_frame(headers),
         windows=first.windows,
-        former=first.identity.former,
         part=group.part,
         remedy=verdict.remedy,
         notes=(*verdict.notes, *_frame_notes(headers)),

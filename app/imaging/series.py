@@ -47,7 +47,6 @@ class Series:
         pseudonym: stands for patient and study.
         frame_of_reference: FrameOfReferenceUID; empty where the files do not share one.
         windows: (width, level) pairs of the files [HU].
-        former: pseudonym that earlier versions gave, to find old records by; never written.
         part: which pass of the series, such as "acquisition-2"; empty where it is all of it.
         remedy: what makes a refused series readable on request, or a usable one better.
         notes: what a reader should know though it keeps nothing from being read.
@@ -70,7 +69,6 @@ class Series:
     pseudonym: str
     frame_of_reference: str
     windows: tuple[tuple[float, float], ...]
-    former: str = ""
     part: str = ""
     remedy: Remedy = Remedy.NONE
     notes: tuple[str, ...] = ()

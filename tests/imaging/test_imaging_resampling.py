@@ -211,10 +211,10 @@ def test_the_command_reads_on_request_and_says_so(tmp_path, monkeypatch, capsys)
 
     field = Field(offsets=(0.0, 2.0, 4.0, 6.3, 8.0))
     field.write(tmp_path)
-    arguments = ("point", tmp_path, "--voxel", "3,2,3", "--json=1")
+    arguments = ("point", tmp_path, "--voxel", "3,2,3", "--json")
     code, out, error = run(monkeypatch, capsys, *arguments, "--remedy", "resample")
     assert code == 0
-    answer = json.loads(out)
+    answer = json.loads(out)["facts"]
     assert answer["lps_mm"] == pytest.approx([-18.5, 31.6, -94.0])
     assert answer["hu"] == pytest.approx(3.0 * 0.5 * 2 - 2 * 0.8 * 3 + 6.0 * 5, abs=1.01)
     assert "resampled from slices 1.7 to 2.3 mm apart" in error

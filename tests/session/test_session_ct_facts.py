@@ -36,7 +36,7 @@ def test_a_damaged_record_tells_what_it_can(change: dict[str, str]) -> None:
     assert read.recipe is None or "made" in change
 
 
-def test_a_record_of_an_older_version_does_not_know_how_the_ct_was_read() -> None:
+def test_a_record_that_does_not_say_it_does_not_know_how_the_ct_was_read() -> None:
     read = CtFacts.of_metadata({"pseudonym": "CT-0A7961D5"})
     assert read == CtFacts("CT-0A7961D5")
     assert read.document()["remedy"] is None

@@ -462,11 +462,11 @@ def test_it_plays_to_the_end_is_scored_and_counts_for_nobody(real, settle) -> No
     assert totals_of(folder, "S1", one.exercise, one.version) == []
     item = CourseItem(exercise=one.exercise, version=one.version)
     assert attempts_used([one], item) == []
-    student = Person("p-1", "S1", ())
-    whole = progress_board([student], [item], [one], {"S1": "p-1"}, {}, datetime.now(UTC))
-    cell = whole.cells["p-1", one.exercise]
+    student = Person("S1", "Ada", ())
+    whole = progress_board([student], [item], [one], {}, datetime.now(UTC))
+    cell = whole.cells["S1", one.exercise]
     assert (cell.attempts, cell.best, dict(cell.why)) == (0, None, {"carried out by the arm": 1})
-    assert whole.curve("p-1", one.exercise) == []
+    assert whole.curve("S1", one.exercise) == []
     (row,) = csv.DictReader(io.StringIO(score_table([fresh_summary(path)])))
     assert row["hand"] == "arm"
     assert row["taken_over"] == ""

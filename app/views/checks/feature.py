@@ -227,7 +227,7 @@ class ChecksFeature(Feature):
             return
         self._looked, volume, self._known = True, self.volume(), seen.uncertainty_known
         ct = volume.series if volume is not None else None
-        names = () if ct is None else (ct.pseudonym, ct.former, ct.frame)
+        names = () if ct is None else (ct.pseudonym, ct.frame)
         try:
             record = Registrations.own().newest(seen.calibration, seen.rig, not run.is_real, *names)
             if record is not None:

@@ -524,7 +524,7 @@ class ScanPictures(QObject):
             ct = volume
             if recipe is not None and recipe != volume.recipe:  # the scan was of a mended one
                 ct = read_again(volume.series, recipe, progress)
-            return scan_image(ct, scan.order, scan.needle, bool(scan.streak), scan.shift_mm)
+            return scan_image(ct, scan.order, scan.needle, scan.streak, scan.shift_mm)
 
         run_in_background(
             self,

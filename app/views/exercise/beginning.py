@@ -512,8 +512,7 @@ def attempts_left(
     index = Index(folder)
     index.refresh()
     people = People()
-    texts = [text for text, key in people.keys().items() if key == student.key]
-    own = not_void(index.attempts(texts), people.remarks())
+    own = not_void(index.attempts([student.key]), people.remarks())
     refusal = why_not(course, exercise.id, own, today, titles)
     return AttemptsLeft(item.attempts, len(attempts_used(own, item)), course.title, refusal)
 
