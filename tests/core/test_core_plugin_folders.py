@@ -115,6 +115,40 @@ def test_a_machine_of_a_folder_is_one_of_the_kinds_and_imported_as_its_package_h
     assert device.profile_class("claw", "x").__module__ == "somebody_s_claw.machines.claw.profile"
 
 
+def test_an_exercise_of_a_folder_is_in_the_library(foreign):
+    from app.core import paths
+    from app.exercises.library import library
+
+    text = (paths.resources() / "exercises" / "first-insertion.yaml").read_text(encoding="utf-8")
+    path = write(
+        foreign / "exercises" / "claw.yaml", text.replace("id: first-insertion", "id: claw")
+    )
+    assert library().files["claw"] == path
+
+
+def test_a_feature_of_a_folder_stands_behind_the_one_that_it_names(foreign):
+    from app.core.errors import ConfigurationError
+    from app.views.shell import feature_plugins
+    from app.views.shell.features import FEATURES
+
+    write(foreign / "features" / "__init__.py", "")
+    text = (
+        "from app.views.shell.feature import Feature\n\n"
+        'DECLARATION = {"title": "Claw", "after": "people", "help": "claw.md"}\n\n\n'
+        "class ClawFeature(Feature):\n    pass\n\n\nFEATURE = ClawFeature\n"
+    )
+    path = write(foreign / "features" / "claw.py", text)
+    base = tuple(one for one in FEATURES if one.__module__.startswith("app.views."))
+    found = feature_plugins.with_plugins(base)
+    assert found[-1].__name__ == "ClawFeature"
+    assert set(FEATURES) < set(found)
+    assert feature_plugins.page_of_plugin("somebody_s_claw.features.claw") == "claw.md"
+    assert feature_plugins.page_of_plugin("app.views.plan.feature") == ""
+    path.write_text(text.replace("people", "nowhere"), encoding="utf-8")
+    with pytest.raises(ConfigurationError, match="after is 'nowhere'; valid are series, plan"):
+        feature_plugins.with_plugins(base)
+
+
 def test_a_command_of_a_folder_is_added_to_the_command_line(foreign):
     from app.commands import build
 
