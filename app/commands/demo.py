@@ -1,7 +1,7 @@
 """`acus demo`: a whole exercise shown by a scripted trainee, or by whom a plug-in adds.
 
-A file in `demonstrations/` of a folder of plug-ins declares itself in a literal `DECLARATION` and
-defines three functions:
+A file in `demonstrations/` of a folder of plug-ins declares itself in a literal `DECLARATION`
+(`title`; `help` for `--device`; `about`, a paragraph for `--help`) and defines three functions:
 
     prepare(exercise, simulated, tell)  refuses what it cannot show; imports what it needs
     alone(seed, folder, tell)           shows what the window does not, without a display;
@@ -11,8 +11,9 @@ defines three functions:
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import ast
 from enum import StrEnum
+from importlib import import_module
 from inspect import cleandoc
 from pathlib import Path
 from types import ModuleType
@@ -21,8 +22,8 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 
 from app.commands import completion
-from app.core.errors import AcusError, ConfigurationError
-from app.core.plugins import TEXT, Declaration, PluginKind
+from app.core import plugin_folders
+from app.core.errors import AcusError
 
 if TYPE_CHECKING:
     from app.exercises.schema import Exercise
@@ -46,43 +47,32 @@ class SkillName(StrEnum):
     EXPERT = "expert"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class DeclaredDemonstration(Declaration):
-    """What a demonstration says about itself.
-
-    Attributes:
-        help: what it is, for `--device`.
-        about: a paragraph for `acus demo --help`.
-    """
-
-    help: str
-    about: str
+def _declared(path: Path) -> dict[str, str]:
+    """Read what a demonstration says about itself as text: `acus --help` imports nothing heavy."""
+    for node in ast.parse(path.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
+            target = node.target if isinstance(node, ast.AnnAssign) else node.targets[0]
+            if ast.unparse(target) == "DECLARATION":
+                document: dict[str, str] = ast.literal_eval(node.value)
+                return document
+    return {}
 
 
-KIND: Final[PluginKind[DeclaredDemonstration]] = PluginKind(
-    noun="a demonstration",
-    declares=DeclaredDemonstration,
-    fields={"title": TEXT, "help": TEXT, "about": TEXT},
-    error=ConfigurationError,
-    folder="demonstrations",
-    functions=("prepare", "alone", "leader"),
-)
-"""`demonstrations/` of folders of plug-ins: who shows an exercise in place of the trainee."""
-
-_OTHERS: Final = tuple(KIND.find(name) for name in KIND.names())
 _OWN: Final = "pantograph"
+_OTHERS: Final = {path.stem: _declared(path) for path in plugin_folders.files("demonstrations")}
 
 DemoDevice = StrEnum(  # type: ignore[misc]  # its names are those of the files
-    "DemoDevice", {one.upper(): one for one in (_OWN, *(other.name for other in _OTHERS))}
+    "DemoDevice", {name.upper(): name for name in (_OWN, *_OTHERS)}
 )
 """Machines that a demonstration shows."""
 
 _DEVICE: Final = DemoDevice(_OWN)
+_HELP: Final = " ".join(f"{name}: {said.get('help', '')}" for name, said in _OTHERS.items())
 
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    about = (cleandoc(demo.__doc__ or ""), *(other.about for other in _OTHERS))
+    about = (cleandoc(demo.__doc__ or ""), *(said.get("about", "") for said in _OTHERS.values()))
     app.command("demo", help="\n\n".join(about))(demo)
 
 
@@ -115,7 +105,9 @@ def demo(
     ] = False,
     device: Annotated[
         DemoDevice,
-        typer.Option(help=" ".join(f"{one.name}: {one.help}" for one in _OTHERS)),
+        typer.Option(
+            help=" ".join(f"{one}: {said.get('help', '')}" for one, said in _OTHERS.items())
+        ),
     ] = _DEVICE,
 ) -> None:
     """Show a whole exercise, from the plan to the debrief.
@@ -125,7 +117,7 @@ def demo(
     from app.exercises.library import load_exercise
 
     shown = load_exercise(exercise)
-    other = None if device.value == _OWN else KIND.load(KIND.find(device.value))
+    other = None if device.value == _OWN else _demonstration(device.value)
     if other is not None:
         other.prepare(shown, cameras == "simulated" and not pen, typer.echo)
     from app.views.shell.application import has_display
@@ -137,6 +129,11 @@ def demo(
         _show_alone(other, seed, folder)
     leader = None if other is None else other.leader
     _show(ct, shown, hidden, folder, seed, skill, cameras, pen, leader)
+
+
+def _demonstration(name: str) -> ModuleType:
+    found = (f.module_name(p) for f in plugin_folders.folders() for p in f.files("demonstrations"))
+    return import_module(next(one for one in found if one.rpartition(".")[2] == name))
 
 
 def _show_alone(other: ModuleType, seed: int, folder: Path) -> None:

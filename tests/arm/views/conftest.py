@@ -38,8 +38,12 @@ __all__ = [
 
 @pytest.fixture(autouse=True)
 def carrying(monkeypatch):
-    """What the arm was asked for; `cannot` is raised, and it waits where `waits` is cleared."""
-    asked = SimpleNamespace(carried=[], cannot=None, waits=threading.Event())
+    """What the arm was asked for; `cannot` is raised; it waits where `waits` is cleared.
+
+    `really` is what the arm itself does.
+    """
+    really = ArmFeature.carry_out
+    asked = SimpleNamespace(carried=[], cannot=None, waits=threading.Event(), really=really)
     asked.waits.set()
 
     def carry_out(placed, seed, stands_deg, progress):

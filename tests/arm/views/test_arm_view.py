@@ -543,10 +543,10 @@ def test_stopped_in_the_body_the_attempt_is_kept_as_broken_off_and_no_debrief_op
 
 
 @pytest.mark.long("journey")
-def test_the_arm_of_the_scene_does_it_to_the_end(real, settle) -> None:
+def test_the_arm_of_the_scene_does_it_to_the_end(real, settle, carrying, monkeypatch) -> None:
     for package in ("mujoco", "ompl", "ruckig"):
         pytest.importorskip(package, reason="needs the extra arm: make extra NAME=arm")
-    real.services.carry_out = real.services.desktop.carry_out
+    monkeypatch.setattr(ArmFeature, "carry_out", staticmethod(carrying.really))
     arm, said, results = real.feature(ArmFeature), [], []
     arm.failed.connect(said.append)
     real.conductor.controller.finished.connect(results.append)
