@@ -4,7 +4,7 @@ Changed is what differs from a commit (the last one, if none is named), and what
 yet. A change in a module of `app` reaches the modules that import it, in its own layer and the ones
 above, and the tests that import any of these, by themselves, by a helper or by a `conftest.py`
 above them. A module may be found by being there (an effect, a metric, a feature of the window): who
-imports its package is reached too. A test that starts programs is reached by whatever `acus` is
+imports its package is reached too, and of a folder of plug-ins who looks for files of its kind. A test that starts programs is reached by whatever `acus` is
 made of. Anything else that lies in the checkout is read by whoever likes, and reaches every test;
 pages reach their own.
 """
@@ -16,6 +16,8 @@ from collections.abc import Iterable, Mapping, Set
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from app.core.plugin_folders import APP, folders
 
 if TYPE_CHECKING:
     from grimp import ImportGraph
@@ -89,8 +91,33 @@ def reached_modules(changed: Set[str]) -> set[str]:
             while "." in package:
                 waiting += {package} | _files_in(graph, package)
                 package = package.rpartition(".")[0]
-        waiting += importers
+        waiting += importers | _finders(name)
     return reached
+
+
+def _finders(name: str) -> set[str]:
+    """Return who finds a module of a folder of plug-ins by the kind of its file."""
+    for folder in folders():
+        kind, _, file = name.removeprefix(f"{folder.package}.").partition(".")
+        if file and name.startswith(f"{folder.package}."):
+            return {
+                module
+                for module, text in _looking().items()
+                if f'"{kind}"' in text and not module.startswith(f"{folder.package}.")
+            }
+    return set()
+
+
+@cache
+def _looking() -> Mapping[str, str]:
+    """Return the text of every module above `core` that looks into folders of plug-ins."""
+    above = (path for path in APP.rglob("*.py") if not path.is_relative_to(APP / "core"))
+    texts = {path: path.read_text(encoding="utf-8") for path in above}
+    return {
+        _module(path.relative_to(ROOT).as_posix()): text
+        for path, text in texts.items()
+        if "plugin_folders" in text or "PluginKind(" in text
+    }
 
 
 @cache

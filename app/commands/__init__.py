@@ -1,8 +1,8 @@
 """The command line: one file per noun; each parses, calls one room and returns an `Answer`.
 
-A file named in `NOUNS` exposes `register(root)`, which adds its commands; names that a command had
-before stay beside the new one, hidden. Rooms are imported inside the commands, so that
-`acus --help` is instant.
+A file named in `NOUNS`, and every file in `commands/` of a folder of plug-ins, exposes
+`register(root)`, which adds its commands; names that a command had before stay beside the new one,
+hidden. Rooms are imported inside the commands, so that `acus --help` is instant.
 """
 
 from importlib import import_module
@@ -12,6 +12,7 @@ import typer
 
 from app import __version__
 from app.commands.answer import Commands
+from app.core import plugin_folders
 
 NOUNS = (
     *("run", "demo", "check", "ct", "pacs", "structures", "transform", "session"),
@@ -31,6 +32,8 @@ def build() -> typer.Typer:
     root.callback()(_options)
     for noun in NOUNS:
         import_module(f"{__name__}.{noun}").register(root)
+    for added in plugin_folders.modules("commands"):
+        added.register(root)
     return root
 
 

@@ -50,7 +50,7 @@ def list_exercises() -> Answer:
                 "level": one.level,
                 "title": one.title,
                 "purpose": one.purpose.value,
-                "shipped": path.parent == folders()[0],
+                "shipped": path.parent != folders()[1],
                 "file": str(path),
             }
         )

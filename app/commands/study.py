@@ -72,9 +72,9 @@ def study(
     else:
         result = run(chosen, repeats, lend=lent)
     if write and isinstance(result, Result):
-        from app.studies.kept import folder, keep
+        from app.studies.kept import keep, place
 
-        typer.echo(f"wrote {keep(result, repeats, folder() / f'{name}.json')}", err=True)
+        typer.echo(f"wrote {keep(result, repeats, place(name))}", err=True)
     data = document(result) if isinstance(result, Result) else survey_document(result)
     if out is not None:
         from app.studies.files import write as write_files
@@ -113,7 +113,7 @@ def _all(out: Path | None, repeats: int, fresh: bool, write: bool, quick: bool) 
     from app.commands.calibrate_parts import with_progress
     from app.core import paths
     from app.studies.batch import Done, StudyOutcome, run_all
-    from app.studies.kept import folder, keep
+    from app.studies.kept import keep, place
     from app.studies.runner import study_names
     from app.studies.study import Result
 
@@ -122,7 +122,7 @@ def _all(out: Path | None, repeats: int, fresh: bool, write: bool, quick: bool) 
     def told(done: Done) -> None:
         typer.echo(f"{done.name}: {done.outcome}{done.text and ': ' + done.text}", err=True)
         if write and isinstance(done.result, Result):
-            keep(done.result, repeats, folder() / f"{done.name}.json")
+            keep(done.result, repeats, place(done.name))
 
     found = with_progress(
         lambda progress: run_all(study_names(), where, repeats, fresh, progress, told, lent, quick)

@@ -15,6 +15,7 @@ from types import MappingProxyType
 from typing import Final
 
 from app import views
+from app.core import plugin_folders
 from app.core.errors import ConfigurationError
 from app.core.plugins import SLOTS, TEXT, Declaration, PluginKind
 from app.simulation.consumers import Consumer
@@ -39,11 +40,11 @@ _MARK: Final = b"\nDECLARATION"
 
 
 @cache
-def declared_views(folder: Path = VIEWS) -> Mapping[str, Consumer]:
+def declared_views(folder: Path | None = None) -> Mapping[str, Consumer]:
     """Return who consumes what among the views, by the name of the view.
 
     Args:
-        folder: searched with all folders in it.
+        folder: searched with all folders in it; None: the program's views and those of plug-ins.
 
     Raises:
         ConfigurationError: naming the file and what is wrong with its declaration, or both files
@@ -51,7 +52,12 @@ def declared_views(folder: Path = VIEWS) -> Mapping[str, Consumer]:
     """
     found: dict[str, Consumer] = {}
     files: dict[str, Path] = {}
-    for path in sorted(folder.rglob("*.py")):
+    places = (VIEWS, *(one.path / "views" for one in plugin_folders.folders()))
+    for path in (
+        path
+        for place in (places if folder is None else (folder,))
+        for path in sorted(place.rglob("*.py"))
+    ):
         if _MARK not in path.read_bytes():
             continue
         declared = KIND.read(path)

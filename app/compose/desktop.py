@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from app.core.arrays import FloatArray
     from app.device.commissioning.bench import Bench
     from app.mechanisms.profile import DeviceProfile
-    from app.simulation.arm.performance import ArmPerformance
     from app.tracking.cameras.settings import CameraSettings
     from app.tracking.inspection import Inspection
     from app.tracking.pen.settings import PenSettings
@@ -179,14 +178,6 @@ class Desktop:
             from app.compose.live_pen import open_live_pen
         progress.report(0.5, "asking the webcam for its first picture")
         return open_live_pen(settings)
-
-    def carry_out(
-        self, placed: PlacedPlan, seed: int, stands_deg: float, progress: Progress
-    ) -> ArmPerformance:
-        """Let the simulated arm carry out a plan; called beside the window, takes seconds."""
-        with turn(progress):  # kernels, MuJoCo and planners: behind the window, not before it
-            from app.compose.arm import carry_out
-        return carry_out(placed, seed, stands_deg, progress)
 
     def open_run(self, setup: RunSetup, progress: Progress) -> DesktopRun:
         """Build and start a trainer; called beside the window, may take seconds."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from app.core import paths
+from app.core import paths, plugin_folders
 from app.core.configuration import line_of, parse_text, read_text
 from app.core.errors import AcusError, ConfigurationError
 from app.exercises.errors import ExerciseError, UnknownExerciseError
@@ -31,7 +31,8 @@ class Library:
     """All exercises; iterating gives those that can be used.
 
     Attributes:
-        exercises: by level; within one, shipped before the user's, then by file name.
+        exercises: by level; within one, shipped and those of plug-ins before the user's, then by
+            file name.
         broken: files that cannot be used: to be shown, not hidden.
         files: where each lies, by its id.
     """
@@ -61,7 +62,10 @@ def library() -> Library:
     found: dict[str, Exercise] = {}
     files: dict[str, Path] = {}
     broken: list[Broken] = []
-    for path in (path for folder in folders() for path in sorted(folder.glob("*.yaml"))):
+    shipped, own = folders()
+    shared = (folder.path / "exercises" for folder in plugin_folders.folders())
+    places = (shipped, *shared, own)
+    for path in (path for place in places for path in sorted(place.glob("*.yaml"))):
         if EARLIER.fullmatch(path.stem):
             continue
         try:

@@ -2,10 +2,8 @@
 
 All are asked the same: the needle pointed at by rings of directions about the vertical, hub 110 mm
 above the remote centre, tip 90 mm below it; the worst direction of each ring counts. A further
-machine is one more entry of `MACHINES`.
-
-The arm's hub is the gripped point of its tool, its remote centre the middle of the skin of its
-scene, and its base stands as in that scene; how the distance of the base matters is a table.
+machine is one more entry of `MACHINES`, or a file in `comparisons/` of a folder of plug-ins that
+defines `COMPARISON`.
 """
 
 from collections.abc import Callable
@@ -16,13 +14,12 @@ from typing import Any, Final
 
 import numpy as np
 
+from app.core import plugin_folders
 from app.core.arrays import FloatArray, cross, unit
 from app.core.compiled import njit
 from app.core.progress import Progress
 from app.core.units import DEGREE, MILLIMETRE
 from app.mechanisms import tensegrity
-from app.mechanisms.arm import ArmSolution, arm_singularity
-from app.mechanisms.arm import kernels as arm_kernels
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.lever import axis_kernel, force_map_kernel, torque_kernel
 from app.mechanisms.pantograph import (
@@ -36,7 +33,6 @@ from app.mechanisms.pantograph.kernels import forward_kernel, jacobian_kernel
 from app.mechanisms.pantograph.profile import load_pantograph
 from app.mechanisms.tensegrity import kernels as guide_kernels
 from app.mechanisms.tensegrity.cable_kernels import hub_torque_kernel, tensions_kernel
-from app.studies.arm_trocar import ArmInTrocar
 from app.studies.findings import Cell, Figure, Findings, Sheet, Survey
 from app.studies.tensegrity import seconds
 
@@ -53,12 +49,6 @@ DEPTH: Final = 0.090
 """From the remote centre to the tip [m]."""
 
 TILTS_DEG: Final = (0.0, 10.0, 20.0, 30.0, 39.0, 45.0)
-STIFFEST: Final = 5000.0
-"""Largest stiffness that the arm's own controller takes for its tool [N/m], as published."""
-
-STANDS: Final = (0.45, 0.6, 0.8, 0.9)
-"""Distances of the arm's base from the remote centre, on the floor [m]."""
-
 _RING: Final = 24
 _TURNS: Final = 36
 _COLOURS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
@@ -96,6 +86,21 @@ class ComparedMachine:
     stiffness: Callable[[FloatArray], float]
     stiff_by: str
     tick: Callable[[], tuple[Callable[[], object], int]]
+
+
+@dataclass(frozen=True, slots=True)
+class ComparedPlugin:
+    """A machine of a folder of plug-ins.
+
+    Attributes:
+        title: what it is, for whoever waits: "the arm".
+        make: makes what is asked of it.
+        more: makes tables and lines of this machine alone.
+    """
+
+    title: str
+    make: Callable[[], ComparedMachine]
+    more: Callable[[], tuple[tuple[Sheet, ...], tuple[str, ...]]]
 
 
 def ring(tilt: float, count: int = _RING) -> FloatArray:
@@ -236,75 +241,20 @@ def _tensegrity() -> ComparedMachine:
     )
 
 
-@njit
-def _arm_often(q: FloatArray, lengths: Any, at: Any, force: FloatArray, out: FloatArray) -> None:
-    rotation, position, moved = np.empty((3, 3)), np.empty(3), np.empty((6, 7))
-    for k in range(len(q)):
-        arm_kernels.forward_kernel(q[k], lengths, rotation, position)
-        arm_kernels.jacobian_kernel(q[k], lengths, at, moved)
-        for j in range(7):
-            out[k, j] = moved[0, j] * force[0] + moved[1, j] * force[1] + moved[2, j] * force[2]
-
-
-def _arm() -> ComparedMachine:
-    held = ArmInTrocar.standing(L_OUT, DEPTH)
-    arm = held.pivot.arm
-    found: dict[bytes, ArmSolution | MechanismError] = {}
-
-    def posture(d: FloatArray) -> FloatArray:
-        key = d.tobytes()  # all quantities of a direction ask for it, and it takes milliseconds
-        if key not in found:
-            try:
-                found[key] = held.posture(d)
-            except MechanismError as error:
-                found[key] = error
-        known = found[key]
-        if isinstance(known, MechanismError):
-            raise known
-        return known.q
-
-    def efforts(d: FloatArray, force: FloatArray) -> FloatArray:
-        return np.asarray(held.hub_jacobian(posture(d)).T @ force)
-
-    def most(d: FloatArray) -> float:
-        q = posture(d)
-        return held.sideways(q, held.hub_jacobian(q), across(d))[0]
-
-    def stiffness(d: FloatArray) -> float:
-        posture(d)
-        return STIFFEST
-
-    def tick() -> tuple[Callable[[], object], int]:
-        poses = np.concatenate([ring(np.deg2rad(tilt)) for tilt in TILTS_DEG])
-        q = np.tile([posture(d) for d in poses], (50, 1))
-        at = tuple(arm.T_wrist_tool.translation.tolist())
-        out, force = np.empty((len(q), 7)), np.array([1.0, -0.5, 0.2])
-        return partial(_arm_often, q, arm.lengths, at, force, out), len(q)
-
-    return ComparedMachine(
-        "arm through a trocar (iiwa14)",
-        "lengths, limits, torques, masses published; encoders assumed; trocar to 60°; nothing in"
-        " the way; what the fingers hold by friction is far less",
-        lambda d: held.turning(posture(d)),
-        lambda d: held.pivot.tip_jacobian(posture(d)),
-        float(np.sqrt(12.0) * arm.resolution),  # a step whose rounding spreads so
-        efforts,
-        "N·m",
-        most,
-        stiffness,
-        "the arm's controller at its stiffest; how far its joints give way is not published",
-        tick,
-    )
-
-
 @cache
 def machines() -> tuple[ComparedMachine, ...]:
     """Return the machines that are compared."""
-    return tuple(make() for make in MACHINES)
+    return tuple(make() for make in (*MACHINES, *(one.make for one in comparisons())))
 
 
-MACHINES: Final[tuple[Callable[[], ComparedMachine], ...]] = (_pantograph, _tensegrity, _arm)
-"""What makes each of them, in the order of the tables."""
+MACHINES: Final[tuple[Callable[[], ComparedMachine], ...]] = (_pantograph, _tensegrity)
+"""What makes each of the program's own, in the order of the tables."""
+
+
+def comparisons() -> tuple[ComparedPlugin, ...]:
+    """Return the machines of folders of plug-ins, which stand after the program's own."""
+    found = (getattr(one, "COMPARISON", None) for one in plugin_folders.modules("comparisons"))
+    return tuple(one for one in found if isinstance(one, ComparedPlugin))
 
 
 def at_tilt(machine: ComparedMachine, tilt: float) -> dict[str, float]:
@@ -452,78 +402,6 @@ def by_turn(machine: ComparedMachine, step_deg: float = 2.5) -> FloatArray:
     )
 
 
-def arm_stands(away: tuple[float, ...] = STANDS) -> Sheet:
-    """Return what the arm holds by how far its base stands from the remote centre."""
-    rows: list[tuple[Cell, ...]] = []
-    scenes = ArmInTrocar.standing(L_OUT, DEPTH).away
-    for distance in sorted((scenes, *away)):
-        held = ArmInTrocar.standing(L_OUT, DEPTH, distance)
-        least_margin, least_dexterity, reached = np.inf, np.inf, []
-        for d in np.concatenate([ring(np.deg2rad(tilt)) for tilt in TILTS_DEG]):
-            try:
-                posture = held.posture(d)
-            except MechanismError:
-                reached.append(False)
-                continue
-            reached.append(True)
-            least_margin = min(least_margin, posture.margin)
-            dexterity = arm_singularity(held.pivot.arm, posture.q).dexterity
-            least_dexterity = min(least_dexterity, dexterity)
-        some = any(reached)
-        rows.append(
-            (
-                f"{distance:.2f}" + (", the scene's" if distance == scenes else ""),
-                100.0 * float(np.mean(reached)),
-                float(np.rad2deg(least_margin)) if some else "-",
-                float(least_dexterity) if some else "-",
-            )
-        )
-    return Sheet(
-        "stands",
-        f"The arm by how far its base stands from the remote centre; tilts to {TILTS_DEG[-1]:g}°",
-        ("distance on the floor [m]", "directions held [%]", "least margin [°]", "dexterity"),
-        tuple(rows),
-    )
-
-
-def arm_by_tilt() -> Sheet:
-    """Return what is asked of the arm alone: what it repeats, forces by its torque limits."""
-    held = ArmInTrocar.standing(L_OUT, DEPTH)
-    rows: list[tuple[Cell, ...]] = []
-    for tilt_deg in TILTS_DEG:
-        found = []
-        for d in ring(np.deg2rad(tilt_deg)):
-            q = held.posture(d).q
-            hub, joint = held.sideways(q, held.hub_jacobian(q), across(d))
-            tip, _ = held.sideways(q, held.pivot.tip_jacobian(q), across(d))
-            weight = float((np.abs(held.weight(q)) / held.pivot.arm.torque).max())
-            found.append((held.repeated(q), hub, tip, weight, joint))
-        worst = min(found, key=lambda row: row[1])
-        rows.append(
-            (
-                tilt_deg,
-                max(row[0] for row in found) / MILLIMETRE,
-                worst[1],
-                worst[4] + 1,
-                min(row[2] for row in found),
-                100.0 * max(row[3] for row in found),
-            )
-        )
-    return Sheet(
-        "arm",
-        "The arm through a trocar: repeatability as published, forces by published torques",
-        (
-            "tilt [°]",
-            "repeatability at the tip [mm]",
-            "force at the gripped point [N]",
-            "ended by joint",
-            "force at the tip [N]",
-            "torque for its own weight [%]",
-        ),
-        tuple(rows),
-    )
-
-
 def draw(figure: Any) -> None:
     """Every quantity by tilt, one line a machine; the tilt that is reached, by turn."""
     tilts = np.arange(0.0, 60.5, 2.5)
@@ -567,9 +445,7 @@ def _measure(progress: Progress | None) -> Findings:
     if progress is not None:
         progress.report(0.3, "by tilt")
     tilts = by_tilt()
-    if progress is not None:
-        progress.report(0.6, "the arm")
-    stands, arm = arm_stands(), arm_by_tilt()
+    sheets = [overview, tilts]
     lines = [
         f"{row[0]}: {row[1]:.1f}° all round, a tick's kinematics {row[3]:.0f} ns."
         for row in overview.rows
@@ -581,12 +457,13 @@ def _measure(progress: Progress | None) -> Findings:
             f"{float(upright[5]):.0f} N/m at the hub by {machine.stiff_by}; "
             f"{float(upright[6]):.1f} N at most, 1 N needs {float(upright[7]):.3g} {machine.unit}."
         )
-    lines.append(
-        f"The arm, upright: its tip repeats to {float(arm.rows[0][1]):.2f} mm by the data sheet's"
-        f" repeatability; {float(arm.rows[0][4]):.0f} N sideways at the tip, its own weight borne."
-    )
-    sheets = (overview, tilts, arm, stands)
-    return Findings(sheets, (Figure("tilts", draw, (16.0, 7.0)),), tuple(lines))
+    for one in comparisons():
+        if progress is not None:
+            progress.report(0.6, one.title)
+        more, said = one.more()
+        sheets += more
+        lines += said
+    return Findings(tuple(sheets), (Figure("tilts", draw, (16.0, 7.0)),), tuple(lines))
 
 
 STUDY: Final = Survey(

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 from pydantic import model_validator
 
 from app import mechanisms
-from app.core import paths
+from app.core import paths, plugin_folders
 from app.core.arrays import FloatArray, frozen
 from app.core.configuration import Strict, parse, parse_yaml, read_text
 from app.core.errors import ConfigurationError
@@ -206,18 +206,32 @@ class DeviceProfile(Strict):
 
 
 def kinds() -> list[str]:
-    """Kinds of machines: the program's own, and folders of the user's own."""
+    """Kinds of machines: the program's own, those of plug-ins, and folders of the user's own."""
     own = str(paths.plugins("mechanisms"))
     if own not in mechanisms.__path__:
         mechanisms.__path__.append(own)
-    return sorted(
-        {path.parent.name for folder in mechanisms.__path__ for path in _profiles_in(folder)}
-    )
+    shared = (folder.path / _SHARED for folder in plugin_folders.folders())
+    places = (*map(Path, mechanisms.__path__), *shared)
+    return sorted({path.parent.name for folder in places for path in _profiles_in(folder)})
 
 
-def _profiles_in(folder: str) -> Iterator[Path]:
-    # The folders of arm and hand have profiles of another kind, and no machine.
-    return (p for p in Path(folder).glob("*/profile.py") if (p.parent / "machine.py").is_file())
+def _profiles_in(folder: Path) -> Iterator[Path]:
+    # A machine has both files.
+    return (p for p in folder.glob("*/profile.py") if (p.parent / "machine.py").is_file())
+
+
+_SHARED: Final = "machines"
+"""Subfolder of a folder of plug-ins that holds machines."""
+
+
+def _home(kind: str) -> tuple[Path, str, bool]:
+    """Return where a machine's folder lies, the package that is, and whether it is our own."""
+    shared = (f for f in plugin_folders.folders() if (f.path / _SHARED / kind).is_dir())
+    if (_OWN / kind).is_dir():
+        return _OWN, mechanisms.__name__, True
+    for folder in shared:
+        return folder.path / _SHARED, f"{folder.package}.{_SHARED}", folder.is_own
+    return paths.plugins("mechanisms"), mechanisms.__name__, False
 
 
 DEFAULT_KIND: Final = "pantograph"
@@ -246,30 +260,31 @@ def profile_class(kind: object, origin: str) -> type[DeviceProfile]:
 def _part(kind: str, name: str, origin: str) -> ModuleType:
     """Import a file of a machine; one of the user's own only where that was seen to go well."""
     fault, reason = machine_fault(kind, name), None
+    _, package, is_own = _home(kind)
     if not fault:
         try:
-            return import_module(f"{mechanisms.__name__}.{kind}.{name}")
+            return import_module(f"{package}.{kind}.{name}")
         except KeyboardInterrupt:
             raise
         except BaseException as error:  # whatever somebody's file does
-            if (_OWN / kind).is_dir():
+            if is_own:
                 raise
             fault, reason = str(error) or type(error).__name__, error
     raise ConfigurationError(f"{origin}: machine {kind!r} cannot be used: {fault}") from reason
 
 
 def machine_fault(kind: str, name: str) -> str:
-    """Say why a file of a machine of the user's own cannot be imported; else nothing.
+    """Say why a file of a machine of somebody else's cannot be imported; else nothing.
 
     Args:
         kind: folder of the machine.
         name: `profile` or `machine`.
     """
-    folder = paths.plugins("mechanisms")
+    folder, package, is_own = _home(kind)
     path = folder / kind / f"{name}.py"
-    if (_OWN / kind).is_dir() or not path.is_file():
+    if is_own or not path.is_file():
         return ""
-    fault = import_fault(path, mechanisms.__name__, folder)
+    fault = import_fault(path, package, folder)
     return f"{path}: {fault}" if fault else ""
 
 

@@ -8,29 +8,31 @@ must make the case fail. A bound that no defect breaks would guard nothing.
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from decimal import Decimal, localcontext
 from functools import cache
 from importlib.util import find_spec
 from math import isfinite
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from app.core import plugin_folders
 from app.core.errors import AcusError
 from app.core.extras import install_command
+from app.core.plugins import CHOICES, TEXT, Declaration, PluginKind
 from app.studies.errors import StudyError
 
-REFERENCES: Final = Path(__file__).with_name("references.json")
-"""Inputs and values to 60 digits, by name."""
+REFERENCES: Final = "references.json"
+"""Inputs and values to 60 digits, by name: beside the cases, here and in folders of plug-ins."""
 
-SUBSYSTEMS: Final = (
+_OWN: Final = (
     "kinematics",
     "statics",
     "dynamics",
-    "grasping",
     "force laws",
     "governor",
     "guard",
@@ -41,7 +43,6 @@ SUBSYSTEMS: Final = (
     "triangulation",
     "calibration",
     "pose of the pen",
-    "tool and trocar",
     "rotations",
     "DICOM geometry",
     "oblique planes",
@@ -49,7 +50,53 @@ SUBSYSTEMS: Final = (
     "planning",
     "metrics",
 )
-"""All subsystems, in the order of the table; every one has cases."""
+"""The program's own subsystems, in the order of the table."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeclaredCases(Declaration):
+    """What a file of hard cases of a folder of plug-ins says about itself.
+
+    Attributes:
+        subsystems: that it adds -> the one behind which each stands in the table.
+    """
+
+    subsystems: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+
+
+KIND: Final[PluginKind[DeclaredCases]] = PluginKind(
+    noun="a file of hard cases",
+    declares=DeclaredCases,
+    fields={"title": TEXT},
+    optional={"subsystems": CHOICES},
+    error=StudyError,
+    folder="hard_cases",
+)
+
+
+def _all_subsystems() -> tuple[str, ...]:
+    order = list(_OWN)
+    for name in KIND.names():
+        declared = KIND.find(name)
+        for subsystem, after in declared.subsystems.items():
+            if after not in order:
+                raise StudyError(
+                    f"{declared.path}: {subsystem!r} stands behind {after!r};"
+                    f" there are {', '.join(order)}"
+                )
+            order.insert(order.index(after) + 1, subsystem)
+    return tuple(order)
+
+
+SUBSYSTEMS: Final = _all_subsystems()
+"""All subsystems, those that plug-ins add too, in the order of the table; every one has cases."""
+
+
+def reference_folders() -> tuple[Path, ...]:
+    """Return where files of references lie: here, and in folders of plug-ins."""
+    shared = (folder.path / "hard_cases" for folder in plugin_folders.folders())
+    return (Path(__file__).parent, *shared)
+
 
 EXTRAS: Final[Mapping[str, str]] = {"mujoco": "physics"}
 """Package that a case may need -> the extra that brings it."""
@@ -81,7 +128,7 @@ def digits(name: str) -> ReferenceValue:
     entry = _kept().get(name)
     if entry is None:
         raise StudyError(
-            f"{REFERENCES.name} has no reference {name!r}; add it to tools/hard_references.py"
+            f"{REFERENCES} has no reference {name!r}; add it to tools/hard_references.py"
         )
     values = tuple(Decimal(text) for text in entry["value"])
     return ReferenceValue(f"60 digits: {entry['how']}", values, tuple(entry["given"]))
@@ -245,5 +292,9 @@ def _decimals(value: ArrayLike) -> tuple[Decimal, ...]:
 
 @cache
 def _kept() -> Mapping[str, Any]:
-    document: dict[str, Any] = json.loads(REFERENCES.read_text(encoding="utf-8"))
+    document: dict[str, Any] = {}
+    for folder in reference_folders():
+        file = folder / REFERENCES
+        if file.is_file():
+            document |= json.loads(file.read_text(encoding="utf-8"))
     return document

@@ -1,9 +1,10 @@
-"""All hard cases: those of every file of this folder that defines `CASES`."""
+"""All hard cases: of every file of this folder, and of plug-ins' `hard_cases`, with `CASES`."""
 
 from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
 
+from app.core import plugin_folders
 from app.studies import hard_cases
 from app.studies.errors import StudyError
 from app.studies.hard_cases.case import SUBSYSTEMS, HardCase
@@ -17,11 +18,12 @@ def cases() -> tuple[HardCase, ...]:
         StudyError: if a subsystem has no case, or two cases have one name.
     """
     found: list[HardCase] = []
-    for info in iter_modules(hard_cases.__path__):
-        module = import_module(f"{hard_cases.__name__}.{info.name}")
+    names = [f"{hard_cases.__name__}.{info.name}" for info in iter_modules(hard_cases.__path__)]
+    modules = [*map(import_module, names), *plugin_folders.modules("hard_cases")]
+    for module in sorted(modules, key=lambda module: module.__name__.rpartition(".")[2]):
         found += getattr(module, "CASES", ())
-    names = [case.name for case in found]
-    if twice := sorted({name for name in names if names.count(name) > 1}):
+    called = [case.name for case in found]
+    if twice := sorted({name for name in called if called.count(name) > 1}):
         raise StudyError(f"two hard cases are called {twice[0]!r}; rename one")
     if bare := set(SUBSYSTEMS) - {case.subsystem for case in found}:
         raise StudyError(f"subsystems without a hard case: {', '.join(sorted(bare))}")

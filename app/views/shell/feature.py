@@ -7,6 +7,7 @@ it forgets at a change of patient, what it ends with the window. The list of the
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
@@ -77,6 +78,10 @@ class Feature(QObject):
     def over(self) -> tuple[SignalInstance, ...]:
         """Return what ends a message of `failed`: the signals after which it is true no more."""
         return ()
+
+    def watching(self) -> Mapping[str, str]:
+        """Return keys by which an exercise is watched, and who shows it, for the sheet of keys."""
+        return {}
 
     def forget(self) -> None:
         """Empty everything that belongs to the patient: another one is coming."""

@@ -1,11 +1,13 @@
-"""The list of features: the order is that of panels, and of entries in menus that several share."""
+"""The list of features: the order is that of panels, and of entries in menus that several share.
+
+Features of plug-ins join it where they say (`feature_plugins`).
+"""
 
 from __future__ import annotations
 
 from typing import Final
 
 from app.views.accuracy.feature import AccuracyFeature
-from app.views.arm.feature import ArmFeature
 from app.views.author.feature import AuthorFeature
 from app.views.cameras.feature import CamerasFeature
 from app.views.checks.feature import ChecksFeature
@@ -21,16 +23,16 @@ from app.views.robot.feature import RobotFeature
 from app.views.scene.feature import SceneFeature
 from app.views.series.feature import SeriesFeature
 from app.views.shell.feature import Feature
+from app.views.shell.feature_plugins import with_plugins
 from app.views.sounds.feature import SoundsFeature
 from app.views.structures.feature import StructuresFeature
 
-FEATURES: Final[tuple[type[Feature], ...]] = (
+_OWN: Final[tuple[type[Feature], ...]] = (
     SeriesFeature,
     PlanFeature,
     PathsFeature,
     AuthorFeature,
     ExerciseFeature,
-    ArmFeature,
     RobotFeature,
     CamerasFeature,
     PenFeature,
@@ -44,4 +46,6 @@ FEATURES: Final[tuple[type[Feature], ...]] = (
     DebriefFeature,
     PeopleFeature,
 )
+
+FEATURES: Final = with_plugins(_OWN)
 """A dropped file is offered to them from the last to the first."""

@@ -51,6 +51,7 @@ from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel, label, size_dialog
 from app.views.kit.text import disclaimer, literal, tr
 from app.views.shell.application import icon
+from app.views.shell.feature_plugins import page_of_plugin
 
 _PROGRAM: Final = "acus"
 _STATED: Final = {"vtk": "BSD-3-Clause", "python-gdcm": "BSD-3-Clause"}
@@ -293,7 +294,6 @@ _MARGIN_PX: Final = 40
 HOME: Final = "index.md"
 PAGES: Final = {
     "accuracy": "user-guide.md#what-accuracy-costs",
-    "arm": "user-guide.md#watch-the-arm-do-your-plan",
     "author": "authoring.md",
     "cameras": "cameras.md#in-the-trainer",
     "checks": "user-guide.md#every-day",
@@ -311,12 +311,14 @@ PAGES: Final = {
     "slices": "reading.md#mouse-and-keys",
     "structures": "structures.md#in-the-window",
 }
-"""Page and heading about the widgets of each folder of `app.views`."""
+"""Page and heading about the widgets of each folder of `app.views`; plug-ins declare theirs."""
 
 
 def page_of(widget: QWidget | None) -> str:
     """Return the page about a widget: of the feature that it, or what holds it, belongs to."""
     while widget is not None:
+        if page := page_of_plugin(type(widget).__module__):
+            return page
         module = type(widget).__module__.split(".")
         if module[:2] == ["app", "views"] and module[2] in PAGES:
             return PAGES[module[2]]
