@@ -6,6 +6,8 @@ hidden. Rooms are imported inside the commands, so that `acus --help` is instant
 """
 
 from importlib import import_module
+from pathlib import Path
+from types import ModuleType
 from typing import Annotated
 
 import typer
@@ -33,8 +35,21 @@ def build() -> typer.Typer:
     for noun in NOUNS:
         import_module(f"{__name__}.{noun}").register(root)
     for added in plugin_folders.modules("commands"):
-        added.register(root)
+        _register(added, root)
     return root
+
+
+def _register(added: ModuleType, root: typer.Typer) -> None:
+    """Add the commands of a plug-in; one of somebody else's that fails is refused."""
+    path = Path(added.__file__ or "")
+    folder = plugin_folders.folder_of(path)
+    try:
+        added.register(root)
+    except Exception as error:
+        if folder is not None and folder.is_own:
+            raise
+        reason = f"register() does not work: {type(error).__name__}: {error}"
+        plugin_folders.refused[path] = f"{path}: {reason}"
 
 
 def _print_version(wanted: bool) -> None:

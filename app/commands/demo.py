@@ -12,6 +12,7 @@ A file in `demonstrations/` of a folder of plug-ins declares itself in a literal
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator
 from enum import StrEnum
 from importlib import import_module
 from inspect import cleandoc
@@ -59,7 +60,17 @@ def _declared(path: Path) -> dict[str, str]:
 
 
 _OWN: Final = "pantograph"
-_OTHERS: Final = {path.stem: _declared(path) for path in plugin_folders.files("demonstrations")}
+
+
+def _demonstrations() -> Iterator[tuple[str, dict[str, str]]]:
+    for path in plugin_folders.files("demonstrations"):
+        try:
+            yield path.stem, _declared(path)
+        except (OSError, SyntaxError, ValueError) as error:
+            plugin_folders.refused[path] = f"{path} cannot be read: {error}"
+
+
+_OTHERS: Final = dict(_demonstrations())
 
 DemoDevice = StrEnum(  # type: ignore[misc]  # its names are those of the files
     "DemoDevice", {name.upper(): name for name in (_OWN, *_OTHERS)}

@@ -15,6 +15,7 @@ from typing import Any, Final
 
 from app import mechanisms
 from app.core import paths
+from app.core import plugin_folders as folders
 from app.core.plugins import PluginKind, read_statements
 from app.core.progress import Progress
 from app.mechanisms.profile.device import machine_fault
@@ -67,7 +68,11 @@ def plugin_files(tried: bool = False, progress: Progress | None = None) -> tuple
             title = "" if reason else kind.read(path).title
             found.append(PluginFile(kind.word, path, title, reason))
     progress.report(len(kinds) / (len(kinds) + 1), "machines")
-    return (*found, *_machines(tried))
+    refused_folders = [
+        PluginFile("folder" if not path.suffix else path.parent.name, path, "", reason)
+        for path, reason in sorted(folders.refused.items())
+    ]
+    return (*found, *_machines(tried), *refused_folders)
 
 
 def _machines(tried: bool) -> list[PluginFile]:

@@ -74,6 +74,12 @@ def plugins(kind: str) -> Path:
     return Path(os.environ.get(f"ACUS_{kind.upper()}") or data() / kind)
 
 
+def plugin_folders() -> tuple[Path, ...]:
+    """Return the folders of plug-ins that `ACUS_PLUGINS` lists, as PATH lists folders."""
+    listed = os.environ.get("ACUS_PLUGINS", "").split(os.pathsep)
+    return tuple(Path(text).absolute() for text in listed if text)
+
+
 def _of_user(kind: str) -> str:
     import platformdirs  # takes its time, and who is told the folders does without
 

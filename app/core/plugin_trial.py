@@ -111,7 +111,8 @@ def _tried(path: Path, package: str, folder: Path | None) -> str:
     name, more = ".".join((package, *parts)), () if folder is None else (str(folder),)
     limits = tuple(map(str, (SECONDS, TIMES, MOST)))
     root = str(Path(__file__).resolve().parents[2])
-    there = os.pathsep.join(filter(None, (root, os.environ.get("PYTHONPATH"))))
+    listed = (str(folder.parent) for folder in paths.plugin_folders())
+    there = os.pathsep.join(filter(None, (root, os.environ.get("PYTHONPATH"), *listed)))
     try:
         done = subprocess.run(
             [sys.executable, "-P", "-c", _CHILD, str(path), package, name, *limits, *more],

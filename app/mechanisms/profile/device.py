@@ -302,8 +302,8 @@ def parse_profile(document: Any, origin: str, text: str = "") -> DeviceProfile:
 
 
 def profile_names() -> list[str]:
-    """Names of the shipped device profiles."""
-    return sorted(path.stem for path in _folder().glob("*.yaml"))
+    """Return the names of the shipped device profiles and of those in folders of plug-ins."""
+    return sorted(_profiles())
 
 
 def load_profile(name_or_path: str | Path) -> DeviceProfile:
@@ -313,7 +313,7 @@ def load_profile(name_or_path: str | Path) -> DeviceProfile:
         ConfigurationError: if there is none (names the valid names), or the file is wrong.
     """
     text = str(name_or_path)
-    path = _folder() / f"{text}.yaml" if text in profile_names() else Path(name_or_path)
+    path = _profiles().get(text, Path(name_or_path))
     if path.suffix not in (".yaml", ".yml"):
         raise ConfigurationError(
             f"no device profile {text!r}; valid names: {', '.join(profile_names())},"
@@ -323,5 +323,9 @@ def load_profile(name_or_path: str | Path) -> DeviceProfile:
     return parse_profile(parse_yaml(content, str(path)), str(path), content)
 
 
-def _folder() -> Path:
-    return paths.resources() / "devices"
+def _profiles() -> dict[str, Path]:
+    """Return the files of profiles by name; a shipped one keeps its name."""
+    shared = (folder.path / "devices" for folder in plugin_folders.folders())
+    places = (paths.resources() / "devices", *shared)
+    files = [path for place in places for path in sorted(place.glob("*.yaml"))]
+    return {path.stem: path for path in reversed(files)}

@@ -40,7 +40,9 @@ KIND: Final[PluginKind[DeclaredFeature]] = PluginKind(
 
 def declared_features() -> tuple[DeclaredFeature, ...]:
     """Return what the features of all folders of plug-ins say about themselves."""
-    return tuple(KIND.find(name) for name in KIND.names())
+    unusable = KIND.refused()
+    plugin_folders.refused.update({p: r for p, r in unusable.items() if not KIND.is_own(p)})
+    return tuple(KIND.read(path) for path in KIND.files() if path not in unusable)
 
 
 def page_of_plugin(module: str) -> str:
@@ -55,22 +57,33 @@ def page_of_plugin(module: str) -> str:
 def with_plugins(features: tuple[type[Feature], ...]) -> tuple[type[Feature], ...]:
     """Return features with those of plug-ins, each behind the one that it names.
 
+    One of somebody else's that cannot be used is left out, and refused with the reason.
+
     Raises:
-        ConfigurationError: if a file cannot be imported, defines no `FEATURE`, or names a feature
-            that there is not; names it.
+        ConfigurationError: if a file of the program cannot be imported, defines no `FEATURE`, or
+            names a feature that there is not; names it.
     """
     order = list(features)
     for declared in declared_features():
-        feature = getattr(KIND.load(declared), "FEATURE", None)
-        if not (isinstance(feature, type) and issubclass(feature, Feature)):
-            raise ConfigurationError(f"{declared.path} must define FEATURE, a class of Feature")
-        names = [_name_of(one) for one in order]
-        if declared.after not in names:
-            raise ConfigurationError(
-                f"{declared.path}: after is {declared.after!r}; valid are {', '.join(names)}"
-            )
-        order.insert(names.index(declared.after) + 1, feature)
+        try:
+            _insert(declared, order)
+        except ConfigurationError as error:
+            if KIND.is_own(declared.path):
+                raise
+            plugin_folders.refused[declared.path] = str(error)
     return tuple(order)
+
+
+def _insert(declared: DeclaredFeature, order: list[type[Feature]]) -> None:
+    feature = getattr(KIND.load(declared), "FEATURE", None)
+    if not (isinstance(feature, type) and issubclass(feature, Feature)):
+        raise ConfigurationError(f"{declared.path} must define FEATURE, a class of Feature")
+    names = [_name_of(other) for other in order]
+    if declared.after not in names:
+        raise ConfigurationError(
+            f"{declared.path}: after is {declared.after!r}; valid are {', '.join(names)}"
+        )
+    order.insert(names.index(declared.after) + 1, feature)
 
 
 def _name_of(feature: type[Feature]) -> str:
