@@ -1,12 +1,12 @@
 """Print the test files that a change can reach: `python -m tools.changed_tests [SINCE]`.
 
 Changed is what differs from a commit (the last one, if none is named), and what git does not know
-yet. A change in a module of `app` reaches the modules that import it, in its own layer and the ones
-above, and the tests that import any of these, by themselves, by a helper or by a `conftest.py`
-above them. A module may be found by being there (an effect, a metric, a feature of the window): who
-imports its package is reached too, and of a folder of plug-ins who looks for files of its kind. A
-test that starts programs is reached by whatever `acus` is made of. Anything else that lies in the
-checkout is read by whoever likes, and reaches every test; pages reach their own.
+yet. A change in a module of `app` or `acus` reaches the modules that import it, in its own layer
+and the ones above, and the tests that import any of these, by themselves, by a helper or by a
+`conftest.py` above them. A module may be found by being there (an effect, a metric, a feature of
+the window): who imports its package is reached too, and of a folder of plug-ins who looks for files
+of its kind. A test that starts programs is reached by whatever `acus` is made of. Anything else
+that lies in the checkout is read by whoever likes, and reaches every test; pages reach their own.
 """
 
 import ast
@@ -25,7 +25,12 @@ if TYPE_CHECKING:
 ROOT = Path(__file__).resolve().parents[1]
 
 ALWAYS = ("tests/test_structure.py",)
-PAGES = ("tests/test_docs.py", "tests/test_promises.py", "tests/test_extending.py")
+PAGES = (
+    "tests/test_docs.py",
+    "tests/test_promises.py",
+    "tests/test_extending.py",
+    "tests/test_python_page.py",
+)
 """Tests of README and docs."""
 
 
@@ -59,7 +64,8 @@ def tests_for(changed: Iterable[str]) -> list[str]:
     picked = set(ALWAYS) | set(PAGES if pages else ())
     if any(not _module(path) for path in changed - pages):
         return sorted(tests | picked)
-    reached = reached_modules({name for name in modules if name.startswith("app")}) | modules
+    program = {name for name in modules if name.startswith(("acus", "app"))}
+    reached = reached_modules(program) | modules
     imports = _imports_of_tests()
     while more := {name for name in imports.keys() - reached if imports[name] & reached}:
         reached |= more
@@ -73,7 +79,7 @@ def _paths() -> list[str]:
 
 
 def reached_modules(changed: Set[str]) -> set[str]:
-    """Return changed modules of `app` and all that rest on them, at any remove."""
+    """Return changed modules of `acus` and `app` and all that rest on them, at any remove."""
     graph = _graph()
     inside = {name: graph.find_descendants(name) for name in changed & graph.modules}
     waiting = [*changed, *(below for names in inside.values() for below in names)]
@@ -124,7 +130,7 @@ def _looking() -> Mapping[str, str]:
 def _graph() -> "ImportGraph":
     import grimp
 
-    return grimp.build_graph("app", exclude_type_checking_imports=False, cache_dir=None)
+    return grimp.build_graph("acus", "app", exclude_type_checking_imports=False, cache_dir=None)
 
 
 def _importers(graph: "ImportGraph", name: str) -> set[str]:
@@ -134,7 +140,7 @@ def _importers(graph: "ImportGraph", name: str) -> set[str]:
 def _module(path: str) -> str:
     """Return the dotted name of a Python file of the checkout's packages; "" for any other."""
     top = path.split("/")[0]
-    if top not in ("app", "tests", "tools") or not path.endswith(".py"):
+    if top not in ("acus", "app", "tests", "tools") or not path.endswith(".py"):
         return ""
     return path.removesuffix(".py").replace("/", ".").removesuffix(".__init__")
 

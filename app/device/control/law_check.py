@@ -8,14 +8,13 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 import signal
 import subprocess
-import sys
 from pathlib import Path
 from typing import Any, Final
 
 from app.core import compiled, paths
+from app.core.child_process import environment, interpreter
 from app.core.errors import AcusError
 from app.core.files import write_atomically
 from app.core.plugins import read_statements
@@ -88,17 +87,11 @@ def _kept(path: Path) -> Path:
 
 
 def _run(path: Path) -> dict[str, Any]:
-    root = Path(__file__).resolve().parents[3]
     own = paths.cache() / "trials" / compiled.kernels_digest()
-    environment = os.environ | {
-        "NUMBA_BOUNDSCHECK": "1",
-        "NUMBA_CACHE_DIR": str(own),
-        "PYTHONPATH": os.pathsep.join(filter(None, (str(root), os.environ.get("PYTHONPATH")))),
-    }
     try:
         done = subprocess.run(
-            [sys.executable, "-P", law_trial.__file__, str(path)],
-            env=environment,
+            [*interpreter(), law_trial.__file__, str(path)],
+            env=environment(NUMBA_BOUNDSCHECK="1", NUMBA_CACHE_DIR=str(own)),
             capture_output=True,
             text=True,
             timeout=PATIENCE,
