@@ -43,6 +43,7 @@ def foreign(tmp_path, monkeypatch):
     monkeypatch.setattr(plugin_folders, "folders", lambda: found)
     importlib.invalidate_caches()
     yield folder
+    plugin_folders.refused.clear()
     for name in [one for one in sys.modules if one.split(".")[0] == "somebody_s_claw"]:
         del sys.modules[name]
 
