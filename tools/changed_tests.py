@@ -4,9 +4,9 @@ Changed is what differs from a commit (the last one, if none is named), and what
 yet. A change in a module of `app` reaches the modules that import it, in its own layer and the ones
 above, and the tests that import any of these, by themselves, by a helper or by a `conftest.py`
 above them. A module may be found by being there (an effect, a metric, a feature of the window): who
-imports its package is reached too, and of a folder of plug-ins who looks for files of its kind. A test that starts programs is reached by whatever `acus` is
-made of. Anything else that lies in the checkout is read by whoever likes, and reaches every test;
-pages reach their own.
+imports its package is reached too, and of a folder of plug-ins who looks for files of its kind. A
+test that starts programs is reached by whatever `acus` is made of. Anything else that lies in the
+checkout is read by whoever likes, and reaches every test; pages reach their own.
 """
 
 import ast
