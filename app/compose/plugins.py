@@ -1,4 +1,4 @@
-"""Files of others: laws, effects, metrics, marker extractors and studies, and which are refused.
+"""Files of others: laws, effects, metrics, remedies, extractors, studies, and which are refused.
 
 They are read and not run, so that the answer costs little and harms nobody. Asked to, they are
 imported too, each in a process of its own, which it may end. What only using them would find is
@@ -26,7 +26,8 @@ class PluginFile:
     """A file that is not the program's own.
 
     Attributes:
-        kind: what it is: `force law`, `effect`, `metric`, `marker extractor`, `study` or `machine`.
+        kind: what it is: `force law`, `effect`, `metric`, `marker extractor`, `CT remedy`, `study`
+            or `machine`.
         path: the file; of a machine its folder.
         title: as it declares it; empty if it is refused.
         refused: why it cannot be used, with file, line and what would be valid; empty if it can.
@@ -126,6 +127,7 @@ def refused_files() -> tuple[PluginFile, ...]:
 def _kinds() -> tuple[tuple[PluginKind[Any], Callable[[], Mapping[Path, str]]], ...]:
     """Every kind with what looks its files through."""
     from app.device.control import law, laws
+    from app.imaging import remedies
     from app.scoring import metrics
     from app.simulation import effects
     from app.studies import runner
@@ -136,5 +138,6 @@ def _kinds() -> tuple[tuple[PluginKind[Any], Callable[[], Mapping[Path, str]]], 
         (effects.KIND, effects.refused),
         (metrics.KIND, metrics.KIND.refused),
         (choice.KIND, choice.KIND.refused),
+        (remedies.KIND, remedies.refused),
         (runner.KIND, runner.KIND.refused),
     )

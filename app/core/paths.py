@@ -68,8 +68,8 @@ def settings() -> Path:
 def plugins(kind: str) -> Path:
     """Per-user folder of a laboratory's own files: `laws`, `effects`, `mechanisms` or the like.
 
-    `ACUS_LAWS`, `ACUS_EFFECTS`, `ACUS_METRICS`, `ACUS_STUDIES`, `ACUS_EXTRACTORS` and
-    `ACUS_MECHANISMS` override.
+    `ACUS_LAWS`, `ACUS_EFFECTS`, `ACUS_METRICS`, `ACUS_STUDIES`, `ACUS_EXTRACTORS`, `ACUS_REMEDIES`
+    and `ACUS_MECHANISMS` override.
     """
     return Path(os.environ.get(f"ACUS_{kind.upper()}") or data() / kind)
 

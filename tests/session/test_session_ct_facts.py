@@ -2,11 +2,11 @@
 
 import pytest
 
-from app.imaging.series import AS_IT_IS, Recipe, Remedy
+from app.imaging.series import AS_IT_IS, Recipe
 from app.session.ct_facts import CtFacts
 
 MENDED = CtFacts(
-    "CT-1", ("straightened from a gantry tilt of 14.0°",), Recipe(Remedy.STRAIGHTEN, spacing_mm=4.9)
+    "CT-1", ("straightened from a gantry tilt of 14.0°",), Recipe("straighten", spacing_mm=4.9)
 )
 
 
@@ -14,7 +14,7 @@ MENDED = CtFacts(
     "facts",
     [
         MENDED,
-        CtFacts("CT-2", ("reduced",), Recipe(Remedy.HALVE, (2, 2, 1))),
+        CtFacts("CT-2", ("reduced",), Recipe("halve", (2, 2, 1))),
         CtFacts("CT-3", (), AS_IT_IS),
         CtFacts(),
     ],

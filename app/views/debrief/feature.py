@@ -411,7 +411,7 @@ class AttemptCt(QObject):
             if recipe is None or recipe == volume.recipe or facts.pseudonym != own:
                 return None
             with ONE_AT_A_TIME:  # compiled parts: beside the window
-                from app.imaging.resampling import read_again
+                from app.imaging.reading import read_again
             again = read_again(volume.series, recipe, progress)
             return again if facts.is_of(again) else None
 
@@ -519,7 +519,7 @@ class ScanPictures(QObject):
 
         def make(progress: Progress) -> Volume:
             with ONE_AT_A_TIME:  # compiled parts: beside the window
-                from app.imaging.resampling import read_again
+                from app.imaging.reading import read_again
                 from app.imaging.scanned import scan_image
             ct = volume
             if recipe is not None and recipe != volume.recipe:  # the scan was of a mended one

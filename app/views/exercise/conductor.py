@@ -422,7 +422,7 @@ class Conductor(QObject):
         ct = exercise.ct
         if ct.phantom is not None:
             return patient.phantom_seed == ct.phantom.seed
-        same_way = patient.volume.recipe.remedy is ct.remedy
+        same_way = patient.volume.recipe.remedy == ct.remedy
         if ct.folder is None or patient.folder is None or not same_way:
             return False
         same_place = patient.folder.absolute() == ct.folder.absolute()

@@ -320,7 +320,7 @@ class LibraryImport(QObject):
         return [(f"{one.name}  {one.label}", one.folder) for one in CtLibrary().entries()]
 
     def _choose(self, listing: Listing) -> None:
-        mended = [one for one in listing.series if not one.usable and one.remedy != "none"]
+        mended = [one for one in listing.series if not one.usable and one.remedies]
         if len(listing.usable) + len(mended) > 1:
             browser = SeriesBrowser(listing, self._window, taking=True)
             browser.chosen.connect(lambda series, _: self._begin(series, listing))
