@@ -30,7 +30,7 @@ from app.scoring.tolerance import Tolerance
 from app.views.exercise.offer import BriefingOffer
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel, button, label
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 from app.views.reading.lock_words import view_title
 from app.views.shell.shortcuts import disclaimer_label
 
@@ -331,7 +331,7 @@ class BriefingPage(QWidget):
     def add_offer(self, offer: BriefingOffer) -> None:
         """Add a button for another way to watch an exercise."""
         widget = _key_button(offer.title)
-        widget.setToolTip(offer.tip)
+        widget.setToolTip(literal(offer.tip))
         widget.clicked.connect(lambda: self.offer_wanted.emit(offer))
         self._buttons.insertWidget(self._buttons.indexOf(self.look), widget)
         before = [self.show_me, *(shown for _, shown in self.offers.values())]
