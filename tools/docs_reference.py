@@ -60,7 +60,14 @@ def _add(modules: dict[str, set[str]], module: str, name: str) -> None:
 def page(room: str, modules: Mapping[str, set[str]], whole: bool) -> str:
     """Markdown of a room's page."""
     doc = ast.get_docstring(ast.parse((APP / room / "__init__.py").read_text(encoding="utf-8")))
-    lines = [f"{_OUT_OF_SEARCH}# {room}", "", doc or "", "", f"What other rooms import from `app.{room}`.", ""]
+    lines = [
+        f"{_OUT_OF_SEARCH}# {room}",
+        "",
+        doc or "",
+        "",
+        f"What other rooms import from `app.{room}`.",
+        "",
+    ]
     for module in sorted(modules):
         names = sorted(modules[module])
         lines += [f"## {module.removeprefix('app.')}", ""]
@@ -85,7 +92,12 @@ def index(found: Crossing) -> str:
         f"| [{room}]({room}.md) | {len(found[room])} | {sum(map(len, found[room].values()))} |"
         for room in found
     ]
-    head = [f"{_OUT_OF_SEARCH}# Reference", "", "Made from imports and docstrings by `make docs`.", ""]
+    head = [
+        f"{_OUT_OF_SEARCH}# Reference",
+        "",
+        "Made from imports and docstrings by `make docs`.",
+        "",
+    ]
     table = ["| room | modules that others import | names |", "|---|---|---|"]
     return "\n".join([*head, *table, *rows, ""])
 
