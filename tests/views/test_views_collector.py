@@ -105,7 +105,7 @@ def test_closing_gives_the_collection_back_and_is_idempotent(application):
 
 
 def test_reading_a_patient_loads_the_verdict_so_that_the_window_never_compiles(application):
-    patient._load_verdict()
+    patient._load_verdict(Progress())
     compiled = {
         name: len(kernel.signatures)
         for name, kernel in vars(kernels).items()
