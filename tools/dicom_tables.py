@@ -24,7 +24,7 @@ def main() -> None:
         subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
         document = json.loads(Path(folder, "dicom.json").read_text())
         read, refused = (_rows(Path(folder, f"dicom-{name}.csv")) for name in ("read", "refused"))
-        tables = [_table(counted(read)), _table(refused)]
+        tables = [_table(counted(read)), _table([row[:4] for row in refused])]
     text = "\n\n".join([*tables, *document["lines"]])
     before, rest = PAGE.read_text().split(BEGIN)
     PAGE.write_text(f"{before}{BEGIN}\n{text}\n{END}{rest.split(END)[1]}")
