@@ -24,7 +24,10 @@ def main() -> None:
         subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
         document = json.loads(Path(folder, "dicom.json").read_text())
         read, refused = (_rows(Path(folder, f"dicom-{name}.csv")) for name in ("read", "refused"))
-        tables = [_table(counted(read)), _table([row[:4] for row in refused])]
+        tables = [
+            _table([[row[0], *row[2:]] for row in counted(read)]),
+            _table([row[:3] for row in refused]),
+        ]
     text = "\n\n".join([*tables, *document["lines"]])
     before, rest = PAGE.read_text().split(BEGIN)
     PAGE.write_text(f"{before}{BEGIN}\n{text}\n{END}{rest.split(END)[1]}")
@@ -46,10 +49,8 @@ def _one_row(folder: str, group: list[list[str]]) -> list[str]:
     first = group[0]
     if len(group) == 1:
         return first
-    sizes = {row[1] for row in group}
-    size = sizes.pop() if len(sizes) == 1 else "several"
     farthest = (max((row[at] for row in group), key=float) for at in (5, 6))
-    return [f"{len(group)} of {folder}", size, *first[2:5], *farthest, first[7]]
+    return [f"{len(group)} of {folder}", first[1], *first[2:5], *farthest, first[7]]
 
 
 def _folder(name: str) -> str:
