@@ -14,7 +14,8 @@ from app.views.shell.help import HOME, PAGES, anchor
 
 ROOT = Path(__file__).resolve().parents[1]
 DOCS = ROOT / "docs"
-SOURCES = [ROOT / "README.md", *sorted(DOCS.rglob("*.md"))]
+ROOTS = ("README.md", "CONTRIBUTING.md", "SECURITY.md")
+SOURCES = [*(ROOT / name for name in ROOTS), *sorted(DOCS.rglob("*.md"))]
 
 
 def prose(file):
