@@ -188,6 +188,7 @@ def test_the_shell_completes_commands_and_names(words, found, monkeypatch, capsy
 def test_the_exit_codes_are_those_of_their_page():
     from app.core.exits import Exit
 
-    table = (ROOT / "docs" / "command-line.md").read_text(encoding="utf-8").split("| exit code |")[1]
+    page = (ROOT / "docs" / "command-line.md").read_text(encoding="utf-8")
+    table = page.split("| exit code |")[1]
     codes = {int(line.split("|")[1]) for line in table.split("\n\n")[0].splitlines()[2:]}
     assert codes == set(map(int, Exit))
