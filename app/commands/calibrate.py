@@ -206,6 +206,9 @@ Window = Annotated[
 Out = Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Write the YAML here.")]
 
 
+PLACE = 140
+
+
 def register(root: typer.Typer) -> None:
     """Add `calibrate` to the command line, with the commands of its other files."""
     from app.commands import calibrate_history  # noqa: F401

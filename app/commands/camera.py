@@ -22,6 +22,9 @@ Cameras = Annotated[
 ]
 
 
+PLACE = 130
+
+
 def register(app: typer.Typer) -> None:
     """Add `acus camera …`."""
     group = Commands(help="Cameras: choose, test, aim, measure.")

@@ -12,6 +12,9 @@ if TYPE_CHECKING:
 _MARKS = {"good": "✔", "warning": "▲", "bad": "✖", "waiting": "–"}
 
 
+PLACE = 30
+
+
 def register(app: typer.Typer) -> None:
     """Add the command."""
     app.command("check")(check)

@@ -49,6 +49,9 @@ Folder = Annotated[
 ]
 
 
+PLACE = 40
+
+
 def register(root: typer.Typer) -> None:
     """Add `ct` and `library` to the command line."""
     root.add_typer(app, name="ct")

@@ -14,7 +14,6 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 from enum import StrEnum
-from importlib import import_module
 from inspect import cleandoc
 from pathlib import Path
 from types import ModuleType
@@ -25,6 +24,7 @@ import typer
 from app.commands import completion
 from app.core import plugin_folders
 from app.core.errors import AcusError
+from app.core.files import read_at_most
 
 if TYPE_CHECKING:
     from app.exercises.schema import Exercise
@@ -48,26 +48,18 @@ class SkillName(StrEnum):
     EXPERT = "expert"
 
 
-def _declared(path: Path) -> dict[str, str]:
-    """Read what a demonstration says about itself as text: `acus --help` imports nothing heavy."""
-    for node in ast.parse(path.read_text(encoding="utf-8")).body:
-        if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
-            target = node.target if isinstance(node, ast.AnnAssign) else node.targets[0]
-            if ast.unparse(target) == "DECLARATION":
-                document: dict[str, str] = ast.literal_eval(node.value)
-                return document
-    return {}
-
-
 _OWN: Final = "pantograph"
 
 
 def _demonstrations() -> Iterator[tuple[str, dict[str, str]]]:
+    """Read what they say about themselves as text: `acus --help` imports nothing heavy."""
     for path in plugin_folders.files("demonstrations"):
         try:
-            yield path.stem, _declared(path)
+            said = plugin_folders.declared(ast.parse(read_at_most(path).decode()).body)
         except (OSError, SyntaxError, ValueError) as error:
             plugin_folders.refused[path] = f"{path} cannot be read: {error}"
+        else:
+            yield path.stem, {key: str(value) for key, value in said.items()}
 
 
 _OTHERS: Final = dict(_demonstrations())
@@ -79,6 +71,9 @@ DemoDevice = StrEnum(  # type: ignore[misc]  # its names are those of the files
 
 _DEVICE: Final = DemoDevice(_OWN)
 _HELP: Final = " ".join(f"{name}: {said.get('help', '')}" for name, said in _OTHERS.items())
+
+
+PLACE = 20
 
 
 def register(app: typer.Typer) -> None:
@@ -143,8 +138,9 @@ def demo(
 
 
 def _demonstration(name: str) -> ModuleType:
-    found = (f.module_name(p) for f in plugin_folders.folders() for p in f.files("demonstrations"))
-    return import_module(next(one for one in found if one.rpartition(".")[2] == name))
+    for module in plugin_folders.modules("demonstrations", name):
+        return module
+    raise AcusError(" ".join(plugin_folders.refused.values()))
 
 
 def _show_alone(other: ModuleType, seed: int, folder: Path) -> None:

@@ -29,6 +29,9 @@ Profile = Annotated[
 ]
 
 
+PLACE = 120
+
+
 def register(app: typer.Typer) -> None:
     """Add `acus device …`."""
     group = Commands(help="Robots on serial ports.")

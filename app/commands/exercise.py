@@ -28,6 +28,9 @@ Name = Annotated[
 Uid = Annotated[str | None, typer.Option(help="SeriesInstanceUID, where several fit.")]
 
 
+PLACE = 190
+
+
 def register(root: typer.Typer) -> None:
     """Add the group."""
     root.add_typer(app, name="exercise")

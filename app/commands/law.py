@@ -9,6 +9,9 @@ from app.commands.answer import Answer, Commands
 app = Commands(help="The force laws, the program's and your own.")
 
 
+PLACE = 200
+
+
 def register(root: typer.Typer) -> None:
     """Add the group."""
     root.add_typer(app, name="law")

@@ -26,6 +26,9 @@ Mask = Annotated[
 SeriesUid = Annotated[str, typer.Argument(metavar="SERIES", help="SeriesInstanceUID, of `find`.")]
 
 
+PLACE = 50
+
+
 def register(root: typer.Typer) -> None:
     """Add `pacs` to the command line."""
     root.add_typer(app, name="pacs")

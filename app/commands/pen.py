@@ -20,6 +20,9 @@ Edge = Annotated[
 app = Commands(help="A pen with printed markers before a webcam.")
 
 
+PLACE = 160
+
+
 def register(root: typer.Typer) -> None:
     """Add the group."""
     root.add_typer(app, name="pen")

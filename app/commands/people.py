@@ -20,6 +20,9 @@ CourseId = Annotated[
 FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
 
+PLACE = 100
+
+
 def register(app: typer.Typer) -> None:
     """Add the groups `people` and `course`."""
     people = Commands(help="Students, groups, and the instructor.")

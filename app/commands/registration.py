@@ -26,6 +26,9 @@ DEFAULT_TARGET_MM = (0.0, 160.56, 30.0)
 """60 mm below the fulcrum: the middle of the needle's range."""
 
 
+PLACE = 150
+
+
 def register(root: typer.Typer) -> None:
     """Add `registration` and `plate` to the command line."""
     root.add_typer(app, name="registration")

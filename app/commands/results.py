@@ -31,6 +31,9 @@ PDF = "pdf"
 FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
 
+PLACE = 110
+
+
 def register(app: typer.Typer) -> None:
     """Add `results board`, `results curve` and `results export`."""
     results = Commands(help="Results of students and groups.")

@@ -23,6 +23,9 @@ FolderOption = Annotated[
 ]
 
 
+PLACE = 80
+
+
 def register(app: typer.Typer) -> None:
     """Add the group `session`."""
     session = Commands(help="Recorded attempts.")

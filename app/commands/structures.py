@@ -20,6 +20,9 @@ Folder = Annotated[Path, typer.Option("--ct", metavar="DIR", help="Folder of the
 Uid = Annotated[str | None, typer.Option("--series", help="SeriesInstanceUID, if several fit.")]
 
 
+PLACE = 60
+
+
 def register(root: typer.Typer) -> None:
     """Add `structures` to the command line."""
     root.add_typer(app, name="structures")

@@ -18,15 +18,25 @@ PIPE_WIDTH = 160
 """Columns of a table that is not read on a terminal."""
 
 
+PLACE = 220
+
+
 def register(app: typer.Typer) -> None:
     """Add `acus study`."""
     app.command("study")(study)
 
 
+def _completed(incomplete: str) -> list[str]:
+    """Return the studies that begin so, and `list`."""
+    from app.studies.runner import study_names
+
+    return completion.fitting(("list", *study_names()), incomplete)
+
+
 def study(
     name: Annotated[
         str,
-        typer.Argument(help="name of a study, `list` or `all`", autocompletion=completion.studies),
+        typer.Argument(help="name of a study, `list` or `all`", autocompletion=_completed),
     ],
     inputs: Annotated[
         list[Path] | None,

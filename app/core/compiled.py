@@ -55,10 +55,10 @@ def plugin_digest(file: Path) -> str:
     """
     if file.is_relative_to(plugin_folders.APP):
         return ""
-    shared, own = plugin_folders.folder_of(file), paths.plugins("mechanisms")
+    shared, places = plugin_folders.folder_of(file), paths.plugin_places("mechanisms")
     if shared is not None:
         folder = shared.path
-    elif file.is_relative_to(own):
+    elif own := next((place for place in places if file.is_relative_to(place)), None):
         folder = own / file.relative_to(own).parts[0]
     else:
         return ""

@@ -25,15 +25,16 @@ kept in `refused`, and costs nothing but itself.
 
 from __future__ import annotations
 
+import ast
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module, metadata
 from importlib.util import find_spec
 from pathlib import Path
 from types import ModuleType
-from typing import Final
+from typing import Any, Final
 
 from app.core import paths
 from app.core.plugin_trial import import_fault
@@ -119,6 +120,21 @@ def _package(name: str, place: Path) -> Iterator[PluginFolder]:
     )
 
 
+def declared(body: Iterable[ast.stmt]) -> dict[str, Any]:
+    """Return what the statements of a file declare, of whatever kind it is; empty if nothing.
+
+    Raises:
+        ValueError: if it is no literal.
+    """
+    for node in body:
+        if isinstance(node, ast.AnnAssign | ast.Assign) and node.value is not None:
+            target = node.targets[0] if isinstance(node, ast.Assign) else node.target
+            if isinstance(target, ast.Name) and target.id == "DECLARATION":
+                document = ast.literal_eval(node.value)
+                return document if isinstance(document, dict) else {}
+    return {}
+
+
 def files(kind: str, name: str = "*") -> list[Path]:
     """Return the files of a kind in all plug-in folders, in their order; see `PluginFolder.files`.
 
@@ -134,14 +150,14 @@ def folder_of(path: Path) -> PluginFolder | None:
     return next((folder for folder in folders() if path.is_relative_to(folder.path)), None)
 
 
-def modules(kind: str) -> Iterator[ModuleType]:
-    """Import every file of a kind in all plug-in folders, in their order.
+def modules(kind: str, name: str = "*") -> Iterator[ModuleType]:
+    """Import every file of a kind in all plug-in folders, in their order; of one name, if given.
 
     A file of somebody else's is imported only where a process of its own has shown that it can be;
     else it is `refused`.
     """
     for folder in folders():
-        for path in folder.files(kind):
+        for path in folder.files(kind, name):
             if folder.is_own:
                 yield import_module(folder.module_name(path))
             elif (module := _imported(folder, path)) is not None:

@@ -3,7 +3,7 @@
 A plug-in says what it is in a literal `DECLARATION = {...}` at its top. It is read as text: a file
 that is not chosen is never imported. A `Kind` says for one sort of plug-in what must be declared,
 where its files lie (the program's folder, folders appended to its package's `__path__`, folders of
-plug-ins, the user's own folder) and which error is raised. Every message has file, line, field,
+plug-ins, the user's own folders) and which error is raised. Every message has file, line, field,
 value and what would be valid. See docs/extending.md.
 
 Names of the program's own cannot be taken. A file of somebody else's is imported only after a
@@ -175,7 +175,7 @@ class PluginKind(Generic[D]):
             return shared
         package = importlib.import_module(self.package)
         found = [*_within(map(Path, package.__path__), name), *shared]
-        found += _within([paths.plugins(self.folder)], name)
+        found += _within(paths.plugin_places(self.folder), name)
         return [
             path
             for path in dict.fromkeys(found)

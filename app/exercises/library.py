@@ -13,6 +13,7 @@ from app.core.configuration import line_of, parse_text, read_text
 from app.core.errors import AcusError, ConfigurationError
 from app.exercises.errors import ExerciseError, UnknownExerciseError
 from app.exercises.schema import Exercise
+from app.mechanisms.profile import device
 
 EARLIER: Final = re.compile(r"([a-z0-9-]+)@([0-9]+)")
 """Name of a file (without its ending) that keeps an earlier version: `id@version`."""
@@ -196,5 +197,6 @@ def unknown_profile(field: str, value: str) -> str:
 
 def profile_names(field: str) -> tuple[str, ...]:
     """Names that the field `device` or `rig` may hold."""
-    folder = {"device": "devices", "rig": "cameras"}[field]
-    return tuple(sorted(file.stem for file in (paths.resources() / folder).glob("*.yaml")))
+    if field == "device":
+        return tuple(device.profile_names())
+    return tuple(sorted(file.stem for file in (paths.resources() / "cameras").glob("*.yaml")))

@@ -2,14 +2,15 @@
 
 All are asked the same: the needle pointed at by rings of directions about the vertical, hub 110 mm
 above the remote centre, tip 90 mm below it; the worst direction of each ring counts. A further
-machine is one more entry of `MACHINES`, or a file in `comparisons/` of a folder of plug-ins that
-defines `COMPARISON`.
+machine is a file in `comparisons/`, here or in a folder of plug-ins, that defines `COMPARISON`.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, partial
+from importlib import import_module
 from itertools import product
+from pkgutil import iter_modules
 from typing import Any, Final
 
 import numpy as np
@@ -19,7 +20,6 @@ from app.core.arrays import FloatArray, cross, unit
 from app.core.compiled import njit
 from app.core.progress import Progress
 from app.core.units import DEGREE, MILLIMETRE
-from app.mechanisms import tensegrity
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.lever import axis_kernel, force_map_kernel, torque_kernel
 from app.mechanisms.pantograph import (
@@ -31,10 +31,9 @@ from app.mechanisms.pantograph import (
 )
 from app.mechanisms.pantograph.kernels import forward_kernel, jacobian_kernel
 from app.mechanisms.pantograph.profile import load_pantograph
-from app.mechanisms.tensegrity import kernels as guide_kernels
-from app.mechanisms.tensegrity.cable_kernels import hub_torque_kernel, tensions_kernel
+from app.studies import comparisons as own
 from app.studies.findings import Cell, Figure, Findings, Sheet, Survey
-from app.studies.tensegrity import seconds
+from app.studies.timing import seconds
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "The machines side by side: workspace, resolution, stiffness, force, effort, cost",
@@ -90,17 +89,17 @@ class ComparedMachine:
 
 @dataclass(frozen=True, slots=True)
 class ComparedPlugin:
-    """A machine of a folder of plug-ins.
+    """A further machine.
 
     Attributes:
         title: what it is, for whoever waits: "the arm".
         make: makes what is asked of it.
-        more: makes tables and lines of this machine alone.
+        more: makes tables and lines of this machine alone, if there are any.
     """
 
     title: str
     make: Callable[[], ComparedMachine]
-    more: Callable[[], tuple[tuple[Sheet, ...], tuple[str, ...]]]
+    more: Callable[[], tuple[tuple[Sheet, ...], tuple[str, ...]]] | None = None
 
 
 def ring(tilt: float, count: int = _RING) -> FloatArray:
@@ -129,20 +128,6 @@ def _pantograph_often(
         _, a, b, c, d = jacobian_kernel(q[k, 0], q[k, 1], x, y, links[0], links[1], links[2])
         gx, gy = force_map_kernel(1.0, -0.5, 0.2, dx, dy, dz, l_in, l_out)
         out[k, 0], out[k, 1] = torque_kernel(gx, gy, a, b, c, d)
-
-
-@njit
-def _tensegrity_often(
-    beta: FloatArray, bars: Any, numbers: Any, l_out: float, out: FloatArray
-) -> None:
-    for k in range(len(beta)):
-        b1, b2 = beta[k, 0], beta[k, 1]
-        _, x, y, z = guide_kernels.forward_kernel(b1, b2, *bars, 1.0)
-        _, x1, x2, y1, y2, z1, z2 = guide_kernels.jacobian_kernel(b1, b2, x, y, z, *bars)
-        load1, load2 = hub_torque_kernel(1.0, -0.5, 0.2, l_out, x1, x2, y1, y2, z1, z2)
-        _, out[k, 0], out[k, 1], out[k, 2], out[k, 3], _, _ = tensions_kernel(
-            b1, b2, load1, load2, 0.0, 0.0, *numbers
-        )
 
 
 def _pantograph() -> ComparedMachine:
@@ -196,64 +181,17 @@ def _pantograph() -> ComparedMachine:
     )
 
 
-def _tensegrity() -> ComparedMachine:
-    geometry, cables = tensegrity.TensegrityGeometry(), tensegrity.Cables()
-    steps = tensegrity.ENCODER_LINES * tensegrity.EDGES_PER_LINE
-
-    def joints(d: FloatArray) -> FloatArray:
-        return tensegrity.inverse(geometry, -d)
-
-    def turning(d: FloatArray) -> FloatArray:
-        return -tensegrity.jacobian(geometry, joints(d))
-
-    def efforts(d: FloatArray, force: FloatArray) -> FloatArray:
-        beta = joints(d)
-        load = tensegrity.hub_torques(tensegrity.jacobian(geometry, beta), force, L_OUT)
-        return tensegrity.tensions(geometry, cables, beta, load).tensions
-
-    def most(d: FloatArray) -> float:
-        return tensegrity.force_limit(geometry, cables, joints(d), L_OUT)
-
-    def stiffness(d: FloatArray) -> float:
-        pulled = tensegrity.tensions(geometry, cables, joints(d), (0.0, 0.0)).tensions
-        values = np.linalg.eigvalsh(tensegrity.guide_stiffness(geometry, cables, -d, pulled))
-        return float(np.sort(values)[1]) / L_OUT**2  # the smallest, 0, belongs to the needle
-
-    def tick() -> tuple[Callable[[], object], int]:
-        poses = np.concatenate([ring(np.deg2rad(tilt)) for tilt in TILTS_DEG[:-1]])
-        beta = np.tile([joints(d) for d in poses], (50, 1))
-        out = np.empty((len(beta), 4))
-        numbers = (*cables.law, *geometry.radii, *geometry.bars)
-        return partial(_tensegrity_often, beta, geometry.bars, numbers, L_OUT, out), len(beta)
-
-    return ComparedMachine(
-        "tensegrity (paper)",
-        "lengths and encoder lines published; tilts, four edges a line, cables and limits assumed",
-        turning,
-        lambda d: DEPTH * turning(d),
-        2.0 * np.pi / steps,
-        efforts,
-        "N",
-        most,
-        stiffness,
-        "the cables, winches held, least tensions; the loop can add the same as on any machine",
-        tick,
-    )
-
-
 @cache
 def machines() -> tuple[ComparedMachine, ...]:
     """Return the machines that are compared."""
-    return tuple(make() for make in (*MACHINES, *(one.make for one in comparisons())))
-
-
-MACHINES: Final[tuple[Callable[[], ComparedMachine], ...]] = (_pantograph, _tensegrity)
-"""What makes each of the program's own, in the order of the tables."""
+    return tuple(make() for make in (_pantograph, *(one.make for one in comparisons())))
 
 
 def comparisons() -> tuple[ComparedPlugin, ...]:
-    """Return the machines of folders of plug-ins, which stand after the program's own."""
-    found = (getattr(one, "COMPARISON", None) for one in plugin_folders.modules("comparisons"))
+    """Return further machines: those of this room, then those of folders of plug-ins."""
+    names = [f"{own.__name__}.{info.name}" for info in iter_modules(own.__path__)]
+    modules = [*map(import_module, names), *plugin_folders.modules("comparisons")]
+    found = (getattr(one, "COMPARISON", None) for one in modules)
     return tuple(one for one in found if isinstance(one, ComparedPlugin))
 
 
@@ -458,6 +396,8 @@ def _measure(progress: Progress | None) -> Findings:
             f"{float(upright[6]):.1f} N at most, 1 N needs {float(upright[7]):.3g} {machine.unit}."
         )
     for one in comparisons():
+        if one.more is None:
+            continue
         if progress is not None:
             progress.report(0.6, one.title)
         more, said = one.more()

@@ -47,12 +47,15 @@ def test_a_further_machine_is_one_more_entry(monkeypatch):
     def half_reach(d):
         if d[0] > 0.0:
             raise UnreachableError("unreachable: only the left half")
-        return machines.machines()[0].turning(d)
+        return pantograph.turning(d)
+
+    pantograph = machines.machines()[0]
 
     def fourth():
-        return replace(machines.MACHINES[0](), name="fourth", turning=half_reach)
+        return replace(pantograph, name="fourth", turning=half_reach)
 
-    monkeypatch.setattr(machines, "MACHINES", (*machines.MACHINES, fourth))
+    more = (*machines.comparisons(), machines.ComparedPlugin("a fourth", fourth))
+    monkeypatch.setattr(machines, "comparisons", lambda: more)
     machines.machines.cache_clear()
     try:
         names = {row[0] for row in machines.by_tilt().rows}

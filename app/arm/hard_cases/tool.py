@@ -35,7 +35,7 @@ from app.tracking.stereo.triangulation import triangulate
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "The tool and the trocar in pictures",
-    "subsystems": {"tool and trocar": "pose of the pen"},
+    "subsystems": {"tool and trocar": "calibration"},
 }
 
 _Way = Callable[..., Any]

@@ -30,7 +30,6 @@ STATES: Final = 10_000
 SECONDS: Final = 10
 """Processor time that they may take together, once the law is compiled [s]."""
 
-_PROFILES: Final = ("icube", "haply-2diy", "tensegrity")
 _ODD: Final = (np.nan, np.inf, -np.inf, 0.0, -0.0, 1.0, -1.0, 1e308, -1e308, 1e-308, 0.5, 1e6)
 _CODES: Final = 20  # of faults and of statuses
 
@@ -65,13 +64,14 @@ def _load(path: Path) -> Any:
 
 
 def _tables(law: "Law", module: Any) -> Iterator[Any]:
-    """Arrays of parameters for the defaults, the ends and values between, of each robot."""
+    """Arrays of parameters for the defaults, the ends and values between, of each shipped robot."""
     from app.core.errors import AcusError
+    from app.core.paths import resources
     from app.mechanisms.profile import load_profile
 
     rng = np.random.default_rng(1)
-    for name in _PROFILES:
-        profile = load_profile(name)
+    for path in sorted((resources() / "devices").glob("*.yaml")):
+        profile = load_profile(path)
         for share in (None, 0.0, 1.0, *rng.uniform(size=5)):
             given = {
                 key: limit.minimum + share * (limit.maximum - limit.minimum)

@@ -207,9 +207,9 @@ class DeviceProfile(Strict):
 
 def kinds() -> list[str]:
     """Kinds of machines: the program's own, those of plug-ins, and folders of the user's own."""
-    own = str(paths.plugins("mechanisms"))
-    if own not in mechanisms.__path__:
-        mechanisms.__path__.append(own)
+    for own in map(str, paths.plugin_places("mechanisms")):
+        if own not in mechanisms.__path__:
+            mechanisms.__path__.append(own)
     shared = (folder.path / _SHARED for folder in plugin_folders.folders())
     places = (*map(Path, mechanisms.__path__), *shared)
     return sorted({path.parent.name for folder in places for path in _profiles_in(folder)})
@@ -231,7 +231,9 @@ def _home(kind: str) -> tuple[Path, str, bool]:
         return _OWN, mechanisms.__name__, True
     for folder in shared:
         return folder.path / _SHARED, f"{folder.package}.{_SHARED}", folder.is_own
-    return paths.plugins("mechanisms"), mechanisms.__name__, False
+    places = paths.plugin_places("mechanisms")
+    own = next((place for place in places if (place / kind).is_dir()), places[0])
+    return own, mechanisms.__name__, False
 
 
 DEFAULT_KIND: Final = "pantograph"

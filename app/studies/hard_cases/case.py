@@ -36,13 +36,11 @@ _OWN: Final = (
     "force laws",
     "governor",
     "guard",
-    "cables and encoders",
     "effects",
     "integrators",
     "velocity",
     "triangulation",
     "calibration",
-    "pose of the pen",
     "rotations",
     "DICOM geometry",
     "oblique planes",
@@ -50,12 +48,12 @@ _OWN: Final = (
     "planning",
     "metrics",
 )
-"""The program's own subsystems, in the order of the table."""
+"""Subsystems in the order of the table; further ones are declared by the file of their cases."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DeclaredCases(Declaration):
-    """What a file of hard cases of a folder of plug-ins says about itself.
+    """What a file of hard cases says about itself, here if it adds subsystems.
 
     Attributes:
         subsystems: that it adds -> the one behind which each stands in the table.
@@ -76,26 +74,34 @@ KIND: Final[PluginKind[DeclaredCases]] = PluginKind(
 
 def _all_subsystems() -> tuple[str, ...]:
     order = list(_OWN)
-    for name in KIND.names():
-        declared = KIND.find(name)
+    own = [path for path in sorted(_HERE.glob("*.py")) if b"\nDECLARATION" in path.read_bytes()]
+    unusable = KIND.refused()
+    plugin_folders.refused.update(unusable)
+    shared = (path for path in KIND.files() if path not in unusable)
+    for declared in map(KIND.read, (*shared, *own)):
         for subsystem, after in declared.subsystems.items():
-            if after not in order:
-                raise StudyError(
-                    f"{declared.path}: {subsystem!r} stands behind {after!r};"
-                    f" there are {', '.join(order)}"
-                )
-            order.insert(order.index(after) + 1, subsystem)
+            if after in order:
+                order.insert(order.index(after) + 1, subsystem)
+                continue
+            reason = (
+                f"{declared.path}: {subsystem!r} stands behind {after!r};"
+                f" there are {', '.join(order)}"
+            )
+            if declared.path in own or KIND.is_own(declared.path):
+                raise StudyError(reason)
+            plugin_folders.refused[declared.path] = reason
     return tuple(order)
 
 
+_HERE: Final = Path(__file__).parent
 SUBSYSTEMS: Final = _all_subsystems()
-"""All subsystems, those that plug-ins add too, in the order of the table; every one has cases."""
+"""All subsystems, those that are added too, in the order of the table; every one has cases."""
 
 
 def reference_folders() -> tuple[Path, ...]:
     """Return where files of references lie: here, and in folders of plug-ins."""
     shared = (folder.path / "hard_cases" for folder in plugin_folders.folders())
-    return (Path(__file__).parent, *shared)
+    return (_HERE, *shared)
 
 
 EXTRAS: Final[Mapping[str, str]] = {"mujoco": "physics"}

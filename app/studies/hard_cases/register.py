@@ -2,6 +2,7 @@
 
 from functools import cache
 from importlib import import_module
+from pathlib import Path
 from pkgutil import iter_modules
 
 from app.core import plugin_folders
@@ -21,7 +22,8 @@ def cases() -> tuple[HardCase, ...]:
     names = [f"{hard_cases.__name__}.{info.name}" for info in iter_modules(hard_cases.__path__)]
     modules = [*map(import_module, names), *plugin_folders.modules("hard_cases")]
     for module in sorted(modules, key=lambda module: module.__name__.rpartition(".")[2]):
-        found += getattr(module, "CASES", ())
+        if Path(module.__file__ or "") not in plugin_folders.refused:
+            found += getattr(module, "CASES", ())
     called = [case.name for case in found]
     if twice := sorted({name for name in called if called.count(name) > 1}):
         raise StudyError(f"two hard cases are called {twice[0]!r}; rename one")

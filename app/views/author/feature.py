@@ -332,6 +332,8 @@ class AuthorFeature(Feature):
     """Menu entries, the button on the plan's page, the form, files of exercises."""
 
     topic: ClassVar[str] = "author"
+    place: ClassVar[int] = 50
+    help: ClassVar[str] = "authoring.md"
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

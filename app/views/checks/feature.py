@@ -78,6 +78,7 @@ class ChecksFeature(Feature):
     """Opens the pages; keeps the registration check that holds for the present cameras and CT."""
 
     topic: ClassVar[str] = "checks"
+    place: ClassVar[int] = 100
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

@@ -689,6 +689,7 @@ class DebriefFeature(Feature):
     """
 
     topic: ClassVar[str] = "debrief"
+    place: ClassVar[int] = 170
     begin_wanted = Signal(str)
 
     def __init__(self, context: Context) -> None:

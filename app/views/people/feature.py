@@ -85,6 +85,7 @@ class PeopleFeature(Feature):
     """
 
     topic: ClassVar[str] = "people"
+    place: ClassVar[int] = 180
     attempts_wanted = Signal(str, str, str)
     attempt_wanted = Signal(str)
 

@@ -32,8 +32,10 @@ class OpenCt(QObject):
         failed(object): the error that kept it from being opened.
         given_up(): nothing will be opened: refused, cancelled, or nothing was chosen.
         reading(bool): one is being looked for or read, or no more.
+        taking(Candidate): to be looked through, then taken into the library.
 
     Attributes:
+        ways_in: further ways into the library, for its menu: title, and what leads there.
         recents: those opened before.
         may_replace: asked before one is read, whether it may take the place of what is open.
     """
@@ -42,6 +44,7 @@ class OpenCt(QObject):
     failed = Signal(object)
     given_up = Signal()
     reading = Signal(bool)
+    taking = Signal(object)
 
     def __init__(self, recents: Recents, indicator: Indicator, window: QWidget) -> None:
         super().__init__(window)
@@ -49,6 +52,7 @@ class OpenCt(QObject):
         self._task: BackgroundTask | None = None
         self._listing: Listing | None = None
         self.may_replace: Callable[[], bool] = lambda: True
+        self.ways_in: list[tuple[str, Callable[[], object]]] = []
 
     @property
     def is_reading(self) -> bool:
