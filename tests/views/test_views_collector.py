@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 
+from app.core.progress import Progress
 from app.mechanisms.pantograph import kernels
 from app.mechanisms.profile import load_profile
 from app.planning import patient
