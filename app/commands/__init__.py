@@ -2,8 +2,7 @@
 
 Every file here that defines `register(root)`, and every file in `commands/` of a folder of
 plug-ins, adds its commands by it; `PLACE` says where the noun stands among those of the program in
-`acus --help`. Names that a command had before stay beside the new one, hidden. Rooms are imported
-inside the commands, so that `acus --help` is instant.
+`acus --help`. Rooms are imported inside the commands, so that `acus --help` is instant.
 """
 
 from importlib import import_module
