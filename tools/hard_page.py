@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from app.studies.hard import cases
 from app.studies.hard_cases.case import SUBSYSTEMS, HardCase
-from app.studies.hard_cases.register import cases
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "accuracy" / "hard.md"
 

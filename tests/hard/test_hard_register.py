@@ -8,6 +8,7 @@ import mpmath
 import pytest
 
 from app.studies.errors import StudyError
+from app.studies.hard import cases
 from app.studies.hard_cases.case import (
     REFERENCES,
     SUBSYSTEMS,
@@ -16,7 +17,6 @@ from app.studies.hard_cases.case import (
     reference_folders,
     tried,
 )
-from app.studies.hard_cases.register import cases
 from tools import hard_page, hard_references
 from tools.exact import ENTRIES, WORKING
 
