@@ -161,10 +161,11 @@ def _imports(path: Path, files: Iterable[str]) -> set[str]:
     """Return the dotted names that a file of tests rests on, and of `from a import b` a and a.b.
 
     Helpers are imported by their own name or with their folder's (both are on the path); a
-    `conftest` above a file by nobody.
+    `conftest` above a file by nobody; and who lists modules finds those in folders that it names.
     """
     names = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    text = path.read_text(encoding="utf-8")
+    for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
@@ -176,7 +177,8 @@ def _imports(path: Path, files: Iterable[str]) -> set[str]:
     for name in files:
         folder, _, last = name.rpartition(".")
         above = last == "conftest" and own.startswith(f"{folder}.") and own != name
-        if above or names & {last, name.removeprefix("tests.")}:
+        listed = "iter_modules" in text and f'"{folder.rpartition(".")[2]}"' in text
+        if above or listed or names & {last, name.removeprefix("tests.")}:
             names.add(name)
     return names
 

@@ -1,15 +1,11 @@
 """Hard cases of the arm: first axis, aligned wrist, stretched elbow, edges of reach, a limit."""
 
-from dataclasses import replace
-from math import acos, atan2, cos, degrees, pi
 from typing import Any, Final
 
 import numpy as np
 
 from app.arm.mechanics import (
     ARM_BRANCHES,
-    TURN_LENGTH,
-    ArmProfile,
     ArmSingularity,
     JointLimitError,
     arm_angle,
@@ -17,8 +13,6 @@ from app.arm.mechanics import (
     decoupled,
     forward,
     inverse,
-    jacobian,
-    link_frames,
     load_arm,
     nearest_pose,
     solve,
@@ -26,15 +20,7 @@ from app.arm.mechanics import (
 from app.core.arrays import FloatArray
 from app.core.transform import RigidTransform
 from app.mechanisms.errors import NotFiniteError, UnreachableError
-from app.studies.hard_cases.case import (
-    Defect,
-    HardCase,
-    ReferenceValue,
-    analytic,
-    answers,
-    digits,
-    named,
-)
+from app.studies.hard_cases.case import HardCase, ReferenceValue, analytic, answers, digits, named
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "The arm's kinematics",
@@ -71,14 +57,6 @@ def _beside_the_first_axis() -> HardCase:
     reference = digits("arm, wrist centre 1 nm from the first axis")
     there = _pose(reference)
 
-    def lean_by_acos(arm: ArmProfile, pose: RigidTransform) -> Any:
-        away = pose.translation - SHOULDER
-        lost = acos(away[2] / float(np.linalg.norm(away))) - atan2(
-            float(np.hypot(away[0], away[1])), away[2]
-        )
-        first = decoupled(arm, pose)[0]
-        return (replace(first, q=first.q + lost * np.eye(7)[1]),)
-
     def kept() -> bool:
         on_axis = RigidTransform(there.rotation, np.array([0.0, 0.0, there.translation[2]]))
         found = decoupled(ARM, on_axis, keep=(0.7, 0.0))[0]
@@ -94,16 +72,12 @@ def _beside_the_first_axis() -> HardCase:
         unit="rad",
         bound=3e-15,
         beyond=answers("on the axis: θ1 is kept, the pose reached to 1e-15", kept),
-        defect=Defect("lean of the wrist centre by acos, which loses 1e-9", lean_by_acos),
     )
 
 
 def _on_the_first_axis() -> HardCase:
     turn = forward(ARM, (0.3, 0.2, 0.1, 0.9, 0.4, 0.6, 0.2)).rotation
     there = RigidTransform(turn, SHOULDER + np.array([0.0, 0.0, 0.54]))
-
-    def by_arctangent(arm: ArmProfile, pose: RigidTransform, keep: Any) -> Any:
-        return decoupled(arm, pose, (0.0, keep[1]))
 
     def every() -> bool:
         found = [decoupled(ARM, there, (keep, 0.0)) for keep in np.linspace(-3.0, 3.0, 7)]
@@ -122,19 +96,12 @@ def _on_the_first_axis() -> HardCase:
         unit="rad, m, 1",
         bound=1e-15,
         beyond=answers("whatever is kept, all eight meet the pose", every),
-        defect=Defect("θ1 = atan2(p_y, p_x), of zeros", by_arctangent),
     )
 
 
 def _wrist_aligned() -> HardCase:
     q = np.array([0.3, 0.7, 0.0, 0.9, 0.3, 0.0, 0.4])
     there = forward(ARM, q)
-
-    def apart(arm: ArmProfile, pose: RigidTransform, keep: Any) -> Any:
-        first = decoupled(arm, pose, keep)[0]
-        m = forward(arm, [*first.q[:4], 0.0, 0.0, 0.0]).rotation.T @ pose.rotation
-        angles = atan2(m[1, 2], m[0, 2]), first.q[5], atan2(m[2, 1], -m[2, 0])
-        return (replace(first, q=np.array([*first.q[:4], *angles])),)
 
     def named_wrist() -> bool:
         return ArmSingularity.WRIST in decoupled(ARM, there, (0.0, -0.5))[0].singular
@@ -153,20 +120,12 @@ def _wrist_aligned() -> HardCase:
         unit="rad, m, 1",
         bound=1e-15,
         beyond=answers("named: the wrist", named_wrist),
-        defect=Defect("θ5 and θ7 each by the arc tangent of zeros", apart),
     )
 
 
 def _wrist_almost_aligned() -> HardCase:
     reference = digits("arm, sixth joint 1e-8 rad from aligned")
     there = _pose(reference)
-
-    def printed(arm: ArmProfile, pose: RigidTransform) -> Any:
-        # acos, which is what √(1 - k²) beside k gives
-        first = decoupled(arm, pose)[0]
-        q = first.q.copy()
-        q[5] = acos(min(1.0, cos(q[5])))
-        return (replace(first, q=q),)
 
     return HardCase(
         subsystem="kinematics",
@@ -178,7 +137,6 @@ def _wrist_almost_aligned() -> HardCase:
         unit="rad",
         bound=1e-15,
         beyond=answers("aligned: θ5 is kept, θ5 + θ7 right to 1e-15", _aligned),
-        defect=Defect("θ6 from √(1 - k²), as printed", printed),
     )
 
 
@@ -192,14 +150,6 @@ def _wrist_closes() -> HardCase:
     aligned = (0.3, 0.7, 0.2, 0.9, 0.4, 1e-9, 0.2)
     there, angle, branch = forward(ARM, aligned), arm_angle(ARM, aligned), ARM_BRANCHES[0]
 
-    def apart(*arguments: Any) -> Any:
-        # θ5 and θ7 each for itself, as the paper (and every textbook) prints them
-        found = inverse(*arguments)
-        q = found.q.copy()
-        m = forward(ARM, [*q[:4], 0.0, 0.0, 0.0]).rotation.T @ there.rotation
-        q[4], q[6] = atan2(m[1, 2], m[0, 2]), atan2(m[2, 1], -m[2, 0])
-        return replace(found, q=q)
-
     return HardCase(
         subsystem="kinematics",
         case="arm: the pose is met with the wrist 1e-9 rad from aligned",
@@ -210,17 +160,12 @@ def _wrist_closes() -> HardCase:
         unit="m, 1",
         bound=1e-15,
         beyond=named(NotFiniteError, lambda: inverse(ARM, there, float("nan"), branch)),
-        defect=Defect("θ5 and θ7 each for itself", apart),
     )
 
 
 def _almost_stretched(short: str) -> HardCase:
     reference = digits(f"arm, wrist centre {short} short of stretched")
     there = RigidTransform(np.eye(3), np.array(reference.given))
-
-    def untied(arm: ArmProfile, pose: RigidTransform) -> Any:
-        down, up = decoupled(arm, pose)[0], decoupled(arm, pose)[2]
-        return (replace(down, q=np.where(np.arange(7) == 1, up.q, down.q)),)
 
     return HardCase(
         subsystem="kinematics",
@@ -232,21 +177,12 @@ def _almost_stretched(short: str) -> HardCase:
         unit="rad",
         bound=1e-15 / float(reference.value[1]),  # no formula is better than ε / θ4
         beyond=named(UnreachableError, lambda: solve(ARM, _at(REACH * (1.0 + 1e-9)))),
-        defect=Defect("signs of θ2 and θ4 not tied, as printed", untied),
     )
 
 
 def _stretched() -> HardCase:
     q = np.array([0.3, 0.7, 0.5, 0.0, 0.4, 0.6, 0.2])
     there = forward(ARM, q)
-
-    def by_squares(arm: ArmProfile, angles: FloatArray) -> Any:
-        weighed = jacobian(arm, angles)
-        weighed[3:] *= TURN_LENGTH
-        values = np.linalg.eigvalsh(weighed @ weighed.T)
-        return replace(
-            arm_singularity(arm, angles), dexterity=float(np.sqrt(abs(values[0]) / values[-1]))
-        )
 
     def met() -> bool:
         found = solve(ARM, there)
@@ -263,24 +199,12 @@ def _stretched() -> HardCase:
         unit="1",
         bound=1e-15,
         beyond=answers("the pose is met all the same, and the elbow is named", met),
-        defect=Defect("roots of the eigenvalues of J Jᵀ, which square the smallest", by_squares),
     )
 
 
 def _arm_angle_stretched() -> HardCase:
     reference = digits("arm angle, elbow 1e-9 rad from stretched")
     q = np.array(reference.given)
-
-    def by_places(arm: ArmProfile, angles: FloatArray) -> float:
-        there = forward(arm, angles)
-        axis = (there.translation - SHOULDER) / np.linalg.norm(there.translation - SHOULDER)
-
-        def across(posture: FloatArray) -> FloatArray:
-            elbow = link_frames(arm, posture)[3][:3, 3] - SHOULDER
-            return np.asarray(elbow - axis * (axis @ elbow))
-
-        a, b = across(decoupled(arm, there)[0].q), across(angles)
-        return atan2(float(axis @ np.cross(a, b)), float(a @ b))
 
     def stretched() -> bool:
         straight = np.where(np.arange(7) == 3, 0.0, q)
@@ -296,40 +220,25 @@ def _arm_angle_stretched() -> HardCase:
         unit="rad",
         bound=1e-15,
         beyond=answers("stretched: still defined, by the normal of the elbow plane", stretched),
-        defect=Defect("by the places of the two elbows, in doubles", by_places),
     )
 
 
 def _skin() -> HardCase:
     there = _at(REACH * (1.0 + 2.3e-16))
 
-    def by_acos(arm: ArmProfile, pose: RigidTransform) -> Any:
-        away = float(np.linalg.norm(pose.translation - SHOULDER))
-        a, b = arm.upper_arm, arm.forearm
-        above = np.nextafter((away**2 - a**2 - b**2) / (2.0 * a * b), 2.0)
-        with np.errstate(invalid="ignore"):
-            return replace(solve(arm, pose), q=np.full(7, np.arccos(max(above, 1.0 + 2.3e-16))))
-
     return HardCase(
         subsystem="kinematics",
         case="arm: a target on the outer skin of the workspace, one bit beyond",
         given="wrist centre at 0.82 m (1 + 2.3e-16) from the shoulder",
         way=solve,
-        found=lambda way: _met(way(ARM, there), there),
+        found=lambda way: _off(way(ARM, there).q, there),
         reference=analytic("forward of the solution is the pose: 0", np.zeros(12)),
         unit="m, 1",
         bound=1e-15,
         beyond=answers(
             "refused by UnreachableError at 1e-9 more, and the nearest pose is offered", _offered
         ),
-        defect=Defect("acos of the law of cosines, one bit above 1", by_acos),
     )
-
-
-def _met(found: Any, there: RigidTransform) -> FloatArray:
-    if not np.isfinite(found.q).all():
-        return np.full(12, np.nan)
-    return _off(found.q, there)
 
 
 def _offered() -> bool:
@@ -341,11 +250,6 @@ def _offered() -> bool:
 def _inner_skin() -> HardCase:
     folded = np.array([0.3, 0.4, 0.5, ARM.upper[3], 0.2, 0.6, 0.7])
     there = forward(ARM, folded)
-
-    def open_ended(arm: ArmProfile, pose: RigidTransform) -> Any:
-        far = replace(arm, lower=1.001 * arm.lower, upper=1.001 * arm.upper)
-        inside = RigidTransform(pose.rotation, SHOULDER + 0.9999 * (pose.translation - SHOULDER))
-        return solve(far, inside)
 
     return HardCase(
         subsystem="kinematics",
@@ -359,23 +263,11 @@ def _inner_skin() -> HardCase:
         beyond=named(
             JointLimitError, lambda: solve(ARM, forward(ARM, folded + 1e-6 * np.eye(7)[3]))
         ),
-        defect=Defect("limits with a share of room", open_ended),
     )
 
 
 def _only_branch() -> HardCase:
     there = forward(ARM, ONLY)
-
-    def by_scan(arm: ArmProfile, pose: RigidTransform) -> Any:
-        found = [
-            inverse(arm, pose, angle, branch)
-            for angle in np.linspace(-pi, pi, 360)
-            for branch in ARM_BRANCHES
-        ]
-        best = max(found, key=lambda one: one.margin)
-        if best.margin < 0.0:
-            raise JointLimitError(f"the best of the scan is {degrees(-best.margin)}° beyond")
-        return best
 
     further = np.array(ONLY) + 1e-6 * np.eye(7)[1]
     return HardCase(
@@ -388,7 +280,6 @@ def _only_branch() -> HardCase:
         unit="rad",
         bound=1e-7,  # the arm angle of a touching root: √ε
         beyond=named(JointLimitError, lambda: solve(ARM, forward(ARM, further))),
-        defect=Defect("a scan of 360 arm angles", by_scan),
     )
 
 

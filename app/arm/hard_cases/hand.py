@@ -2,14 +2,13 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import atan2, cos, nan, sin, sqrt
+from math import sqrt
 from typing import Any, Final
 
 import numpy as np
 
 from app.arm.hand import (
     Contacts,
-    FingerPose,
     FirmGrasp,
     GraspError,
     HandFinger,
@@ -24,13 +23,11 @@ from app.arm.hand import (
     inverse,
     jacobian,
     load_hand,
-    positively_spanned,
     press,
-    wrenches,
 )
 from app.core.arrays import FloatArray
 from app.mechanisms.errors import UnreachableError
-from app.studies.hard_cases.case import Defect, HardCase, analytic, answers, digits, named
+from app.studies.hard_cases.case import HardCase, analytic, answers, digits, named
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "The hand",
@@ -46,30 +43,8 @@ COLLINEAR: Final = 0.02 * np.outer((-1.0, 0.2, 1.3), LINE)
 _DRIVE: Final = load_hand().drive
 
 
-def _kept_turn(geometry: HandGeometry, p: Any, finger: HandFinger) -> FingerPose:
-    # Whatever is within a micrometre of the axis is on it.
-    return inverse(geometry, np.where(np.abs(p) < 1e-6, 0.0, p), finger)
-
-
-def _printed_joints(geometry: HandGeometry, p: Any) -> FloatArray:
-    # 3.2.2 as it is printed: the root of 1 - c².
-    rho, z = p[0] - geometry.knuckle, p[2]
-    l2, l3 = geometry.proximal, geometry.distal
-    c = (rho * rho + z * z - l2 * l2 - l3 * l3) / (2.0 * l2 * l3)
-    inner = atan2(sqrt(1.0 - c * c) if c <= 1.0 else nan, c)
-    lead = atan2(l3 * sin(inner), l2 + l3 * cos(inner))
-    return np.array([0.0, atan2(z, rho) - lead, inner])
-
-
 def _joints(geometry: HandGeometry, p: Any) -> FloatArray:
     return inverse(geometry, p).joints
-
-
-def _by_differences(geometry: HandGeometry, q: Any) -> FloatArray:
-    steps = 1e-7 * np.eye(3)
-    return np.column_stack(
-        [(forward(geometry, q + h) - forward(geometry, q - h)) / 2e-7 for h in steps]
-    )
 
 
 def _fingers() -> tuple[HardCase, ...]:
@@ -84,9 +59,6 @@ def _fingers() -> tuple[HardCase, ...]:
         return found.any_spread and found.joints[0] == 0.3
 
     on_axis = np.array([0.0, 0.0, height])
-
-    def spread_of_zeros(geometry: HandGeometry, p: Any, finger: HandFinger, _: float) -> FingerPose:
-        return inverse(geometry, p, finger, phi1_now=atan2(p[1], p[0]))
 
     def nothing_moves() -> bool:
         found = inverse(HAND, on_axis, HandFinger.TWO, phi1_now=0.3)
@@ -107,7 +79,6 @@ def _fingers() -> tuple[HardCase, ...]:
             unit="rad, m",
             bound=1e-16,
             beyond=answers("said to be free, and the spread moves nothing there", nothing_moves),
-            defect=Defect("spread by the arc tangent of zeros", spread_of_zeros),
         ),
         HardCase(
             subsystem="kinematics",
@@ -119,7 +90,6 @@ def _fingers() -> tuple[HardCase, ...]:
             unit="rad",
             bound=1e-15,
             beyond=answers("on the axis the finger keeps the spread that it has", keeps),
-            defect=Defect("a point within 1 µm is on the axis", _kept_turn),
         ),
         HardCase(
             subsystem="kinematics",
@@ -134,7 +104,6 @@ def _fingers() -> tuple[HardCase, ...]:
                 UnreachableError,
                 lambda: inverse(STRAIGHT, (rho * (1.0 + 1e-9), 0.0, z * (1.0 + 1e-9))),
             ),
-            defect=Defect("root of 1 - c², as equation 3.2.2 is printed", _printed_joints),
         ),
         HardCase(
             subsystem="kinematics",
@@ -152,7 +121,6 @@ def _fingers() -> tuple[HardCase, ...]:
                     and np.abs(found[:, 0]).max() < 1e-16
                 ),
             ),
-            defect=Defect("central differences of 1e-7 rad", _by_differences),
         ),
     )
 
@@ -160,26 +128,6 @@ def _fingers() -> tuple[HardCase, ...]:
 def _pair(nx: float, ny: float, mu: float) -> Contacts:
     points = np.array([(-1.0, 0.0), (1.0, 0.0)])
     return Contacts(points, np.array([(1.0, 0.0), (nx, ny)]), mu)
-
-
-def _least_friction(contacts: Contacts, **given: Any) -> Any:
-    # Friction below a hundredth taken for one, so that no cone degenerates.
-    return force_closure(replace(contacts, friction=max(contacts.friction, 0.01)), **given)
-
-
-def _single(contacts: Contacts, **_: Any) -> Any:
-    # Normals of single precision.
-    return force_closure(replace(contacts, normals=contacts.normals.astype(np.float32)))
-
-
-def _rank_alone(contacts: Contacts, **_: Any) -> Any:
-    found = force_closure(contacts)
-    return replace(found, closed=found.rank == 6)
-
-
-def _weights_alone(contacts: Contacts, **_: Any) -> Any:
-    found = force_closure(contacts)
-    return replace(found, closed=positively_spanned(wrenches(contacts).rays))
 
 
 def _said(contacts: Contacts) -> Callable[[Callable[..., Any]], list[float]]:
@@ -209,7 +157,6 @@ def _margins() -> tuple[HardCase, ...]:
                 "open without friction, and the wrenches' rank says why",
                 lambda: force_closure(_pair(-1.0, 0.0, 0.0)).rank == 1,
             ),
-            defect=Defect("friction below 0.01 taken for 0.01", _least_friction),
         ),
         HardCase(
             subsystem="grasping",
@@ -224,7 +171,6 @@ def _margins() -> tuple[HardCase, ...]:
                 "open at margin 0 where the line is 1e-9 rad outside",
                 lambda: not force_closure(_pair(nx, ny, np.tan(0.4 - 1e-9))).closed,
             ),
-            defect=Defect("normals of single precision", _single),
         ),
     )
 
@@ -258,7 +204,6 @@ def _never() -> tuple[HardCase, ...]:
                 "closed with a margin below 1e-4 on a rod of 1 µm about the line",
                 lambda: 0.0 < force_closure(thin).margin < 1e-4,
             ),
-            defect=Defect("positive weights, without the rank", _weights_alone),
         ),
         HardCase(
             subsystem="grasping",
@@ -273,7 +218,6 @@ def _never() -> tuple[HardCase, ...]:
                 "closed with a fourth from the other side",
                 lambda: force_closure(against).closed,
             ),
-            defect=Defect("rank, without positive weights", _rank_alone),
         ),
         HardCase(
             subsystem="grasping",
@@ -288,12 +232,12 @@ def _never() -> tuple[HardCase, ...]:
                 "closed with a margin below 1e-6 at friction 1e-6",
                 lambda: 0.0 < force_closure(slippery.contacts(1e-6)).margin < 1e-6,
             ),
-            defect=Defect("friction below 0.01 taken for 0.01", _least_friction),
         ),
     )
 
 
-def _press(softer: float) -> FloatArray:
+def pressed(softer: float) -> FloatArray:
+    """Return force and overshoot [N] of a grasp whose gain is for something softer, shape (2,)."""
     lever = Lever(free=8e-4, alone=3e-4, arm=0.09, breakaway=0.5)
     law = FirmGrasp(
         4.0, lever, SoftContact(1e9 / softer), _DRIVE.lag, _DRIVE.period, _DRIVE.top_speed
@@ -311,13 +255,12 @@ def _stiff() -> HardCase:
         subsystem="grasping",
         case="a firm grasp of something as stiff as 1e9 N/m",
         given="4 N asked for, 2 ms a period; force after 2 s, and overshoot",
-        way=_press,
+        way=pressed,
         found=lambda way: way(1.0),
         reference=analytic("the goal, and none", (4.0, 0.0)),
         unit="N",
         bound=1e-9,
         beyond=named(GraspError, lambda: gained(1.0)),
-        defect=Defect("the gain for something a hundred times as soft", lambda _: _press(100.0)),
     )
 
 

@@ -2,7 +2,6 @@
 
 from functools import partial
 from math import atan2, cos, pi, sin
-from types import SimpleNamespace
 from typing import Any, Final
 
 import numpy as np
@@ -10,7 +9,7 @@ import numpy as np
 from app.arm.mechanics import load_arm, solve
 from app.arm.motion import LEAST_DEPTH, FulcrumError, HeldTool, JointPath, Pivot
 from app.core.arrays import FloatArray
-from app.studies.hard_cases.case import Defect, HardCase, analytic, answers, named
+from app.studies.hard_cases.case import HardCase, analytic, answers, named
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Motion at a trocar",
@@ -25,13 +24,13 @@ PIVOT: Final = Pivot(ARM, TOOL, np.zeros(3), np.array([0.0, 0.0, -1.0]), tilt=GR
 ASIDE: Final = np.array([0.0, 0.01, 0.0])
 """A velocity across the shaft [m/s]."""
 
+ROLL: Final = 2.0
+"""Of the tool about its shaft [rad]."""
+
 
 def _tip_at_the_fulcrum() -> HardCase:
     depth = LEAST_DEPTH * (1.0 + 1e-9)
     tip = np.array([0.0, 0.0, -depth])
-
-    def unscaled(*_: Any) -> Any:
-        return SimpleNamespace(velocity=-ASIDE)
 
     def undefined() -> bool:
         places = (np.zeros(3), 1e-300 * tip, 0.5 * tip)
@@ -50,22 +49,19 @@ def _tip_at_the_fulcrum() -> HardCase:
         unit="m/s",
         bound=1e-14,
         beyond=answers("nearer, and at the fulcrum: FulcrumError, never a scale", undefined),
-        defect=Defect("inverted, but not scaled by depth", unscaled),
     )
+
+
+def slid(pivot: Pivot, direction: FloatArray, depth: float) -> list[float]:
+    """Return direction, depth, roll and distance from the fulcrum of a tool that was slid there."""
+    q = solve(ARM, pivot.wrist_pose(pivot.pose(direction, depth, ROLL))).q
+    there = pivot.state(q)
+    return [*there.axis_world, there.depth, there.roll, there.off]
 
 
 def _slid_through_the_fulcrum() -> HardCase:
     trocar = Pivot(ARM, TOOL, np.array([0.5, 0.0, 0.4]), np.array([0.0, 0.0, -1.0]))
-    axis, roll = np.array([0.0, -0.28, -0.96]), 2.0
-
-    def slid(pivot: Pivot, direction: FloatArray, depth: float) -> list[float]:
-        q = solve(ARM, pivot.wrist_pose(pivot.pose(direction, depth, roll))).q
-        there = pivot.state(q)
-        return [*there.axis_world, there.depth, there.roll, there.off]
-
-    def aimed(pivot: Pivot, direction: FloatArray, depth: float) -> list[float]:
-        toward, found = pivot.aim(pivot.p_world + depth * direction)
-        return slid(pivot, toward, found)
+    axis = np.array([0.0, -0.28, -0.96])
 
     return HardCase(
         subsystem="planning",
@@ -73,11 +69,10 @@ def _slid_through_the_fulcrum() -> HardCase:
         given="depth 0, direction (0, -0.28, -0.96), roll 2 rad, through the joint angles",
         way=slid,
         found=lambda way: way(trocar, axis, 0.0),
-        reference=analytic("what the pose was made of, and 0", [*axis, 0.0, roll, 0.0]),
+        reference=analytic("what the pose was made of, and 0", [*axis, 0.0, ROLL, 0.0]),
         unit="1, m, rad",
         bound=1e-14,
         beyond=named(FulcrumError, lambda: trocar.aim(trocar.p_world)),
-        defect=Defect("direction from the fulcrum to the tip", aimed),
     )
 
 
@@ -88,11 +83,6 @@ def _grazing() -> HardCase:
     def tilt(away: tuple[FloatArray, float]) -> float:
         d, _ = away
         return atan2(float(np.hypot(d[0], d[1])), float(-d[2]))
-
-    def by_acos(pivot: Pivot, place: FloatArray) -> tuple[FloatArray, float]:
-        depth = float(np.linalg.norm(place))
-        lean = float(np.float32(np.arccos(-place[2] / depth)))
-        return np.array([sin(lean), 0.0, -cos(lean)]), depth
 
     beyond = GRAZING + 2e-9
     return HardCase(
@@ -108,26 +98,22 @@ def _grazing() -> HardCase:
             FulcrumError,
             lambda: PIVOT.aim(0.1 * np.array([sin(beyond), 0.0, -cos(beyond)])),
         ),
-        defect=Defect("tilt in single precision", by_acos),
     )
+
+
+def posture(pivot: Pivot, angles: FloatArray) -> list[float]:
+    """Return roll, depth and distance from the fulcrum of a tool that joint angles hold."""
+    there = pivot.state(angles)
+    return [there.roll, there.depth, there.off]
 
 
 def _roll_of_a_flat_shaft() -> HardCase:
     flat = Pivot(ARM, TOOL, np.array([0.5, 0.0, 0.4]), np.array([0.0, 0.0, -1.0]), tilt=GRAZING)
     axis = np.array([-sin(1.3), 0.0, -cos(1.3)])
-    roll = 2.0
-    q = solve(ARM, flat.wrist_pose(flat.pose(axis, 0.1, roll))).q
-
-    def state(pivot: Pivot, angles: FloatArray) -> list[float]:
-        there = pivot.state(angles)
-        return [there.roll, there.depth, there.off]
-
-    def by_angles(pivot: Pivot, angles: FloatArray) -> list[float]:
-        needle = pivot.tool.needle_pose(pivot.arm, angles).rotation
-        return [atan2(needle[2, 1], -needle[2, 0]), *state(pivot, angles)[1:]]
+    q = solve(ARM, flat.wrist_pose(flat.pose(axis, 0.1, ROLL))).q
 
     def between() -> bool:
-        other = solve(ARM, flat.wrist_pose(flat.pose(axis, 0.12, roll)), near=q).q
+        other = solve(ARM, flat.wrist_pose(flat.pose(axis, 0.12, ROLL)), near=q).q
         path = JointPath.straight(q, other)
         seen = max(flat.state(one).off for one in path.at(np.linspace(0.0, 1.0, 200)))
         return bool(0.0 < seen <= flat.off(path))
@@ -136,13 +122,12 @@ def _roll_of_a_flat_shaft() -> HardCase:
         subsystem="planning",
         case="arm: roll, depth and distance from the fulcrum of a flat shaft, from joint angles",
         given="tilt 1.3 rad, roll 2 rad, depth 100 mm",
-        way=state,
+        way=posture,
         found=lambda way: way(flat, q),
-        reference=analytic("what the posture was made of, and 0", [roll, 0.1, 0.0]),
+        reference=analytic("what the posture was made of, and 0", [ROLL, 0.1, 0.0]),
         unit="rad, m",
         bound=1e-14,
         beyond=answers("between postures: the bound of the distance holds", between),
-        defect=Defect("roll as an Euler angle", by_angles),
     )
 
 

@@ -27,11 +27,10 @@ from app.arm.eyes import (
 from app.arm.laparoscopy import RING_HALF, ToolBody, TrocarRing
 from app.core.arrays import FloatArray, unit
 from app.core.units import DEGREE
-from app.studies.hard_cases.case import Defect, HardCase, analytic, answers, digits
+from app.studies.hard_cases.case import HardCase, analytic, answers, digits
 from app.tracking.cameras.camera import Image
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.simulated.obstacles import Highlight, highlight
-from app.tracking.stereo.triangulation import triangulate
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "The tool and the trocar in pictures",
@@ -63,12 +62,6 @@ def _far_away() -> HardCase:
     reference = digits("principal axis of an all but round blob far away")
     pixels = np.array(reference.given).reshape(-1, 2)
 
-    def in_one_pass(points: FloatArray) -> Any:
-        n, (x, y) = len(points), points.mean(axis=0)
-        xx, yy = (points**2).sum(axis=0) - n * np.array([x * x, y * y])
-        xy = points.prod(axis=1).sum() - n * x * y
-        return replace(whole(points), angle=0.5 * float(np.arctan2(2.0 * xy, xx - yy)))
-
     return HardCase(
         subsystem="tool and trocar",
         case="principal axis of an all but round blob far from the origin",
@@ -79,7 +72,6 @@ def _far_away() -> HardCase:
         unit="rad",
         bound=1e-12,
         beyond=answers("no axis for a disc", lambda: whole(ellipse(1.0, 0.0), 0.1).angle is None),
-        defect=Defect("sums of squares less the squared mean", in_one_pass),
     )
 
 
@@ -87,11 +79,6 @@ def _round() -> HardCase:
     y, x = np.mgrid[-60:61, -60:61].astype(np.float64)
     inside = np.hypot(x - 0.3, y - 0.2) <= 40.0
     disc = np.column_stack([x[inside], y[inside]])
-
-    def always(points: FloatArray, edge_px: float) -> Any:
-        found = whole(points, edge_px)
-        c = found.covariance
-        return replace(found, angle=0.5 * float(np.arctan2(2.0 * c[0, 1], c[0, 0] - c[1, 1])))
 
     return HardCase(
         subsystem="tool and trocar",
@@ -106,16 +93,10 @@ def _round() -> HardCase:
             "one that is longer by a twentieth has one",
             lambda: whole(ellipse(1.05, 70.0 * DEGREE), 0.1).angle is not None,
         ),
-        defect=Defect("arc tangent of what rounding to pixels leaves", always),
     )
 
 
 def _steep() -> HardCase:
-    def by_quotient(points: FloatArray) -> Any:
-        found = whole(points)
-        c = found.covariance
-        return replace(found, angle=0.5 * float(np.arctan(2.0 * c[0, 1] / (c[0, 0] - c[1, 1]))))
-
     return HardCase(
         subsystem="tool and trocar",
         case="axis of a blob that is longer by a twentieth, and steep",
@@ -129,7 +110,6 @@ def _steep() -> HardCase:
             "an upright axis is +90°, never -90°",
             lambda: whole(np.array([[0.0, -1.0], [0.0, 0.0], [0.0, 1.0]])).angle == 0.5 * np.pi,
         ),
-        defect=Defect("arc tangent of the quotient", by_quotient),
     )
 
 
@@ -151,7 +131,12 @@ def lamp(image: Image, uv: FloatArray, sd_px: float) -> Image:
     return highlight(image, Highlight(uv, sd_px, 400.0), np.random.default_rng(0))
 
 
-def _seen(image: Image) -> ToolBlob:
+def tool_in(image: Image) -> ToolBlob:
+    """Return the tool in a picture.
+
+    Raises:
+        ArithmeticError: if there is none.
+    """
     found = find_tool(image)
     if isinstance(found, ToolMiss):
         raise ArithmeticError(found.reason.value)
@@ -162,12 +147,7 @@ def _bleached() -> HardCase:
     def centre(way: _Way) -> Any:
         plain = renderer().render(LYING)
         place = camera().project(LYING.p_tip - 0.06 * LYING.axis_world)[0][0]
-        return way(lamp(plain, place, 4.0)).moments.centre - _seen(plain).moments.centre
-
-    def colour_alone(image: Image) -> Any:
-        green = image[..., 1].astype(float) - 0.5 * (image[..., 0].astype(float) + image[..., 2])
-        pixels = np.argwhere(green > 25.0)[:, ::-1].astype(np.float64)
-        return replace(_seen(image), moments=whole(pixels))
+        return way(lamp(plain, place, 4.0)).moments.centre - tool_in(plain).moments.centre
 
     def two() -> bool:
         other = ToolScene(np.array([0.1, -0.12, 0.009]), np.array([0.9, 0.3, 0.0]))
@@ -178,13 +158,12 @@ def _bleached() -> HardCase:
         subsystem="tool and trocar",
         case="a lamp's reflection across the shaft is bridged",
         given="a tool on the table, bleached over its whole width near the tip",
-        way=_seen,
+        way=tool_in,
         found=centre,
         reference=analytic("the centre without the lamp", (0.0, 0.0)),
         unit="px",
         bound=1.0,  # of some 150 px; the reflection is wider than the shaft
         beyond=answers("two tools are named", two),
-        defect=Defect("pixels of the colour alone", colour_alone),
     )
 
 
@@ -213,7 +192,6 @@ def _two_tools() -> HardCase:
             "with one taken away the other is found",
             lambda: isinstance(find_tool(renderer().render(other)), ToolBlob),
         ),
-        defect=Defect("the first of them", lambda _: find_tool(renderer().render(LYING))),
     )
 
 
@@ -223,25 +201,18 @@ def _cut() -> HardCase:
     def angle(way: _Way) -> Any:
         return way(renderer().render(scene)).moments.angle
 
-    def of_the_box(image: Image) -> Any:
-        found = _seen(image)
-        wide, high = np.ptp(found.pixels, axis=0)
-        angle = float(np.sign(found.moments.covariance[0, 1]) * np.arctan2(high, wide))
-        return replace(found, moments=replace(found.moments, angle=angle))
-
     ends = camera().project(scene.p_tip - np.array([[0.0], [0.08]]) * scene.axis_world)[0]
     slope = ends[1] - ends[0]
     return HardCase(
         subsystem="tool and trocar",
         case="axis of a tool that the picture's edge cuts",
         given="the handle beyond the edge",
-        way=_seen,
+        way=tool_in,
         found=angle,
         reference=analytic("the shaft's picture", float(np.arctan(slope[1] / slope[0]))),
         unit="rad",
         bound=0.02,  # what is cut off aslant
-        beyond=answers("said to be cut", lambda: _seen(renderer().render(scene)).cut),
-        defect=Defect("diagonal of its box", of_the_box),
+        beyond=answers("said to be cut", lambda: tool_in(renderer().render(scene)).cut),
     )
 
 
@@ -254,12 +225,6 @@ def exact_lines(values: Sequence[float]) -> list[ShaftLine]:
 
 def _all_but_parallel() -> HardCase:
     reference = digits("point nearest to lines 1e-5 rad from parallel")
-
-    def normal_equations(lines: list[ShaftLine]) -> Any:
-        across = [np.eye(3) - np.outer(line.axis_world, line.axis_world) for line in lines]
-        right = sum(a @ line.p_world for a, line in zip(across, lines, strict=True))
-        solved = np.asarray(np.linalg.solve(sum(across), right), dtype=np.float64)
-        return replace(meet_lines(lines), p_world=solved)
 
     def parallel() -> bool:
         rows = [(0.01 * k, 0.02 * k * k, 0.3, 0.1, 0.2, -1.0) for k in range(5)]
@@ -276,19 +241,12 @@ def _all_but_parallel() -> HardCase:
         unit="m",
         bound=1e-10,  # ε / 1e-5, several times
         beyond=answers("named DEGENERATE for parallel lines", parallel),
-        defect=Defect("normal equations, which square the angle", normal_equations),
     )
 
 
 def _parallel() -> HardCase:
     rows = [(0.01 * k, 0.02 * k * k, 0.3, 0.1, 0.2, -1.0) for k in range(5)]
     lines = exact_lines([value for row in rows for value in row])
-
-    def least_norm(lines: list[ShaftLine]) -> Any:
-        across = [np.eye(3) - np.outer(line.axis_world, line.axis_world) for line in lines]
-        right = sum(a @ line.p_world for a, line in zip(across, lines, strict=True))
-        solved = np.linalg.pinv(sum(across)) @ right
-        return replace(meet_lines(lines), p_world=solved, status=FulcrumStatus.FOUND)
 
     def turned() -> bool:
         lean = [(*row[:3], 0.1 + 1e-3 * k, *row[4:]) for k, row in enumerate(rows)]
@@ -308,7 +266,6 @@ def _parallel() -> HardCase:
         unit="1, m",
         bound=0.0,
         beyond=answers("judged by their distances once they turn by 1 mrad", turned),
-        defect=Defect("the point of least norm", least_norm),
     )
 
 
@@ -319,10 +276,6 @@ def _along_the_skin() -> HardCase:
         axis = unit([np.cos(0.8 * k), np.sin(0.8 * k), -lean])
         lift = np.array([0.0, 0.0, 1e-6 * (-1) ** k])
         lines.append(ShaftLine(fulcrum - 0.1 * axis + lift, axis, np.zeros((6, 6))))
-
-    def on_the_skin(lines: list[ShaftLine]) -> Any:
-        met = [x.p_world - x.p_world[2] / x.axis_world[2] * x.axis_world for x in lines]
-        return replace(meet_lines(lines), p_world=met[0])
 
     return HardCase(
         subsystem="tool and trocar",
@@ -345,7 +298,6 @@ def _along_the_skin() -> HardCase:
                 is FulcrumStatus.CONTRADICTORY
             ),
         ),
-        defect=Defect("where a line meets the skin", on_the_skin),
     )
 
 
@@ -364,13 +316,6 @@ def _edge_on() -> HardCase:
         ring = centre + radius * (np.cos(turn) * first + np.sin(turn) * np.cross(normal, first))
         return models[0].project(ring)[0], models[1].project(ring)[0]
 
-    def of_ellipses(models: Any, seen: Any, radius: float) -> Any:
-        found = solve_trocar(models, seen, radius)
-        rays = [m.undistort(uv)[0].mean(axis=0) for m, uv in zip(models, seen, strict=True)]
-        poses = models[0].T_camera_world, models[1].T_camera_world
-        spread = np.array([np.eye(2) * 1e-8] * 2)
-        return replace(found, p_world=triangulate(poses, np.array(rays), spread).p_world)
-
     return HardCase(
         subsystem="tool and trocar",
         case="centre of a trocar seen 70° from its normal",
@@ -386,7 +331,6 @@ def _edge_on() -> HardCase:
                 solve_trocar(models, outlines(84.0 * DEGREE), radius).status is TrocarStatus.GRAZING
             ),
         ),
-        defect=Defect("middle of its outlines, triangulated", of_ellipses),
     )
 
 
@@ -396,10 +340,6 @@ def _in_the_rings_plane() -> HardCase:
     axis = np.array([1.0, 0.0, -slope])
     length = sqrt(1.0 + slope**2)
     room = ring.inner - 0.5 * diameter * length / slope - RING_HALF / slope
-
-    def by_the_angle(_: TrocarRing, towards: FloatArray, thick: float) -> float:
-        lean = float(np.float32(np.arccos(-unit(towards)[2])))
-        return float(ring.inner - 0.5 * thick / np.cos(lean) - RING_HALF * np.tan(lean))
 
     def none() -> bool:
         flat = ring.room(np.array([1.0, 0.0, 0.0]), diameter)
@@ -415,7 +355,6 @@ def _in_the_rings_plane() -> HardCase:
         unit="m",
         bound=1e-9,  # of 6000 m
         beyond=answers("in the plane: minus infinity, nothing is divided by 0", none),
-        defect=Defect("the angle in single precision", by_the_angle),
     )
 
 

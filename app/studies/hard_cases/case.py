@@ -1,9 +1,9 @@
 """A hard case: an input at which a formula is delicate, what is right there, how far off we may be.
 
 Every case has a reference, good to 60 digits (`references.json`, made by `tools.hard_references`)
-or given by its formula; a bound that the program's own function keeps; what happens one step
-beyond the bound, which is tried; and a deliberate defect, a wrong way to compute the same, that
-must make the case fail. A bound that no defect breaks would guard nothing.
+or given by its formula; a bound that the program's own function keeps; and what happens one step
+beyond the bound, which is tried. A bound that nothing breaks would guard nothing: the tests try
+each with a deliberate defect, a wrong way to compute the same, which must make the case fail.
 """
 
 import json
@@ -171,14 +171,6 @@ def answers(text: str, happens: Callable[..., bool]) -> Beyond:
     return Beyond(text, happens)
 
 
-@dataclass(frozen=True, slots=True)
-class Defect:
-    """A wrong way to compute the same, which must fail: in words, and as a function."""
-
-    text: str
-    way: Callable[..., Any]
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HardCase:
     """One case.
@@ -193,12 +185,11 @@ class HardCase:
         unit: of error and bound.
         bound: largest error allowed.
         beyond: what happens one step further.
-        defect: what the bound must catch.
         relative: errors count in shares of the reference's largest number.
         needs: packages that are not in every installation; without them the case is skipped.
 
     Raises:
-        StudyError: without a reference, a bound, a defect or words, or for an unknown subsystem.
+        StudyError: without a reference, a bound or words, or for an unknown subsystem.
     """
 
     subsystem: str
@@ -210,7 +201,6 @@ class HardCase:
     unit: str
     bound: float
     beyond: Beyond
-    defect: Defect
     relative: bool = False
     needs: tuple[str, ...] = ()
 
@@ -229,8 +219,6 @@ class HardCase:
         for name in ("case", "given", "unit"):
             if not getattr(self, name):
                 raise StudyError(f"hard case {self.case!r}: {name} is empty; say it in words")
-        if self.defect.way is self.way:
-            raise StudyError(f"hard case {self.case!r}: its defect is the program's own way")
 
     @property
     def name(self) -> str:

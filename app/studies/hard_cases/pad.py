@@ -7,9 +7,9 @@ import numpy as np
 
 from app.core.arrays import FloatArray, angle_between
 from app.planning.placement import PatientOrientation
-from app.session.pad.geometry import PathFrame, path_frame
+from app.session.pad.geometry import path_frame
 from app.session.pad.hand import LEAST_OUTSIDE, LONGEST_TURN, Handle
-from app.studies.hard_cases.case import Defect, HardCase, analytic, answers
+from app.studies.hard_cases.case import HardCase, analytic, answers
 
 
 def _handle_at_the_skin() -> HardCase:
@@ -22,9 +22,6 @@ def _handle_at_the_skin() -> HardCase:
     def moved(turned: Any) -> float:
         after = turned(tool, frame, down, (way, 0.0), depth)
         return depth * float((after - down) @ frame.right)
-
-    def unbounded(tool: Handle, frame: PathFrame, down: FloatArray, way: Any, depth: float) -> Any:
-        return down - way[0] / (tool.length - depth) * frame.right
 
     def bounded() -> bool:
         far = [tool.turned(frame, down, (1e9, -1e9), depth) for depth in (0.3, 0.5, 1e3)]
@@ -42,7 +39,6 @@ def _handle_at_the_skin() -> HardCase:
         unit="m",
         bound=1e-16,
         beyond=answers("deeper, or a way of 10⁹ m: a turn of 0.5 rad at most", bounded),
-        defect=Defect("a scale by what is outside, without bound", unbounded),
     )
 
 
@@ -55,10 +51,6 @@ def _tool_at_the_fulcrum() -> HardCase:
         after = turned(tool, frame, leans, (0.0, 3e-3), depth)
         grip = -(tool.length - depth) * (after - leans)
         return np.array([np.linalg.norm(after), grip @ frame.up])
-
-    def by_tip(tool: Handle, frame: PathFrame, axis: FloatArray, way: Any, depth: float) -> Any:
-        # As if the tip went that way: over its depth, as it is found from inside.
-        return axis - way[1] / depth * frame.up
 
     def slides() -> bool:
         before, there, behind = (tool.scale(depth) for depth in (-1e-3, 0.0, 1e-3))
@@ -77,7 +69,6 @@ def _tool_at_the_fulcrum() -> HardCase:
         unit="m",
         bound=1e-15,
         beyond=answers("at the fulcrum the scale is 0, before it the tip goes along", slides),
-        defect=Defect("turned by the tip's way over its depth", by_tip),
     )
 
 

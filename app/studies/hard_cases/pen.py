@@ -1,16 +1,14 @@
 """Hard cases of the pen with printed markers: one face, face on; a tip that is hardly rocked."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
 
-from app.core.arrays import unit
 from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
 from app.studies.hard_cases.cameras import camera
-from app.studies.hard_cases.case import Defect, HardCase, analytic, answers, named
+from app.studies.hard_cases.case import HardCase, analytic, answers, named
 from app.tracking.errors import PenError
 from app.tracking.pen.body import load_pen
 from app.tracking.pen.detector import MarkerSighting
@@ -26,6 +24,9 @@ DECLARATION: Final[dict[str, Any]] = {
 _Way = Callable[..., Any]
 
 BODY: Final = load_pen("cube").body.board()
+LOCATOR: Final = BoardLocator(BODY, 0.05)
+DIMPLE: Final = np.array([0.1, 0.05, 0.6])
+"""Where the tip of a pen stands while it is rocked [m]."""
 
 
 def _face_on(turn: Sequence[float], distance: float) -> RigidTransform:
@@ -34,7 +35,8 @@ def _face_on(turn: Sequence[float], distance: float) -> RigidTransform:
     return RigidTransform(rotation_exp(turn) @ front, np.array([0.0, 0.0, distance]))
 
 
-def _seen(pose: RigidTransform, *ids: int) -> list[MarkerSighting]:
+def sightings(pose: RigidTransform, *ids: int) -> list[MarkerSighting]:
+    """Return what the camera sees of a cube's markers, exactly."""
     return [
         MarkerSighting(m.id, camera().project_camera(pose @ m.corners)[0], 0.01 * np.eye(8))
         for m in BODY.markers
@@ -49,16 +51,8 @@ def _visible(pose: RigidTransform) -> list[int]:
 
 
 def _cube() -> tuple[HardCase, ...]:
-    locator = BoardLocator(BODY, 0.05)
-
     def own(pose: RigidTransform, ids: Sequence[int]) -> Any:
-        return locator.locate(camera(), _seen(pose, *ids))
-
-    def blurred(pose: RigidTransform, ids: Sequence[int]) -> Any:
-        off = [
-            replace(s, corners=s.corners + 0.1 * (i + 1)) for i, s in enumerate(_seen(pose, *ids))
-        ]
-        return locator.locate(camera(), off)
+        return LOCATOR.locate(camera(), sightings(pose, *ids))
 
     def either() -> bool:
         found = own(_face_on((0.03, 0.08, 0.0), 1.0), (0,))
@@ -83,7 +77,6 @@ def _cube() -> tuple[HardCase, ...]:
             unit="m, rad",
             bound=1e-6,  # where the refinement stops: a thousandth of what noise does
             beyond=answers("named AMBIGUOUS for one face almost straight ahead", either),
-            defect=Defect("corners 0.1 px off, each marker further", blurred),
         )
         for case, pose, ids in (
             ("a cube seen edge on", edge_on, _visible(edge_on)),
@@ -94,22 +87,16 @@ def _cube() -> tuple[HardCase, ...]:
 
 
 def _pivoted() -> tuple[HardCase, ...]:
-    tip, dimple = np.array([0.0, 0.0, 0.18]), np.array([0.1, 0.05, 0.6])
+    tip = np.array([0.0, 0.0, 0.18])
 
     def poses(rock: float, sides: int = 24) -> list[MeasuredPose]:
         found = []
         for k in range(sides):
             turn = 2.0 * np.pi * k / sides
             rotation = rotation_exp(rock * np.array([np.cos(turn), np.sin(turn), 0.3]))
-            T = RigidTransform(rotation, dimple - rotation @ tip)
+            T = RigidTransform(rotation, DIMPLE - rotation @ tip)
             found.append(MeasuredPose(T, 1e-8 * np.eye(6)))
         return found
-
-    def mean_of_axes(poses: Sequence[MeasuredPose]) -> Any:
-        # The dimple as the mean of all tips that the pen would have without a tip.
-        found = pivot(poses)
-        mean = np.mean([pose.T.translation for pose in poses], axis=0)
-        return replace(found, p_tip=unit(found.p_tip) * np.linalg.norm(mean - dimple))
 
     return tuple(
         HardCase(
@@ -122,7 +109,6 @@ def _pivoted() -> tuple[HardCase, ...]:
             unit="m",
             bound=bound,
             beyond=named(PenError, lambda: pivot(poses(np.radians(0.5)))),
-            defect=Defect("distance of the mean pose from the dimple", mean_of_axes),
         )
         for words, rock, bound in (
             ("30°", np.radians(30.0), 1e-12),
