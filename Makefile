@@ -78,6 +78,7 @@ check: setup  ## style, types, structure
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/python -m tools.structure --check
+	$(BIN)/python -m tools.words
 
 bench: setup  ## every figure against its peer, in one run
 	./tools/with-display $(BIN)/python -m tests.bench $(BENCH)

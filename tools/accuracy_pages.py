@@ -91,9 +91,9 @@ def page(name: str) -> str:
     return "\n".join([*lines, "", told]) + "\n"
 
 
-def _by_setting(found: Kept) -> list[str]:
+def _by_setting(outcome: Kept) -> list[str]:
     """Return the table of every way's error in each setting, where it is not too large."""
-    points = found.result.points
+    points = outcome.result.points
     settings = list(dict.fromkeys(point.setting for point in points))
     ways = list(dict.fromkeys(point.way for point in points))
     if not (1 < len(settings) <= MOST_SETTINGS and len(ways) <= MOST_WAYS):
@@ -116,35 +116,35 @@ def _by_setting(found: Kept) -> list[str]:
     ]
 
 
-def _row(name: str, found: Kept) -> str:
-    study = found.result.study
-    worst = next(p for p in found.result.summary() if p.way == found.default)
+def _row(name: str, outcome: Kept) -> str:
+    study = outcome.result.study
+    worst = next(p for p in outcome.result.summary() if p.way == outcome.default)
     cells = (
         f"[{name}]({name}.md)",
         str(len(study.ways)),
-        f"`{found.default}`",
-        f"{worst.error:.2g} ({noticed_share(found.result, worst.way):.2g} of what is noticed)",
+        f"`{outcome.default}`",
+        f"{worst.error:.2g} ({noticed_share(outcome.result, worst.way):.2g} of what is noticed)",
         duration(worst.seconds),
         study.perception.label,
         study.deadline.label,
-        found.exception or "-",
+        outcome.exception or "-",
     )
     return f"| {' | '.join(_cell(cell) for cell in cells)} |"
 
 
-def _way(found: Kept, worst: Point) -> str:
-    way = next(one for one in found.result.study.ways if one.name == worst.way)
+def _way(outcome: Kept, worst: Point) -> str:
+    way = next(one for one in outcome.result.study.ways if one.name == worst.way)
     marks = [
         mark
         for mark, holds in (
-            ("default", way.name == found.default),
-            ("sweet spot", way.name == found.sweet_spot),
+            ("default", way.name == outcome.default),
+            ("sweet spot", way.name == outcome.sweet_spot),
             ("noticed", not worst.within_perception),
             ("late", not worst.within_deadline),
         )
         if holds
     ]
-    share = noticed_share(found.result, way.name)
+    share = noticed_share(outcome.result, way.name)
     cells = (
         f"`{way.name}`",
         way.description or way.family,

@@ -146,11 +146,11 @@ def faults(name: str, outcomes: list[SkillOutcome]) -> list[str]:
     return said
 
 
-def table(found: dict[str, list[SkillOutcome]], seeds: int) -> str:
+def table(result: dict[str, list[SkillOutcome]], seeds: int) -> str:
     """Write the table as Markdown: median score and share passed of each skill."""
     head = ["exercise", *SKILLS, f"in order, of {seeds} seeds"]
     lines = [" | ".join(head), " | ".join(["---"] * len(head))]
-    for name, outcomes in found.items():
+    for name, outcomes in result.items():
         cells = [
             "–" if one.quartiles is None else f"{one.quartiles[1]:.0f} ({one.share_passed:.0%})"
             for one in outcomes

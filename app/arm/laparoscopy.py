@@ -142,7 +142,9 @@ class ToolBody:
 
     @property
     def grip(self) -> float:
-        """Where it is taken, from the handle's end [m]: on the shaft, a hand's half from it."""
+        """Return where it is taken, from the handle's end [m]: on the shaft, a hand's half from
+        it.
+        """
         return self.handle_length + _HALF_A_HAND
 
     def reaching(self, depth: float) -> ToolBody:

@@ -438,36 +438,36 @@ def carry_out(
     return arm_run.performance(T_scene_world)
 
 
-def _report(found: ArmTrial) -> str:
+def _report(result: ArmTrial) -> str:
     """Return the report."""
     return json.dumps(
         {
             "note": SIMULATION_ONLY,
-            "seed": found.seed,
+            "seed": result.seed,
             "wanted": {
-                "tilt_deg": float(np.degrees(found.tilt)),
-                "axis": found.axis.tolist(),
-                "depth_mm": found.depth / MILLIMETRE,
+                "tilt_deg": float(np.degrees(result.tilt)),
+                "axis": result.axis.tolist(),
+                "depth_mm": result.depth / MILLIMETRE,
             },
             "phases": [
-                {"name": "look", "time_s": 0.0, "errors": dict(found.looked)},
+                {"name": "look", "time_s": 0.0, "errors": dict(result.looked)},
                 *(
                     {"name": phase.name, "time_s": phase.time, "errors": phase.errors}
-                    for phase in found.phases
+                    for phase in result.phases
                 ),
             ],
-            "failure": found.failure,
-            "message": found.message,
-            "simulated_s": found.simulated,
-            "planning_s": found.planning,
-            "simulated_seconds_per_second": found.real_time,
+            "failure": result.failure,
+            "message": result.message,
+            "simulated_s": result.simulated,
+            "planning_s": result.planning,
+            "simulated_seconds_per_second": result.real_time,
         },
         indent=2,
     )
 
 
 def _could_see(scene: ArmScene, seed: int) -> bool:
-    """Whether the eyes would find tool and trocar."""
+    """Return whether the eyes would find tool and trocar."""
     try:
         look(scene, scene.T_world_tool, pictures(scene, scene.T_world_tool, cameras(), seed))
     except CarryError:
@@ -476,7 +476,7 @@ def _could_see(scene: ArmScene, seed: int) -> bool:
 
 
 def _draws(running: RunningScene, tell: Callable[[str], None]) -> bool:
-    """Whether the scene can be drawn here; tells if not."""
+    """Return whether the scene can be drawn here; tells if not."""
     try:
         running.picture()
     except SimulationError as error:

@@ -132,25 +132,25 @@ def view_line(view: "BoardView | Rejection") -> str:
     )
 
 
-def mono_document(found: "MonoSet") -> dict[str, Any]:
+def mono_document(outcome: "MonoSet") -> dict[str, Any]:
     """One camera as JSON."""
-    result = found.result
+    result = outcome.result
     return {
         **camera_document(result.calibration),
         "opencv_rms_px": result.usual_rms_px,
         "held_back_rms_px": result.held_back_rms_px,
         "dropped": [{"name": d.name, "value": d.value, "sd": d.sd} for d in result.dropped],
         "residuals": _residuals(result.residuals),
-        "pictures": [view_document(view) for view in found.read],
+        "pictures": [view_document(view) for view in outcome.read],
         "notes": list(result.notes),
     }
 
 
 def stereo_document(
-    found: "StereoSet", checks: "Sequence[Check]", verdict: "Judgement"
+    outcome: "StereoSet", checks: "Sequence[Check]", verdict: "Judgement"
 ) -> dict[str, Any]:
     """Two cameras as JSON."""
-    calibration, estimate = found.calibration, found.result.estimate
+    calibration, estimate = outcome.calibration, outcome.result.estimate
     pose = calibration.pose
     return {
         "id": calibration.id,
@@ -174,8 +174,8 @@ def stereo_document(
         "baseline_mm": calibration.baseline * 1e3,
         "validation": calibration.validation.model_dump() if calibration.validation else None,
         "mended": list(estimate.mended),
-        "residuals": _residuals(found.result.residuals),
-        "pictures": [view_document(view) for view in found.read],
+        "residuals": _residuals(outcome.result.residuals),
+        "pictures": [view_document(view) for view in outcome.read],
         "checks": [
             {
                 "name": check.name,
@@ -207,21 +207,23 @@ def camera_document(camera: "CameraCalibration") -> dict[str, Any]:
     }
 
 
-def mono_lines(found: "MonoSet") -> list[str]:
+def mono_lines(outcome: "MonoSet") -> list[str]:
     """One camera for people."""
-    result = found.result
+    result = outcome.result
     camera = result.calibration
     lines = [_camera_line(camera), *_parameter_lines(camera)]
     lines += _plain_line(result.usual_rms_px)
     if result.held_back_rms_px is not None:
         lines.append(f"  views held back      {result.held_back_rms_px:.4f} px")
     lines += _residual_lines(result.residuals)
-    return lines + _refused(found.read) + [f"  {note}" for note in result.notes]
+    return lines + _refused(outcome.read) + [f"  {note}" for note in result.notes]
 
 
-def stereo_lines(found: "StereoSet", checks: "Sequence[Check]", verdict: "Judgement") -> list[str]:
+def stereo_lines(
+    outcome: "StereoSet", checks: "Sequence[Check]", verdict: "Judgement"
+) -> list[str]:
     """Two cameras for people."""
-    calibration, estimate = found.calibration, found.result.estimate
+    calibration, estimate = outcome.calibration, outcome.result.estimate
     lines = [f"calibration {calibration.id}, {calibration.board}"]
     for camera, mono in zip(calibration.cameras, (estimate.left, estimate.right), strict=True):
         lines += [_camera_line(camera), *_parameter_lines(camera)]
@@ -236,15 +238,15 @@ def stereo_lines(found: "StereoSet", checks: "Sequence[Check]", verdict: "Judgem
         + f"; baseline {calibration.baseline * 1e3:.3f} mm",
     ]
     lines += _plain_line(estimate.usual_rms_px)
-    lines += _validation_lines(found)
+    lines += _validation_lines(outcome)
     lines += [f"  {'agrees' if check.passed else 'CONTRADICTS'}: {check.text}" for check in checks]
     if not checks:
         lines.append(
             "  not checked: the board's size; give --baseline-mm, or a second board "
             "(--check-images, --check-board)"
         )
-    lines += _residual_lines(found.result.residuals)
-    lines += _refused(found.read) + [f"  {note}" for note in calibration.notes]
+    lines += _residual_lines(outcome.result.residuals)
+    lines += _refused(outcome.read) + [f"  {note}" for note in calibration.notes]
     return [*lines, f"verdict: {verdict.grade.value}: {verdict.text}"]
 
 
@@ -254,8 +256,8 @@ def _plain_line(rms_px: float | None) -> list[str]:
     return [f"  OpenCV's plain recipe (every view, five coefficients): {rms_px:.4f} px"]
 
 
-def _validation_lines(found: "StereoSet") -> list[str]:
-    value = found.calibration.validation
+def _validation_lines(result: "StereoSet") -> list[str]:
+    value = result.calibration.validation
     if value is None:
         return ["  not validated: no pairs were held back (--hold-back N)"]
     return [

@@ -74,7 +74,7 @@ def calibrate_pen(
 
 def measure_shaft(
     settings: PenSettings,
-    found: PenCalibration,
+    result: PenCalibration,
     seconds: float,
     tell: Callable[[str], None],
     clock: Clock | None = None,
@@ -83,7 +83,7 @@ def measure_shaft(
 
     Args:
         settings: source of these pictures, and pen.
-        found: tip, as rocking gave it.
+        result: tip, as rocking gave it.
         seconds: at most.
         tell: takes a line now and then.
         clock: for the time.
@@ -94,7 +94,7 @@ def measure_shaft(
     """
     collector = PoseCollector()
     _collect(settings, collector, seconds, tell, clock)
-    return collector.finish_rolling(found)
+    return collector.finish_rolling(result)
 
 
 def _collect(

@@ -99,7 +99,7 @@ class Robot:
         return cls(link, profile, corrections, record.readiness())
 
     def clearance(self) -> ForceClearance:
-        """How much force the robot is cleared for now; another power cycle takes it away."""
+        """Return how much force the robot is cleared for now; another power cycle takes it away."""
         return self.readiness.clearance(self.link.info(), self.profile)
 
     def metadata(self) -> dict[str, str]:

@@ -496,7 +496,7 @@ class SkillOutcome:
 
     @property
     def void(self) -> int:
-        """How many attempts had no score."""
+        """Return how many attempts had no score."""
         return int(np.count_nonzero(~np.isfinite(self.totals)))
 
     @property

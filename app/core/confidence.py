@@ -80,7 +80,9 @@ def _sphere(least: float, middle: float, probability: float) -> float:
 
 
 def _root(function: Callable[[float], float], low: float, high: float) -> float:
-    """Where a rising function that changes its sign between two places is 0, to 1e-9 of it."""
+    """Return where a rising function that changes its sign between two places is 0, to 1e-9 of
+    it.
+    """
     at_low, at_high, last = function(low), function(high), 0
     while high - low > 1e-9 * high:
         x = (low * at_high - high * at_low) / (at_high - at_low)

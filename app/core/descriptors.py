@@ -29,7 +29,7 @@ def hold(descriptor: int) -> None:
 
 
 def is_held(descriptor: int) -> bool:
-    """Whether somebody else holds a file; True where the system cannot tell."""
+    """Return whether somebody else holds a file; True where the system cannot tell."""
     return hold_alone(descriptor) is not True
 
 
@@ -50,7 +50,7 @@ def hold_alone(descriptor: int) -> bool | None:
 
 
 def has_locks(folder: Path) -> bool:
-    """Whether files in a folder can be locked; True where that cannot be tried."""
+    """Return whether files in a folder can be locked; True where that cannot be tried."""
     if fcntl is None:
         return True
     try:

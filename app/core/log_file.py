@@ -187,7 +187,7 @@ def _and_then(before: Hook) -> Hook:
     return caught
 
 
-def _of_thread(told: threading.ExceptHookArgs) -> None:
-    if told.exc_value is not None and not isinstance(told.exc_value, SystemExit):
-        _log.error("nobody caught in a thread", exc_info=told.exc_value)
-        sys.stderr.write(f"{where(told.exc_value)}\n")
+def _of_thread(answer: threading.ExceptHookArgs) -> None:
+    if answer.exc_value is not None and not isinstance(answer.exc_value, SystemExit):
+        _log.error("nobody caught in a thread", exc_info=answer.exc_value)
+        sys.stderr.write(f"{where(answer.exc_value)}\n")

@@ -27,7 +27,7 @@ def name_of_process() -> str:
 
 
 def process_has_gone(name: str) -> bool:
-    """Whether a file's name ends in that of a process of this computer that runs no more.
+    """Return whether a file's name ends in that of a process of this computer that runs no more.
 
     False where the system does not tell which processes run, and for files of other computers.
     """
@@ -38,7 +38,7 @@ def process_has_gone(name: str) -> bool:
 
 
 def tells_processes() -> bool:
-    """Whether this system tells which processes run, and since when."""
+    """Return whether this system tells which processes run, and since when."""
     return bool(_started(os.getpid()))
 
 
@@ -72,7 +72,7 @@ def sweep_temporary() -> int:
 
 
 def _is_own(folder: Path) -> bool:
-    """Whether it is a folder, no link, and of this user: others' are theirs to sweep."""
+    """Return whether it is a folder, no link, and of this user: others' are theirs to sweep."""
     try:
         return not folder.is_symlink() and folder.is_dir() and folder.stat().st_uid == os.getuid()
     except OSError:
@@ -80,7 +80,7 @@ def _is_own(folder: Path) -> bool:
 
 
 def _started(pid: int) -> str:
-    """When a process started, in ticks since the machine did; empty if none runs."""
+    """Return when a process started, in ticks since the machine did; empty if none runs."""
     try:
         text = Path(f"/proc/{pid}/stat").read_text()
     except OSError:

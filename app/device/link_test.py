@@ -56,7 +56,7 @@ class LinkResult:
 
     @property
     def good(self) -> bool:
-        """Whether no more commands were lost than may be."""
+        """Return whether no more commands were lost than may be."""
         return self.lost <= self.most_lost
 
     @property

@@ -29,7 +29,7 @@ class ForceClearance:
 
     @property
     def full(self) -> bool:
-        """Whether nothing is held back."""
+        """Return whether nothing is held back."""
         return not self.reason
 
     def inputs(self) -> dict[str, float]:

@@ -191,7 +191,9 @@ def _position(point: Any, origin: str, where: str) -> FloatArray:
 
 
 def _is_number(value: object) -> bool:
-    """Whether a JSON value is a finite number (a Python int may be too large for a double)."""
+    """Return whether a JSON value is a finite number (a Python int may be too large for a
+    double).
+    """
     if isinstance(value, bool) or not isinstance(value, int | float):
         return False
     return abs(value) <= float_info.max

@@ -191,5 +191,5 @@ def _rigid(matrix: FloatArray, offset_mm: FloatArray, origin: str) -> RigidTrans
         _refuse(origin, "it mirrors; only rotations and shifts can be used")
 
 
-def _refuse(origin: str, why: str) -> NoReturn:
-    raise TransformError(f"{origin}: {why}")
+def _refuse(origin: str, reason: str) -> NoReturn:
+    raise TransformError(f"{origin}: {reason}")

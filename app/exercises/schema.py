@@ -217,7 +217,7 @@ class Exercise(Strict):
 
     @property
     def guidance_mode(self) -> GuidanceMode:
-        """What the student sees of the needle: as said, else by the purpose."""
+        """Return what the student sees of the needle: as said, else by the purpose."""
         if self.guidance.mode is not None:
             return self.guidance.mode
         return GuidanceMode.CONTROL_CT if self.purpose is Purpose.ASSESSMENT else GuidanceMode.LIVE
@@ -243,12 +243,14 @@ class Exercise(Strict):
 
     @property
     def is_probe(self) -> bool:
-        """Whether this is the exercise as one attempt has it that is a probe: without help."""
+        """Return whether this is the exercise as one attempt has it that is a probe: without
+        help.
+        """
         return self._is_probe
 
     @property
     def holds_breath(self) -> bool:
-        """Whether the patient holds the breath on command."""
+        """Return whether the patient holds the breath on command."""
         part = self.effects.get("breathing")
         return part is not None and part.model == "on_command"
 

@@ -208,9 +208,9 @@ def _next(identifier: str, version: int) -> int:
     return max(version, kept[-1] + 1) if kept else version
 
 
-def _same(one: Exercise, other: Exercise) -> bool:
-    """Whether two exercises say the same, whatever their versions."""
-    return one.model_copy(update={"version": other.version}) == other
+def _same(item: Exercise, other: Exercise) -> bool:
+    """Return whether two exercises say the same, whatever their versions."""
+    return item.model_copy(update={"version": other.version}) == other
 
 
 @contextmanager

@@ -168,7 +168,9 @@ def _along(headers: Headers) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]
 
 
 def _equal(a: SliceHeader, b: SliceHeader) -> bool:
-    """Whether two images are copies of one: all that counts of the header, and every pixel."""
+    """Return whether two images are copies of one: all that counts of the header, and every
+    pixel.
+    """
     same_header = (a.plane, a.rescale) == (b.plane, b.rescale) and (
         (a.format.rows, a.format.columns) == (b.format.rows, b.format.columns)
     )
@@ -234,7 +236,9 @@ def _parted(headers: Headers, mark: str) -> dict[str, Headers]:
 
 
 def _meshed(headers: Headers, members: Sequence[Headers], mark: str) -> bool:
-    """Whether parts of an even stack are passes of their own, each even and as sparse as that."""
+    """Return whether parts of an even stack are passes of their own, each even and as sparse as
+    that.
+    """
     if mark not in _OF_MR and headers[0].identity.modality == "MR":
         return False
     if mark in (*_TIMES, "content-time") and min(map(len, members)) < _FEWEST_OF_A_TIME:
@@ -246,7 +250,7 @@ def _meshed(headers: Headers, members: Sequence[Headers], mark: str) -> bool:
 
 
 def _times_apart(headers: Headers) -> bool:
-    """Whether the times at which images were made lie apart: several are made at once."""
+    """Return whether the times at which images were made lie apart: several are made at once."""
     times = sorted(_parted(headers, "content-time"))
     if not all(re.fullmatch(r"\d{6}(\.\d+)?", time) for time in times):
         return False
@@ -301,7 +305,7 @@ def _chains(parts: Iterable[tuple[str, Headers]]) -> list[tuple[list[str], Heade
 
 
 def _disjoint(parts: Sequence[Headers]) -> bool:
-    """Whether each part has a range along the normal of its own."""
+    """Return whether each part has a range along the normal of its own."""
     ends = np.cumsum([len(part) for part in parts])[:-1]
     along = np.split(_along(tuple(header for part in parts for header in part)), ends)
     ranges = sorted((float(part.min()), float(part.max())) for part in along)

@@ -74,7 +74,9 @@ class Body:
         return cKDTree(self.volume.lps_mm(kji[:, ::-1] * self.factors))
 
     def share(self, lps_mm: ArrayLike) -> FloatArray:
-        """How much of the surroundings of each point [mm] is body, shape (n, 3) -> (n,), 0 to 1."""
+        """Return how much of the surroundings of each point [mm] is body, shape (n, 3) -> (n,), 0
+        to 1.
+        """
         ijk = self.volume.voxel(lps_mm)
         inside = ((ijk >= -0.5) & (ijk <= np.array(self.volume.size) - 0.5)).all(axis=1)
         share = np.zeros(len(ijk))
@@ -202,12 +204,13 @@ def body_mask(volume: Volume, body: Body | None = None) -> Mask:
 
 
 def is_inside(body: Body, lps_mm: ArrayLike) -> bool:
-    """Whether a point [mm], shape (3,), lies in the body (to about half a cell, 1.3 mm)."""
+    """Return whether a point [mm], shape (3,), lies in the body (to about half a cell, 1.3 mm)."""
     return bool(body.share(np.asarray(lps_mm, np.float64)[None])[0] >= 0.5)
 
 
 def skin_entry(body: Body, outside_lps: ArrayLike, inside_lps: ArrayLike) -> FloatArray:
-    """Where a line from outside first meets the skin [mm], shape (3,), to a fraction of a voxel.
+    """Return where a line from outside first meets the skin [mm], shape (3,), to a fraction of a
+    voxel.
 
     Args:
         body: the body.

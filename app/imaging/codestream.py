@@ -71,7 +71,7 @@ def _jpeg_2000(data: bytes) -> Codestream | None:
 
 
 def contradiction(data: bytes, syntax: str, form: PixelFormat) -> str:
-    """How the head of a frame contradicts the file's header; "" where it does not.
+    """Return how the head of a frame contradicts the file's header; "" where it does not.
 
     A frame larger than its header says is not decoded: it may be made to fill the memory.
 

@@ -54,7 +54,7 @@ def read_stored(header: SliceHeader, out: Stored) -> None:
 
 
 def is_raw(header: SliceHeader) -> bool:
-    """Whether the pixels are copied from the file as they stand: nothing is decoded."""
+    """Return whether the pixels are copied from the file as they stand: nothing is decoded."""
     return header.pixels.syntax in RAW
 
 
@@ -140,7 +140,7 @@ def _decode(header: SliceHeader, stream: BinaryIO, out: Stored) -> None:
 
 @lru_cache(maxsize=2)
 def _places(path: Path, pixels: PixelData, frames: int) -> tuple[tuple[Place, ...], ...]:
-    """Where each frame of a file lies; kept for the next frame of the same file."""
+    """Return where each frame of a file lies; kept for the next frame of the same file."""
     with path.open("rb") as stream:
         size = os.fstat(stream.fileno()).st_size
         return frame_places(stream, walk(stream, pixels.offset or 0, size), frames)

@@ -176,7 +176,7 @@ class Walk:
         return self._data[self._at : self._at + count]
 
     def is_explicit(self) -> bool:
-        """Whether the next element names its value representation."""
+        """Return whether the next element names its value representation."""
         self._have(6)
         name = self._data[self._at + 4 : self._at + 6]
         return name.isalpha() and name.isupper()
@@ -334,9 +334,9 @@ def _meta_by_pydicom(stream: BinaryIO) -> tuple[str, int]:
     return syntax, stream.tell()
 
 
-def _raw(found: "Dataset", wanted: Sequence[int]) -> dict[int, Any]:
+def _raw(result: "Dataset", wanted: Sequence[int]) -> dict[int, Any]:
     """Return the wanted elements as they stand in the file, unconverted."""
-    return {int(one.tag): one for one in found.values() if one.tag in wanted}
+    return {int(one.tag): one for one in result.values() if one.tag in wanted}
 
 
 def _after_meta(tag: "BaseTag", vr: str | None, length: int) -> bool:

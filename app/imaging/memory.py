@@ -50,7 +50,7 @@ class Need:
 
     @property
     def reason(self) -> str:
-        """Why it cannot be read at full size; empty if it can."""
+        """Return why it cannot be read at full size; empty if it can."""
         if self.factors == (1, 1, 1) or self.available is None:
             return ""
         i, j, k = self.factors

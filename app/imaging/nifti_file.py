@@ -171,7 +171,7 @@ def _slabs(image: Any, size: tuple[int, ...]) -> Iterator[tuple[int, NDArray[Any
 
 
 def _fits(slab: NDArray[Any]) -> bool:
-    """Whether 16 bits hold each value exactly."""
+    """Return whether 16 bits hold each value exactly."""
     limits = np.iinfo(np.int16)
     if slab.min() < limits.min or slab.max() > limits.max:
         return False

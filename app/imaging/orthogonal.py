@@ -134,7 +134,7 @@ class OrthogonalSlicer:
         return abs(float(self._affine[:3, screen.slice] @ unit(np.cross(across, down))))
 
     def is_right_angled(self, view: View) -> bool:
-        """Whether rows and columns of a view are perpendicular, to 0.01 mm over the picture.
+        """Return whether rows and columns of a view are perpendicular, to 0.01 mm over the picture.
 
         Of a series with gantry tilt one view is not: its pictures are sheared.
         """

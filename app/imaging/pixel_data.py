@@ -77,7 +77,7 @@ class PixelFormat:
 
     @property
     def bits_below_used(self) -> str:
-        """What to say if those bits are not empty."""
+        """Return what to say if those bits are not empty."""
         return (
             f"HighBit {self.high_bit} and BitsStored {self.bits_stored} leave the lowest "
             f"{self.bits_below} bits of a pixel empty, and they are not; HighBit must be "
@@ -86,7 +86,7 @@ class PixelFormat:
 
     @property
     def pads_beyond_stored(self) -> bool:
-        """Whether padding needs more bits than are stored."""
+        """Return whether padding needs more bits than are stored."""
         if self.padding is None:
             return False
         lowest, highest = self.stored_range

@@ -231,7 +231,7 @@ def _raw(syntax: str, stream: BinaryIO, size: int, length: int, form: PixelForma
 
 
 def _starts_with_item(stream: BinaryIO, length: int) -> bool:
-    """Whether what stands there are items to their end, as compressed pixels are."""
+    """Return whether what stands there are items to their end, as compressed pixels are."""
     offset = stream.tell()
     head = stream.read(8)
     starts = len(head) == 8 and struct.unpack("<HH", head[:4]) == _ITEM

@@ -112,7 +112,7 @@ def _rescale(header: SliceHeader) -> Rescale:
 
 
 def integral(header: SliceHeader) -> bool:
-    """Whether the file's rescale makes whole numbers of whole numbers."""
+    """Return whether the file's rescale makes whole numbers of whole numbers."""
     rescale = _rescale(header)
     limit = 1 << 20
     return all(v.is_integer() and abs(v) < limit for v in (rescale.slope, rescale.intercept))
@@ -151,7 +151,9 @@ def nothing_of(header: SliceHeader) -> float:
 
 
 def padding_stands_out(header: SliceHeader) -> bool:
-    """Whether padding would count as more than nothing if it were scaled like a measurement."""
+    """Return whether padding would count as more than nothing if it were scaled like a
+    measurement.
+    """
     form = header.format
     if form.padding is None:
         return False

@@ -295,7 +295,9 @@ def _beside(u: float, v: float, a: float, b: float) -> float:
 
 @njit
 def _span(dy: float, a: float, b: float, cosine: float, sine: float) -> tuple[float, float]:
-    """Where a row crosses an ellipse about the origin; the first beyond the second if nowhere."""
+    """Return where a row crosses an ellipse about the origin; the first beyond the second if
+    nowhere.
+    """
     if a <= 0.0 or b <= 0.0:
         return 1.0, -1.0
     p = (cosine / a) ** 2 + (sine / b) ** 2
@@ -311,7 +313,9 @@ def _span(dy: float, a: float, b: float, cosine: float, sine: float) -> tuple[fl
 def _cover(
     at: float, beside: float, length: float, half: float, soft: float, dash: float, period: float
 ) -> float:
-    """How much of a pixel a stroke covers, by its middle along and beside the stroke [px]."""
+    """Return how much of a pixel a stroke covers, by its middle along and beside the stroke
+    [px].
+    """
     if soft == 0.0:
         if beside > half or at < 0.0 or at > length:
             return 0.0

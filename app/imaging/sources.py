@@ -106,7 +106,7 @@ def _extract(
 
 
 def _refused(member: zipfile.ZipInfo) -> str:
-    """Why a member is left out; empty if it is not."""
+    """Return why a member is left out; empty if it is not."""
     name = PurePosixPath(member.filename.replace("\\", "/"))
     if name.is_absolute() or ".." in name.parts or ":" in member.filename or not name.parts:
         return "leads out of the archive"
@@ -260,7 +260,7 @@ def open_source(path: Path, progress: Progress) -> SeriesSource:
 
 
 def is_nifti(path: Path) -> bool:
-    """Whether a file is called as NIfTI files are."""
+    """Return whether a file is called as NIfTI files are."""
     return path.name.lower().endswith(_NIFTI_ENDINGS)
 
 
@@ -344,7 +344,9 @@ def _named(path: Path, progress: Progress) -> list[tuple[str, ...]]:
 
 
 def _dropped(root: Path, named: list[tuple[str, ...]]) -> int:
-    """How many leading folders of the names are not there: 0, but where a medium was moved."""
+    """Return how many leading folders of the names are not there: 0, but where a medium was
+    moved.
+    """
     most = max((len(parts) for parts in named), default=1)
     counts = [len({_inside(root, parts, n) for parts in named} - {None}) for n in range(most)]
     return counts.index(max(counts))

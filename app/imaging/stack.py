@@ -143,7 +143,7 @@ def _pixels(size: tuple[int, int]) -> FloatArray:
 
 
 def _corners(ordered: Sequence[ImagePlane], size: tuple[int, int]) -> FloatArray:
-    """Where the files put the corners of their pictures, shape (K, 4, 3)."""
+    """Return where the files put the corners of their pictures, shape (K, 4, 3)."""
     corners: FloatArray = np.einsum("kab,cb->kca", _affines(ordered), _pixels(size))
     return corners
 
@@ -167,7 +167,7 @@ def _off(affine: FloatArray, corners: FloatArray, size: tuple[int, int]) -> Floa
 
 
 def same_plane(a: ImagePlane, b: ImagePlane) -> bool:
-    """Whether two planes may belong to one stack: the same direction and pixel spacing."""
+    """Return whether two planes may belong to one stack: the same direction and pixel spacing."""
     if a.orientation == b.orientation and a.pixel_spacing_mm == b.pixel_spacing_mm:
         return True
     turn = np.abs(np.subtract(a.orientation, b.orientation)).max()
@@ -176,7 +176,9 @@ def same_plane(a: ImagePlane, b: ImagePlane) -> bool:
 
 
 def mixed(planes: Sequence[ImagePlane]) -> str:
-    """Why planes cannot share one stack: another orientation or pixel spacing; "" if they can."""
+    """Return why planes cannot share one stack: another orientation or pixel spacing; "" if they
+    can.
+    """
     first = planes[0]
     for plane in planes:
         if same_plane(plane, first):
@@ -188,7 +190,7 @@ def mixed(planes: Sequence[ImagePlane]) -> str:
 
 
 def doubled(slices: Stack, names: Sequence[str]) -> str:
-    """Which slices lie at the same place; "" if none do."""
+    """Return which slices lie at the same place; "" if none do."""
     gaps = slices.gaps_mm
     k = int(np.argmin(gaps))
     if gaps[k] >= TOLERANCE_MM:
@@ -201,7 +203,7 @@ def doubled(slices: Stack, names: Sequence[str]) -> str:
 
 
 def turned(slices: Stack, names: Sequence[str]) -> str:
-    """Why slices do not lie side by side: each turned or scaled a little; "" if they do.
+    """Return why slices do not lie side by side: each turned or scaled a little; "" if they do.
 
     Nothing mends that: between slices that are not parallel there is no place to interpolate at.
     """
@@ -217,7 +219,7 @@ def turned(slices: Stack, names: Sequence[str]) -> str:
 
 
 def irregular(slices: Stack, names: Sequence[str]) -> str:
-    """Why the stack is no even grid though it can be resampled to one; "" if it is one.
+    """Return why the stack is no even grid though it can be resampled to one; "" if it is one.
 
     Args:
         slices: the sorted stack, of two slices at least.
@@ -258,7 +260,9 @@ def _drift(slices: Stack) -> tuple[float, float]:
 
 
 def _jumps(slices: Stack) -> float:
-    """How far slices lie at most from the straight line that fits them best, sideways [mm]."""
+    """Return how far slices lie at most from the straight line that fits them best, sideways
+    [mm].
+    """
     heights, beside = _beside(slices)
     if len(heights) < 3 or heights[-1] <= 0.0:
         return 0.0

@@ -228,7 +228,7 @@ def _named(structure: Structure) -> Tissue:
 
 
 def _wall_end(hu: FloatArray) -> float:
-    """Where in soft tissue the wall ends [mm]: where the mean changes most, if it does."""
+    """Return where in soft tissue the wall ends [mm]: where the mean changes most, if it does."""
     least, most = int(4.0 / STEP_MM), min(int(_WALL_MM / STEP_MM), len(hu) - int(4.0 / STEP_MM))
     places = np.arange(least, most)
     total, sums = hu.sum(), np.cumsum(hu)

@@ -114,18 +114,22 @@ class Volume:
 
     @property
     def is_sheared(self) -> bool:
-        """Whether the slices drift by more than `SHEAR_MM` beside their normal."""
+        """Return whether the slices drift by more than `SHEAR_MM` beside their normal."""
         length = float(self.spacing_mm[2]) * max(self.size[2] - 1, 1)
         return float(np.sin(np.radians(self.tilt_deg))) * length > SHEAR_MM
 
     @cached_property
     def digest(self) -> str:
-        """What it is by its geometry and voxels: SHA-256 in hexadecimal; a second per gigabyte."""
+        """Return what it is by its geometry and voxels: SHA-256 in hexadecimal; a second per
+        gigabyte.
+        """
         return digest_of(self).whole
 
     @property
     def is_left_handed(self) -> bool:
-        """Whether i, j, k form a left-handed frame, as some formats other than DICOM allow."""
+        """Return whether i, j, k form a left-handed frame, as some formats other than DICOM
+        allow.
+        """
         return float(np.linalg.det(self.affine_mm[:3, :3])) < 0.0
 
     @property
@@ -141,7 +145,9 @@ class Volume:
 
     @cached_property
     def voxels_per_mm(self) -> FloatArray:
-        """How far i, j and k change at most within a millimetre, sheared or not, shape (3,)."""
+        """Return how far i, j and k change at most within a millimetre, sheared or not, shape
+        (3,).
+        """
         return frozen(np.linalg.norm(self.inverse_mm[:3, :3], axis=1))
 
     def lps_mm(self, ijk: ArrayLike) -> FloatArray:
@@ -160,7 +166,9 @@ class Volume:
         return result
 
     def contains(self, lps_mm: ArrayLike) -> bool:
-        """Whether a patient point [mm], shape (3,), lies in the volume, voxel edges included."""
+        """Return whether a patient point [mm], shape (3,), lies in the volume, voxel edges
+        included.
+        """
         ijk = self.voxel(lps_mm)
         return bool(((ijk >= -0.5) & (ijk <= np.array(self.size) - 0.5)).all())
 

@@ -85,7 +85,7 @@ def clearances(
     return tuple(found)
 
 
-def worst(found: Iterable[PathClearance]) -> PathClearance | None:
+def worst(result: Iterable[PathClearance]) -> PathClearance | None:
     """Return the one to warn of: the deepest hit, else the nearest; None where all is free."""
-    warned = [one for one in found if one.nearness is not Nearness.FREE]
+    warned = [one for one in result if one.nearness is not Nearness.FREE]
     return min(warned, key=lambda one: one.distance_mm, default=None)

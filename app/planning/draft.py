@@ -58,7 +58,7 @@ class DraftPlan:
 
     @property
     def complete(self) -> bool:
-        """Whether both points are set."""
+        """Return whether both points are set."""
         return self.entry_mm is not None and self.target_mm is not None
 
     def with_entry(self, entry_mm: object) -> DraftPlan:

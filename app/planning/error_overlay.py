@@ -54,7 +54,9 @@ class ErrorOverlay:
 
     @property
     def scale(self) -> float:
-        """How many times the 3D view enlarges it: `ERROR_SCALE`, or 1 if it is large itself."""
+        """Return how many times the 3D view enlarges it: `ERROR_SCALE`, or 1 if it is large
+        itself.
+        """
         largest = float(np.linalg.eigvalsh(self.covariance_mm2)[-1])
         return 1.0 if chi_square_quantile(0.95, 3) * largest > LARGE_MM**2 else ERROR_SCALE
 

@@ -41,12 +41,12 @@ class UndoHistory(Generic[V]):
 
     @property
     def can_undo(self) -> bool:
-        """Whether there is something to go back to."""
+        """Return whether there is something to go back to."""
         return bool(self.past)
 
     @property
     def can_redo(self) -> bool:
-        """Whether there is something to go forward to."""
+        """Return whether there is something to go forward to."""
         return bool(self.future)
 
     def undo(self) -> UndoHistory[V]:

@@ -43,7 +43,7 @@ class ReachLimits:
         )
 
     def tool_point(self, axis: FloatArray) -> tuple[float, float] | None:
-        """Where the needle crosses the plane z = 0 [m]; None if it never does.
+        """Return where the needle crosses the plane z = 0 [m]; None if it never does.
 
         Args:
             axis: needle direction, hub to tip, unit vector.
@@ -54,7 +54,7 @@ class ReachLimits:
         return float(x), float(y)
 
     def holds(self, axis: FloatArray, margin: float = 0.0) -> bool:
-        """Whether the needle can point along `axis`, and `margin` [rad] around it."""
+        """Return whether the needle can point along `axis`, and `margin` [rad] around it."""
         if tilt_of(axis) > self.tilt_limit - margin + 1e-9:
             return False
         around = cone(axis, margin) if margin > 0.0 else [axis]

@@ -49,7 +49,7 @@ class NeedleOverlay:
 
     @property
     def tip_direction(self) -> FloatArray:
-        """Where the tip points, not of unit length, shape (3,)."""
+        """Return where the tip points, not of unit length, shape (3,)."""
         result: FloatArray = self.points_mm[-1] - self.points_mm[-2]
         return result
 

@@ -40,7 +40,7 @@ class Offset:
     path: FloatArray
 
     def arrived(self, across: float, along: float) -> bool:
-        """Whether the tip is at the target: within `across` and within `along` [m] of it."""
+        """Return whether the tip is at the target: within `across` and within `along` [m] of it."""
         return self.lateral <= across and abs(self.remaining) <= along
 
 

@@ -169,12 +169,12 @@ class PathScores:
 
     @property
     def free(self) -> NDArray[np.bool_]:
-        """Which paths are not blocked."""
+        """Return which paths are not blocked."""
         result: NDArray[np.bool_] = self.block == 0
         return result
 
     def why(self, number: int) -> PathObstacle:
-        """Why a path is blocked."""
+        """Return why a path is blocked."""
         return tuple(PathObstacle)[int(self.block[number])]
 
 
@@ -286,15 +286,15 @@ def _chunk(
     return score, block, length, angle, bone, nearest, which
 
 
-def _mark(block: NDArray[np.intp], bad: NDArray[np.bool_], why: PathObstacle) -> None:
+def _mark(block: NDArray[np.intp], bad: NDArray[np.bool_], reason: PathObstacle) -> None:
     """Block what is bad and not blocked already."""
-    block[bad & (block == 0)] = tuple(PathObstacle).index(why)
+    block[bad & (block == 0)] = tuple(PathObstacle).index(reason)
 
 
 def _reached(
     way: FloatArray, asked: NDArray[np.bool_], placement: Placement, limits: ReachLimits
 ) -> NDArray[np.bool_]:
-    """Whether the device can point along directions in the patient, where asked."""
+    """Return whether the device can point along directions in the patient, where asked."""
     axes = way @ placement.rotation.T
     tilt = np.arctan2(np.hypot(axes[:, 0], axes[:, 1]), -axes[:, 2])
     reached: NDArray[np.bool_] = tilt <= limits.tilt_limit + 1e-9

@@ -43,7 +43,7 @@ class Assistance:
 
     @property
     def moved(self) -> bool:
-        """Whether it was turned during the attempt."""
+        """Return whether it was turned during the attempt."""
         return self.most - self.least > DIAL_TOLERANCE
 
 
@@ -95,7 +95,7 @@ class Conditions:
 
     @property
     def by_person(self) -> bool:
-        """Whether a person had the needle from begin to end: else the attempt is nobody's.
+        """Return whether a person had the needle from begin to end: else the attempt is nobody's.
 
         This alone decides it, wherever attempts count for somebody: learning curves, boards,
         attempts that a course allows, assistance that fades, what comes next.
@@ -104,7 +104,7 @@ class Conditions:
 
     @property
     def hands(self) -> str:
-        """What held the needle, one after the other; empty where it is not known."""
+        """Return what held the needle, one after the other; empty where it is not known."""
         return f"{self.hand} then {self.taken_over}" if self.taken_over else self.hand
 
     def document(self) -> dict[str, Any]:

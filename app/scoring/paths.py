@@ -71,7 +71,7 @@ def length_slopes(points: FloatArray) -> FloatArray:
 
 
 def _blocks(time: FloatArray, window: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Where each block begins, and of how many points it is."""
+    """Return where each block begins, and of how many points it is."""
     blocks = np.floor((time - time[0]) / window)
     starts = np.flatnonzero(np.diff(blocks, prepend=-1.0))
     return starts, np.diff(starts, append=len(time))

@@ -68,7 +68,9 @@ class Row:
 
     @property
     def utility(self) -> float | None:
-        """How good the best value within `sd` is, 0 ... 1; None without value or tolerance."""
+        """Return how good the best value within `sd` is, 0 ... 1; None without value or
+        tolerance.
+        """
         if self.value is None or self.tolerance is None:
             return None
         return tolerance(best_within(self.value, self.sd, self.tolerance), self.tolerance)
@@ -96,7 +98,7 @@ class Row:
 
     @property
     def failed(self) -> bool:
-        """Whether a required value lies beyond its pass limit."""
+        """Return whether a required value lies beyond its pass limit."""
         return bool(self.tolerance and self.tolerance.required and self.band is Band.FAIL)
 
     def document(self) -> dict[str, Any]:

@@ -181,7 +181,7 @@ def _speed(trajectory: Trajectory, index: int) -> float:
 
 
 def _pictures(trajectory: Trajectory, samples: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Where among `samples` each picture begins, by the moment that it was taken."""
+    """Return where among `samples` each picture begins, by the moment that it was taken."""
     taken = trajectory.time[samples] - _spread(trajectory)[samples, 2]
     changed = np.abs(np.diff(taken, prepend=-np.inf)) > 1e-4
     return np.flatnonzero(changed)

@@ -83,12 +83,12 @@ def with_admission(verdict: str, record: str, admitted: Admission | None) -> str
     return verdict
 
 
-def admit(records: Sequence[Path], why: str, people: People | None = None) -> list[Admission]:
+def admit(records: Sequence[Path], reason: str, people: People | None = None) -> list[Admission]:
     """Admit attempts that this station did not sign: all of them or none.
 
     Args:
         records: their files.
-        why: the reason, one for all.
+        reason: the reason, one for all.
         people: of this station.
 
     Raises:
@@ -96,8 +96,8 @@ def admit(records: Sequence[Path], why: str, people: People | None = None) -> li
             nothing is sealed yet.
         BrokenRecordingError: for a file that is no record.
     """
-    people, why = people or People(), " ".join(why.split())
-    if not why or len(why) > LONGEST_REASON:
+    people, reason = people or People(), " ".join(reason.split())
+    if not reason or len(reason) > LONGEST_REASON:
         raise PeopleError(
             f"say why it is admitted, in 1 to {LONGEST_REASON} characters: the reason is sealed "
             "with it"
@@ -111,6 +111,6 @@ def admit(records: Sequence[Path], why: str, people: People | None = None) -> li
             raise PeopleError(
                 f"{path.stem} is {found.sentence()}; only an unsigned attempt can be admitted"
             )
-        taken.append(Admission(path.stem, file_digest(path), why, time))
+        taken.append(Admission(path.stem, file_digest(path), reason, time))
     people.admit([(one.attempt, one.record, one.why, one.time, one.seal(key)) for one in taken])
     return taken

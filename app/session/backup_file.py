@@ -51,7 +51,7 @@ class Manifest:
 
 
 def may_hold(name: str) -> bool:
-    """Whether a backup may hold a file of this name."""
+    """Return whether a backup may hold a file of this name."""
     return _MEMBER.fullmatch(name) is not None
 
 

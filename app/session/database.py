@@ -48,22 +48,22 @@ class DatabaseError(SessionError):
 
     @property
     def damaged(self) -> bool:
-        """Whether the file is no database, or a broken one."""
+        """Return whether the file is no database, or a broken one."""
         return _MENDED in str(self)
 
     @property
     def unwritable(self) -> bool:
-        """Whether the file cannot be written: no right, no room, or a disk without locks."""
+        """Return whether the file cannot be written: no right, no room, or a disk without locks."""
         return any(text in str(self) for text in (_READ_ONLY, _FULL, _NO_LOCKS, _NO_FOLDER))
 
     @property
     def busy(self) -> bool:
-        """Whether another program has it."""
+        """Return whether another program has it."""
         return "in use by another program" in str(self)
 
     @property
     def newer(self) -> bool:
-        """Whether a newer version of Acus has written it."""
+        """Return whether a newer version of Acus has written it."""
         return "newer version of Acus" in str(self)
 
 
@@ -228,7 +228,7 @@ class Database:
         return engine
 
     def _ours(self, engine: Engine) -> bool:
-        """Whether the file holds the tables that it should, and nothing else."""
+        """Return whether the file holds the tables that it should, and nothing else."""
         from sqlalchemy import create_engine
 
         with engine.connect() as connection:
@@ -249,7 +249,9 @@ class Database:
         connection.execute("PRAGMA secure_delete = ON")
 
     def _full(self) -> bool:
-        """Whether the disk has no room for what stands beside a database while it is used."""
+        """Return whether the disk has no room for what stands beside a database while it is
+        used.
+        """
         try:
             return self.path is not None and shutil.disk_usage(self.path.parent).free < _ROOM
         except OSError:
@@ -267,10 +269,10 @@ class Database:
         except (sqlite3.DatabaseError, UnicodeError, OSError) as error:
             raise self._error(_reason(str(error), self._busy)) from error
 
-    def _error(self, why: str) -> DatabaseError:
-        if why == _NO_LOCKS and self._full():  # SQLite says the same of both
-            why = _FULL
-        return DatabaseError(f"the {self._what} {self.path or 'in memory'} {why}")
+    def _error(self, reason: str) -> DatabaseError:
+        if reason == _NO_LOCKS and self._full():  # SQLite says the same of both
+            reason = _FULL
+        return DatabaseError(f"the {self._what} {self.path or 'in memory'} {reason}")
 
 
 @cache
@@ -332,7 +334,7 @@ def copied_to_memory(path: Path) -> sqlite3.Connection:
 
 @cache
 def lockable(folder: Path) -> bool:
-    """Whether files in a folder can be locked; looked at once."""
+    """Return whether files in a folder can be locked; looked at once."""
     return has_locks(folder)
 
 

@@ -62,7 +62,7 @@ def elsewhere(folder: Path) -> Elsewhere | None:
     return Elsewhere(tree, there) if there else None
 
 
-def signed_here(found: Elsewhere, people: People) -> tuple[Path, ...]:
+def signed_here(result: Elsewhere, people: People) -> tuple[Path, ...]:
     """Return the records that this station signed or admitted, without those erased here.
 
     Reads what stands beside each record; takes a moment where there are many.
@@ -73,12 +73,12 @@ def signed_here(found: Elsewhere, people: People) -> tuple[Path, ...]:
     gone = people.erased_attempts()
     return tuple(
         path
-        for path in found.records
+        for path in result.records
         if path.stem not in gone and verdict_of(path) in (Signed.VERIFIED, Signed.ADMITTED)
     )
 
 
-def gather(found: Elsewhere, folder: Path, people: People) -> int:
+def gather(result: Elsewhere, folder: Path, people: People) -> int:
     """Bring the attempts that this station signed from the source tree into a folder of records.
 
     They are copied, then moved into their place and deleted in the tree as one step; what may not
@@ -90,14 +90,14 @@ def gather(found: Elsewhere, folder: Path, people: People) -> int:
     Raises:
         SessionError: if one cannot be read or written; then none has come.
     """
-    own = signed_here(found, people)
+    own = signed_here(result, people)
     settled(folder)
     stage = folder / f".gathering.{uuid4().hex}"
     try:
         folder.mkdir(parents=True, exist_ok=True, mode=0o700)
         with Journal(folder, [removal(stage)]) as journal:
             stage.mkdir(mode=0o700)
-            journal.plan([*_steps(own, stage, folder), removal(stage), *_cleared(found, own)])
+            journal.plan([*_steps(own, stage, folder), removal(stage), *_cleared(result, own)])
     except OSError as error:
         what = error.filename or folder
         raise SessionError(f"cannot bring attempts here: {what}: {error.strerror}") from error
@@ -116,7 +116,7 @@ def _steps(own: tuple[Path, ...], stage: Path, folder: Path) -> list[Step]:
     return steps
 
 
-def _cleared(found: Elsewhere, own: tuple[Path, ...]) -> list[Step]:
-    if not os.access(found.folder, os.W_OK):
+def _cleared(result: Elsewhere, own: tuple[Path, ...]) -> list[Step]:
+    if not os.access(result.folder, os.W_OK):
         return []
     return [removal(path) for record in own for path in beside(record)]

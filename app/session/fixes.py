@@ -158,7 +158,7 @@ class Fixes:
 
     @property
     def doubt(self) -> str:
-        """Why the depths of the cameras are not believed now; empty if they are."""
+        """Return why the depths of the cameras are not believed now; empty if they are."""
         with self._lock:
             return self._gate.doubt
 
@@ -182,7 +182,9 @@ class Fixes:
 
     @property
     def encoder(self) -> str:
-        """Why, by cameras that see the needle, an encoder cannot be right; empty if it may be."""
+        """Return why, by cameras that see the needle, an encoder cannot be right; empty if it may
+        be.
+        """
         with self._lock:
             fix = self._newest
         if fix is None or not self._seen or fix.discrepancy.cause not in ENCODERS:

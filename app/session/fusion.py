@@ -168,7 +168,7 @@ def turned(tip: FusedTip, fulcrum: FloatArray, then: FloatArray, now: FloatArray
 
 
 def is_usable(fix: NeedleFix) -> bool:
-    """Whether a fix is a measurement of the tip and all its numbers are finite."""
+    """Return whether a fix is a measurement of the tip and all its numbers are finite."""
     return bool(
         fix.usable
         and np.isfinite(fix.time)
@@ -178,7 +178,7 @@ def is_usable(fix: NeedleFix) -> bool:
 
 
 def by_one_camera(fix: NeedleFix) -> bool:
-    """Whether one camera alone has seen the marker."""
+    """Return whether one camera alone has seen the marker."""
     return str(fix.status) == FixStatus.ONE_CAMERA
 
 
@@ -204,7 +204,8 @@ def fix_depth(fix: NeedleFix, fulcrum: FloatArray, axis: FloatArray) -> tuple[fl
 
 
 def depth_noise(fix: NeedleFix, fulcrum: FloatArray, axis: FloatArray) -> tuple[float, float]:
-    """How far the depth of such a fix differs from picture to picture, standard deviation [m].
+    """Return how far the depth of such a fix differs from picture to picture, standard deviation
+    [m].
 
     And the variance that it states [m²], in which the calibration has its share.
     """
@@ -315,7 +316,7 @@ def _measured(
 
 
 def _bent(p_straight: FloatArray, bend: Bend | None, depth: float) -> FloatArray:
-    """Where the tip is [m], beside the straight needle's."""
+    """Return where the tip is [m], beside the straight needle's."""
     return read_only(p_straight if bend is None else p_straight + bend.at(depth))
 
 
@@ -354,7 +355,7 @@ def tip_covariance(axis: FloatArray, depth: float, depth_variance: float) -> Flo
 
 
 def encoder_time(device: DeviceState) -> float:
-    """When the encoders were read [s]."""
+    """Return when the encoders were read [s]."""
     return float(device.row[slots.Q_TIME])
 
 

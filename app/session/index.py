@@ -107,12 +107,12 @@ class Indexed:
 
     @cached_property
     def conditions(self) -> Conditions:
-        """What the score was made under."""
+        """Return what the score was made under."""
         return _conditions_of(self.under) if self.under else Conditions(self.exercise)
 
     @property
     def time(self) -> datetime:
-        """When it began; the beginning of 1970 where the record does not say."""
+        """Return when it began; the beginning of 1970 where the record does not say."""
         try:
             found = datetime.fromisoformat(self.started)
         except ValueError:

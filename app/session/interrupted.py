@@ -68,7 +68,7 @@ def interrupted(folder: Path, now: float | None = None) -> tuple[list[Summary], 
 
 
 def is_cut_off(path: Path) -> bool:
-    """Whether a file begins as a record, has no end, and was never signed as finished."""
+    """Return whether a file begins as a record, has no end, and was never signed as finished."""
     if signature_file(path).exists():  # asked first: of most attempts it is enough
         return False
     try:
@@ -191,7 +191,7 @@ def _is_written(path: Path) -> bool:
 
 
 def _alone(stream: IO[bytes]) -> bool:
-    """Whether no other program holds the file; who asks holds it until it is closed.
+    """Return whether no other program holds the file; who asks holds it until it is closed.
 
     Without locks (Windows) the time of its last change has to do.
     """

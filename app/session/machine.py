@@ -97,12 +97,12 @@ class Attempt:
 
     @property
     def running(self) -> bool:
-        """Whether it has begun and not finished."""
+        """Return whether it has begun and not finished."""
         return self.state in RUNNING
 
     @property
     def finished(self) -> bool:
-        """Whether nothing can happen to it any more."""
+        """Return whether nothing can happen to it any more."""
         return self.state in FINAL
 
     def phases(self, now: float) -> dict[State, float]:

@@ -55,7 +55,7 @@ class GrowingFile:
 
     @property
     def published(self) -> bool:
-        """Whether the file stands under its own name."""
+        """Return whether the file stands under its own name."""
         return self._published
 
     @property
@@ -299,7 +299,9 @@ class McapFile:
 
     @property
     def full(self) -> bool:
-        """Whether the disk is full: only the end may follow, in the space set aside for it."""
+        """Return whether the disk is full: only the end may follow, in the space set aside for
+        it.
+        """
         return self._file.full
 
     @property
@@ -309,7 +311,7 @@ class McapFile:
 
     @property
     def published(self) -> bool:
-        """Whether the file stands under its own name, with its beginning on the disk."""
+        """Return whether the file stands under its own name, with its beginning on the disk."""
         return self._file.published
 
     def open(self) -> None:

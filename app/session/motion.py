@@ -136,7 +136,9 @@ class NeedleMotion:
         return NeedleOverlay.of_world(tip, path, self.length, self.placed.T_world_patient)
 
     def ending(self) -> Offset | None:
-        """How far from the target, as it was then, the needle ended; None if nobody measured it."""
+        """Return how far from the target, as it was then, the needle ended; None if nobody measured
+        it.
+        """
         if not len(self) or not self.measured[self.last]:
             return None
         row = self.last

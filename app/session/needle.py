@@ -86,7 +86,7 @@ class NeedlePose:
 
     @property
     def p_straight(self) -> FloatArray:
-        """Where the tip would be if the tissue bent nothing [m], shape (3,)."""
+        """Return where the tip would be if the tissue bent nothing [m], shape (3,)."""
         return self.p_tip if self.bend is None else self.p_tip - self.bend.at(self.depth)
 
     @property
@@ -96,8 +96,8 @@ class NeedlePose:
 
     @property
     def bending(self) -> float | None:
-        """How far the tip is off the straight needle [m]: by the tissue's model, and by what both
-        cameras see beside that; None where neither tells.
+        """Return how far the tip is off the straight needle [m]: by the tissue's model, and by what
+        both cameras see beside that; None where neither tells.
         """
         seen = None if self.deflection_sigma == 0.0 else self.deflection
         if self.bend is None or not self.measured:
@@ -117,7 +117,7 @@ class NeedlePose:
 
     @property
     def bends(self) -> bool:
-        """Whether the cameras see the tip beside the robot's line, beyond `fusion.GATE`.
+        """Return whether the cameras see the tip beside the robot's line, beyond `fusion.GATE`.
 
         At a lower limit a straight needle would be called bent every few seconds, and one that a
         moved camera shows a little beside its line all the time.
@@ -126,5 +126,5 @@ class NeedlePose:
 
     @property
     def measured(self) -> bool:
-        """Whether the cameras vouch for the depth."""
+        """Return whether the cameras vouch for the depth."""
         return self.valid and self.depth_source in FROM_CAMERAS

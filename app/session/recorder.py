@@ -224,7 +224,7 @@ class Recorder:
             self._active = False
 
     def status(self) -> RecordingStatus:
-        """How the record stands now."""
+        """Return how the record stands now."""
         return RecordingStatus(
             self._file.path,
             self._active,

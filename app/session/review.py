@@ -346,10 +346,10 @@ def review_of_result(result: AttemptResult) -> Review:
     return review(recording)
 
 
-def _shown(recording: Recording, found: Verification) -> Score | None:
+def _shown(recording: Recording, result: Verification) -> Score | None:
     """Return the score that stands, with the metrics of others that no exercise counts."""
-    standing = found.standing
-    if standing is None or standing is not found.recomputed:
+    standing = result.standing
+    if standing is None or standing is not result.recomputed:
         return standing
     return with_shown(standing, recording.trajectory())
 

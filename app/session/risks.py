@@ -65,7 +65,7 @@ class Risk:
 def risk_marks_of(
     samples: Samples, placed: PlacedPlan, risks: Iterable[Risk]
 ) -> tuple[RiskMark, ...]:
-    """How near the needle came to each structure; none if it was never seen in the body."""
+    """Return how near the needle came to each structure; none if it was never seen in the body."""
     wanted = tuple(risks)
     if not wanted:
         return ()

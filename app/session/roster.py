@@ -63,7 +63,7 @@ def checked_pseudonym(text: str) -> str:
 
 
 def looks_like_a_key(text: str) -> bool:
-    """Whether a record that names this was made by somebody who had signed in."""
+    """Return whether a record that names this was made by somebody who had signed in."""
     return _KEY.fullmatch(text) is not None
 
 

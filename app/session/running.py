@@ -93,22 +93,22 @@ class RunningAttempt:
 
     @property
     def paused(self) -> bool:
-        """Whether the attempt waits."""
+        """Return whether the attempt waits."""
         return self.attempt.state is machine.State.PAUSED
 
     @property
     def withdrawing(self) -> bool:
-        """Whether the needle is being brought out before the attempt."""
+        """Return whether the needle is being brought out before the attempt."""
         return self.attempt.state is machine.State.WITHDRAWING
 
     @property
     def counts(self) -> bool:
-        """Whether an attempt has begun and not ended."""
+        """Return whether an attempt has begun and not ended."""
         return self.attempt.running and not self.withdrawing
 
     @property
     def pause_words(self) -> str:
-        """Why the attempt waits; empty if it does not."""
+        """Return why the attempt waits; empty if it does not."""
         return PAUSED_WORDS[self._pauses.cause or PauseCause.CAMERAS] if self.paused else ""
 
     def require_idle(self, what: str) -> None:

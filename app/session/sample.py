@@ -63,14 +63,16 @@ class Sample:
 
     @property
     def pose_valid(self) -> bool:
-        """Whether direction and depth are measured and finite; a depth of the model's never is."""
+        """Return whether direction and depth are measured and finite; a depth of the model's never
+        is.
+        """
         pose = self.pose
         numbers = (pose.depth, *pose.p_tip)
         return pose.measured and self.axis_valid and all(map(isfinite, numbers))
 
     @property
     def axis_valid(self) -> bool:
-        """Whether the direction is measured and finite."""
+        """Return whether the direction is measured and finite."""
         return self.pose.valid and all(map(isfinite, self.pose.axis))
 
 

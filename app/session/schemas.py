@@ -194,7 +194,7 @@ _LARGEST: Final = 1e18
 
 
 def conforms(value: Any, schema: Schema) -> bool:
-    """Whether a JSON value has the types and the fields that one of our schemas asks for."""
+    """Return whether a JSON value has the types and the fields that one of our schemas asks for."""
     names = schema.get("type")
     if names and not _is(value, names):
         return False
@@ -214,7 +214,7 @@ def conforms(value: Any, schema: Schema) -> bool:
 
 
 def _is(value: Any, names: str | list[str]) -> bool:
-    """Whether a value is of one of the types, numbers within bounds."""
+    """Return whether a value is of one of the types, numbers within bounds."""
     own = _NAMES.get(type(value), ())
     if not any(name in own for name in names) if isinstance(names, list) else names not in own:
         return False

@@ -94,7 +94,7 @@ class Shown:
         return cls(live, frozenset(exercise.shown_views))
 
     def shows(self, view: ViewName) -> bool:
-        """Whether this view is on."""
+        """Return whether this view is on."""
         return view in self.views and (self.live or view not in TELLING)
 
     def of(self, snapshot: Snapshot, placed: PlacedPlan) -> Snapshot:
@@ -110,7 +110,7 @@ class Shown:
         return replace(snapshot, p_target=rest.p_target, offset=still)
 
     def tells(self, kind: str, state: object) -> bool:
-        """Whether an event of this kind, with this state among its data, may be listed."""
+        """Return whether an event of this kind, with this state among its data, may be listed."""
         return self.live or not (kind in ("state", "depth") and state in _TELLING)
 
 

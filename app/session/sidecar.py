@@ -63,11 +63,13 @@ class Cached:
     intact: bool
 
     def fits(self, path: Path) -> bool:
-        """Whether a list may trust it: it is intact, and the record has the same size and time."""
+        """Return whether a list may trust it: it is intact, and the record has the same size and
+        time.
+        """
         return self.intact and self.is_of(path)
 
     def is_of(self, path: Path) -> bool:
-        """Whether the record has the same size and time: it has not been written since.
+        """Return whether the record has the same size and time: it has not been written since.
 
         Raises:
             OSError: if it has gone.
@@ -224,9 +226,9 @@ def verify_record(path: Path) -> Verification:
     return replace(found, changes=(*found.changes, *changes))
 
 
-def differences(found: Summary, fresh: Summary) -> list[tuple[str, Any, Any]]:
+def differences(result: Summary, fresh: Summary) -> list[tuple[str, Any, Any]]:
     """Fields in which a kept summary is not what the record gives: name, kept, computed."""
-    a, b = finite(found.document()), finite(fresh.document())
+    a, b = finite(result.document()), finite(fresh.document())
     return [
         pair for name in b if a.get(name) != b[name] for pair in _fields(name, a.get(name), b[name])
     ]

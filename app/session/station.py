@@ -141,7 +141,7 @@ class StationKey:
 
 
 def opens(document: Mapping[str, str]) -> bool:
-    """Whether a wrapped key is in the form that `StationKey.unwrapped` reads.
+    """Return whether a wrapped key is in the form that `StationKey.unwrapped` reads.
 
     Builds from before the first release wrote another one, without a nonce.
     """
@@ -176,7 +176,8 @@ def _read_key(folder: Path, *_: int) -> StationKey:
 
 
 def seals_here() -> bool:
-    """Whether this station has a key: attempts count here only if it has sealed or admitted them.
+    """Return whether this station has a key: attempts count here only if it has sealed or admitted
+    them.
 
     One that cannot be read counts as well: without it nothing is verified.
     """

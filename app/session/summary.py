@@ -118,15 +118,15 @@ class Summary:
         )
 
 
-def derive(recording: Recording, found: Verification | None = None) -> Summary:
-    """Summary of a record, its score computed anew (`found`, where it has been already)."""
-    found = found or verify(recording)
+def derive(recording: Recording, outcome: Verification | None = None) -> Summary:
+    """Summary of a record, its score computed anew (`outcome`, where it has been already)."""
+    outcome = outcome or verify(recording)
     session = recording.metadata["session"]
     exercise = recording.metadata.get("exercise", {})
     result = recording.metadata.get("result", {})
     time = recording.samples.time
     measured = float(time[-1] - time[0]) - _paused(recording) if len(time) else 0.0
-    standing = found.standing
+    standing = outcome.standing
     return Summary(
         id=recording.path.stem,  # what `find` takes, also of a record that was renamed
         started=session.get("started", ""),
@@ -138,7 +138,7 @@ def derive(recording: Recording, found: Verification | None = None) -> Summary:
         duration=_number(result.get("duration_s"), measured),
         scans=sum(event.kind == "scan" for event in recording.events),
         score=None if standing is None else document_of(standing),
-        problems=(*recording.problems, *found.remarks()),
+        problems=(*recording.problems, *outcome.remarks()),
         software=recording.metadata.get("software", {}).get("version", ""),
         conditions=conditions(recording, standing),
     )

@@ -36,7 +36,9 @@ class TimeMark:
 
     @property
     def sign(self) -> str:
-        """What stands on a plot: the number of a scan or a touch, or the words, cut short."""
+        """Return what stands on a plot: the number of a scan or a touch, or the words, cut
+        short.
+        """
         if self.kind in _COUNTED:
             return f"{_COUNTED[self.kind]} {self.label}"
         whole = len(self.label) <= LONGEST_SIGN

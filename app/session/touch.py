@@ -71,7 +71,7 @@ class TouchCollector:
 
     @property
     def share(self) -> float:
-        """How much of it is done, 0...1: of the time and of the fewest fixes."""
+        """Return how much of it is done, 0...1: of the time and of the fewest fixes."""
         if self._first is None:
             return 0.0
         time = (self._newest - self._first) / self.duration

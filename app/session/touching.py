@@ -51,7 +51,7 @@ class TouchState:
 
     @property
     def done(self) -> bool:
-        """Whether all were touched."""
+        """Return whether all were touched."""
         return self.touched >= len(self.task)
 
     @property
@@ -83,7 +83,7 @@ class TargetMarks:
     touched: int
 
     def same(self, other: TargetMarks | None) -> bool:
-        """Whether another one is drawn alike."""
+        """Return whether another one is drawn alike."""
         return (
             other is not None
             and self.touched == other.touched
@@ -148,7 +148,7 @@ class Touching:
 
 
 def measured_at(pose: NeedlePose) -> float | None:
-    """When the cameras measured a pose's depth [s]; None where they do not vouch for it."""
+    """Return when the cameras measured a pose's depth [s]; None where they do not vouch for it."""
     return pose.time - pose.depth_age if pose.measured else None
 
 

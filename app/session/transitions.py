@@ -249,7 +249,7 @@ class Pauses:
         return None
 
     def lasted(self, now: float) -> float:
-        """How long the present pause has lasted [s]."""
+        """Return how long the present pause has lasted [s]."""
         return max(0.0, now - self._began)
 
     def _pause(self, cause: PauseCause, inside: bool, now: float) -> AttemptEvent:

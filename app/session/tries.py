@@ -132,7 +132,9 @@ def hashed_secret(secret: str) -> str:
 
 
 def matches(known: str, given: str) -> bool:
-    """Whether what was given has this hash; it takes as long where there is none to compare."""
+    """Return whether what was given has this hash; it takes as long where there is none to
+    compare.
+    """
     from argon2 import PasswordHasher
     from argon2.exceptions import InvalidHashError, VerificationError
 

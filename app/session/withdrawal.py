@@ -118,12 +118,12 @@ class Withdrawal:
 
     @property
     def simulated(self) -> bool:
-        """Whether the hand that holds the needle is a simulated one."""
+        """Return whether the hand that holds the needle is a simulated one."""
         return self._start is Start.SIMULATED
 
     @property
     def moves_hand(self) -> bool:
-        """Whether it is moving the simulated hand."""
+        """Return whether it is moving the simulated hand."""
         return self.active and self._start is Start.SIMULATED
 
     def begin(
@@ -176,7 +176,7 @@ class Withdrawal:
         self._said = self.active and self.asks
 
     def refuted(self, pose: NeedlePose, now: float) -> str:
-        """Why an attempt that began on the student's word cannot count; empty if it can."""
+        """Return why an attempt that began on the student's word cannot count; empty if it can."""
         if self._confirmed is None:
             return ""
         if now - self._confirmed > REFUTES:
@@ -204,7 +204,9 @@ class Withdrawal:
         self._said = self._said and self.asks
 
     def _stands(self, device: DeviceState, out: float) -> bool:
-        """Whether the tip is no deeper than `out` [m], and the hand where an attempt begins."""
+        """Return whether the tip is no deeper than `out` [m], and the hand where an attempt
+        begins.
+        """
         if _depth(device) > out:
             return False
         x, y, depth = device.row[[sv.GRIP_X, sv.GRIP_Y, sv.GRIP_DEPTH]].tolist()

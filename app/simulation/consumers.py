@@ -82,5 +82,5 @@ class DevicePort:
 
     @property
     def takes_pictures(self) -> bool:
-        """Whether simulated cameras take pictures of its needle."""
+        """Return whether simulated cameras take pictures of its needle."""
         return self.simulated if self.pictures is None else self.pictures

@@ -117,31 +117,32 @@ class SimulationPlan:
             found[kept.name] = (*kept.warnings, *own)
         return found
 
-    def _bound(self, kept: KeptEffect) -> float:
-        if kept.declaration.pictures:
+    def _bound(self, stored: KeptEffect) -> float:
+        if stored.declaration.pictures:
             return 0.0
-        module = load(kept.declaration)
+        module = load(stored.declaration)
         if not hasattr(module, "energy_bound"):
             return 0.0
-        bound = float(module.energy_bound(self.stage(kept)[2]))
+        bound = float(module.energy_bound(self.stage(stored)[2]))
         if not 0.0 <= bound < math.inf:
             raise SimulationError(
-                f"effect {kept.name}: energy_bound is {bound} J; give a finite number of 0 or more"
+                f"effect {stored.name}: energy_bound is {bound} J; give a finite number of 0 or"
+                " more"
             )
         return bound
 
-    def _binding(self, kept: KeptEffect, model: str) -> Binding:
+    def _binding(self, stored: KeptEffect, model: str) -> Binding:
         return Binding(self.scene, self.depth_slot, model)
 
-    def stage(self, kept: KeptEffect, model: str = "") -> Stage:
+    def stage(self, stored: KeptEffect, model: str = "") -> Stage:
         """Import a kept effect and return its stage with fresh memory, by its own or another model.
 
         Raises:
             SimulationError: if its file cannot be used.
         """
-        binding = self._binding(kept, model or kept.model)
-        array = array_of(kept.declaration, kept.parameters, binding)
-        return Stage(kept.name, load(kept.declaration).step, array)
+        binding = self._binding(stored, model or stored.model)
+        array = array_of(stored.declaration, stored.parameters, binding)
+        return Stage(stored.name, load(stored.declaration).step, array)
 
 
 def compile(
@@ -190,7 +191,7 @@ def _checked(request: EffectRequest, declared: Effect) -> tuple[str, dict[str, f
 
 
 def _senseless(request: EffectRequest, declared: Effect, scene: Scene) -> str:
-    """Why the scene itself has no use for an effect; empty if it has."""
+    """Return why the scene itself has no use for an effect; empty if it has."""
     for need in declared.needs:
         if not getattr(scene, need):
             return f"dropped: it needs {need}, and the scene has none"
@@ -249,17 +250,17 @@ def _in_words(slots: Sequence[str]) -> str:
     return " and ".join([", ".join(named[:-1]), named[-1]] if len(named) > 1 else named)
 
 
-def _ordered(kept: dict[str, Effect]) -> list[str]:
+def _ordered(stored: dict[str, Effect]) -> list[str]:
     """Writers before readers; otherwise in the scene's order.
 
     Raises:
         SimulationError: naming the effects that need each other's results.
     """
     sorter: TopologicalSorter[str] = TopologicalSorter()
-    for name, reader in kept.items():
+    for name, reader in stored.items():
         writers = [
             other
-            for other, d in kept.items()
+            for other, d in stored.items()
             if other != name and set(d.writes) & set(reader.reads)
         ]
         sorter.add(name, *writers)

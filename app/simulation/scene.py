@@ -102,7 +102,9 @@ class TissueLayer:
             )
 
     def indentation(self, force: float) -> float:
-        """How far a push of `force` [N], 0 or more, indents it [m]; infinite without stiffness."""
+        """Return how far a push of `force` [N], 0 or more, indents it [m]; infinite without
+        stiffness.
+        """
         k, h = self.indentation_stiffness, self.indentation_hardening
         slope = k + (k * k + 4.0 * h * force) ** 0.5
         return 2.0 * force / slope if slope > 0.0 else np.inf

@@ -323,14 +323,14 @@ def tangents(
 
 
 def _parameters(
-    script: TraineeScript, axis: FloatArray, speed: float, told: FloatArray
+    script: TraineeScript, axis: FloatArray, speed: float, answer: FloatArray
 ) -> FloatArray:
     vectors = {"axis": axis, "first": script.basis[0], "second": script.basis[1]}
     return packed(
         _AT,
         script.tremor.ravel(),
         script.rows.ravel(),
-        told,
+        answer,
         start=np.nan,
         speed=speed,
         rows=len(script.rows),
@@ -383,7 +383,9 @@ def _begin_where_the_hand_is(state: FloatArray, p: FloatArray) -> None:
 
 @njit
 def _breathes_away(state: FloatArray, near: float) -> bool:
-    """Whether the target is further than `near` [m] from where it rests at the end of a breath."""
+    """Return whether the target is further than `near` [m] from where it rests at the end of a
+    breath.
+    """
     x, y, z = state[sv.TARGET_SHIFT_X], state[sv.TARGET_SHIFT_Y], state[sv.TARGET_SHIFT_Z]
     return x * x + y * y + z * z > near * near
 

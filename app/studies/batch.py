@@ -56,7 +56,7 @@ def run_all(
     repeats: int = REPEATS,
     fresh: bool = False,
     progress: Progress | None = None,
-    told: Callable[[Done], object] = lambda done: None,
+    answer: Callable[[Done], object] = lambda done: None,
     lend: Callable[[str], Any] | None = None,
     quick: bool = False,
 ) -> tuple[Done, ...]:
@@ -69,7 +69,7 @@ def run_all(
         repeats: timings per way and setting.
         fresh: measure all anew.
         progress: told how far it is; may cancel between two settings.
-        told: called with each study that is done.
+        answer: called with each study that is done.
         lend: gives what studies borrow from rooms above.
         quick: surveys on less, where they know how; what a quick one found is not kept for one
             that is not.
@@ -82,7 +82,7 @@ def run_all(
         watch.report(number / len(chosen), name)
         part = watch.part(number / len(chosen), (number + 1) / len(chosen))
         found.append(_done(name, folder, repeats, fresh, part, lend, quick))
-        told(found[-1])
+        answer(found[-1])
     return tuple(found)
 
 
@@ -122,7 +122,7 @@ def _done(
 
 
 def _is_there(study: Study | Survey, path: Path, repeats: int, quick: bool) -> bool:
-    """Whether a run before has left the result of this very study."""
+    """Return whether a run before has left the result of this very study."""
     if not path.is_file():
         return False
     try:

@@ -164,19 +164,19 @@ def _rms(squares: FloatArray) -> float:
     return round(float(np.sqrt(np.mean(squares))), 3)
 
 
-def _row(one: Tried) -> tuple[Cell, ...]:
-    best = int(np.argmin(one.refined.mean(axis=1)))
+def _row(item: Tried) -> tuple[Cell, ...]:
+    best = int(np.argmin(item.refined.mean(axis=1)))
     return (
-        f"{one.square:g}",
-        f"{one.slant:g}",
-        f"{one.noise:g}",
-        round(one.short, 1),
-        round(one.edge, 1),
-        _rms(one.unrefined),
-        _rms(one.usual),
-        _rms(one.chosen),
-        round(one.half, 1),
-        _rms(one.refined[best]),
+        f"{item.square:g}",
+        f"{item.slant:g}",
+        f"{item.noise:g}",
+        round(item.short, 1),
+        round(item.edge, 1),
+        _rms(item.unrefined),
+        _rms(item.usual),
+        _rms(item.chosen),
+        round(item.half, 1),
+        _rms(item.refined[best]),
         WINDOWS[best],
     )
 

@@ -41,7 +41,7 @@ _GAP = 1.5
 
 
 def justified(reason: str, facts: Sequence[Fact]) -> bool:
-    """Whether the reason given for a refusal is true.
+    """Return whether the reason given for a refusal is true.
 
     Args:
         reason: in the program's words.
@@ -111,7 +111,9 @@ def _planes(facts: Sequence[Fact]) -> list[list[list[float]]]:
 
 
 def _distances(facts: Sequence[Fact]) -> FloatArray:
-    """How far slices lie apart along their normal [mm], of files that agree on a direction."""
+    """Return how far slices lie apart along their normal [mm], of files that agree on a
+    direction.
+    """
     planes = _planes(facts)
     if len(planes) < 2 or _several(planes, 1):
         return np.zeros(0)
@@ -121,7 +123,7 @@ def _distances(facts: Sequence[Fact]) -> FloatArray:
 
 
 def _several(planes: Sequence[Any], part: int) -> bool:
-    """Whether planes differ in their orientation (1) or pixel spacing (2)."""
+    """Return whether planes differ in their orientation (1) or pixel spacing (2)."""
     values = np.array([plane[part] for plane in planes])
     return bool(np.ptp(values, axis=0).max() > 1e-4)
 
@@ -142,7 +144,7 @@ def _doubled(reason: str, facts: Sequence[Fact]) -> bool:
 
 
 def _sideways(reason: str, facts: Sequence[Fact]) -> bool:
-    """Whether slices evenly apart lie on no straight line."""
+    """Return whether slices evenly apart lie on no straight line."""
     apart = _distances(facts)
     at = np.array([plane[0] for plane in _planes(facts)])
     if apart.size < 2 or np.ptp(apart) > _SAME_MM:
@@ -157,7 +159,7 @@ def _missing(reason: str, facts: Sequence[Fact]) -> bool:
 
 
 def _undeclared(fact: Fact) -> bool:
-    """Whether values are of another unit than HU, or nobody says of which they are."""
+    """Return whether values are of another unit than HU, or nobody says of which they are."""
     return fact["unit"] not in ("", "HU") or (fact["energies"] and not fact["unit"])
 
 
@@ -190,7 +192,9 @@ def _nifti(holds: Callable[[Fact], bool]) -> Holds:
 
 
 def _no_nifti(reason: str, facts: Sequence[Fact]) -> bool:
-    """Whether a file has no header of NIfTI, a size that cannot be, or less than it promises."""
+    """Return whether a file has no header of NIfTI, a size that cannot be, or less than it
+    promises.
+    """
     return any(
         "nifti" in fact
         and (
@@ -445,7 +449,9 @@ def _cases(inputs: tuple[Path, ...], progress: Progress) -> Iterator[DicomCase]:
 
 
 def _reason(case: DicomCase) -> str:
-    """Why the series or file is no volume; a file of one slice is none, and may still be read."""
+    """Return why the series or file is no volume; a file of one slice is none, and may still be
+    read.
+    """
     return case.found.reason
 
 

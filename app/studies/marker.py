@@ -363,10 +363,10 @@ def _shot(
     )
 
 
-def errors_px(shots_: list[MarkerShot], found: list[Any]) -> FloatArray:
+def errors_px(shots_: list[MarkerShot], result: list[Any]) -> FloatArray:
     """Distance of each find from the truth [px]; NaN where a way found nothing, shape (n,)."""
     errors = np.full(len(shots_), np.nan)
-    for k, (shot, fix) in enumerate(zip(shots_, found, strict=True)):
+    for k, (shot, fix) in enumerate(zip(shots_, result, strict=True)):
         if isinstance(fix, MarkerFix):
             shift = shot.shift if fix.centre is Centre.OUTLINE else np.zeros(2)
             errors[k] = float(np.linalg.norm(fix.uv - shift - shot.true))
@@ -376,8 +376,8 @@ def errors_px(shots_: list[MarkerShot], found: list[Any]) -> FloatArray:
 def _case(setting: Setting) -> Case:
     taken = shots(setting.name)
 
-    def error(found: Any) -> float:
-        millimetres = errors_px(taken, found) * np.array([shot.mm_per_px for shot in taken])
+    def error(result: Any) -> float:
+        millimetres = errors_px(taken, result) * np.array([shot.mm_per_px for shot in taken])
         return float(np.sqrt(np.nanmean(millimetres**2)))
 
     return Case(taken, error, _SEEN)

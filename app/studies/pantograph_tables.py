@@ -225,7 +225,9 @@ def _differences(geometry: Geometry, p3: FloatArray) -> FloatArray:
 
 
 def singular_places(geometry: Geometry) -> Sheet:
-    """Where the elbows coincide (l22' = 0), found by Newton's method from 400 starting poses."""
+    """Return where the elbows coincide (l22' = 0), found by Newton's method from 400 starting
+    poses.
+    """
     random = np.random.default_rng(22)
     q = random.uniform(-np.pi, np.pi, (400, 2))
     a1 = geometry.links[0]

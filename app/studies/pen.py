@@ -221,8 +221,8 @@ def _inside(outcome: Outcome) -> float:
     return 100.0 * float(np.mean(outcome.distance < chi_square_quantile(_LIMIT, 3)))
 
 
-def _row(setup: Setup, found: Outcome) -> tuple[Cell, ...]:
-    if not len(found.tip):
+def _row(setup: Setup, result: Outcome) -> tuple[Cell, ...]:
+    if not len(result.tip):
         return (
             setup.edge_mm,
             setup.distance,
@@ -240,12 +240,12 @@ def _row(setup: Setup, found: Outcome) -> tuple[Cell, ...]:
         setup.distance,
         f"{setup.width}x{setup.height}",
         setup.noise,
-        100.0 * found.share,
-        float(np.sqrt(np.mean(found.tip**2))) / MILLIMETRE,
-        float(np.percentile(found.tip, 95)) / MILLIMETRE,
-        float(np.sqrt(np.mean(found.axis**2))) / DEGREE,
-        float(np.percentile(found.axis, 95)) / DEGREE,
-        _inside(found),
+        100.0 * result.share,
+        float(np.sqrt(np.mean(result.tip**2))) / MILLIMETRE,
+        float(np.percentile(result.tip, 95)) / MILLIMETRE,
+        float(np.sqrt(np.mean(result.axis**2))) / DEGREE,
+        float(np.percentile(result.axis, 95)) / DEGREE,
+        _inside(result),
     )
 
 

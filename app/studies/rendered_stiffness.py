@@ -191,7 +191,7 @@ class Device:
         return round(DURATION * self.rate_hz)
 
     def stable(self, stiffness: float, damping: float) -> bool:
-        """Whether the swing dies away: see `QUIET_COUNTS`, `LASTING` and `WIDER`."""
+        """Return whether the swing dies away: see `QUIET_COUNTS`, `LASTING` and `WIDER`."""
         track = self.release(stiffness, damping)
         return len(track) == self.ticks and dies_away(track, self.quiet)
 
@@ -203,7 +203,9 @@ class Device:
 
 
 def dies_away(track: FloatArray, quiet: float) -> bool:
-    """Whether a tool path (n, 2) comes to rest, judged by its width in two thirds of its time."""
+    """Return whether a tool path (n, 2) comes to rest, judged by its width in two thirds of its
+    time.
+    """
     third = len(track) // 3
     before = np.ptp(track[third : 2 * third], axis=0).max()
     after = np.ptp(track[2 * third :], axis=0).max()

@@ -152,10 +152,10 @@ def highest(stable: FloatArray) -> FloatArray:
     return np.asarray(np.where(below > 0, STIFFNESS[np.maximum(below - 1, 0)], 0.0))
 
 
-def limits_sheet(found: tuple[StableRegion, ...]) -> Sheet:
+def limits_sheet(result: tuple[StableRegion, ...]) -> Sheet:
     """Largest stable K per rate, delay and B, by every account."""
     rows: list[tuple[Cell, ...]] = []
-    for part in found:
+    for part in result:
         measured = highest(part.stable)
         for k, b in enumerate(DAMPING):
             rows.append(
@@ -234,10 +234,10 @@ def protected_sheet(profile: PantographProfile) -> Sheet:
     )
 
 
-def maps(figure: Any, found: tuple[StableRegion, ...]) -> None:
+def maps(figure: Any, result: tuple[StableRegion, ...]) -> None:
     """Draw the stable region of every rate (rows) and delay (columns) with the bounds."""
     shown = np.maximum(DAMPING, 0.05)  # B = 0 has no logarithm; it is drawn at the left edge
-    for part in found:
+    for part in result:
         number = RATES.index(part.rate_hz) * len(DELAYS) + DELAYS.index(part.delay)
         axes = figure.add_subplot(len(RATES), len(DELAYS), number + 1)
         axes.set(xscale="log", yscale="log")
@@ -286,7 +286,7 @@ def _measure(progress: Progress | None, cases: tuple[tuple[float, int], ...] = (
             protected_sheet(profile),
         ),
         (
-            Figure("regions", partial(maps, found=found), (11.0, 9.0)),
+            Figure("regions", partial(maps, result=found), (11.0, 9.0)),
             Figure("examples", partial(_draw_examples, tracks=tracks), (9.0, 3.6)),
         ),
         (

@@ -110,8 +110,8 @@ def _case(setting: Setting) -> Case:
         noise = rng.standard_normal((2, 2)) * np.array(_SIGMAS)[:, None]
         shots.append(_rays(rig, observe(rig, point)[0] + noise))
 
-    def error(found: Any) -> float:
-        distances = np.linalg.norm(np.array(found) - points, axis=1)
+    def error(result: Any) -> float:
+        distances = np.linalg.norm(np.array(result) - points, axis=1)
         return float(np.sqrt(np.mean(distances**2))) / MILLIMETRE
 
     return Case((rig, shots), error, _SEEN)

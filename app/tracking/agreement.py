@@ -44,18 +44,18 @@ class Continuity:
     def __init__(self) -> None:
         self._last: NeedleFix | None = None
 
-    def judge(self, fix: NeedleFix, found: Sequence[MarkerFix] = ()) -> NeedleFix:
+    def judge(self, fix: NeedleFix, result: Sequence[MarkerFix] = ()) -> NeedleFix:
         """Return the fix, without its point if it is not to be believed.
 
         Args:
             fix: by one camera or two.
-            found: what it was made of.
+            result: what it was made of.
         """
         if not fix.usable:
             return fix
-        alone = all(one.alone for one in found)
+        alone = all(one.alone for one in result)
         if fix.status is FixStatus.VALID:
-            if not alone and all(one.centre is Centre.OUTLINE for one in found):
+            if not alone and all(one.centre is Centre.OUTLINE for one in result):
                 return _without(
                     fix,
                     FixStatus.INCONSISTENT,
@@ -131,12 +131,12 @@ class Pairing:
 
     @property
     def agrees(self) -> bool:
-        """Whether both may be one point."""
+        """Return whether both may be one point."""
         return self.apart <= SIGMAS
 
     @property
     def hopeless(self) -> bool:
-        """Whether not even a camera that was bumped explains the distance."""
+        """Return whether not even a camera that was bumped explains the distance."""
         return self.apart > HOPELESS
 
 

@@ -240,16 +240,16 @@ class DiscrepancyMonitor:
                 )
         return found
 
-    def _turned(self, found: Discrepancy) -> Discrepancy:
+    def _turned(self, result: Discrepancy) -> Discrepancy:
         """Add the turn of the axis, as the cause where there is no other."""
         both = [(e.turn, e.turn_sigma) for e in self._evidence if e.turn is not None]
         if len(both) < ENOUGH:
-            return found
+            return result
         turn = float(np.linalg.norm(np.mean([turn for turn, _ in both], axis=0)))
         sigma = float(np.median([sigma for _, sigma in both]))
-        if found.cause is DiscrepancyCause.NONE and turn > TURN_LIMIT * sigma:
-            return replace(found, cause=DiscrepancyCause.TURNED, turn=turn, words=lean(turn))
-        return replace(found, turn=turn)
+        if result.cause is DiscrepancyCause.NONE and turn > TURN_LIMIT * sigma:
+            return replace(result, cause=DiscrepancyCause.TURNED, turn=turn, words=lean(turn))
+        return replace(result, turn=turn)
 
     def _beside(self, evidence: list[Evidence]) -> Discrepancy:
         beside = np.array([e.beside for e in evidence])

@@ -104,7 +104,9 @@ class NeedleFix:
 
     @property
     def usable(self) -> bool:
-        """Whether the tip may be used as a measurement, with its covariance, however large."""
+        """Return whether the tip may be used as a measurement, with its covariance, however
+        large.
+        """
         known = self.status is FixStatus.VALID or (
             self.status is FixStatus.ONE_CAMERA and self.has_point
         )

@@ -57,7 +57,7 @@ def fits_exchanged(
     candidates: list[list[Found]],
     axis: FloatArray,
 ) -> bool:
-    """Whether both pictures show one marker if the left one is the right camera's.
+    """Return whether both pictures show one marker if the left one is the right camera's.
 
     Args:
         extractors: see `certain_pair`.
@@ -135,7 +135,9 @@ class MarkerFollower:
 
     @property
     def exchanged(self) -> bool:
-        """Whether the last pictures fit with left and right exchanged, and not as they came."""
+        """Return whether the last pictures fit with left and right exchanged, and not as they
+        came.
+        """
         return self._exchanged
 
     def use(self, extractors: tuple[Extractor, Extractor]) -> None:
@@ -327,16 +329,16 @@ class MarkerFollower:
         self,
         camera: int,
         frames: Pair,
-        found: MarkerFix,
+        result: MarkerFix,
         p_world: FloatArray | None,
         axis: FloatArray | None,
     ) -> Found:
         """Look again where a search has found something, now that the axis is known."""
         frame = frames[camera]
-        if frame is None or axis is None or found.centre is Centre.BAND:
-            return found
+        if frame is None or axis is None or result.centre is Centre.BAND:
+            return result
         uv = None if p_world is None else self._solver.pixel(camera, p_world)
-        hint = Hint(found.uv if uv is None else uv, p_world, axis)
+        hint = Hint(result.uv if uv is None else uv, p_world, axis)
         return self._extractors[camera].find(frame.image, hint)
 
     def _candidates(self, camera: int, frames: Pair) -> list[Found]:
@@ -346,8 +348,8 @@ class MarkerFollower:
         return [*self._extractors[camera].search(frame.image)] or [Miss(MissReason.NOTHING_RED)]
 
 
-def _either(found: MarkerFix) -> Miss:
-    return Miss(MissReason.ONE_OF_TWO, found.uv)
+def _either(result: MarkerFix) -> Miss:
+    return Miss(MissReason.ONE_OF_TWO, result.uv)
 
 
 def _unproven(pair: Pairing) -> list[Found]:
@@ -355,5 +357,5 @@ def _unproven(pair: Pairing) -> list[Found]:
     return [replace(one, alone=False) for one in (pair.first, pair.second)]
 
 
-def _unpaired(found: MarkerFix) -> Miss:
-    return Miss(MissReason.OFF_EPIPOLAR, found.uv)
+def _unpaired(result: MarkerFix) -> Miss:
+    return Miss(MissReason.OFF_EPIPOLAR, result.uv)

@@ -75,7 +75,7 @@ class Hiding:
         self._last, self._since, self._told = None, None, False
 
     def _waited(self, time: float) -> bool:
-        """Whether the band was never seen for too long to be hidden; told once."""
+        """Return whether the band was never seen for too long to be hidden; told once."""
         self._since = time if self._since is None else min(self._since, time)
         long = time - self._since > NEVER
         if long and not self._told:
@@ -212,5 +212,5 @@ def _beside(fix: NeedleFix) -> float:
 
 
 def _near(fix: NeedleFix) -> bool:
-    """Whether this may be the needle at all, and not two other red things."""
+    """Return whether this may be the needle at all, and not two other red things."""
     return _beside(fix) <= LARGEST_BEND and abs(fix.epipolar) <= _GROSS

@@ -266,9 +266,9 @@ class FixSolver:
         found = self._located((first, second), None if axis is None else unit(axis))
         return found if found is not None and found.status is StereoStatus.FOUND else None
 
-    def agrees(self, found: Triangulation) -> bool:
-        """Whether both pictures show one point, within their noise."""
-        return found.chi_square <= _RESIDUAL_LIMIT
+    def agrees(self, result: Triangulation) -> bool:
+        """Return whether both pictures show one point, within their noise."""
+        return result.chi_square <= _RESIDUAL_LIMIT
 
     def band(self, fix: NeedleFix, axis: FloatArray | None) -> FloatArray | None:
         """Centre of the band of a fix [m], shape (3,), where it has a point that counts."""
@@ -277,7 +277,7 @@ class FixSolver:
         return np.asarray(fix.p_tip_world - self._rig.needle.marker_offset * unit(axis))
 
     def pixel(self, camera: int, p_world: FloatArray) -> FloatArray | None:
-        """Where a camera sees a point [px], shape (2,); None if it does not."""
+        """Return where a camera sees a point [px], shape (2,); None if it does not."""
         return self._models[camera].pixel(p_world)
 
     def nearest(self, camera: int, uv: FloatArray, axis: FloatArray) -> FloatArray | None:
@@ -373,18 +373,18 @@ class FixSolver:
             return None
         return triangulation(status, point, covariance, square, residual, observed, seen)
 
-    def _with_calibration(self, found: Triangulation) -> FloatArray:
+    def _with_calibration(self, result: Triangulation) -> FloatArray:
         if self._error is None:
-            return found.covariance
-        return found.covariance + self._error.covariance(found.p_world, found.covariances)
+            return result.covariance
+        return result.covariance + self._error.covariance(result.p_world, result.covariances)
 
     def _of_tip(self, band: FloatArray, axis: FloatArray) -> FloatArray:
         """Covariance of the tip from that of the band [m²]: its place along the shaft is added."""
         return band + self._offset_variance * np.outer(axis, axis)
 
-    def residual_px(self, found: Triangulation) -> float:
+    def residual_px(self, result: Triangulation) -> float:
         """Root mean square of the reprojection error of a point [px]."""
-        return float(np.sqrt(np.mean((found.residual * self._focal) ** 2)))
+        return float(np.sqrt(np.mean((result.residual * self._focal) ** 2)))
 
     def _unseen(self, time: float) -> NeedleFix:
         return without_point(
@@ -440,7 +440,7 @@ def systematic_px(rig: RigProfile) -> float:
 
 
 def _contradiction(square: float, residual: float, beside: FloatArray, off_line: float) -> str:
-    """Why the point cannot be the marker; empty if it can.
+    """Return why the point cannot be the marker; empty if it can.
 
     Args:
         square: chi-square of the point.

@@ -25,5 +25,5 @@ class TrackedPicture:
 
     @property
     def pixel(self) -> FloatArray | None:
-        """Where the marker is [px], shape (2,), or None."""
+        """Return where the marker is [px], shape (2,), or None."""
         return self.found.uv if isinstance(self.found, MarkerFix) else None

@@ -82,7 +82,7 @@ def shaft_axis(
 
 
 def fits(points: FloatArray, covariance: FloatArray, distance: float) -> bool:
-    """Whether two points are as far apart as the bands.
+    """Return whether two points are as far apart as the bands.
 
     Args:
         points: [m], shape (2, 3).
@@ -101,7 +101,8 @@ def fits(points: FloatArray, covariance: FloatArray, distance: float) -> bool:
 def tell_apart(
     points: list[FloatArray], sigma: float, distance: float, towards: FloatArray
 ) -> tuple[int, int] | None:
-    """Which of some red points are the first and the second band; None unless just two can be.
+    """Return which of some red points are the first and the second band; None unless just two can
+    be.
 
     Args:
         points: [m], each of shape (3,).
@@ -262,25 +263,25 @@ class TwoBands:
         self,
         first: Triangulation,
         second: Triangulation,
-        found: ShaftAxis,
+        result: ShaftAxis,
         markers: Markers,
         time: float,
     ) -> NeedleFix:
         points = np.stack([first.p_world, second.p_world])
         noise = shaft_axis(points, _noise(first, second), self._needle.marker_offset)
         return NeedleFix(
-            found.p_tip,
-            found.tip_covariance,
+            result.p_tip,
+            result.tip_covariance,
             time,
             FixStatus.VALID,
             _pixels(markers),
             self._solvers[0].residual_px(first),
-            float((found.p_tip - self._fulcrum) @ found.axis),
-            float(found.axis @ found.tip_covariance @ found.axis),
+            float((result.p_tip - self._fulcrum) @ result.axis),
+            float(result.axis @ result.tip_covariance @ result.axis),
             has_point=True,
             noise_covariance=None if noise is None else noise.tip_covariance,
-            axis_world=found.axis,
-            axis_covariance=found.axis_covariance,
+            axis_world=result.axis,
+            axis_covariance=result.axis_covariance,
         )
 
     def _without(self, markers: Sequence[Found], time: float) -> NeedleFix:

@@ -169,14 +169,14 @@ def run(way: str) -> list[dict[str, Any]]:
     return found
 
 
-def show(name: str, way: str, found: dict[str, Any]) -> None:
+def show(name: str, way: str, result: dict[str, Any]) -> None:
     """Print one line."""
     print(
-        f"{name:<6}{found['sixth']:<12}{way:<9}{found['window']:6.2f} ms/look"
-        f"{found['looks']:6.1f} looks/s   panes ≥{found['rate']:6.1f}/s, age {found['age']:5.1f} "
-        f"(p99 {found['age99']:5.1f}) ms   tracker {found['fixes']:5.1f}/s, "
-        f"{found['latency']:5.1f} ms, {found['valid']:4.0%} valid   loop late p99 "
-        f"{found['late99']:.3f} ms   cores {found['program']:.2f} + {found['child']:.2f}",
+        f"{name:<6}{result['sixth']:<12}{way:<9}{result['window']:6.2f} ms/look"
+        f"{result['looks']:6.1f} looks/s   panes ≥{result['rate']:6.1f}/s, "
+        f"age {result['age']:5.1f} (p99 {result['age99']:5.1f}) ms   "
+        f"tracker {result['fixes']:5.1f}/s, {result['latency']:5.1f} ms, "
+        f"{result['valid']:4.0%} valid   loop late p99 {result['late99']:.3f} ms   cores {result['program']:.2f} + {result['child']:.2f}",
         flush=True,
     )
 

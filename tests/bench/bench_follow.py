@@ -64,9 +64,9 @@ def run(tree: Path, seconds: float, period_ms: int, parts: bool = False) -> dict
     sys.exit(f"{tree} gave no figures:\n{done.stdout[-2000:]}\n{done.stderr[-4000:]}")
 
 
-def show_parts(name: str, found: dict[str, Any]) -> None:
+def show_parts(name: str, result: dict[str, Any]) -> None:
     """Print where the time of a move goes."""
-    whole, parts = found["ms_per_move"], found["parts"]
+    whole, parts = result["ms_per_move"], result["parts"]
     rest = whole - sum(parts.values())
     line = ", ".join(f"{part} {ms:.2f}" for part, ms in sorted(parts.items()))
     print(f"{name:<7} of {whole:6.2f} ms: {line}, rest {rest:.2f}")

@@ -95,11 +95,11 @@ def timed(look, frames):
     return float(np.median(times)), found
 
 
-def told(name: str, span: float, found, tips) -> None:
+def told(name: str, span: float, result, tips) -> None:
     """One line."""
     errors = [
         float(np.linalg.norm(tip - true)) / MILLIMETRE
-        for tip, true in zip(found, tips, strict=True)
+        for tip, true in zip(result, tips, strict=True)
         if tip is not None
     ]
     wrong = sum(error > LOST / MILLIMETRE for error in errors)

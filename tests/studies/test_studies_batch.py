@@ -91,7 +91,7 @@ def test_what_is_finished_is_not_measured_again_unless_that_is_asked_for(folder)
 def test_a_cancelled_run_keeps_what_is_finished_and_the_next_goes_on(folder):
     progress = Progress()
     with pytest.raises(Cancelled):
-        run_all(NAMES, folder, repeats=1, progress=progress, told=lambda done: progress.cancel())
+        run_all(NAMES, folder, repeats=1, progress=progress, answer=lambda done: progress.cancel())
     assert [path.stem for path in folder.glob("*.json")] == ["batch_a"]
     found = outcomes(run_all(NAMES, folder, repeats=1))
     assert found["batch_a"] is StudyOutcome.KEPT

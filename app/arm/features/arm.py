@@ -107,7 +107,7 @@ class ArmFeature(Feature):
 
     @property
     def is_busy(self) -> bool:
-        """Whether the arm works out its way, or is being watched."""
+        """Return whether the arm works out its way, or is being watched."""
         return self._task is not None or self.play is not None
 
     @staticmethod
@@ -185,9 +185,9 @@ class ArmFeature(Feature):
             tr("Simulated arm: works out its way …  {only}", only=only_simulated()), self.bar.stop
         )
 
-        def take(found: ArmPerformance) -> None:
-            self._kept = key, found
-            self._take(found, placed)
+        def take(result: ArmPerformance) -> None:
+            self._kept = key, result
+            self._take(result, placed)
 
         self._task = run_in_background(
             self,
@@ -324,13 +324,13 @@ class ArmFeature(Feature):
             tr("You have the needle: go on with mouse or keys. This attempt counts for nobody.")
         )
 
-    def _over(self, why: str) -> None:
+    def _over(self, reason: str) -> None:
         play, self.play = self.play, None
         if play is not None:
             play.deleteLater()
         self._listen(False)
-        if why:
-            self.failed.emit(why)
+        if reason:
+            self.failed.emit(reason)
 
     def _put_away(self) -> None:
         self._task = None

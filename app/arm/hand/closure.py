@@ -94,7 +94,7 @@ class Contacts:
 
     @property
     def planar(self) -> bool:
-        """Whether the contacts lie in a plane of two coordinates."""
+        """Return whether the contacts lie in a plane of two coordinates."""
         return bool(self.points.shape[1] == 2)
 
 
@@ -184,7 +184,7 @@ def force_closure(
     scale: float | None = None,
     way: ClosureWay = ClosureWay.HULL,
 ) -> Closure:
-    """Whether the contacts close, and their margin.
+    """Return whether the contacts close, and their margin.
 
     Args:
         contacts: where and how.
@@ -258,7 +258,7 @@ def programme_margin(rays: FloatArray) -> float:
 
 
 def positively_spanned(rays: FloatArray) -> bool:
-    """Whether the origin is a sum of all rays with positive weights; strictly, of full rank.
+    """Return whether the origin is a sum of all rays with positive weights; strictly, of full rank.
 
     Raises:
         GraspError: if the solver finds no end.
@@ -276,7 +276,8 @@ def positively_spanned(rays: FloatArray) -> bool:
 
 
 def shot(rays: FloatArray, direction: FloatArray) -> tuple[float, FloatArray]:
-    """How far the hull reaches from the origin along a unit vector (d,), and the facet's normal.
+    """Return how far the hull reaches from the origin along a unit vector (d,), and the facet's
+    normal.
 
     The normal (d,) is scaled so that the facet is where normal · w equals that reach.
 
@@ -331,7 +332,8 @@ def pair_kernel(rays: FloatArray) -> float:
 
 
 def pair_closed(contacts: Contacts) -> bool:
-    """Whether two contacts in the plane close: the line between them is strictly inside both cones.
+    """Return whether two contacts in the plane close: the line between them is strictly inside both
+    cones.
 
     Squeezing, each has the other before it; or both have the other behind them, and spread the
     object apart from within.

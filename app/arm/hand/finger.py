@@ -327,7 +327,7 @@ def driven(
 
 
 def coupled(geometry: HandGeometry, phi2: float, phi3: float) -> Coupling:
-    """How the joints come to stand at φ2 and φ3 [rad]."""
+    """Return how the joints come to stand at φ2 and φ3 [rad]."""
     over = phi3 - geometry.coupling * phi2
     if abs(over) <= _ROUNDING:
         return Coupling.FREE

@@ -159,7 +159,7 @@ def jacobian_kernel(q: FloatArray, lengths: Three, at: Three, out: FloatArray) -
 def direction_kernel(
     position: FloatArray, pedestal: float, keep: float
 ) -> tuple[float, float, float, float, float, int]:
-    """Where W stands from S: (|SW|, sin ψp, cos ψp, cos θref, sin θref, singular).
+    """Return where W stands from S: (|SW|, sin ψp, cos ψp, cos θref, sin θref, singular).
 
     ψp is the angle of SW from the vertical. On the axis of joint 1 θref is `keep`.
     """

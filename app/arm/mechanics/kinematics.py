@@ -250,7 +250,7 @@ def solution(arm: ArmProfile, q: FloatArray, angle: float, bits: int) -> ArmSolu
 
 
 def in_words(arm: ArmProfile, pose: RigidTransform) -> str:
-    """Where the wrist centre of a pose is, and how far the links reach, for messages.
+    """Return where the wrist centre of a pose is, and how far the links reach, for messages.
 
     Beyond them the nearest place that they reach is offered.
     """

@@ -120,11 +120,11 @@ class ArmProfile:
         return self.T_world_base @ T_base_wrist @ self.T_wrist_tool
 
     def beyond(self, q: FloatArray) -> FloatArray:
-        """How far each joint is beyond its limits [rad], shape of q (..., 7); 0 within."""
+        """Return how far each joint is beyond its limits [rad], shape of q (..., 7); 0 within."""
         return np.maximum(np.maximum(self.lower - q, q - self.upper), 0.0)
 
     def allows(self, q: FloatArray) -> bool:
-        """Whether joint angles [rad], shape (7,), are within the limits."""
+        """Return whether joint angles [rad], shape (7,), are within the limits."""
         return bool((self.beyond(q) <= 0.0).all())
 
 

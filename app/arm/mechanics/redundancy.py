@@ -69,12 +69,12 @@ class JointLimitError(MechanismError):
 
 
 @njit
-def _cut(cuts: FloatArray, count: int, c: float, s: float, one: float) -> int:
+def _cut(cuts: FloatArray, count: int, c: float, s: float, value: float) -> int:
     # Roots of c cos ψ + s sin ψ + one = 0; of a double root what rounding leaves.
     size = hypot(c, s)
-    if abs(one) > size * (1.0 + 1e-12) or size <= 1e-15:
+    if abs(value) > size * (1.0 + 1e-12) or size <= 1e-15:
         return count
-    ratio = max(-1.0, min(1.0, -one / size))
+    ratio = max(-1.0, min(1.0, -value / size))
     half, middle = atan2(sqrt((1.0 - ratio) * (1.0 + ratio)), ratio), atan2(s, c)
     cuts[count], cuts[count + 1] = wrapped(middle - half), wrapped(middle + half)
     return count + 2
@@ -191,7 +191,7 @@ def _try(
     bits: int,
     trial: FloatArray,
     best: FloatArray,
-    told: FloatArray,
+    answer: FloatArray,
 ) -> None:
     # All four solutions at an arm angle against the best so far.
     singular = _posture(e, m, angle, (near[0], near[4]), trial)
@@ -211,10 +211,10 @@ def _try(
             score = 0.0
             for k in range(JOINTS):
                 score = min(score, -abs(trial[k] - near[k]))
-        better = score > told[1] if within == (told[2] > 0.0) else within
+        better = score > answer[1] if within == (answer[2] > 0.0) else within
         if better:
-            told[0], told[1], told[2] = angle, score, 1.0 if within else 0.0
-            told[3], told[4], told[5] = margin, float(joint), float(bits | singular)
+            answer[0], answer[1], answer[2] = angle, score, 1.0 if within else 0.0
+            answer[3], answer[4], answer[5] = margin, float(joint), float(bits | singular)
             for k in range(JOINTS):
                 best[k] = trial[k]
 
@@ -231,7 +231,7 @@ def _search(
     effort: int,
     work: FloatArray,
     best: FloatArray,
-    told: FloatArray,
+    answer: FloatArray,
 ) -> int:
     # Effort 0: the middles of all pieces; 1: their ends too; 2: a scan, for joints without cuts.
     # Nearness (`close`) asks for the ends, and for the arm angle of `near`, at once.
@@ -246,7 +246,7 @@ def _search(
         if effort == 2:
             for i in range(SCAN):
                 angle = wrapped(2.0 * pi * i / SCAN)
-                _try(e, m, angle, near, close, lower, upper, bits, trial, best, told)
+                _try(e, m, angle, near, close, lower, upper, bits, trial, best, answer)
             continue
         count = cuts_kernel(e, m, lower, upper, cuts)
         for i in range(max(count, 1)):
@@ -255,13 +255,13 @@ def _search(
                 following = cuts[i + 1] if i + 1 < count else cuts[0] + 2.0 * pi
                 middle = wrapped(0.5 * (cuts[i] + following))
                 if close or effort == 1:
-                    _try(e, m, cuts[i], near, close, lower, upper, bits, trial, best, told)
+                    _try(e, m, cuts[i], near, close, lower, upper, bits, trial, best, answer)
             if effort == 0:
-                _try(e, m, middle, near, close, lower, upper, bits, trial, best, told)
+                _try(e, m, middle, near, close, lower, upper, bits, trial, best, answer)
         if close:
             # the elbow plane as it was: its arm angle jumps where its zero does, on the first axis
             wanted = kernels.angle_of_normal(kernels.normal_kernel(near), e[5], e[6], cr, sr)
-            _try(e, m, wanted, near, close, lower, upper, bits, trial, best, told)
+            _try(e, m, wanted, near, close, lower, upper, bits, trial, best, answer)
     return OK
 
 
@@ -275,7 +275,7 @@ def _approach(
     near: FloatArray,
     work: FloatArray,
     best: FloatArray,
-    told: FloatArray,
+    answer: FloatArray,
 ) -> None:
     # From the nearest solution so far along the arm angle to one that is nearer still.
     trial = work[CUTS : CUTS + JOINTS]
@@ -284,11 +284,11 @@ def _approach(
     m = seen_from_reach(rotation, e[5], e[6], cr, sr)
     step = 0.1
     while step > 1e-7:
-        before = told[1]
+        before = answer[1]
         for side in (step, -step):
-            angle = wrapped(told[0] + side)
-            _try(e, m, angle, near, True, lower, upper, bits, trial, best, told)
-        if told[1] <= before:
+            angle = wrapped(answer[0] + side)
+            _try(e, m, angle, near, True, lower, upper, bits, trial, best, answer)
+        if answer[1] <= before:
             step *= 0.5
 
 
@@ -302,7 +302,7 @@ def _settle(
     near: FloatArray,
     work: FloatArray,
     best: FloatArray,
-    told: FloatArray,
+    answer: FloatArray,
 ) -> None:
     # A joint is beyond its limit by no more than rounding may have put it: put it there, and let
     # least squares move the others.
@@ -318,8 +318,8 @@ def _settle(
         if left <= CLOSED:
             for k in range(JOINTS):
                 best[k] = trial[k]
-            told[0], _ = kernels.arm_angle_kernel(best, lengths, near[0])
-            told[2] = 1.0
+            answer[0], _ = kernels.arm_angle_kernel(best, lengths, near[0])
+            answer[2] = 1.0
             return
 
 
@@ -334,7 +334,7 @@ def solve_kernel(
     close: bool,
     work: FloatArray,
     best: FloatArray,
-    told: FloatArray,
+    answer: FloatArray,
 ) -> int:
     """Joint angles within limits for a pose, over all arm angles and branches: the status.
 
@@ -349,30 +349,30 @@ def solve_kernel(
             one whose least margin to a limit is largest.
         work: scratch, (SCRATCH,).
         best: filled with the joint angles (7,); beyond limits if none are within.
-        told: filled with (arm angle, score, whether within limits, margin [rad], its joint,
+        answer: filled with (arm angle, score, whether within limits, margin [rad], its joint,
             singular).
     """
-    told[0], told[1], told[2] = 0.0, -1e9, 0.0
+    answer[0], answer[1], answer[2] = 0.0, -1e9, 0.0
     for effort in range(3):
         status = _search(
-            rotation, position, lengths, lower, upper, near, close, effort, work, best, told
+            rotation, position, lengths, lower, upper, near, close, effort, work, best, answer
         )
         if status != OK:
             return status
-        if told[2] > 0.0:
+        if answer[2] > 0.0:
             if close:
-                _approach(rotation, position, lengths, lower, upper, near, work, best, told)
+                _approach(rotation, position, lengths, lower, upper, near, work, best, answer)
             for k in range(JOINTS):
                 best[k] = max(lower[k], min(upper[k], best[k]))
             return OK
-    if told[3] > -_UNSETTLED:
-        _settle(rotation, position, lengths, lower, upper, near, work, best, told)
+    if answer[3] > -_UNSETTLED:
+        _settle(rotation, position, lengths, lower, upper, near, work, best, answer)
     return OK
 
 
 @njit
 def isfinite_matrix(m: Nine) -> bool:
-    """Whether no entry is NaN or infinite."""
+    """Return whether no entry is NaN or infinite."""
     total = 0.0
     for value in m:
         total += abs(value)

@@ -76,7 +76,8 @@ class SingularDistance:
 
 
 def arm_singularity(arm: ArmProfile, q: ArrayLike, tolerance: float = 1e-6) -> SingularDistance:
-    """How far from singular q [rad], shape (7,), is; named where a sine is within `tolerance`.
+    """Return how far from singular q [rad], shape (7,), is; named where a sine is within
+    `tolerance`.
 
     Raises:
         MechanismError: as `forward`.

@@ -243,7 +243,7 @@ class MotionRefusedError(MotionError):
 
     def __init__(
         self,
-        why: str,
+        reason: str,
         at: float,
         p_world: FloatArray,
         placement: RigidTransform | None = None,
@@ -251,14 +251,14 @@ class MotionRefusedError(MotionError):
     ) -> None:
         x, y, z = p_world.tolist()
         message = f"the arm gets {100.0 * at:.3g} % of the way, to ({x:.4g}, {y:.4g}, {z:.4g}) m: "
-        message += why
+        message += reason
         if placement is not None:
             px, py, pz = placement.translation.tolist()
             message += f"; with its base at ({px:.4g}, {py:.4g}, {pz:.4g}) m it could"
         elif looked:
             message += f"; no base within {_SHIFTS[-1]:g} m of where it stands was found that could"
         super().__init__(message)
-        self.why, self.at, self.p_world, self.placement = why, at, p_world, placement
+        self.why, self.at, self.p_world, self.placement = reason, at, p_world, placement
 
 
 def margins(arm: ArmProfile, path: JointPath) -> Margins:
@@ -344,7 +344,7 @@ class _Job:
     least_dexterity: float
 
     def possible(self, arm: ArmProfile) -> bool:
-        """Whether the same is possible for the arm elsewhere."""
+        """Return whether the same is possible for the arm elsewhere."""
         pivot = None if self.pivot is None else replace(self.pivot, arm=arm)
         elsewhere = replace(self, arm=arm, pivot=pivot)
         try:
@@ -358,8 +358,8 @@ class _Job:
     def wrist(self, s: float) -> RigidTransform:
         return self.arm.wrist_pose(self.motion.at(s) @ self.T_moved_tool)
 
-    def refused(self, why: str, s: float) -> MotionRefusedError:
-        return MotionRefusedError(why, s, self.motion.at(s).translation)
+    def refused(self, reason: str, s: float) -> MotionRefusedError:
+        return MotionRefusedError(reason, s, self.motion.at(s).translation)
 
     def followed(self, start: FloatArray | None, most: int = _STARTS) -> Followed:
         refusals = []
@@ -508,20 +508,20 @@ class _Job:
         return Followed(path, float(misses.max()), turn_miss, off, kept)
 
     def narrow(
-        self, bends: Bends, found: FloatArray, most: float, words: str, unit_of: float
+        self, bends: Bends, result: FloatArray, most: float, words: str, unit_of: float
     ) -> None:
         """Refuse the step that misses most, if it does by more than allowed."""
-        worst = int(np.argmax(found))
-        if found[worst] > most:
-            said = words.format(float(found[worst]) / unit_of)
-            raise _CoarseError(said, float(bends.s[worst]), float(found[worst]))
+        worst = int(np.argmax(result))
+        if result[worst] > most:
+            said = words.format(float(result[worst]) / unit_of)
+            raise _CoarseError(said, float(bends.s[worst]), float(result[worst]))
 
 
 class _CoarseError(MotionError):
     """The knots are too far apart: at `s`, by `size` of something."""
 
-    def __init__(self, why: str, s: float, size: float) -> None:
-        super().__init__(why)
+    def __init__(self, reason: str, s: float, size: float) -> None:
+        super().__init__(reason)
         self.s, self.size = s, size
 
 

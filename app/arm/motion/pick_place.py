@@ -113,7 +113,7 @@ class ArmPhase:
 
     @property
     def end(self) -> float:
-        """When it ends [s]."""
+        """Return when it ends [s]."""
         return self.begin + sum(one.duration for one in self.motions) + self.rest
 
 
@@ -135,7 +135,7 @@ class PickPlace:
 
     @property
     def duration(self) -> float:
-        """How long it takes [s]."""
+        """Return how long it takes [s]."""
         return self.phases[-1].end
 
     def phase_at(self, t: float) -> ArmPhase:
@@ -211,7 +211,8 @@ def can_place(
     holding: Callable[[HeldTool], Collisions],
     inside: Callable[[HeldTool], Collisions] | None = None,
 ) -> bool:
-    """Whether one of the first grips does all that `pick_and_place` does but the searched ways.
+    """Return whether one of the first grips does all that `pick_and_place` does but the searched
+    ways.
 
     Raises:
         FulcrumError, NoGripError: as `pick_and_place`.
@@ -268,9 +269,9 @@ def _first(
 class _StuckError(MotionError):
     """A phase that cannot be."""
 
-    def __init__(self, phase: PhaseName, hindrance: Hindrance, why: str) -> None:
-        super().__init__(f"{phase.value}: {why}")
-        self.phase, self.hindrance, self.why = phase, hindrance, why
+    def __init__(self, phase: PhaseName, hindrance: Hindrance, reason: str) -> None:
+        super().__init__(f"{phase.value}: {reason}")
+        self.phase, self.hindrance, self.why = phase, hindrance, reason
 
 
 @dataclass(frozen=True, slots=True, eq=False)

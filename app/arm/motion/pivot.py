@@ -275,7 +275,9 @@ class Pivot:
         return np.asarray(self.arm.T_world_base.rotation @ jacobian(self.arm, q, at)[:3])
 
     def state(self, q: ArrayLike) -> PivotState:
-        """Where the tool stands at joint angles q [rad], shape (7,): the inverse of `pose`."""
+        """Return where the tool stands at joint angles q [rad], shape (7,): the inverse of
+        `pose`.
+        """
         needle = self.tool.needle_pose(self.arm, q)
         axis = needle.rotation[:, 2]
         away = needle.translation - self.p_world

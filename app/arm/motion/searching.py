@@ -100,7 +100,8 @@ class Collisions:
         return what or "the arm touches something"
 
     def stopped(self, arm: ArmProfile, path: JointPath) -> float | None:
-        """Where along a path something is touched, or a joint is beyond its limit; None: nowhere.
+        """Return where along a path something is touched, or a joint is beyond its limit; None:
+        nowhere.
 
         Args:
             arm: its lengths and limits.
@@ -339,12 +340,12 @@ class _Run:
         self.rng = np.random.default_rng(budget.seed)
 
     def valid(self, q: FloatArray) -> bool:
-        """Whether a posture is free; counted."""
+        """Return whether a posture is free; counted."""
         self.tests += 1
         return bool(self._free(q))
 
     def spent(self) -> bool:
-        """Whether the budget is."""
+        """Return whether the budget is."""
         late = time.perf_counter() - self.begun > self.budget.seconds
         return late or self.tests > self.budget.tests
 

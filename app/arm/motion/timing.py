@@ -79,7 +79,7 @@ class JointMotion:
 
     @property
     def duration(self) -> float:
-        """How long it takes [s]."""
+        """Return how long it takes [s]."""
         return float(self.profile.t[-1])
 
     def at(self, t: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:

@@ -196,7 +196,8 @@ def plan(
 def could_carry(
     scene: ArmScene, axis: FloatArray, depth: float, check: Callable[[], object] = lambda: None
 ) -> bool:
-    """Whether the arm could insert the tool, by kinematics and collisions; no way is searched.
+    """Return whether the arm could insert the tool, by kinematics and collisions; no way is
+    searched.
 
     Args:
         scene: what would stand there.
@@ -312,7 +313,7 @@ def _job(
 
 
 def _beyond(scene: ArmScene, arm: ArmProfile) -> float:
-    """How far anything beyond the flange reaches from it, and the links' thickness [m]."""
+    """Return how far anything beyond the flange reaches from it, and the links' thickness [m]."""
     hand, body = scene.hand.hand, scene.tool
     fingers = hand.half_base + hand.knuckle + hand.proximal + hand.distal
     along = max(body.grip, body.length - body.grip, fingers)
@@ -457,14 +458,14 @@ def _lying(scene: ArmScene, tool: SeenTool) -> RigidTransform:
 
 
 def _apart(first: RigidTransform, second: RigidTransform, grip: float) -> dict[str, float]:
-    """How far two poses of the tool are apart at its grip, and by their axes."""
+    """Return how far two poses of the tool are apart at its grip, and by their axes."""
     at = first @ [0.0, 0.0, grip] - second @ [0.0, 0.0, grip]
     turn = angle_between(first.rotation[:, 2], second.rotation[:, 2])
     return {"in_hand_mm": _millimetres(at), "in_hand_deg": float(np.degrees(turn))}
 
 
 def _slipped(running: RunningScene, held: RigidTransform) -> dict[str, float]:
-    """How far the tool has moved in the hand since it was taken.
+    """Return how far the tool has moved in the hand since it was taken.
 
     Raises:
         CarryError: if that is too much, or it is lost.

@@ -178,7 +178,7 @@ class RunningScene:
 
     @property
     def state(self) -> ArmSceneState:
-        """What is so now.
+        """Return what is so now.
 
         Raises:
             SimulationError: if the scene is not open.
@@ -289,7 +289,7 @@ class RunningScene:
 
     @property
     def holding(self) -> bool:
-        """Whether the hand has closed on the tool and was not opened since."""
+        """Return whether the hand has closed on the tool and was not opened since."""
         return self._holding
 
     def pressed(self) -> float:
@@ -494,7 +494,9 @@ class SceneClearance:
         self._bounds = model.geom_rbound[self._pairs].sum(axis=1)
 
     def free(self, q: ArrayLike, margin: float = 0.0) -> bool:
-        """Whether a posture [rad], shape (7,), is within limits and clear by more than a margin."""
+        """Return whether a posture [rad], shape (7,), is within limits and clear by more than a
+        margin.
+        """
         angles = np.asarray(q, dtype=np.float64)
         return self.scene.arm.allows(angles) and self._nearest(angles, margin)[0] > margin
 

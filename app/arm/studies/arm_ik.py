@@ -250,11 +250,11 @@ def _pinocchio(arm: ArmProfile, other: PinocchioArm) -> ArmWay:
 
 
 def _eaik(arm: ArmProfile, other: EaikArm) -> ArmWay:
-    def best(found: FloatArray) -> FloatArray:
-        if not len(found):
+    def best(result: FloatArray) -> FloatArray:
+        if not len(result):
             return np.full(7, np.nan)
-        margins = np.minimum(arm.upper - found, found - arm.lower).min(axis=1)
-        return np.asarray(found[int(np.argmax(margins))])
+        margins = np.minimum(arm.upper - result, result - arm.lower).min(axis=1)
+        return np.asarray(result[int(np.argmax(margins))])
 
     def run(poses: Poses) -> ArmAnswers:
         asked = [poses.pose(k) for k in range(len(poses.q))]
@@ -287,7 +287,9 @@ def forward_apart(arm: ArmProfile, other: PinocchioArm, q: FloatArray) -> float:
 
 
 def printed_sheet(arm: ArmProfile, count: int) -> Sheet:
-    """How many combinations of signs solve poses, as the paper prints them and with the errata."""
+    """Return how many combinations of signs solve poses, as the paper prints them and with the
+    errata.
+    """
     q = at_random(arm, count, seed=4)
     rows: list[tuple[Cell, ...]] = []
     for words, corrected in (("as printed", False), ("with errata D3 to D5", True)):

@@ -80,7 +80,7 @@ class Post:
     thick: float = 0.05
 
     def distance(self, q: FloatArray) -> float:
-        """How far the arm is from it [m], joint angles q [rad], shape (7,)."""
+        """Return how far the arm is from it [m], joint angles q [rad], shape (7,)."""
         frames = link_frames(self.arm, q)
         shoulder, elbow, wrist = (frames[k][:3, 3] for k in (1, 3, 6))
         ends = (shoulder, elbow, wrist, wrist + self.arm.flange * frames[6][:3, 2])
@@ -96,7 +96,7 @@ class Post:
         return Collisions(self.free, beyond=0.0, step=step)
 
     def free(self, q: FloatArray) -> bool:
-        """Whether the arm does not touch it."""
+        """Return whether the arm does not touch it."""
         return self.distance(q) > 0.0
 
 

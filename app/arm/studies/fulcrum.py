@@ -126,10 +126,10 @@ def by_planes(poses: tuple[ToolPose, ...]) -> Fulcrum:
     return meet_planes([sight for pose in poses for sight in pose.sights])
 
 
-def _required(found: Fulcrum) -> FloatArray:
-    if found.status is not FulcrumStatus.FOUND:
-        raise TrackingError(f"no fulcrum: {found.status.value}; turn the tool further")
-    return found.p_world
+def _required(result: Fulcrum) -> FloatArray:
+    if result.status is not FulcrumStatus.FOUND:
+        raise TrackingError(f"no fulcrum: {result.status.value}; turn the tool further")
+    return result.p_world
 
 
 def _case(setting: Setting) -> Case:
@@ -140,8 +140,8 @@ def _case(setting: Setting) -> Case:
         for seed in range(_SEEDS)
     ]
 
-    def error(found: Any) -> float:
-        away = np.linalg.norm(np.array(found) - stand.trocar.p_world, axis=1)
+    def error(result: Any) -> float:
+        away = np.linalg.norm(np.array(result) - stand.trocar.p_world, axis=1)
         return float(np.sqrt(np.mean(away**2))) / MILLIMETRE
 
     return Case((stand, moved), error, _SEEN)
@@ -172,10 +172,10 @@ COUNTS: Final = (3, 6, 12)
 NOISES: Final = (2.0, 4.0, 8.0, 16.0)
 
 
-def _errors(found: list[Fulcrum], true: FloatArray) -> tuple[str | float, str | float, str]:
+def _errors(result: list[Fulcrum], true: FloatArray) -> tuple[str | float, str | float, str]:
     """RMS error and mean stated deviation [mm], and how many gave no answer."""
-    given = [one for one in found if one.status is FulcrumStatus.FOUND]
-    refused = [one.status.value for one in found if one.status is not FulcrumStatus.FOUND]
+    given = [one for one in result if one.status is FulcrumStatus.FOUND]
+    refused = [one.status.value for one in result if one.status is not FulcrumStatus.FOUND]
     told = f"{len(refused)} {refused[0]}" if refused else "-"
     if not given:
         return "-", "-", told

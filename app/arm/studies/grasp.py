@@ -231,13 +231,13 @@ def _agreement() -> Sheet:
     )
 
 
-def _counted(found: list[int], contacts: Contacts, closed: bool | None) -> None:
+def _counted(result: list[int], contacts: Contacts, closed: bool | None) -> None:
     hull = force_closure(contacts).closed
     programme = force_closure(contacts, way=ClosureWay.PROGRAMME).closed
-    found[0] += 1
-    found[1] += hull
-    found[2] += hull is programme
-    found[3] = -1 if closed is None else found[3] + (hull is closed)
+    result[0] += 1
+    result[1] += hull
+    result[2] += hull is programme
+    result[3] = -1 if closed is None else result[3] + (hull is closed)
 
 
 def _law(goal: float, stiffness: float) -> FirmGrasp:

@@ -166,14 +166,14 @@ class ArmPlay(QObject):
 
     @property
     def share(self) -> float:
-        """How far the phase is, 0 to 1."""
+        """Return how far the phase is, 0 to 1."""
         line = self.performance.timeline
         times = line.time[line.phase == line.names.index(self.phase)]
         return float((self.t - times[0]) / max(times[-1] - times[0], 1e-9))
 
     @property
     def may_take_over(self) -> bool:
-        """Whether there is a needle that the student can go on with."""
+        """Return whether there is a needle that the student can go on with."""
         return (
             self.state in (PlayState.INSERTING, PlayState.HOLDING) and self._controller.is_running
         )
@@ -225,16 +225,16 @@ class ArmPlay(QObject):
         bullseye.pad.setFocus()
         self.taken.emit()
 
-    def stop(self, why: str = "") -> None:
+    def stop(self, reason: str = "") -> None:
         """End it; an attempt of the arm is broken off. One that was taken over is the student's."""
         if self.state in (PlayState.OVER, PlayState.STOPPING, PlayState.TAKEN):
             return
         if self._runs():
-            self.state, self._why, self._waited = PlayState.STOPPING, why, 0.0
+            self.state, self._why, self._waited = PlayState.STOPPING, reason, 0.0
             self._controller.abort(quietly=True)  # `demonstrated` follows
             self.changed.emit()
         else:
-            self._end(why)
+            self._end(reason)
 
     def forget(self) -> None:
         """Let go of everything at once: the patient or the window goes; idempotent."""
@@ -401,7 +401,7 @@ class ArmPlay(QObject):
         if self.state is PlayState.STOPPING:
             self._end(self._why)
 
-    def _end(self, why: str) -> None:
+    def _end(self, reason: str) -> None:
         if self.state is PlayState.OVER:
             return
         taken, self.state = self.state is PlayState.TAKEN, PlayState.OVER
@@ -414,4 +414,4 @@ class ArmPlay(QObject):
             self._conductor.show_scene_alone(False)
             self._show_nothing()
         self._conductor.lend(False)
-        self.over.emit(why)
+        self.over.emit(reason)

@@ -221,7 +221,7 @@ class Bench(Lifetime):
     # --- the device -------------------------------------------------------------------------------
     @property
     def info(self) -> BoardInfo:
-        """Who is at the other end."""
+        """Return who is at the other end."""
         return self._link.info()
 
     @property
@@ -237,7 +237,7 @@ class Bench(Lifetime):
 
     @property
     def record(self) -> DeviceRecord:
-        """What is known of the device.
+        """Return what is known of the device.
 
         Raises:
             CommissioningError: if the bench was never opened.
@@ -247,11 +247,11 @@ class Bench(Lifetime):
         return self._record
 
     def clearance(self) -> ForceClearance:
-        """How much force the device is cleared for now."""
+        """Return how much force the device is cleared for now."""
         return self.record.readiness().clearance(self.info, self.profile)
 
     def done(self, *steps: RoutineName) -> bool:
-        """Whether any of some routines has succeeded in this power cycle."""
+        """Return whether any of some routines has succeeded in this power cycle."""
         entry = self.record.newest(*steps)
         return entry is not None and entry.boot == self.info.boot
 

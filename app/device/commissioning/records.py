@@ -109,7 +109,7 @@ class DeviceRecord(Strict):
 
 
 def _directions_known(homed: RecordEntry | None, signs: RecordEntry | None) -> bool:
-    """Whether an encoder and a motor that are both reversed would have been seen.
+    """Return whether an encoder and a motor that are both reversed would have been seen.
 
     Either the links were turned by hand, or homing against the stops saw the needle upright.
     """
@@ -194,12 +194,12 @@ class RecordedDevice(Protocol):
 
     @property
     def info(self) -> BoardInfo:
-        """Who is at the other end."""
+        """Return who is at the other end."""
         ...
 
     @property
     def record(self) -> DeviceRecord:
-        """What is known of the device."""
+        """Return what is known of the device."""
         ...
 
     def keep(self, result: AnyResult) -> Path:
@@ -240,6 +240,8 @@ def settle(bench: RecordedDevice, step: RoutineName, report: RoutineReport) -> s
 
 
 def _counts(bench: RecordedDevice, step: RoutineName) -> bool:
-    """Whether an earlier success still counts; that of a force scale outlives the power cycle."""
+    """Return whether an earlier success still counts; that of a force scale outlives the power
+    cycle.
+    """
     entry = bench.record.newest(step)
     return entry is not None and (step is RoutineName.FORCE or entry.boot == bench.info.boot)

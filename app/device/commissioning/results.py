@@ -147,7 +147,7 @@ class ForceScale(Strict):
 
     @property
     def verified(self) -> bool:
-        """Whether the factor is close enough to 1 to lift the cap."""
+        """Return whether the factor is close enough to 1 to lift the cap."""
         return abs(self.factor - 1.0) <= SCALE_TOLERANCE
 
     def summary(self) -> str:

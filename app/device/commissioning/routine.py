@@ -61,7 +61,7 @@ class Routine(ABC):
     # --- for whoever runs it ----------------------------------------------------------------------
     @property
     def report(self) -> RoutineReport:
-        """What the last step said."""
+        """Return what the last step said."""
         return self._report
 
     def step(self, now: float) -> RoutineReport:

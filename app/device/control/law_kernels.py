@@ -119,7 +119,7 @@ def hub_velocity(state: FloatArray) -> tuple[float, float, float]:
 
 @njit
 def no_pose(state: FloatArray) -> bool:
-    """Whether direction or lever of the needle is not finite: no law can answer."""
+    """Return whether direction or lever of the needle is not finite: no law can answer."""
     direction = state[sv.AXIS_X] + state[sv.AXIS_Y] + state[sv.AXIS_Z]
     return not isfinite(direction + state[sv.L_OUT] + state[sv.DEPTH])
 

@@ -86,7 +86,9 @@ _AT: Final = numbered(_PlausibilityPlaces)
 
 @njit
 def is_wrap(jump: float, count: float) -> bool:
-    """Whether a jump [rad] is near a power of two of counts [rad], 2⁸ to 2³², or near a turn."""
+    """Return whether a jump [rad] is near a power of two of counts [rad], 2⁸ to 2³², or near a
+    turn.
+    """
     size = abs(jump)
     if abs(size - 2.0 * pi) <= _NEAR * 2.0 * pi:
         return True
@@ -123,7 +125,9 @@ def _begin(p: FloatArray, stamp: float, left: float, right: float) -> None:
 
 @njit
 def _beside(p: FloatArray, of: int, stamp: float, left: float, right: float) -> float:
-    """How far a reading is from that at `of` (stamp, left, right), moved on at the last speed."""
+    """Return how far a reading is from that at `of` (stamp, left, right), moved on at the last
+    speed.
+    """
     since = stamp - p[of]
     return max(
         abs(left - p[of + 1] - p[_AT.speed_left] * since),
@@ -133,7 +137,9 @@ def _beside(p: FloatArray, of: int, stamp: float, left: float, right: float) -> 
 
 @njit
 def _goes_on(p: FloatArray, stamp: float, left: float, right: float) -> bool:
-    """Whether a reading goes on with what was believed last, and not with a jump after it."""
+    """Return whether a reading goes on with what was believed last, and not with a jump after
+    it.
+    """
     if p[_AT.doubts] == 0.0 or not stamp - p[_AT.doubt_stamp] <= _TOLD_WITHIN:
         return True
     since = stamp - p[_AT.stamp]

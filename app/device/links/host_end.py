@@ -81,7 +81,9 @@ def publish(state: FloatArray, p: FloatArray) -> None:
 
 @njit
 def may_send(p: FloatArray) -> bool:
-    """Whether a command may go out: not while somebody else talks to the board, or it rests."""
+    """Return whether a command may go out: not while somebody else talks to the board, or it
+    rests.
+    """
     p[TICKS] += 1.0
     p[wire.OUT_COUNT] = 0.0
     return p[STATUS] == _FINE and p[RESTS] == 0.0

@@ -66,7 +66,7 @@ class BoardInfo:
 
     @property
     def kind(self) -> str:
-        """What is at the other end: `real`, `emulated` or `simulated`."""
+        """Return what is at the other end: `real`, `emulated` or `simulated`."""
         return "simulated" if self.simulated else "emulated" if self.emulated else "real"
 
 

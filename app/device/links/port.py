@@ -72,7 +72,8 @@ class Port:
 
     @property
     def is_pseudo_terminal(self) -> bool:
-        """Whether another program is at its other end: no hardware is behind a pseudo-terminal.
+        """Return whether another program is at its other end: no hardware is behind a
+        pseudo-terminal.
 
         By the device's major number on Linux; elsewhere nobody can tell.
         """

@@ -89,7 +89,7 @@ class Supervisor:
 
     @property
     def running(self) -> bool:
-        """Whether the thread has been started and not stopped."""
+        """Return whether the thread has been started and not stopped."""
         return self._thread is not None
 
     def start(self) -> None:
@@ -206,7 +206,9 @@ class SerialLink(DeviceLink):
 
     @property
     def is_homed(self) -> bool:
-        """Whether the board was homed since it was switched on (Haply: since it was greeted)."""
+        """Return whether the board was homed since it was switched on (Haply: since it was
+        greeted).
+        """
         return bool(self._end[host.HOMED])
 
     @property

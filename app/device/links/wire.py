@@ -66,7 +66,7 @@ def note_sent(p: FloatArray, now: float) -> None:
 
 @njit
 def sent_at(p: FloatArray, sequence: int) -> float:
-    """When a command left [s]; only of the last `SENT_RING`."""
+    """Return when a command left [s]; only of the last `SENT_RING`."""
     return p[_SENT + sequence % SENT_RING]
 
 

@@ -138,5 +138,5 @@ def _readable(file: str, name: str) -> None:
         raise _unusable(file, name, f"it cannot be read: {why}") from None
 
 
-def _unusable(file: str, name: str, why: str) -> ConfigurationError:
-    return ConfigurationError(f"tls {name} {file}: {why}")
+def _unusable(file: str, name: str, reason: str) -> ConfigurationError:
+    return ConfigurationError(f"tls {name} {file}: {reason}")

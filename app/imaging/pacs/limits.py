@@ -99,7 +99,7 @@ class RequestLimits:
             path.unlink(missing_ok=True)
 
     def over(self) -> bool:
-        """Whether nothing more may be read: it is too much, too late, cancelled or done."""
+        """Return whether nothing more may be read: it is too much, too late, cancelled or done."""
         allowed = SILENCES * self._settings.timeout_s + self._received / LEAST_RATE
         if time.monotonic() - self._started > allowed:
             self.fail(f"it took longer than {allowed:.0f} s for {self._received / 1e6:.1f} MB")
@@ -222,7 +222,9 @@ def _refuse(count: int) -> bytearray:
 
 
 def may_send(settings: PacsSettings, address: str) -> bool:
-    """Whether pictures may come from an address: the PACS' own, or one that is listed for it."""
+    """Return whether pictures may come from an address: the PACS' own, or one that is listed for
+    it.
+    """
     known: set[str] = set()
     for name in (settings.host, *settings.senders):
         try:

@@ -86,7 +86,7 @@ _BOXES: Final[Mapping[str, _Box]] = {
 
 
 def organ_fields(seed: int, step_mm: float) -> dict[str, tuple[NDArray[np.float32], FloatArray]]:
-    """How deep points lie in the organs of the patient of a seed, for their surfaces.
+    """Return how deep points lie in the organs of the patient of a seed, for their surfaces.
 
     Args:
         seed: of the patient.

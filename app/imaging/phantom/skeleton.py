@@ -159,7 +159,7 @@ def _arch(x: Field, y: Field, phase: float, lumbar: float) -> Field:
     back = SPINE_Y + 14.0
 
     def gone(low: float, high: float) -> float:
-        """How far [mm] the phase is outside a part's share of the vertebra."""
+        """Return how far [mm] the phase is outside a part's share of the vertebra."""
         return 30.0 * max(low - phase, phase - high, 0.0)
 
     reach = 24.0 + 14.0 * lumbar

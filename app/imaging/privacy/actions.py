@@ -151,55 +151,60 @@ def _items(dataset: Dataset, tag: BaseTag) -> list[Dataset]:
 
 
 def _keep(
-    result: Dataset, dataset: Dataset, tag: BaseTag, kept: KeptAttribute, rules: Rules, tally: Tally
+    result: Dataset,
+    dataset: Dataset,
+    tag: BaseTag,
+    stored: KeptAttribute,
+    rules: Rules,
+    tally: Tally,
 ) -> None:
     """Copy one attribute in the form in which it may be kept, or leave it out."""
     try:
         element = dataset[tag]
-        treat = _TREATMENTS.get(_kind(kept, tag, rules), _checked)
-        value = treat(element.value, kept, rules, tally)
+        treat = _TREATMENTS.get(_kind(stored, tag, rules), _checked)
+        value = treat(element.value, stored, rules, tally)
     except (ValueError, TypeError, AttributeError, NotImplementedError, OverflowError):
         value = None
     if value is None:
-        tally.unfit[kept.keyword] += 1
+        tally.unfit[stored.keyword] += 1
         return
     result.add_new(tag, element.VR, value)
 
 
-def _kind(kept: KeptAttribute, tag: BaseTag, rules: Rules) -> str:
-    return "remapped" if rules.profile.actions.get(int(tag)) == "U" else kept.kind
+def _kind(stored: KeptAttribute, tag: BaseTag, rules: Rules) -> str:
+    return "remapped" if rules.profile.actions.get(int(tag)) == "U" else stored.kind
 
 
-def _checked(value: Any, kept: KeptAttribute, rules: Rules, tally: Tally) -> Any:
-    return value if fits(kept, value) else None
+def _checked(value: Any, stored: KeptAttribute, rules: Rules, tally: Tally) -> Any:
+    return value if fits(stored, value) else None
 
 
-def _first(value: Any, kept: KeptAttribute, rules: Rules, tally: Tally) -> Any:
+def _first(value: Any, stored: KeptAttribute, rules: Rules, tally: Tally) -> Any:
     """Words stand in an order that counts (ImageType): keep them up to the first unknown one."""
     known: list[str] = []
     for word in (str(item).strip() for item in values(value)):
-        if word not in kept.words:
+        if word not in stored.words:
             break
         known.append(word)
     if len(known) < len(values(value)):
-        tally.unfit[kept.keyword] += 1
+        tally.unfit[stored.keyword] += 1
     return known or None
 
 
-def _remapped(value: Any, kept: KeptAttribute, rules: Rules, tally: Tally) -> Any:
-    tally.replaced[kept.keyword] += 1
+def _remapped(value: Any, stored: KeptAttribute, rules: Rules, tally: Tally) -> Any:
+    tally.replaced[stored.keyword] += 1
     new = [rules.uids.new(str(uid)) for uid in values(value)]
     return new[0] if len(new) == 1 else new or None
 
 
-def _shifted(value: Any, kept: KeptAttribute, rules: Rules, tally: Tally) -> Any:
+def _shifted(value: Any, stored: KeptAttribute, rules: Rules, tally: Tally) -> Any:
     moved = dates.shifted(str(value or ""), rules.shift)
     if moved:
-        tally.shifted[kept.keyword] += 1
+        tally.shifted[stored.keyword] += 1
     return moved or (None if value else "")
 
 
-def _aged(value: Any, kept: KeptAttribute, rules: Rules, tally: Tally) -> Any:
+def _aged(value: Any, stored: KeptAttribute, rules: Rules, tally: Tally) -> Any:
     return dates.capped_age(str(value or "")) or None
 
 

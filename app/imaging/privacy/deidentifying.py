@@ -129,7 +129,7 @@ class Secrets:
                 tally.unfit[element.keyword] += 1
 
     def repeats(self, element: DataElement) -> bool:
-        """Whether an element that may be kept says what a removed one said."""
+        """Return whether an element that may be kept says what a removed one said."""
         if element.keyword in _GEOMETRY or element.keyword in _ADDED:
             return False
         if element.VR in _NUMERIC and any(self._tells(value) for value in values(element.value)):
@@ -141,7 +141,7 @@ class Secrets:
         return any(secret in str(value) for value in values(element.value) for secret in secrets)
 
     def _tells(self, value: object) -> bool:
-        """Whether a number is a date or the digits of a number of the patient's."""
+        """Return whether a number is a date or the digits of a number of the patient's."""
         text = str(getattr(value, "original_string", value)).strip().lower()
         whole = re.sub(r"\D", "", text.split("e")[0].split(".")[0])
         all_of_it = re.sub(r"\D", "", text.split("e")[0])

@@ -20,18 +20,20 @@ def values(value: Any) -> list[Any]:
     return [] if value is None or value == "" or value == b"" else [value]
 
 
-def fits(kept: KeptAttribute, value: Any) -> bool:
-    """Whether a value has the form in which its attribute may be kept; dates and ages aside."""
+def fits(stored: KeptAttribute, value: Any) -> bool:
+    """Return whether a value has the form in which its attribute may be kept; dates and ages
+    aside.
+    """
     found = values(value)
-    if kept.kind == "number":
+    if stored.kind == "number":
         return all(_is_number(item) for item in found)
-    if kept.kind == "uid":
+    if stored.kind == "uid":
         return all(_STANDARD_UID.fullmatch(str(item)) for item in found)
-    if kept.kind == "words":
-        return all(str(item).strip() in kept.words for item in found)
-    if kept.kind == "kernel":
+    if stored.kind == "words":
+        return all(str(item).strip() in stored.words for item in found)
+    if stored.kind == "kernel":
         return all(is_kernel(str(item)) for item in found)
-    return kept.kind == "tag" and all(int(item) >> 16 & 1 == 0 for item in found)
+    return stored.kind == "tag" and all(int(item) >> 16 & 1 == 0 for item in found)
 
 
 def _is_number(value: Any) -> bool:

@@ -24,5 +24,7 @@ def body_parts() -> frozenset[str]:
 
 
 def is_kernel(text: str) -> bool:
-    """Whether it reads like a reconstruction kernel: a known word, or a letter and a number."""
+    """Return whether it reads like a reconstruction kernel: a known word, or a letter and a
+    number.
+    """
     return _KERNEL.fullmatch(text.strip()) is not None

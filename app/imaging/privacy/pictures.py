@@ -35,7 +35,7 @@ class Pictures:
 
     @property
     def count(self) -> int:
-        """How many pictures there are."""
+        """Return how many pictures there are."""
         return int(self.values.shape[0])
 
     @property

@@ -152,10 +152,10 @@ def _hides_bits(frame: bytes, header: SliceHeader) -> bool:
     return not np.array_equal(_used_bits(cells, header, None), cells)
 
 
-def _decode_alike(header: SliceHeader, one: bytes, other: bytes) -> bool:
+def _decode_alike(header: SliceHeader, item: bytes, other: bytes) -> bool:
     form = header.format
     first, second = (np.empty((form.rows, form.columns), stored_type(form)) for _ in range(2))
-    codecs.decode(one, header.pixels.syntax, form, first)
+    codecs.decode(item, header.pixels.syntax, form, first)
     codecs.decode(other, header.pixels.syntax, form, second)
     return np.array_equal(first, second)
 

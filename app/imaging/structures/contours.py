@@ -142,14 +142,14 @@ def _area(line: FloatArray) -> float:
     return abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1))) / 2.0
 
 
-def _same(one: FloatArray, other: FloatArray) -> bool:
-    """Whether two lines run in one place: every corner of each lies near the other."""
-    ends = (one.min(axis=0) - other.min(axis=0), one.max(axis=0) - other.max(axis=0))
+def _same(item: FloatArray, other: FloatArray) -> bool:
+    """Return whether two lines run in one place: every corner of each lies near the other."""
+    ends = (item.min(axis=0) - other.min(axis=0), item.max(axis=0) - other.max(axis=0))
     if np.abs(ends).max() > SAME_LINE_MM:
         return False
     return bool(
-        _from_line(one, other).max() <= SAME_LINE_MM
-        and _from_line(other, one).max() <= SAME_LINE_MM
+        _from_line(item, other).max() <= SAME_LINE_MM
+        and _from_line(other, item).max() <= SAME_LINE_MM
     )
 
 
@@ -265,8 +265,8 @@ def _runs(
     return runs
 
 
-def _overlap(one: ContourPlane, other: ContourPlane) -> bool:
-    return bool((one.picture & other.picture).any())
+def _overlap(item: ContourPlane, other: ContourPlane) -> bool:
+    return bool((item.picture & other.picture).any())
 
 
 def _at(

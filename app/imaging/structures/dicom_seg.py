@@ -137,12 +137,12 @@ def _header(path: Path, number: int) -> Any:
         ) from error
 
 
-def _whole(one: PlacedStructure, size: tuple[int, int, int]) -> NDArray[np.uint8]:
+def _whole(item: PlacedStructure, size: tuple[int, int, int]) -> NDArray[np.uint8]:
     """Mask on the whole grid, shape (K, J, I)."""
     mask = np.zeros(size[::-1], np.uint8)
-    i, j, k = one.corner
-    depth, height, width = one.mask.shape
-    mask[k : k + depth, j : j + height, i : i + width] = one.mask
+    i, j, k = item.corner
+    depth, height, width = item.mask.shape
+    mask[k : k + depth, j : j + height, i : i + width] = item.mask
     return mask
 
 

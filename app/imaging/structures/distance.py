@@ -95,7 +95,9 @@ class Boundary:
         return result
 
     def inside(self, points_mm: FloatArray) -> NDArray[np.bool_]:
-        """Whether the structure's share at points, linear between voxel centres, is one half."""
+        """Return whether the structure's share at points, linear between voxel centres, is one
+        half.
+        """
         at = self._in_voxels(points_mm)
         share = ndimage.map_coordinates(
             self._structure.mask, at[:, ::-1].T, np.float32, order=1, mode="grid-constant"
@@ -162,7 +164,7 @@ def _segments(inside: NDArray[np.bool_]) -> tuple[FloatArray, Indices]:
 
 
 def _joined(held: NDArray[np.bool_]) -> list[tuple[int, int, NDArray[np.bool_]]]:
-    """Which two edges of a face a segment joins, and in which faces.
+    """Return which two edges of a face a segment joins, and in which faces.
 
     Edge e lies between corners e and e + 1. A corner that differs from both its neighbours is cut
     off by the edges on either side; two corners against two others by opposite edges.
@@ -294,7 +296,7 @@ class SignedDistance:
         return result
 
     def along(self, start_mm: ArrayLike, end_mm: ArrayLike, within_mm: float = np.inf) -> Nearest:
-        """Where a straight line comes nearest to the structure, or deepest into it.
+        """Return where a straight line comes nearest to the structure, or deepest into it.
 
         Args:
             start_mm: of the line, LPS [mm], shape (3,).
@@ -345,7 +347,7 @@ class SignedDistance:
 
 
 def _resampled(structure: Structure, low: FloatArray, step: float, size: Any) -> Any:
-    """Which cells of a cubic grid along L, P, S lie inside, shape (S, P, L)."""
+    """Return which cells of a cubic grid along L, P, S lie inside, shape (S, P, L)."""
     to_mask = np.linalg.inv(structure.grid_mm)
     flip = np.eye(3)[::-1]
     matrix = flip @ (to_mask[:3, :3] * step) @ flip

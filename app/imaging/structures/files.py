@@ -67,14 +67,14 @@ def _allowed(volume: Volume) -> Allowance:
     return Allowance(MOST_SECONDS, MEMORY_BYTES + _COPY_BYTES * i * j * k)
 
 
-def _structure(one: PlacedStructure, volume: Volume) -> Structure:
+def _structure(item: PlacedStructure, volume: Volume) -> Structure:
     """Structure on the CT's own grid, of a box that must lie in it."""
-    ends = [first + count for first, count in zip(one.corner, one.mask.shape[::-1], strict=True)]
+    ends = [first + count for first, count in zip(item.corner, item.mask.shape[::-1], strict=True)]
     inside = all(end <= size for end, size in zip(ends, volume.size, strict=True))
-    if min(one.corner) < 0 or not inside:
-        raise StructureFileError(f"{one.name[:LONGEST_NAME]} lies outside this CT")
+    if min(item.corner) < 0 or not inside:
+        raise StructureFileError(f"{item.name[:LONGEST_NAME]} lies outside this CT")
     return Structure(
-        one.name, one.kind, one.colour, one.mask, one.corner, volume.affine_mm, one.warn_mm
+        item.name, item.kind, item.colour, item.mask, item.corner, volume.affine_mm, item.warn_mm
     )
 
 
@@ -132,5 +132,5 @@ def _write_seg(path: Path, structures: StructureSet, volume: Volume, progress: P
         beside.unlink(missing_ok=True)
 
 
-def _plain(one: Structure) -> PlacedStructure:
-    return PlacedStructure(one.name, one.kind, one.colour, one.mask, one.corner, one.warn_mm)
+def _plain(item: Structure) -> PlacedStructure:
+    return PlacedStructure(item.name, item.kind, item.colour, item.mask, item.corner, item.warn_mm)

@@ -93,7 +93,7 @@ def _turns(p: Any, low: float, high: float, out: Any) -> int:
 
 @njit
 def _crossing(p: Any, low: float, high: float) -> float:
-    """Where a polynomial of opposite signs at both ends is zero."""
+    """Return where a polynomial of opposite signs at both ends is zero."""
     rising = _value(p, low) < 0.0
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)

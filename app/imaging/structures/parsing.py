@@ -134,15 +134,15 @@ def parse_structures(
     )
 
 
-def _of_the_copy(found: Found, own: str) -> Found:
+def _of_the_copy(result: Found, own: str) -> Found:
     """Name a file's frame of reference as the de-identified copy of its CT does, if this is it."""
-    named = found.frame_of_reference
+    named = result.frame_of_reference
     if not named or not own or named == own:
-        return found
+        return result
     new = UidMap(installation_key()).new
-    drawn_on = found.drawn_on | {new(uid) for uid in found.drawn_on}
+    drawn_on = result.drawn_on | {new(uid) for uid in result.drawn_on}
     frame = own if new(named) == own else named
-    return replace(found, frame_of_reference=frame, drawn_on=drawn_on)
+    return replace(result, frame_of_reference=frame, drawn_on=drawn_on)
 
 
 def _grid(size: tuple[int, int, int], affine_mm: tuple[float, ...], frame: str) -> Volume:

@@ -73,12 +73,12 @@ class Found:
 
 
 def place(
-    found: Found, volume: Volume, progress: Progress, uids: frozenset[str] = frozenset()
+    result: Found, volume: Volume, progress: Progress, uids: frozenset[str] = frozenset()
 ) -> StructureSet:
     """Put structures of a file onto a CT.
 
     Args:
-        found: what its reader found.
+        result: what its reader found.
         volume: the CT; its grid is enough.
         progress: told of each structure.
         uids: of the CT's series and images, and the digest of its values.
@@ -88,10 +88,10 @@ def place(
             very series or an image of it.
         StructureError: if none of the structures has a voxel in the CT.
     """
-    said = [*found.notes, *_same_frame(found, volume.series.frame_of_reference, uids)]
+    said = [*result.notes, *_same_frame(result, volume.series.frame_of_reference, uids)]
     placed, empty = StructureSet(), 0
-    for number, labelled in enumerate(found.structures):
-        progress.report(number / found.count, f"structure {number + 1} of {found.count}")
+    for number, labelled in enumerate(result.structures):
+        progress.report(number / result.count, f"structure {number + 1} of {result.count}")
         mask, note = _onto(labelled, volume)
         if note:
             said.append(note)
@@ -103,8 +103,8 @@ def place(
         colour = labelled.colour or COLOURS[number % len(COLOURS)]
         structure = Structure.of(name, mask, volume, kind, colour, labelled.warn_mm)
         placed = placed.with_one(structure)
-    if found.count and not len(placed):
-        if empty == found.count:
+    if result.count and not len(placed):
+        if empty == result.count:
             raise StructureError("the structures in the file are empty: nothing is drawn in them")
         raise StructureError(
             "none of the structures in the file lies in this CT: they belong to another patient "
@@ -113,16 +113,16 @@ def place(
     return StructureSet(placed.structures, tuple(said))
 
 
-def _same_frame(found: Found, own: str, uids: frozenset[str]) -> list[str]:
+def _same_frame(result: Found, own: str, uids: frozenset[str]) -> list[str]:
     """Check that file and CT share a frame of reference; return what has to be said of it."""
-    named = found.frame_of_reference
-    if not named and found.drawn_on & uids:
+    named = result.frame_of_reference
+    if not named and result.drawn_on & uids:
         return []
     if not named:
         return ["the file names no frame of reference: placed by its coordinates alone"]
     if not own or named == own:
         return []
-    if found.drawn_on & uids:
+    if result.drawn_on & uids:
         return [
             f"the file names another frame of reference (…{named[-12:]}) than this CT "
             f"(…{own[-12:]}), but also this very series as the one that it was drawn on: placed "

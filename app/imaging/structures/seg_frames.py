@@ -246,10 +246,10 @@ def stacks_of(frames: Sequence[SegFrame], volume: Volume) -> list[FrameStack]:
     return [stack for group in groups for stack in _straight(group, volume)]
 
 
-def _alike(one: SegFrame, other: SegFrame) -> bool:
+def _alike(item: SegFrame, other: SegFrame) -> bool:
     return bool(
-        np.abs(one.turn - other.turn).max() < _SAME_TURN
-        and np.allclose(one.pixel_mm, other.pixel_mm, rtol=1e-4)
+        np.abs(item.turn - other.turn).max() < _SAME_TURN
+        and np.allclose(item.pixel_mm, other.pixel_mm, rtol=1e-4)
     )
 
 

@@ -210,13 +210,13 @@ def _share(mask: Mask, ijk: FloatArray) -> FloatArray:
 
 
 def _crossings(inside: NDArray[np.bool_]) -> int:
-    """How often neighbours differ: the points of the outlines."""
+    """Return how often neighbours differ: the points of the outlines."""
     flat, upright = inside[:, 1:] ^ inside[:, :-1], inside[1:] ^ inside[:-1]
     return int(np.count_nonzero(flat)) + int(np.count_nonzero(upright))
 
 
 def _along_voxels(steps: FloatArray) -> bool:
-    """Whether x and y of the plane both run along axes of the grid."""
+    """Return whether x and y of the plane both run along axes of the grid."""
     size = np.abs(steps)
     along = size.max(axis=0)
     return bool((size.sum(axis=0) - along <= 1e-6 * along).all())
@@ -248,7 +248,7 @@ class StructureKind(StrEnum):
 
     @property
     def is_avoided(self) -> bool:
-        """Whether a path should keep away from it."""
+        """Return whether a path should keep away from it."""
         return self.warn_mm > 0.0
 
 
@@ -351,7 +351,9 @@ class Structure:
         return result
 
     def holds(self, lps_mm: ArrayLike) -> Mask:
-        """Whether patient points [mm], shape (n, 3), lie in one of its voxels, shape (n,)."""
+        """Return whether patient points [mm], shape (n, 3), lie in one of its voxels, shape
+        (n,).
+        """
         inverse = np.linalg.inv(self.grid_mm)
         at = np.asarray(lps_mm, np.float64) @ inverse[:3, :3].T + inverse[:3, 3]
         index = np.floor(at + 0.5).astype(np.intp)[:, ::-1]

@@ -25,7 +25,7 @@ class AttachmentsError(ValueError):
 
 
 def is_array(value: Any) -> bool:
-    """Whether a value is an array of numpy."""
+    """Return whether a value is an array of numpy."""
     numpy = sys.modules.get("numpy")
     return numpy is not None and isinstance(value, numpy.ndarray)
 

@@ -57,7 +57,7 @@ class Allowance:
 
     @property
     def clock_seconds(self) -> float:
-        """What may pass on the clock meanwhile."""
+        """Return what may pass on the clock meanwhile."""
         return self.clock or max(LEAST_CLOCK_SECONDS, CLOCK_FACTOR * self.seconds)
 
 

@@ -63,7 +63,7 @@ class CallChildren:
 
     @property
     def busy(self) -> bool:
-        """Whether a task is with a child."""
+        """Return whether a task is with a child."""
         return any(child.open for child in self._children)
 
     def take(self, waiting: int) -> None:
@@ -171,7 +171,7 @@ class CallChildren:
 
 
 def _finished(child: Child) -> bool:
-    """Whether a child is done with its open tasks within a moment."""
+    """Return whether a child is done with its open tasks within a moment."""
     deadline = time.monotonic() + _CHECK_S
     try:
         deque(child.answers(), maxlen=0)  # what has come already is for nobody either

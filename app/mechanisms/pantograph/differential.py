@@ -28,7 +28,7 @@ _RELATIVE = 1e-12
 def singularity_kernel(
     q1: float, q2: float, x: float, y: float, a1: float, a2: float, base: float
 ) -> tuple[float, float, float]:
-    """How far the pose is from singular: (sin(θ2-θ1), sin(θ2'-θ1'), sin(θ2'-θ2)).
+    """Return how far the pose is from singular: (sin(θ2-θ1), sin(θ2'-θ1'), sin(θ2'-θ2)).
 
     The first two vanish where an arm is stretched or folded (type 1: the tool loses a direction),
     the third where the distal links are in line (type 2: the tool moves with the motors held).

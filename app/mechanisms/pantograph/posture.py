@@ -124,7 +124,7 @@ def passive_angles(geometry: Geometry, q: ArrayLike, assembly: int = 1) -> Passi
 def singularity(
     geometry: Geometry, q: ArrayLike, assembly: int = 1, tolerance: float = 1e-6
 ) -> SingularityMeasure:
-    """How far from singular q [rad], shape (2,), is; named if a sine is within `tolerance`.
+    """Return how far from singular q [rad], shape (2,), is; named if a sine is within `tolerance`.
 
     A pose that is singular in both ways is called `PARALLEL`, the one that no motor can hold.
 

@@ -331,7 +331,7 @@ def singularity_kernel(
     half_cos: float,
     half_sin: float,
 ) -> tuple[float, float, float, float, float]:
-    """How far a pose is from singular: (sin β1/2, cos β1/2, sin β2/2, cos β2/2, D).
+    """Return how far a pose is from singular: (sin β1/2, cos β1/2, sin β2/2, cos β2/2, D).
 
     The first four vanish where a pantograph is stretched (β = 0) or folded (β = π, T on A), the
     last where t lies in the plane of both base axes and the two assemblies meet.

@@ -158,7 +158,7 @@ def jacobian_rate(
 def conditioning(
     geometry: TensegrityGeometry, beta: ArrayLike, assembly: int = 1, tolerance: float = 1e-6
 ) -> GuideConditioning:
-    """How far from singular a pose is; kinds are named within `tolerance`.
+    """Return how far from singular a pose is; kinds are named within `tolerance`.
 
     Raises:
         MechanismError: as `forward`.
@@ -210,7 +210,7 @@ def nearest(geometry: TensegrityGeometry, t: ArrayLike, margin: float = 0.0) -> 
 
 
 def reaches(geometry: TensegrityGeometry, t: ArrayLike) -> bool:
-    """Whether the machine as built takes the direction t, shape (3,), of any length."""
+    """Return whether the machine as built takes the direction t, shape (3,), of any length."""
     x, y, z = numbers(t, 3, "t")
     return bool(kernels.inverse_kernel(x, y, z, *geometry.bars, 1.0)[0] == OK)
 

@@ -62,7 +62,7 @@ class Scale:
 
     @property
     def wrong(self) -> bool:
-        """Whether lengths are wrong by more than `LARGEST`, beyond doubt."""
+        """Return whether lengths are wrong by more than `LARGEST`, beyond doubt."""
         return self.explains and abs(self.value - 1.0) > LARGEST + _SURE * self.sd
 
 
@@ -124,7 +124,9 @@ class PointCheck:
 
     @property
     def trusted(self) -> bool:
-        """Whether the points are what they are named after; neither scale nor residual is wrong."""
+        """Return whether the points are what they are named after; neither scale nor residual is
+        wrong.
+        """
         if self.scale.wrong:
             return False
         within = bool((np.linalg.norm(self.fit.residuals, axis=1) <= self.tolerance).all())
@@ -147,7 +149,7 @@ class PointCheck:
 
     @property
     def condition(self) -> str:
-        """What the figure at the target rests on, for people."""
+        """Return what the figure at the target rests on, for people."""
         shift = (
             f"a shift that all share: {np.sqrt(self.shared) / MILLIMETRE:.2f} mm by the plate"
             if self.shared
@@ -164,26 +166,26 @@ class PointCheck:
 
 
 def check_points(
-    plate: FiducialPlate, reference: FloatArray, found: NamedPoints, shared: float = 0.0
+    plate: FiducialPlate, reference: FloatArray, result: NamedPoints, shared: float = 0.0
 ) -> PointCheck:
     """Check points that were found against the plate's.
 
     Args:
         plate: gives names, tolerance and the error to expect.
         reference: `plate.touch` or `plate.beads`.
-        found: the same fiducials in another frame; some may be left out.
+        result: the same fiducials in another frame; some may be left out.
         shared: variance per axis of what all of them share [m²].
 
     Raises:
         RegistrationError: if a name is not on the plate, or the points fix no rotation.
     """
-    fit = rigid_fit(reference[plate.rows(found.names)], found.points)
+    fit = rigid_fit(reference[plate.rows(result.names)], result.points)
     tolerance = plate.tolerance_mm * MILLIMETRE
     variance = (plate.localisation_mm * MILLIMETRE) ** 2 / 3.0
     limit = chi_square_quantile(LARGEST_SCATTER, fit.freedom) * variance
-    stated, contradicted = _stated(fit, found)
+    stated, contradicted = _stated(fit, result)
     return PointCheck(
-        found.names,
+        result.names,
         fit,
         fiducial_error(fit),
         target_error(fit),
@@ -199,12 +201,12 @@ def check_points(
     )
 
 
-def _stated(fit: RigidFit, found: NamedPoints) -> tuple[TargetError | None, bool]:
+def _stated(fit: RigidFit, result: NamedPoints) -> tuple[TargetError | None, bool]:
     """Error by the points' own covariances, scaled where residuals contradict; and whether so."""
-    if not found.stated:
+    if not result.stated:
         return None, False
-    error = stated_target_error(fit, found.covariances)
-    factor, by_chance = scatter_beyond(fit, found.covariances)
+    error = stated_target_error(fit, result.covariances)
+    factor, by_chance = scatter_beyond(fit, result.covariances)
     if factor <= by_chance:
         return error, False
     scaled = frozen(error.covariance * factor * inflation(fit.freedom))
@@ -258,7 +260,7 @@ class RegistrationCheck:
 
     @property
     def trusted(self) -> bool:
-        """Whether both parts are."""
+        """Return whether both parts are."""
         return self.world.trusted and (self.patient is None or self.patient.trusted)
 
     @property
@@ -299,7 +301,7 @@ class RegistrationCheck:
         tip_covariance: ArrayLike | None = None,
         T_world_patient: RigidTransform | None = None,
     ) -> RegistrationAgreement:
-        """How well screen and needle agree at a point.
+        """Return how well screen and needle agree at a point.
 
         Args:
             p_world: the target, where the program believes it [m], shape (3,).

@@ -130,7 +130,7 @@ def _orders(count: int) -> FloatArray:
 
 
 def likeness(points: FloatArray) -> float:
-    """How well the points fit themselves in the best other order (root mean square [m]).
+    """Return how well the points fit themselves in the best other order (root mean square [m]).
 
     Zero for a square or any body with a symmetry: a swap of its points cannot be found.
     """

@@ -88,7 +88,7 @@ class FiducialPlate(Strict):
 
     @property
     def touch(self) -> FloatArray:
-        """Where the tip rests in each fiducial, plate frame [m], shape (n, 3)."""
+        """Return where the tip rests in each fiducial, plate frame [m], shape (n, 3)."""
         return frozen(np.array([f.touch_mm for f in self.fiducials]) * MILLIMETRE)
 
     @property

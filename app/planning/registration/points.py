@@ -118,11 +118,11 @@ def _diameter(box: _Crop, seed: tuple[Any, ...], level: float) -> float:
     return float((6.0 / np.pi * count * box.voxel_mm3) ** (1.0 / 3.0))
 
 
-def _require_size(found: float, wanted: float, voxel: float, at: FloatArray) -> None:
+def _require_size(result: float, wanted: float, voxel: float, at: FloatArray) -> None:
     largest = 1.6 * wanted + voxel
-    if found > largest:
+    if result > largest:
         raise BeadError(
-            f"what is bright at {_text(at)} is {found:.1f} mm across, a bead is {wanted:.1f} mm "
+            f"what is bright at {_text(at)} is {result:.1f} mm across, a bead is {wanted:.1f} mm "
             f"(at most {largest:.1f} mm in this CT): bone, or two beads; click on a bead"
         )
 
@@ -179,7 +179,7 @@ class NamedPoints:
 
     @property
     def stated(self) -> bool:
-        """Whether every point came with a covariance."""
+        """Return whether every point came with a covariance."""
         return bool(len(self.names)) and bool(
             (np.trace(self.covariances, axis1=1, axis2=2) > 0.0).all()
         )

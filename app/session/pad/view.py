@@ -94,7 +94,9 @@ class PadView:
 
 
 def depth_tolerance(tolerances: Mapping[str, Bands] = DEFAULT_TOLERANCES) -> float:
-    """How far from the target along the path still counts as at it [m]: expert's depth error."""
+    """Return how far from the target along the path still counts as at it [m]: expert's depth
+    error.
+    """
     bands = tolerances.get("depth_error", DEFAULT_TOLERANCES["depth_error"])
     return MILLIMETRE * bands.expert
 
@@ -121,7 +123,7 @@ def touch_rings(radius: float) -> tuple[float, float]:
 
 
 def depth_tolerance_of(exercise: Exercise) -> float:
-    """How far from an exercise's target along the path still counts as at it [m]."""
+    """Return how far from an exercise's target along the path still counts as at it [m]."""
     if exercise.touch is not None:
         return exercise.touch.radius_mm * MILLIMETRE
     return depth_tolerance(exercise.tolerances)

@@ -195,13 +195,13 @@ def _edge(p: FloatArray, j: int) -> int:
 
 @njit
 def _shift(p: FloatArray) -> int:
-    """Where δ stands in an array whose layers move."""
+    """Return where δ stands in an array whose layers move."""
     return _edge(p, int(p[AT.bins]) + 1)
 
 
 @njit
 def moves(p: FloatArray) -> bool:
-    """Whether layers move with breathing."""
+    """Return whether layers move with breathing."""
     return len(p) > _shift(p)
 
 

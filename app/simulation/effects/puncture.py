@@ -109,7 +109,7 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
 
 @njit
 def indentation_at(force: float, linear: float, quadratic: float) -> float:
-    """How far a membrane gives way to a force [m]; 0 for one without stiffness."""
+    """Return how far a membrane gives way to a force [m]; 0 for one without stiffness."""
     slope = linear + np.sqrt(linear * linear + 4.0 * quadratic * force)
     return 2.0 * force / slope if slope > 0.0 else 0.0
 

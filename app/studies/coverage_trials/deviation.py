@@ -37,5 +37,5 @@ class Deviation:
 
     @property
     def held(self) -> bool:
-        """Whether the 95 % ellipsoid holds it."""
+        """Return whether the 95 % ellipsoid holds it."""
         return self.square <= chi_square_quantile(0.95, self.freedom)

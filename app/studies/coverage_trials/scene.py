@@ -42,7 +42,7 @@ class TrueCamera:
         return opencv_pixels(points, self.T_camera_world, self.matrix, self.distortion)
 
     def sees(self, points: FloatArray) -> bool:
-        """Whether all points lie well inside the picture."""
+        """Return whether all points lie well inside the picture."""
         if (self.T_camera_world @ points)[:, 2].min() < 0.02:
             return False
         uv = self.pixels(points)

@@ -34,15 +34,15 @@ class CoverageTally:
     within: int = 0
     ratios: dict[str, list[float]] = field(default_factory=dict)
 
-    def add(self, found: Deviation) -> None:
+    def add(self, result: Deviation) -> None:
         """Take in one trial."""
         self.trials += 1
-        self.squares += found.square
-        self.freedom += found.freedom
-        self.held += found.held
-        self.points += found.within is not None
-        self.within += bool(found.within)
-        for name, ratio in found.ratios.items():
+        self.squares += result.square
+        self.freedom += result.freedom
+        self.held += result.held
+        self.points += result.within is not None
+        self.within += bool(result.within)
+        for name, ratio in result.ratios.items():
             total = self.ratios.setdefault(name, [0.0, 0])
             total[0] += ratio**2
             total[1] += 1

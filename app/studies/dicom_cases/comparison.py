@@ -196,7 +196,9 @@ def read(series: Series) -> Ours:
 
 
 def _ordered(series: Series) -> bool:
-    """Whether both readers would put the slices into one order, though there is no volume."""
+    """Return whether both readers would put the slices into one order, though there is no
+    volume.
+    """
     return len(series.slices) == 1 or series.reason.startswith(("gap", "uneven", "slices shifted"))
 
 
@@ -239,7 +241,9 @@ def compare(series: Series, ours: Ours, theirs: PeerImage, peer: Peer) -> Series
 
 
 def _padding(series: Series, values: NDArray[Any]) -> NDArray[np.bool_]:
-    """Where nothing was measured and a file's own number would count as tissue; not compared."""
+    """Return where nothing was measured and a file's own number would count as tissue; not
+    compared.
+    """
     masks = [
         padding_of(header, picture) if padding_stands_out(header) else None
         for header, picture in zip(series.slices, values, strict=True)
@@ -258,7 +262,9 @@ def standard_planes(series: Series, peer: Peer) -> list[Any]:
 
 
 def _flipped(planes: list[Any], theirs: PeerImage) -> bool:
-    """Whether the peer counts slices the other way: direction does not make a volume another."""
+    """Return whether the peer counts slices the other way: direction does not make a volume
+    another.
+    """
     if len(planes) < 2 or None in planes:
         return False
     along = np.subtract(planes[-1][0], planes[0][0])
@@ -295,7 +301,7 @@ def _cause(series: Series, differ: str) -> str:
 
 
 def _misplacement(series: Series, peer_mm: float | None) -> str:
-    """Why the peer puts voxels elsewhere than their files do."""
+    """Return why the peer puts voxels elsewhere than their files do."""
     if peer_mm is None or peer_mm < SAME_MM:
         return ""
     if series.tilt_deg:

@@ -158,7 +158,7 @@ def frames_of(data: Any) -> int:
 
 
 def decodes(file: str) -> bool:
-    """Whether pydicom makes pixels of it."""
+    """Return whether pydicom makes pixels of it."""
     import pydicom
 
     try:
@@ -168,7 +168,7 @@ def decodes(file: str) -> bool:
 
 
 def undefined(file: str) -> bool:
-    """Whether the pixels are of undefined length."""
+    """Return whether the pixels are of undefined length."""
     import pydicom
 
     try:

@@ -191,7 +191,7 @@ def normal_equations(
     sparse: Any,
     tone: Any,
     good: Any,
-    kept: Any,
+    stored: Any,
     weights: Any,
     normal: Any,
     right: Any,
@@ -203,7 +203,7 @@ def normal_equations(
         sparse: `Sparse`.
         tone: `Linearised`.
         good: which pixels' brightness counts, (m,).
-        kept: which groups' colour counts, (b,).
+        stored: which groups' colour counts, (b,).
         weights: inverse variances of the three planes, (3,).
         normal: in and out, lower triangle, (SIZE, SIZE).
         right: in and out, (SIZE,).
@@ -223,7 +223,7 @@ def normal_equations(
         y = root[0] * (observed.luma[i] - _target(tone, i, 0))
         _add_row(at, z, n, y, normal, right)
     for b in range(observed.chroma.shape[0]):
-        if not kept[b]:
+        if not stored[b]:
             continue
         size = group_size(observed.members[b])
         count = _group(observed, sparse, tone, b, size, work, seen, columns)
@@ -445,7 +445,7 @@ def _move_groups(observed: Any, moved: Any) -> None:
 
 @njit(forceinline=True)
 def group_size(members: Any) -> int:
-    """How many pixels a group has."""
+    """Return how many pixels a group has."""
     size = 0
     for k in range(members.shape[0]):
         size += members[k] >= 0
@@ -458,7 +458,7 @@ def cross_equations(
     sparse: Any,
     tone: Any,
     good: Any,
-    kept: Any,
+    stored: Any,
     weights: Any,
     moved: Any,
     cross: Any,
@@ -472,7 +472,7 @@ def cross_equations(
         sparse: likewise.
         tone: likewise.
         good: likewise.
-        kept: likewise.
+        stored: likewise.
         weights: likewise.
         moved: `Moved`.
         cross: in and out, (SIZE, MOVES).
@@ -492,7 +492,7 @@ def cross_equations(
                     cross[a + c, q] += x * moved.luma[i, q]
         _square(moved.luma[i], moved.luma_left[i], weights[0], information, right)
     for b in range(observed.chroma.shape[0]):
-        if not kept[b]:
+        if not stored[b]:
             continue
         size = group_size(observed.members[b])
         count = _group(observed, sparse, tone, b, size, work, seen, columns)

@@ -127,7 +127,7 @@ def observe(image: Any, outline: Any, pixels: Any) -> Any:
 
 @njit
 def keeps_all_colour(image: Any, u: float, v: float, half: int) -> bool:
-    """Whether the colour differences about a pixel have the picture's own resolution."""
+    """Return whether the colour differences about a pixel have the picture's own resolution."""
     left, top = max(0, round(u) - half), max(0, round(v) - half)
     right, bottom = min(image.shape[1], round(u) + half), min(image.shape[0], round(v) + half)
     if right - left < 8 or bottom - top < 8:
@@ -354,24 +354,24 @@ def _level_up(moved: Any, step: Any, scale: float, levels: Any) -> None:
 
 
 @njit
-def _leave_out(observed: Any, usable: Any, moved: Any, sigma: Any, good: Any, kept: Any) -> None:
+def _leave_out(observed: Any, usable: Any, moved: Any, sigma: Any, good: Any, stored: Any) -> None:
     """Mark the pixels and groups that fit."""
     for i in range(len(good)):
         good[i] = usable[i] and abs(moved.luma_left[i]) < FAR_OFF * sigma[0]
-    _keep_groups(observed, usable, kept)
-    for k in range(len(kept)):
+    _keep_groups(observed, usable, stored)
+    for k in range(len(stored)):
         worst = max(abs(moved.chroma_left[k, 0]), abs(moved.chroma_left[k, 1]))
-        kept[k] = kept[k] and worst < FAR_OFF * sigma[1]
+        stored[k] = stored[k] and worst < FAR_OFF * sigma[1]
 
 
 @njit
-def _keep_groups(observed: Any, usable: Any, kept: Any) -> None:
-    for k in range(len(kept)):
-        kept[k] = True
+def _keep_groups(observed: Any, usable: Any, stored: Any) -> None:
+    for k in range(len(stored)):
+        stored[k] = True
         for j in range(4):
             i = observed.members[k, j]
             if i >= 0 and not usable[i]:
-                kept[k] = False
+                stored[k] = False
 
 
 @njit

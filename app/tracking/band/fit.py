@@ -419,7 +419,7 @@ def _leave_out(usable: Any, squares: Any, good: Any) -> bool:
 
 @njit
 def _quality(rows: Any, squares: Any, good: Any, gain: float) -> Any:
-    """Whether enough of the band's pixels count, and misfit, outliers and area."""
+    """Return whether enough of the band's pixels count, and misfit, outliers and area."""
     total, count, area, kept = 0.0, 0, 0.0, 0.0
     for i in range(len(good)):
         if not rows.seen[i]:

@@ -228,7 +228,7 @@ def _fill_shaft(
 
 @njit
 def tapers_at_once(shape: Any) -> bool:
-    """Whether the point begins where the band ends, or before."""
+    """Return whether the point begins where the band ends, or before."""
     return shape.tip - shape.point < 1.02 * shape.half
 
 

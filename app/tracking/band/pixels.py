@@ -119,14 +119,14 @@ def _box(outline: Any, height: int, width: int) -> Any:
 
 
 @njit
-def _directions(window: Any, clear: Any, noise: float, found: Any, uneven: Any) -> None:
+def _directions(window: Any, clear: Any, noise: float, result: Any, uneven: Any) -> None:
     """Direction of the strongest change on both sides, and whether there are edges.
 
     Args:
         window: uint8 (H, W, 3).
         clear: (H, W) int8: 1 or 2 where only the first or second side's background is seen, or 0.
         noise: standard deviation of a grey value.
-        found: out, unit vectors (u, v), (2, 2).
+        result: out, unit vectors (u, v), (2, 2).
         uneven: out, whether the change is more than noise's, (2,).
     """
     for side in range(2):
@@ -151,19 +151,19 @@ def _directions(window: Any, clear: Any, noise: float, found: Any, uneven: Any) 
         floor = 3.0 * n * 0.5 * noise * noise
         angle = 0.5 * math.atan2(2.0 * uv, uu - vv)
         strong = math.hypot(2.0 * uv, uu - vv) > 0.3 * floor
-        found[side, 0] = math.cos(angle) if strong else 0.0
-        found[side, 1] = math.sin(angle) if strong else 1.0
+        result[side, 0] = math.cos(angle) if strong else 0.0
+        result[side, 1] = math.sin(angle) if strong else 1.0
         uneven[side] = strong
 
 
 @njit
-def _background(places: Any, sides: Any, found: Any, first: Any, weights: Any) -> None:
+def _background(places: Any, sides: Any, result: Any, first: Any, weights: Any) -> None:
     """Background's columns of every pixel, before they are multiplied by its free share.
 
     Args:
         places: see `BandPixels`.
         sides: which side of the needle's middle, 0 or 1, (m,).
-        found: see `_directions`.
+        result: see `_directions`.
         first: out, see `BandPixels`.
         weights: likewise.
     """
@@ -171,14 +171,14 @@ def _background(places: Any, sides: Any, found: Any, first: Any, weights: Any) -
         low, high = np.inf, -np.inf
         for i in range(places.shape[0]):
             if sides[i] == side:
-                t = places[i, 0] * found[side, 0] + places[i, 1] * found[side, 1]
+                t = places[i, 0] * result[side, 0] + places[i, 1] * result[side, 1]
                 low, high = min(low, t), max(high, t)
         span = max(high - low, _SPACING_PX * (CURVE - 2))
         for i in range(places.shape[0]):
             if sides[i] != side:
                 continue
-            t = places[i, 0] * found[side, 0] + places[i, 1] * found[side, 1]
+            t = places[i, 0] * result[side, 0] + places[i, 1] * result[side, 1]
             k = quadratic_spline((t - low) / span, CURVE, weights[i])
             first[i] = side * SIDE + k
-            across = places[i, 1] * found[side, 0] - places[i, 0] * found[side, 1]
+            across = places[i, 1] * result[side, 0] - places[i, 0] * result[side, 1]
             weights[i, 3] = across / _SLOPE_PX

@@ -103,7 +103,7 @@ class Board:
 
     @property
     def ambiguous(self) -> bool:
-        """Whether one picture cannot tell which way round the board lies."""
+        """Return whether one picture cannot tell which way round the board lies."""
         return len(self.orders) > 1
 
     @property

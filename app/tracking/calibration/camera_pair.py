@@ -22,11 +22,11 @@ OpenPair = Callable[[Progress], Sequence[OpenCamera]]
 """Opens both cameras, left and right, or none; called beside the window."""
 
 
-def open_both(one: Callable[[str, Progress], OpenCamera], sides: Sequence[str]) -> OpenPair:
+def open_both(item: Callable[[str, Progress], OpenCamera], sides: Sequence[str]) -> OpenPair:
     """Return what opens one side after the other; if one fails, those that are open are closed.
 
     Args:
-        one: opens the camera of a side.
+        item: opens the camera of a side.
         sides: left, right.
     """
 
@@ -34,7 +34,7 @@ def open_both(one: Callable[[str, Progress], OpenCamera], sides: Sequence[str]) 
         cameras: list[OpenCamera] = []
         try:
             for side in sides:
-                cameras.append(one(side, progress))
+                cameras.append(item(side, progress))
         except BaseException:
             close_all(cameras)
             raise

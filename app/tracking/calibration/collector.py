@@ -189,7 +189,7 @@ class ViewCollector:
 
     @property
     def missing(self) -> tuple[str, ...]:
-        """What is still missing, the most useful first; empty once there is enough."""
+        """Return what is still missing, the most useful first; empty once there is enough."""
         lines = []
         for i, name in enumerate(self.names):
             at = f"{name}: " if len(self.names) > 1 else ""
@@ -205,12 +205,12 @@ class ViewCollector:
 
     @property
     def enough(self) -> bool:
-        """Whether a good calibration can be expected."""
+        """Return whether a good calibration can be expected."""
         return not self.missing
 
     @property
     def progress(self) -> float:
-        """How near to enough, from 0 to 1."""
+        """Return how near to enough, from 0 to 1."""
         parts = [min(1.0, len(c.views) / ENOUGH_VIEWS) for c in self._coverage]
         parts += [min(1.0, c.covered / ENOUGH_COVERED) for c in self._coverage]
         if len(self.names) == 2:
@@ -231,7 +231,9 @@ class ViewCollector:
                 self._coverage[i] = self._coverage[i].adding(view, attitude)
 
     def _new(self, views: Sequence[BoardView | None], attitudes: Sequence[Attitude | None]) -> bool:
-        """Whether any camera sees something new; a first pair of a known view is new, too."""
+        """Return whether any camera sees something new; a first pair of a known view is new,
+        too.
+        """
         fresh = [
             attitude is not None and not self._coverage[i].knows(attitude)
             for i, attitude in enumerate(attitudes)
@@ -292,5 +294,5 @@ class ViewCollector:
         return missing[0] if missing else "there are enough views"
 
 
-def _called(found: BoardView | Rejection | None, name: str) -> BoardView | Rejection | None:
-    return replace(found, name=name) if found is not None else None
+def _called(result: BoardView | Rejection | None, name: str) -> BoardView | Rejection | None:
+    return replace(result, name=name) if result is not None else None

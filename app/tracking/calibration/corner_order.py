@@ -57,7 +57,7 @@ class CornerAgreement:
 
     @property
     def agreeing(self) -> NDArray[np.bool_]:
-        """Which pairs agree."""
+        """Return which pairs agree."""
         return self.errors <= self.near
 
 
@@ -91,12 +91,12 @@ def agree(pairs: Sequence[PosedPair], right_camera: FloatArray) -> CornerAgreeme
 
 
 def _require_clear(
-    found: CornerAgreement, ways: NDArray[np.int64], scores: FloatArray, first: int
+    result: CornerAgreement, ways: NDArray[np.int64], scores: FloatArray, first: int
 ) -> None:
     """Refuse if another answer, with other ways round, is nearly as good."""
-    other = (ways != ways[first])[:, found.agreeing].any(axis=1)
+    other = (ways != ways[first])[:, result.agreeing].any(axis=1)
     second = float(scores[other].min(initial=np.inf))
-    if found.agreeing.sum() >= 1 and second < CLEARLY * float(scores[first]) + 0.5:
+    if result.agreeing.sum() >= 1 and second < CLEARLY * float(scores[first]) + 0.5:
         raise CalibrationError(
             "the board looks the same after half a turn (both corner counts odd, or both even), "
             f"and the pairs do not tell which way round it lies ({scores[first]:.1f} px one way, "

@@ -177,9 +177,9 @@ def _counted(grey: Grey, board: Board) -> str:
     return "check the counts of squares"
 
 
-def _measured(grey: Grey, board: Board, found: Found, window: int | None) -> BoardView | Rejection:
+def _measured(grey: Grey, board: Board, result: Found, window: int | None) -> BoardView | Rejection:
     """Refine corners, and refuse what cannot be measured well."""
-    ids, pixels = found
+    ids, pixels = result
     homography = plane_map(board, ids, pixels)
     if homography is None:
         return Rejection(
@@ -276,7 +276,9 @@ def _lies_flat(
     square_px: float,
     size: tuple[int, int],
 ) -> bool:
-    """Whether corners lie on a plane grid, by half a square, as they are or seen by a wide lens."""
+    """Return whether corners lie on a plane grid, by half a square, as they are or seen by a wide
+    lens.
+    """
     seen = board.points[ids, :2] / board.square
     middle = 0.5 * (np.array(size) - 1.0)
     out = (pixels - middle) / np.linalg.norm(middle)

@@ -52,7 +52,7 @@ class Attitude:
         )
 
     def alike(self, other: "Attitude") -> bool:
-        """Whether two views teach nearly the same."""
+        """Return whether two views teach nearly the same."""
         moved = np.hypot(self.centre[0] - other.centre[0], self.centre[1] - other.centre[1])
         tilted = np.hypot(
             self.tilt_deg[0] - other.tilt_deg[0], self.tilt_deg[1] - other.tilt_deg[1]
@@ -94,7 +94,7 @@ class Coverage:
         return Coverage((*self.views, view), (*self.attitudes, attitude))
 
     def knows(self, attitude: Attitude) -> bool:
-        """Whether a kept view is nearly the same."""
+        """Return whether a kept view is nearly the same."""
         return any(attitude.alike(known) for known in self.attitudes)
 
     @cached_property

@@ -65,13 +65,15 @@ def fit_together(
     )
 
 
-def together_remarks(found: FitTogether) -> list[str]:
+def together_remarks(result: FitTogether) -> list[str]:
     """Say what the lack of fit is, what makes it, and what was done about it."""
-    if found.sd_factor <= 1.0:
+    if result.sd_factor <= 1.0:
         return []
-    px = f"{found.together_px:.2f} px against {found.alone_px[0]:.2f} and {found.alone_px[1]:.2f}"
-    done = f"standard deviations are multiplied by {found.sd_factor:.1f}"
-    if apart(found):
+    px = (
+        f"{result.together_px:.2f} px against {result.alone_px[0]:.2f} and {result.alone_px[1]:.2f}"
+    )
+    done = f"standard deviations are multiplied by {result.sd_factor:.1f}"
+    if apart(result):
         return [
             f"the pairs do not belong together: {px} px of each camera by itself; pictures not "
             "taken at the same moment, a board or a camera that moved do that: hold the board "
@@ -80,10 +82,10 @@ def together_remarks(found: FitTogether) -> list[str]:
     return [f"the two cameras fit together less well than each by itself ({px} px): {done}"]
 
 
-def apart(found: FitTogether) -> bool:
-    """Whether pairs fit together so much worse that they do not belong together."""
-    alone = float(np.sqrt(np.mean(np.square(found.alone_px))))
-    return found.sd_factor > 1.0 and found.together_px > APART * alone
+def apart(result: FitTogether) -> bool:
+    """Return whether pairs fit together so much worse that they do not belong together."""
+    alone = float(np.sqrt(np.mean(np.square(result.alone_px))))
+    return result.sd_factor > 1.0 and result.together_px > APART * alone
 
 
 def _squares(view: BoardView, mono: MonoResult) -> float:

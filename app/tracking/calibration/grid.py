@@ -52,13 +52,13 @@ def extents(axes: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def is_mirrored(homography: FloatArray, board: Board) -> bool:
-    """Whether the numbering runs the other way round than on the printed side."""
+    """Return whether the numbering runs the other way round than on the printed side."""
     middle = np.array([[board.columns - 1, board.rows - 1]]) / 2.0
     return bool(np.linalg.det(local_axes(homography, middle)[0]) < 0.0)
 
 
 def first_square_is_dark(grey: NDArray[np.uint8], board: Board, pixels: FloatArray) -> bool:
-    """Whether the square between corners 0, 1 and the next row's is a dark one.
+    """Return whether the square between corners 0, 1 and the next row's is a dark one.
 
     All squares vote: the mean grey of those that should look like the first one against the others.
     """
@@ -78,7 +78,8 @@ def first_square_is_dark(grey: NDArray[np.uint8], board: Board, pixels: FloatArr
 
 
 def goes_on(grey: NDArray[np.uint8], board: Board, homography: FloatArray) -> bool:
-    """Whether dark and bright squares go on beyond the one row that surrounds the inner corners.
+    """Return whether dark and bright squares go on beyond the one row that surrounds the inner
+    corners.
 
     Then the print has more corners than the board was said to have, and the ones found are some of
     them: others in every picture. The outermost squares of a print may be trimmed, so the place

@@ -66,7 +66,9 @@ class CalibrationJob:
 
     @property
     def unsaved(self) -> bool:
-        """Whether there is work that closing would lose: views or a result, and nothing kept."""
+        """Return whether there is work that closing would lose: views or a result, and nothing
+        kept.
+        """
         work = self.views or self.result is not None or self.world is not None
         return bool(work) and self.saved is None
 

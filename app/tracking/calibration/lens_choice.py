@@ -165,9 +165,9 @@ def _longer(
     return found if _chance(shorter, gain, base, choice) < CHANCE else None
 
 
-def _total(found: Adjusted) -> float:
+def _total(result: Adjusted) -> float:
     """Sum of squared residuals [px²]."""
-    return sum(float((r**2).sum()) for r in found.residuals)
+    return sum(float((r**2).sum()) for r in result.residuals)
 
 
 def _chance(shorter: Adjusted, gain: float, base: LensChoice, choice: LensChoice) -> float:
@@ -179,12 +179,12 @@ def _chance(shorter: Adjusted, gain: float, base: LensChoice, choice: LensChoice
     return float(f_distribution.sf(max(0.0, gain) / more / noise, more, freedom))
 
 
-def criterion(found: Adjusted, choice: LensChoice) -> float:
+def criterion(result: Adjusted, choice: LensChoice) -> float:
     """Return how well a model fits, less what each of its coefficients might by chance; smaller is
     better.
     """
-    measured = sum(r.size for r in found.residuals)
-    mean = max(_total(found) / measured, _EXACT_PX**2)
+    measured = sum(r.size for r in result.residuals)
+    mean = max(_total(result) / measured, _EXACT_PX**2)
     return float(measured * np.log(mean) + len(choice.names) * chi_square_quantile(1.0 - CHANCE, 1))
 
 
@@ -225,7 +225,9 @@ def _fitted(
 def _predicts_better(
     views: Sequence[BoardView], start: AdjustedState, fit: Fit, choice: LensChoice
 ) -> bool:
-    """Whether a model predicts views better that it was not estimated from, a part at a time."""
+    """Return whether a model predicts views better that it was not estimated from, a part at a
+    time.
+    """
     gains = list[float]()
     parts = min(_PARTS, len(views))
     for number in range(parts):

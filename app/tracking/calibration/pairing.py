@@ -62,7 +62,7 @@ class Paired:
 
     @property
     def remarks(self) -> list[str]:
-        """What is not a pair, one line each."""
+        """Return what is not a pair, one line each."""
         lines = []
         if self.skipped:
             names = _listed([path.name for path in self.skipped])
@@ -109,7 +109,7 @@ def pair_folder(folder: Path) -> Paired:
 
 
 def has_pairs(folder: Path) -> bool:
-    """Whether the pictures that lie in a folder itself pair by their names."""
+    """Return whether the pictures that lie in a folder itself pair by their names."""
     if not has_pictures(folder):
         return False
     try:
@@ -191,9 +191,9 @@ def _joined(
     return Paired(pairs, lone, tuple(strays))
 
 
-def _unique(found: Iterable[tuple[Key, Path]]) -> dict[Key, Path]:
+def _unique(result: Iterable[tuple[Key, Path]]) -> dict[Key, Path]:
     known: dict[Key, Path] = {}
-    for key, path in found:
+    for key, path in result:
         if key in known:
             raise CalibrationError(
                 f"{known[key].name} and {path.name} are both number {_text(key) or '(none)'} of "

@@ -58,7 +58,7 @@ def list_matching(text: str) -> list[Path]:
 
 
 def has_pictures(folder: Path) -> bool:
-    """Whether pictures lie in a folder itself."""
+    """Return whether pictures lie in a folder itself."""
     return any(path.suffix.lower() in SUFFIXES for path in folder.glob("*") if path.is_file())
 
 

@@ -92,7 +92,7 @@ def limit_px(residuals: Sequence[float]) -> float:
 
 
 def belongs(residual: float, used: Sequence[float]) -> bool:
-    """Whether a view that was left out fits as those that are used do, [px].
+    """Return whether a view that was left out fits as those that are used do, [px].
 
     The first estimates are rough: what they leave out may fit the last one. With fewer than `LEAST`
     views in use only the median counts.

@@ -49,7 +49,7 @@ class StereoSet:
 
     @property
     def calibration(self) -> StereoCalibration:
-        """What is kept."""
+        """Return what is kept."""
         return self.result.calibration
 
 

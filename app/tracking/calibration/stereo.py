@@ -56,7 +56,7 @@ def mirrored_camera(parameters: FloatArray, width: int) -> FloatArray:
 
 
 def one_side_is_mirrored(pairs: Sequence[PosedPair], right_camera: FloatArray) -> bool:
-    """Whether the pairs agree once the right pictures are mirrored back."""
+    """Return whether the pairs agree once the right pictures are mirrored back."""
     width = pairs[0].right.image_size[0]
     camera = mirrored_camera(right_camera, width)
     try:

@@ -25,7 +25,7 @@ class Capture(Protocol):
     """The part of `cv2.VideoCapture` that is used; tests bring their own."""
 
     def isOpened(self) -> bool:
-        """Whether there is a camera behind it."""
+        """Return whether there is a camera behind it."""
         ...
 
     def set(self, prop: int, value: float) -> bool:

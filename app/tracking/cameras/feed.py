@@ -188,7 +188,7 @@ class CameraFeed:
         return tuple(reader.health(now) for reader in self._readers)
 
     def skew(self) -> Skew | None:
-        """How far apart the last pairs were captured; None before there was one."""
+        """Return how far apart the last pairs were captured; None before there was one."""
         apart = np.array(self._apart.copy())
         return Skew(float(np.median(apart)), float(apart.std())) if apart.size else None
 
@@ -197,7 +197,9 @@ class CameraFeed:
         return [n is not None and n is not s for n, s in zip(newest, self._seen, strict=True)]
 
     def _patience(self) -> float:
-        """How long [s] the other camera is waited for: not past the moment when it has stopped."""
+        """Return how long [s] the other camera is waited for: not past the moment when it has
+        stopped.
+        """
         now = self._clock.now()
         pairs = zip(self._readers, self._fresh(), strict=True)
         age = max((reader.health(now).age for reader, fresh in pairs if not fresh), default=0.0)

@@ -132,6 +132,8 @@ def plain(frame: CameraFrame) -> str:
 
 
 def _same(frame: CameraFrame, other: CameraFrame) -> bool:
-    """Whether two pictures agree to the last bit; most differ on a grid of their pixels already."""
+    """Return whether two pictures agree to the last bit; most differ on a grid of their pixels
+    already.
+    """
     grid = np.array_equal(frame.image[::_STRIDE, ::_STRIDE], other.image[::_STRIDE, ::_STRIDE])
     return grid and np.array_equal(frame.image, other.image)

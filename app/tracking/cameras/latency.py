@@ -171,7 +171,7 @@ def _misfit(
 
 
 def _lowest(x: FloatArray, y: FloatArray) -> float:
-    """Where y is lowest, by the parabola through three points."""
+    """Return where y is lowest, by the parabola through three points."""
     i = int(np.clip(np.argmin(y), 1, y.size - 2))
     below, middle, above = y[i - 1 : i + 2]
     curvature = below - 2.0 * middle + above

@@ -83,7 +83,7 @@ class CameraSettings(Strict):
 
     @property
     def simulated(self) -> bool:
-        """Whether both are simulated."""
+        """Return whether both are simulated."""
         return all(camera.origin.kind is SourceKind.SIMULATED for camera in self.cameras)
 
     def check(self) -> None:
@@ -106,7 +106,7 @@ class CameraSettings(Strict):
 
 
 def settings_path() -> Path:
-    """Where the settings are kept."""
+    """Return where the settings are kept."""
     return paths.settings() / "cameras.yaml"
 
 

@@ -127,7 +127,7 @@ class CapturePump:
 
     @property
     def is_running(self) -> bool:
-        """Whether the driver is still held."""
+        """Return whether the driver is still held."""
         return self._thread.is_alive()
 
     def _await(self, seconds: float) -> None:
@@ -250,12 +250,12 @@ class UsbCamera(Camera):
 
     @property
     def settings(self) -> tuple[DriverSetting, ...]:
-        """What became of rate, exposure, focus and white balance; empty before `open`."""
+        """Return what became of rate, exposure, focus and white balance; empty before `open`."""
         return self._pump.settings if self._pump is not None else ()
 
     @property
     def driver_time(self) -> bool:
-        """Whether capture times are the driver's; False before `open`."""
+        """Return whether capture times are the driver's; False before `open`."""
         return self._pump is not None and self._pump.time.trusted
 
     @property

@@ -161,7 +161,7 @@ def shaft_steps(sums: Any, counts: Any, noise: float, weights: Any, red: float, 
 
 @njit
 def _is_red(sums: Any, counts: Any, weights: Any, red: float) -> bool:
-    """Whether the shaft's zones of a piece have the band's colour."""
+    """Return whether the shaft's zones of a piece have the band's colour."""
     strength, count = 0.0, 0.0
     for zone in range(1, ZONES - 1):
         count += counts[zone]
@@ -171,18 +171,18 @@ def _is_red(sums: Any, counts: Any, weights: Any, red: float) -> bool:
 
 
 @njit
-def _significance(difference: Any, found: int, variance: float) -> float:
-    if found < 2:
+def _significance(difference: Any, result: int, variance: float) -> float:
+    if result < 2:
         return 0.0
     square, scatter = 0.0, 0.0
     for c in range(3):
         mean = 0.0
-        for k in range(found):
-            mean += difference[k, c] / found
+        for k in range(result):
+            mean += difference[k, c] / result
         square += mean * mean / 3.0
-        for k in range(found):
-            scatter += (difference[k, c] - mean) ** 2 / (3.0 * (found - 1))
-    return square * found / max(variance, scatter, 1e-9)
+        for k in range(result):
+            scatter += (difference[k, c] - mean) ** 2 / (3.0 * (result - 1))
+    return square * result / max(variance, scatter, 1e-9)
 
 
 LEAST: Final = 6.0
@@ -206,12 +206,12 @@ class ShaftEvidence:
 
     @property
     def found(self) -> bool:
-        """Whether the band is on a shaft."""
+        """Return whether the band is on a shaft."""
         return self.second >= LEAST
 
     @property
     def found_alone(self) -> bool:
-        """Whether one picture is enough to say so."""
+        """Return whether one picture is enough to say so."""
         return self.third >= LEAST_ALONE
 
 

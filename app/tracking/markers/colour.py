@@ -69,7 +69,7 @@ class ColourModel(Strict):
         return blue, green, red
 
     def is_marker(self, bgr: FloatArray) -> bool:
-        """Whether a patch of this mean colour may be the marker."""
+        """Return whether a patch of this mean colour may be the marker."""
         return self.angle(bgr) <= self.angle_deg
 
     def threshold(self, strongest: float) -> float:

@@ -79,7 +79,7 @@ class Hint:
 
     @property
     def finite(self) -> bool:
-        """Whether the pixel can be looked at."""
+        """Return whether the pixel can be looked at."""
         return bool(np.isfinite(self.uv).all())
 
 

@@ -40,7 +40,9 @@ def between(field: Any, u: float, v: float) -> float:
 
 @njit
 def _crossing(field: Any, u: float, v: float, du: float, dv: float) -> float:
-    """How far it is from a place inside to where the field falls through a half; -1: nowhere."""
+    """Return how far it is from a place inside to where the field falls through a half; -1:
+    nowhere.
+    """
     before = between(field, u, v)
     for k in range(1, _FARTHEST):
         now = between(field, u + _STEP * k * du, v + _STEP * k * dv)
@@ -91,7 +93,7 @@ def find_edges(window: Any, field: Any, sides: Any, edges: Any) -> bool:
 def _shaft_leaves(
     window: Any, u: float, v: float, du: float, dv: float, along: float, across: float
 ) -> float:
-    """How much the colours beyond both ends differ from those beside them."""
+    """Return how much the colours beyond both ends differ from those beside them."""
     total = 0.0
     for end in (-1.0, 1.0):
         x = end * (along + _BESIDE)
@@ -189,18 +191,18 @@ def patch_colour(
     low: float,
     high: float,
     out: Any,
-    one: Any,
+    item: Any,
 ) -> float:
     """Mean colour over n steps of dy across and 5 px along; returns its scatter², relative."""
     first, second = 0.0, 0.0
     out[:] = 0.0
     for i in range(-2, 3):
         at = min(high, max(low, x + i))
-        mean_colour(window, edges, at, y, 0.0, dy, n, one)
-        bright = (one[0] + one[1] + one[2]) / 5.0
+        mean_colour(window, edges, at, y, 0.0, dy, n, item)
+        bright = (item[0] + item[1] + item[2]) / 5.0
         first, second = first + bright, second + 5.0 * bright * bright
         for k in range(3):
-            out[k] += one[k] / 5.0
+            out[k] += item[k] / 5.0
     return max(0.0, second - first * first) / (first + 1.0) ** 2
 
 

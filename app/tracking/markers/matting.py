@@ -58,7 +58,7 @@ def _sample(window: Any, u: float, v: float, out: Any) -> None:
 
 @njit
 def _gather(
-    window: Any, distance: Any, sign: float, place: Any, noise: float, out: Any, one: Any
+    window: Any, distance: Any, sign: float, place: Any, noise: float, out: Any, item: Any
 ) -> Any:
     """Mean colour of the first samples clear of the outline; (number, relative scatter²).
 
@@ -73,11 +73,11 @@ def _gather(
             break
         if sign * distance[int(v + 0.5), int(u + 0.5)] < _CLEAR:
             continue
-        _sample(window, u, v, one)
-        bright = one[0] + one[1] + one[2]
+        _sample(window, u, v, item)
+        bright = item[0] + item[1] + item[2]
         first, second, n = first + bright, second + bright * bright, n + 1
         for k in range(3):
-            out[k] += one[k]
+            out[k] += item[k]
     if n == 0:
         return 0, 0.0
     for k in range(3):

@@ -191,11 +191,11 @@ class ModelFit(Extractor):
         return None if ray is None else np.array([ray[0] * depth, ray[1] * depth, depth])
 
     def _fit(
-        self, image: Image, found: MarkerFix, axis: FloatArray, p_world: FloatArray | None
+        self, image: Image, result: MarkerFix, axis: FloatArray, p_world: FloatArray | None
     ) -> MarkerFix | Miss:
-        start = self._start(found, axis, p_world)
+        start = self._start(result, axis, p_world)
         if start is None:
-            return Miss(MissReason.WRONG_SHAPE, found.uv)
+            return Miss(MissReason.WRONG_SHAPE, result.uv)
         return self._weighed(image, start, axis)
 
     def _weighed(self, image: Image, start: FloatArray, axis: FloatArray) -> MarkerFix | Miss:
@@ -294,7 +294,9 @@ class ModelFit(Extractor):
         axis: FloatArray,
         delivered: bool = False,
     ) -> MarkerFix | Miss:
-        """Whether the fit is of the band, and the band on a shaft; if so, how far to trust it."""
+        """Return whether the fit is of the band, and the band on a shaft; if so, how far to trust
+        it.
+        """
         if (reason := self._refused(fit, delivered)) is not None:
             return Miss(reason, fit.uv)
         colour, noise = self.coarse.colour, self.coarse.noise_grey
@@ -360,11 +362,11 @@ class ModelFit(Extractor):
         return self.shape.radius * math.sqrt(fx * fy) / z, length / z
 
     def _start(
-        self, found: MarkerFix, axis: FloatArray, p_world: FloatArray | None
+        self, result: MarkerFix, axis: FloatArray, p_world: FloatArray | None
     ) -> FloatArray | None:
         """Band's centre in the camera frame by the centroid and its distance [m], shape (3,)."""
         known = None if p_world is None else self.model.T_camera_world @ p_world
-        direction = self._at(found.uv, 1.0)
+        direction = self._at(result.uv, 1.0)
         if direction is None:
             return None
         if known is not None and known[2] > 4.0 * self.shape.half:
@@ -373,12 +375,12 @@ class ModelFit(Extractor):
             sine = float(np.linalg.norm(np.cross(axis, unit(direction))))
             face = 4.0 * self.shape.radius * self.shape.half * max(sine, 0.2)
             focal = float(np.prod(self.model.intrinsics[:2]))
-            depth = float(np.sqrt(focal * face / max(found.area, 1.0)))
+            depth = float(np.sqrt(focal * face / max(result.area, 1.0)))
         world = self.model.T_world_camera @ (depth * direction)
         shift = centroid_shift(
             self.model, self.shape, world, self.model.T_world_camera.rotate(axis)
         )
-        return None if shift is None else self._at(found.uv - shift, depth)
+        return None if shift is None else self._at(result.uv - shift, depth)
 
 
 def _cost_of(fit: BandFit) -> float:

@@ -64,7 +64,7 @@ def _strength(image: Any, v: int, u: int, weights: Any) -> float:
 
 @njit
 def _is_pure(image: Any, v: int, u: int, weights: Any, strength: float) -> bool:
-    """Whether the strength is enough for the brightness of the marker's main colours."""
+    """Return whether the strength is enough for the brightness of the marker's main colours."""
     bright = 0.0
     for k in range(3):
         if weights[k] == 1.0:
@@ -101,7 +101,9 @@ def mark_half(image: Any, weights: Any, least: float, mask: Any, box: Any) -> bo
 
 @njit(fastmath=REORDERED, forceinline=True)
 def _any_strong(image: Any, v: int, weights: Any, least: float) -> bool:
-    """Whether any second pixel of a row may be strong enough: without a branch, eight at a time."""
+    """Return whether any second pixel of a row may be strong enough: without a branch, eight at a
+    time.
+    """
     blue, green, red = np.float32(weights[0]), np.float32(weights[1]), np.float32(weights[2])
     limit = np.float32(least - _SINGLE)
     some: Any = False
@@ -249,7 +251,7 @@ class _Patch:
 
     @property
     def mask(self) -> Mask:
-        """Where it is in its box."""
+        """Return where it is in its box."""
         height, width = self.numbers.shape
         mask = np.zeros((height + 2 * _ROOM, width + 2 * _ROOM), dtype=np.uint8)
         mask[_ROOM:-_ROOM, _ROOM:-_ROOM] = self.numbers == self.number

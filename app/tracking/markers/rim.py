@@ -90,7 +90,7 @@ def tip_end(window: Any, edges: Any) -> int:
 
 @njit
 def _narrowing(edges: Any, end: int, tip: int, needle: Any, x: float) -> float:
-    """How wide the needle is at x, beyond an end, over the shaft."""
+    """Return how wide the needle is at x, beyond an end, over the shaft."""
     if end != tip:
         return 1.0
     first = edges[8] + 0.785 * edges[9]  # mean of the arc: π/4 of its rise
@@ -114,7 +114,7 @@ def _shaft_colour(
     middle: float,
     start: float,
     out: Any,
-    one: Any,
+    item: Any,
 ) -> None:
     """Mean colour of what is seen further outside at the same place between the shaft's edges."""
     sign = 2.0 * end - 1.0
@@ -123,9 +123,9 @@ def _shaft_colour(
     for i in range(4):
         at = start + sign * i
         across = middle + (y - middle) * _narrowing(edges, end, tip, needle, at) / here
-        mean_colour(window, edges, at, across, 0.0, 0.0, 1, one)
+        mean_colour(window, edges, at, across, 0.0, 0.0, 1, item)
         for k in range(3):
-            out[k] += 0.25 * one[k]
+            out[k] += 0.25 * item[k]
 
 
 @njit

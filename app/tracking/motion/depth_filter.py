@@ -73,7 +73,7 @@ class DepthFilter(ABC):
     @property
     @abstractmethod
     def lag(self) -> float:
-        """How far [s] the filtered depth is behind a steady motion at the newest fix."""
+        """Return how far [s] the filtered depth is behind a steady motion at the newest fix."""
 
     @abstractmethod
     def _begin(self, depth: float, variance: float) -> None:

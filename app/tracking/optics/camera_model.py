@@ -105,7 +105,9 @@ class CameraModel:
         return uv[0] if ok[0] else None
 
     def sees(self, p_world: ArrayLike, margin_px: float = 0.0) -> NDArray[np.bool_]:
-        """Whether points, (n, 3), fall inside the image by at least `margin_px`, shape (n,)."""
+        """Return whether points, (n, 3), fall inside the image by at least `margin_px`, shape
+        (n,).
+        """
         uv, ok = self.project(p_world)
         limit = np.array(self.image_size) - 1.0 - margin_px
         inside: NDArray[np.bool_] = ok & (uv >= margin_px).all(axis=1) & (uv <= limit).all(axis=1)

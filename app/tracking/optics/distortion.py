@@ -202,7 +202,7 @@ def distort_grid(xy: Any, c: Any, fold: float) -> Any:
 
 @njit
 def inside_fold(x: float, y: float, c: Any, fold: float) -> bool:
-    """Whether a normalised point has a picture; see `distort_grid`."""
+    """Return whether a normalised point has a picture; see `distort_grid`."""
     if not np.hypot(x, y) < min(fold, FARTHEST):
         return False
     if c.size != RATIONAL:

@@ -28,7 +28,7 @@ class LensModel(StrEnum):
 
     @property
     def words(self) -> str:
-        """What it is, for people."""
+        """Return what it is, for people."""
         return _WORDS[self]
 
 

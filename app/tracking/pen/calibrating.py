@@ -151,7 +151,7 @@ class HeldBack:
 
     @property
     def words(self) -> str:
-        """What was found, for people."""
+        """Return what was found, for people."""
         return (
             f"on {self.poses} positions held back the tip was {self.rms / MILLIMETRE:.2f} mm from "
             f"its dimple (at most {self.worst / MILLIMETRE:.1f} mm)"
@@ -201,7 +201,7 @@ class PenCalibration:
 
     @property
     def words(self) -> str:
-        """What was found, for people."""
+        """Return what was found, for people."""
         x, y, z = (self.tip.p_tip / MILLIMETRE).tolist()
         return (
             f"tip at ({x:.1f}, {y:.1f}, {z:.1f}) mm from the middle of the cube, standard "
@@ -222,7 +222,7 @@ class PoseCollector:
 
     @property
     def share(self) -> float:
-        """How far it is, 0 to 1."""
+        """Return how far it is, 0 to 1."""
         return min(1.0, len(self.poses) / WANTED)
 
     def add(self, seen: PenObservation) -> bool:
@@ -246,14 +246,14 @@ class PoseCollector:
         axis = axis_by_mount(tip)
         return PenCalibration(with_tip(pen, tip, axis), tip, axis, held_back(poses))
 
-    def finish_rolling(self, found: PenCalibration) -> PenCalibration:
+    def finish_rolling(self, result: PenCalibration) -> PenCalibration:
         """Return a calibration with the shaft as these poses of a rolled pen tell it.
 
         Raises:
             PenError: if they do not; says what to do.
         """
-        axis = axis_by_rolling(self.poses, found.tip.p_tip)
-        return replace(found, pen=with_tip(found.pen, found.tip, axis), axis=axis)
+        axis = axis_by_rolling(self.poses, result.tip.p_tip)
+        return replace(result, pen=with_tip(result.pen, result.tip, axis), axis=axis)
 
 
 def relative_pose(seen: PenObservation) -> MeasuredPose:
@@ -364,15 +364,15 @@ class Rocking:
 
     @property
     def progress(self) -> float:
-        """How far it is, 0 to 1: positions and sides."""
+        """Return how far it is, 0 to 1: positions and sides."""
         return min(self.collector.share, len(self.covered) / len(SIDES))
 
     @property
     def enough(self) -> bool:
-        """Whether more would hardly help."""
+        """Return whether more would hardly help."""
         return self.progress >= 1.0
 
     @property
     def computable(self) -> bool:
-        """Whether there are as many positions as are needed at least."""
+        """Return whether there are as many positions as are needed at least."""
         return len(self.collector.poses) >= FEWEST

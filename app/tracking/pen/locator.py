@@ -60,7 +60,9 @@ def _square_poses(marker: Marker, rays: FloatArray) -> list[RigidTransform]:
 
 
 def _explains(pose: RigidTransform, points: FloatArray, rays: FloatArray) -> bool:
-    """Whether a pose shows points within a fifth of their rays' spread of where they are seen."""
+    """Return whether a pose shows points within a fifth of their rays' spread of where they are
+    seen.
+    """
     seen = pose @ points
     if not (seen[:, 2] > 0.0).all():
         return False
@@ -256,7 +258,7 @@ def _minima(problem: BoardProblem, starts: list[RigidTransform]) -> list[Minimum
 
 
 def _fronts_seen(pose: RigidTransform, pairs: list[tuple[Marker, MarkerSighting]]) -> bool:
-    """Whether the pose shows the camera the printed side of every marker that it sees."""
+    """Return whether the pose shows the camera the printed side of every marker that it sees."""
     return all(
         float(pose.rotate(marker.normal) @ (pose @ marker.corners.mean(axis=0))) < 0.0
         for marker, _ in pairs

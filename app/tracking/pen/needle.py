@@ -92,7 +92,8 @@ class PenNeedle:
         return float(offset @ self.axis), float(by @ self.covariance @ by)
 
     def beside(self, fulcrum: FloatArray) -> tuple[FloatArray, float]:
-        """How the shaft's line passes the fulcrum: vector from it [m], and the length's deviation.
+        """Return how the shaft's line passes the fulcrum: vector from it [m], and the length's
+        deviation.
 
         The vector is the part of tip - fulcrum across the shaft; its standard deviation [m] is
         taken along it.
@@ -111,7 +112,7 @@ class PenNeedle:
 
     @property
     def words(self) -> str:
-        """How well it is known, for people."""
+        """Return how well it is known, for people."""
         return (
             f"tip within ± {self.tip_radius() / MILLIMETRE:.1f} mm (95 %), axis within "
             f"± {self.axis_cone() / DEGREE:.1f}°"

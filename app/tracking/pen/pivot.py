@@ -158,9 +158,9 @@ def _require_agreement(keep: np.ndarray) -> None:
         )
 
 
-def _require_certainty(found: TipCalibration) -> None:
-    if found.sd_mm * MILLIMETRE > LARGEST_SD:
+def _require_certainty(result: TipCalibration) -> None:
+    if result.sd_mm * MILLIMETRE > LARGEST_SD:
         raise PenError(
-            f"the tip is known to {found.sd_mm:.1f} mm only (standard deviation), the limit is "
+            f"the tip is known to {result.sd_mm:.1f} mm only (standard deviation), the limit is "
             f"{LARGEST_SD / MILLIMETRE:.0f} mm: rock it further, nearer to the webcam"
         )

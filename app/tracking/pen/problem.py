@@ -142,17 +142,17 @@ def refine(
 
 
 def _descend(
-    problem: BoardProblem, pose: RigidTransform, found: Evaluated, known: Sequence[RigidTransform]
+    problem: BoardProblem, pose: RigidTransform, result: Evaluated, known: Sequence[RigidTransform]
 ) -> RigidTransform:
-    """Pose of least cost from `pose` on, with the weights of `found`; the same one if it is.
+    """Pose of least cost from `pose` on, with the weights of `result`; the same one if it is.
 
     A step (ρ, ω) is taken as R ← exp(ω) R, t ← exp(ω) t + ρ: to first order the twist on the left,
     without the cost of a transform that is checked each time.
     """
-    damping, cost, moved = 1e-6, float(found.white @ found.white), False
+    damping, cost, moved = 1e-6, float(result.white @ result.white), False
     rotation, translation = pose.rotation, pose.translation
     for _ in range(_STEPS):
-        normal, gradient = found.slopes.T @ found.slopes, found.slopes.T @ found.white
+        normal, gradient = result.slopes.T @ result.slopes, result.slopes.T @ result.white
         if not np.isfinite(normal).all():
             break
         try:
@@ -166,11 +166,11 @@ def _descend(
             continue
         turn = rotation_exp(step[3:])
         turned, shifted = turn @ rotation, turn @ translation + step[:3]
-        after = problem.evaluate(problem.points @ turned.T + shifted, found.whiten)
+        after = problem.evaluate(problem.points @ turned.T + shifted, result.whiten)
         if after is None or after.white @ after.white > cost:
             damping = max(10.0 * damping, 1e-3)
             continue
-        rotation, translation, found, moved = turned, shifted, after, True
+        rotation, translation, result, moved = turned, shifted, after, True
         damping, cost = 0.1 * damping, float(after.white @ after.white)
         if any(_turn(rotation, other.rotation) < SAME for other in known):
             break

@@ -20,7 +20,7 @@ from app.tracking.pen.webcam import Webcam
 
 
 def calibrated_path(pen: str) -> Path:
-    """Where a pen with a measured tip is kept.
+    """Return where a pen with a measured tip is kept.
 
     Args:
         pen: name, or path of its file.
@@ -29,7 +29,7 @@ def calibrated_path(pen: str) -> Path:
 
 
 def before_path(pen: str) -> Path:
-    """Where the one before is kept."""
+    """Return where the one before is kept."""
     return calibrated_path(pen).parent / "before" / calibrated_path(pen).name
 
 
@@ -68,7 +68,7 @@ def undo_pen(name: str) -> bool:
 
 
 def can_undo(name: str) -> bool:
-    """Whether a measured tip was kept before, in use or not."""
+    """Return whether a measured tip was kept before, in use or not."""
     return calibrated_path(name).is_file() or before_path(name).is_file()
 
 
@@ -104,7 +104,7 @@ class PenSettings(Strict):
 
     @property
     def simulated(self) -> bool:
-        """Whether the pictures are drawn."""
+        """Return whether the pictures are drawn."""
         return parse_source(self.source).kind is SourceKind.SIMULATED
 
     @property
@@ -152,7 +152,7 @@ def load_webcam(path: Path, camera: str = "left") -> Webcam:
 
 
 def settings_path() -> Path:
-    """Where the settings are kept."""
+    """Return where the settings are kept."""
     return paths.settings() / "pen.yaml"
 
 

@@ -68,7 +68,9 @@ class Stillness:
         self._solve = np.linalg.inv(normal[told]) @ slopes[told].transpose(0, 2, 1)
 
     def moved(self, grey: Grey) -> float:
-        """How far a picture has moved since [px]; infinite if there are too few patches to tell."""
+        """Return how far a picture has moved since [px]; infinite if there are too few patches to
+        tell.
+        """
         if len(self._middle) < _FEWEST:
             return float("inf")
         change = _taken(grey, self._middle, np.arange(-_HALF, _HALF + 1)) - self._kept
@@ -148,7 +150,7 @@ class Memory:
         self.base: BoardPose | None = None
 
     def region(self, time: float, grey: Grey) -> Region | None:
-        """Where to look for the cube; None if the whole picture has to be searched."""
+        """Return where to look for the cube; None if the whole picture has to be searched."""
         known = 0.0 < time - self._time < _OLD
         self._time = time
         if not known:
@@ -161,12 +163,12 @@ class Memory:
 
     @property
     def fresh(self) -> bool:
-        """Whether nothing is known."""
+        """Return whether nothing is known."""
         return self._region is None
 
-    def with_sheet(self, found: Sightings) -> Sightings:
+    def with_sheet(self, result: Sightings) -> Sightings:
         """Sightings of the cube, and those of the sheet as they were."""
-        return Sightings(found.markers + self._sheet, found.doubles, found.unmeasured)
+        return Sightings(result.markers + self._sheet, result.doubles, result.unmeasured)
 
     def keep(
         self, grey: Grey, model: CameraModel, board: MarkerBoard, body: BoardPose, full: bool
@@ -175,9 +177,9 @@ class Memory:
         self._since_full = 0 if full else self._since_full + 1
         self._region = _region_of(grey, model, board, body)
 
-    def keep_sheet(self, grey: Grey, found: Sightings, own: set[int], base: BoardPose) -> None:
+    def keep_sheet(self, grey: Grey, result: Sightings, own: set[int], base: BoardPose) -> None:
         """Take what a whole picture said of the sheet."""
-        self._sheet = tuple(marker for marker in found.markers if marker.id not in own)
+        self._sheet = tuple(marker for marker in result.markers if marker.id not in own)
         self.base, self._still = base, None
         if base.status is PoseStatus.FOUND:
             corners = np.concatenate([marker.corners for marker in self._sheet])
@@ -367,7 +369,7 @@ class PenStep:
 def _status(
     sightings: Sightings, body: BoardPose, base: BoardPose, name: str, own: set[int]
 ) -> tuple[FixStatus, str]:
-    """Whether there is a needle, and if not, why, the most telling reason first."""
+    """Return whether there is a needle, and if not, why, the most telling reason first."""
     if sightings.mirrored:
         return FixStatus.INCONSISTENT, (
             "the picture is mirrored: switch mirroring off in the webcam's own settings"

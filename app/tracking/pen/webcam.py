@@ -65,7 +65,7 @@ class Webcam:
 
     @property
     def words(self) -> str:
-        """Where the lens is known from, for people."""
+        """Return where the lens is known from, for people."""
         if self.guessed:
             return (
                 "THE LENS IS GUESSED from the size of the picture: calibrate it with `acus "

@@ -306,7 +306,9 @@ class NeedleRenderer:
         return other
 
     def band(self, scene: MarkerScene) -> Image:
-        """Where the band has a share of the pixel, uint8 (height, width): one there, else zero."""
+        """Return where the band has a share of the pixel, uint8 (height, width): one there, else
+        zero.
+        """
         pictures = []
         for green in (0.0, 255.0):
             image = np.zeros_like(self._background)
@@ -358,7 +360,7 @@ class NeedleRenderer:
 
     @property
     def background(self) -> NDArray[Any]:
-        """What stands behind, (height, width, 3): a copy."""
+        """Return what stands behind, (height, width, 3): a copy."""
         return self._background.copy()
 
     def draw(

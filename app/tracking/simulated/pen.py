@@ -31,7 +31,7 @@ Plain = NDArray[np.float32]
 
 
 def places(rays: Plain, corners: FloatArray, normal: FloatArray) -> tuple[Plain, Plain]:
-    """Where rays meet a print: 0 to 1 from its first corner to the right and downwards."""
+    """Return where rays meet a print: 0 to 1 from its first corner to the right and downwards."""
     origin, x, y = corners[0], corners[1] - corners[0], corners[3] - corners[0]
     away = rays @ normal[:2].astype(np.float32) + np.float32(normal[2])
     scale = np.float32(normal @ origin) / away
@@ -154,8 +154,8 @@ class PenRenderer:
             return None
         return slice(low[1], high[1]), slice(low[0], high[0])
 
-    def _restore(self, rows: slice, columns: slice, kept: Plain) -> None:
-        self._background[rows, columns] = kept
+    def _restore(self, rows: slice, columns: slice, stored: Plain) -> None:
+        self._background[rows, columns] = stored
 
     def _coarse(self, fine: Plain) -> Grey:
         """Bring samples to pixels and blur them."""

@@ -80,7 +80,7 @@ class Losses:
         return cls(share, burst if model == 0.0 else None)
 
     def next(self, draw: float) -> bool:
-        """Whether the next picture is lost, by a number drawn from 0 to 1."""
+        """Return whether the next picture is lost, by a number drawn from 0 to 1."""
         leaves = 1.0 / self.burst if self.burst is not None else 1.0
         if self.burst is None:
             self.lost = draw < self.share
@@ -248,5 +248,5 @@ def with_noise(
 
 
 def draws_light(chain: Chain) -> bool:
-    """Whether the first of these wants light, for one of them is a tone curve."""
+    """Return whether the first of these wants light, for one of them is a tone curve."""
     return any(isinstance(parameters, Tone) for _, parameters in chain)

@@ -95,7 +95,7 @@ class Lowering:
 
 
 def too_much(tick: float, period: float, missed: float) -> bool:
-    """Whether a scene cannot be held at the loop's rate.
+    """Return whether a scene cannot be held at the loop's rate.
 
     Args:
         tick: time that a tick takes [s]; not finite where nobody measured it.

@@ -59,9 +59,9 @@ class Diagram(QWidget):
         column.addWidget(self.plot, 1)
         column.addWidget(self.families)
 
-    def show_study(self, found: Kept) -> None:
+    def show_study(self, outcome: Kept) -> None:
         """Draw the ways of a measured study."""
-        study, points = found.result.study, found.result.summary()
+        study, points = outcome.result.study, outcome.result.summary()
         self._most = _BEYOND * study.perception.value
         self.plot.clear()
         self._fit(points, study.perception.value, study.deadline.value)
@@ -78,7 +78,7 @@ class Diagram(QWidget):
         self.families.setText(" &nbsp; ".join(titles))
         self._line(study.deadline.value, study.deadline.label, 0)
         self._line(study.perception.value, study.perception.label, 90)
-        named = (study.default, found.sweet_spot)
+        named = (study.default, outcome.sweet_spot)
         for point in points:
             if point.way in named:
                 self._ring(point, tr("in use") if point.way == study.default else tr("by the rule"))

@@ -199,28 +199,28 @@ class AccuracyPage(QWidget):
             if self.studies.item(row).data(NAME) == name:
                 self.studies.setCurrentRow(row)
 
-    def show_study(self, found: Kept, here: bool) -> None:
+    def show_study(self, outcome: Kept, here: bool) -> None:
         """Show a measured study.
 
         Args:
-            found: its points.
+            outcome: its points.
             here: whether it was measured on this computer.
         """
-        study = found.result.study
+        study = outcome.result.study
         self.title.setText(study.title)
         self.question.setText(study.question)
         self.source.setCurrentIndex(int(here))
-        self.diagram.show_study(found)
-        self.verdict.setText(self._words(found))
-        self._fill(found)
-        reasons = [f"{f.way} ({f.setting}): {f.reason}" for f in found.result.failures]
+        self.diagram.show_study(outcome)
+        self.verdict.setText(self._words(outcome))
+        self._fill(outcome)
+        reasons = [f"{f.way} ({f.setting}): {f.reason}" for f in outcome.result.failures]
         self.failures.setText(tr("No answer: {ways}", ways="; ".join(reasons)) if reasons else "")
         self.failures.setVisible(bool(reasons))
 
-    def _words(self, found: Kept) -> str:
-        study = found.result.study
-        when = tr("Measured {date}, version {version}.", date=found.date, version=found.version)
-        why = found.exception.replace("`", "")
+    def _words(self, outcome: Kept) -> str:
+        study = outcome.result.study
+        when = tr("Measured {date}, version {version}.", date=outcome.date, version=outcome.version)
+        why = outcome.exception.replace("`", "")
         if why:
             return tr(
                 "In use: {name}. Exception: {why} {when}",
@@ -231,20 +231,20 @@ class AccuracyPage(QWidget):
         words = tr("the cheapest way whose error nobody notices, in time")
         return tr("In use: {name}, {words}. {when}", name=study.default, words=words, when=when)
 
-    def _fill(self, found: Kept) -> None:
+    def _fill(self, outcome: Kept) -> None:
         from app.studies.rule import noticed_share
         from app.studies.study import duration
 
-        points = found.result.summary()
+        points = outcome.result.summary()
         self.ways.setRowCount(len(points))
         for row, point in enumerate(points):
-            marks = [tr("in use")] if point.way == found.default else []
+            marks = [tr("in use")] if point.way == outcome.default else []
             marks += [] if point.within_perception else [tr("noticed")]
             marks += [] if point.within_deadline else [tr("too slow")]
             cells = (
                 point.way,
                 f"{point.error:.3g}",
-                share_words(noticed_share(found.result, point.way)),
+                share_words(noticed_share(outcome.result, point.way)),
                 duration(point.seconds),
                 ", ".join(marks) or tr("keeps both limits"),
             )

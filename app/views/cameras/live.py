@@ -47,7 +47,7 @@ class PictureView(QWidget):
 
     @property
     def has_image(self) -> bool:
-        """Whether there is a picture."""
+        """Return whether there is a picture."""
         return self._image is not None
 
     def show_image(self, image: Image | None) -> None:
@@ -185,7 +185,7 @@ class AimPort(Protocol):
 
     @property
     def assumed(self) -> bool:
-        """Whether real cameras are taken to stand as designed, never measured."""
+        """Return whether real cameras are taken to stand as designed, never measured."""
         ...
 
     @property

@@ -113,12 +113,12 @@ class BoardPage(QWidget):
 
     @property
     def title(self) -> str:
-        """What stands in the wizard's list."""
+        """Return what stands in the wizard's list."""
         return tr("Board")
 
     @property
     def verdict(self) -> Verdict:
-        """How the page stands."""
+        """Return how the page stands."""
         return Verdict.GOOD if self.valid else Verdict.BAD
 
     def save(self, path: Path) -> None:
@@ -320,7 +320,7 @@ class CalibrationWizard(Wizard):
 
     @property
     def busy(self) -> bool:
-        """Whether a page works."""
+        """Return whether a page works."""
         return any(page.running for page in self.steps if not isinstance(page, BoardPage))
 
     def marks(self) -> tuple[tuple[Verdict, str], ...]:

@@ -56,9 +56,9 @@ class CoverageView(QWidget):
         return QSize(360, 270)
 
     def show_picture(
-        self, image: NDArray[Any] | None, view: BoardView | None, kept: bool = False
+        self, image: NDArray[Any] | None, view: BoardView | None, stored: bool = False
     ) -> None:
-        """Show a picture and the corners found in it; `kept` marks it as one that is used."""
+        """Show a picture and the corners found in it; `stored` marks it as one that is used."""
         if image is not None:
             grey = to_grey(image)
             height, width = grey.shape
@@ -68,7 +68,7 @@ class CoverageView(QWidget):
             ).copy()
         else:
             self._image = None
-        self._view, self._kept = view, kept
+        self._view, self._kept = view, stored
         self.update()
 
     def show_coverage(self, coverage: Coverage) -> None:
@@ -173,24 +173,24 @@ class CapturePage(QWidget):
 
     @property
     def title(self) -> str:
-        """What stands in the wizard's list."""
+        """Return what stands in the wizard's list."""
         return tr("Pictures")
 
     @property
     def verdict(self) -> Verdict:
-        """How the page stands."""
+        """Return how the page stands."""
         if self._job.pairs >= LEAST_PAIRS:
             return Verdict.GOOD if self._enough() else Verdict.WARNING
         return Verdict.IDLE
 
     @property
     def running(self) -> bool:
-        """Whether pictures are searched."""
+        """Return whether pictures are searched."""
         return self.search is not None or self._opening
 
     @property
     def found(self) -> bool:
-        """Whether the search that goes on has found what closing would lose."""
+        """Return whether the search that goes on has found what closing would lose."""
         return self.search is not None and bool(self.search.collector.kept or not self._live)
 
     def begin_live(self) -> None:

@@ -73,12 +73,12 @@ class WorldPage(QWidget):
 
     @property
     def title(self) -> str:
-        """What stands in the wizard's list."""
+        """Return what stands in the wizard's list."""
         return tr("Place")
 
     @property
     def verdict(self) -> Verdict:
-        """How the page stands."""
+        """Return how the page stands."""
         world = self._job.world
         if world is None:
             return Verdict.IDLE
@@ -86,7 +86,7 @@ class WorldPage(QWidget):
 
     @property
     def running(self) -> bool:
-        """Whether pictures are taken or looked at."""
+        """Return whether pictures are taken or looked at."""
         return self._task is not None
 
     def begin_folder(self, folder: Path) -> None:
@@ -162,8 +162,8 @@ class WorldPage(QWidget):
         self.refresh()
         self.changed.emit()
 
-    def _done(self, found: tuple[tuple[PlacedBoard, ...], WorldFrame]) -> None:
-        places, world = found
+    def _done(self, result: tuple[tuple[PlacedBoard, ...], WorldFrame]) -> None:
+        places, world = result
         self._job.set_world(places, world)
         count = len(places)
         words = tr("world frame found from one place; another place makes it better")
@@ -271,12 +271,12 @@ class ResultPage(QWidget):
 
     @property
     def title(self) -> str:
-        """What stands in the wizard's list."""
+        """Return what stands in the wizard's list."""
         return tr("Result")
 
     @property
     def verdict(self) -> Verdict:
-        """How the page stands."""
+        """Return how the page stands."""
         result = self._job.result
         if result is None:
             return Verdict.IDLE
@@ -285,7 +285,7 @@ class ResultPage(QWidget):
 
     @property
     def running(self) -> bool:
-        """Whether it computes."""
+        """Return whether it computes."""
         return self._task is not None
 
     def enter(self) -> None:

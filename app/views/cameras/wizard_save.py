@@ -225,12 +225,12 @@ class SavePage(QWidget):
 
     @property
     def title(self) -> str:
-        """What stands in the wizard's list."""
+        """Return what stands in the wizard's list."""
         return tr("Save")
 
     @property
     def verdict(self) -> Verdict:
-        """How the page stands."""
+        """Return how the page stands."""
         if self._job.saved is not None:
             return Verdict.GOOD
         return Verdict.WARNING if self._job.outcome() is not None else Verdict.IDLE
@@ -302,7 +302,7 @@ class SavePage(QWidget):
 
     @property
     def running(self) -> bool:
-        """Whether files are written or read for the user."""
+        """Return whether files are written or read for the user."""
         return self._task is not None
 
     def _do(self, work: Callable[[], object]) -> None:
@@ -339,8 +339,8 @@ class SavePage(QWidget):
                 found[name] = details(history, name)
             return found
 
-        def show(found: dict[str, tuple[str, str, str]]) -> None:
-            self._details |= found
+        def show(result: dict[str, tuple[str, str, str]]) -> None:
+            self._details |= result
             self._fill(entries)
 
         run_in_background(self, read, show, lambda error: self._remark.setText(str(error)))

@@ -49,7 +49,7 @@ def pairs_words(pairs: int, different: int | None, refused: Sequence[Rejection])
 
 
 def verdict_of(calibration: StereoCalibration) -> Line:
-    """Whether a calibration is of use, and why not; `calibration.verdict` decides."""
+    """Return whether a calibration is of use, and why not; `calibration.verdict` decides."""
     found = judge(calibration)
     verdict = {
         Grade.GOOD: Verdict.GOOD,
@@ -198,7 +198,7 @@ def view_rows(result: StereoResult) -> list[tuple[str, float, Verdict, str]]:
 
 
 def world_lines(calibration: StereoCalibration, world: WorldFrame) -> list[Line]:
-    """Where the cameras stand, how sure that is, and what to look at."""
+    """Return where the cameras stand, how sure that is, and what to look at."""
     lines: list[Line] = []
     for camera, centre in zip(calibration.cameras, world.centres, strict=True):
         x, y, z = centre / MILLIMETRE

@@ -141,32 +141,32 @@ class RegistrationResult(QWidget):
         self.trouble.setText(f"▲ {text}" if text else "")
 
     def show_check(
-        self, found: RegistrationCheck | str, p_target: FloatArray, used: RigidTransform | None
+        self, result: RegistrationCheck | str, p_target: FloatArray, used: RigidTransform | None
     ) -> None:
         """Show a check, or why there is none yet.
 
         Args:
-            found: the check, or what is still missing.
+            result: the check, or what is still missing.
             p_target: target in world [m], shape (3,).
             used: T_world_patient that the screen uses; None without a run.
         """
-        if isinstance(found, str):
+        if isinstance(result, str):
             self.student.setText(words.NOT_CHECKED.capitalize())
-            self.say(found.capitalize())
+            self.say(result.capitalize())
             self.figures.setText("")
             return
         try:
-            agreement = found.agreement(p_target, T_world_patient=used)
+            agreement = result.agreement(p_target, T_world_patient=used)
             self.student.setText(words.student_line(agreement).capitalize())
             self.say("")
         except AcusError as error:
             self.student.setText(words.NOT_CHECKED.capitalize())
             self.say(str(error))
-        if troubles := words.troubles(found):
+        if troubles := words.troubles(result):
             self.say("\n".join(troubles))
-        lines = list(words.technician_lines(found))
-        if found.trusted:
-            lines.append(words.target_line(found, p_target))
+        lines = list(words.technician_lines(result))
+        if result.trusted:
+            lines.append(words.target_line(result, p_target))
         self.figures.setText("\n".join([*lines, *words.MEANING]))
 
 

@@ -39,7 +39,7 @@ class Toucher(QObject):
 
     @property
     def active(self) -> bool:
-        """Whether a touch is being measured."""
+        """Return whether a touch is being measured."""
         return self._timer.isActive()
 
     def start(self) -> None:

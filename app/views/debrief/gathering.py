@@ -82,16 +82,16 @@ class Gathering(QObject):
         found = elsewhere(self._folder)
         return found, 0 if found is None else len(signed_here(found, People()))
 
-    def _show(self, found: Elsewhere | None, count: int) -> None:
-        self._found, self._count = found, count
+    def _show(self, result: Elsewhere | None, count: int) -> None:
+        self._found, self._count = result, count
         self.entry.setVisible(count > 0)
-        if found is not None and count:
+        if result is not None and count:
             self.noted.emit(
                 tr(
                     "Earlier attempts lie in {there} ({n}): "
                     "Sessions ▸ Bring earlier attempts here…",
                     n=count,
-                    there=NAMES.shown(str(found.folder)),
+                    there=NAMES.shown(str(result.folder)),
                 )
             )
 

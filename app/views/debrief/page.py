@@ -634,7 +634,7 @@ SAME: Final = (
 
 
 def facts(review: Review) -> str:
-    """Who, when, how long, in one line."""
+    """Return who, when, how long, in one line."""
     return "  ·  ".join(
         (
             NAMES.shown(ACCESS.shown(review.student)),

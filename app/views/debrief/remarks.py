@@ -31,18 +31,18 @@ from app.views.kit.settings_dialog import SettingsDialog
 from app.views.kit.text import literal, tr
 
 
-def said_words(said: Remarks, held: str = "") -> list[str]:
+def said_words(answer: Remarks, held: str = "") -> list[str]:
     """Say what the instructor said of an attempt, and whether a course holds its result: lines.
 
     Args:
-        said: of the attempt.
+        answer: of the attempt.
         held: title of the course that holds its result; empty if none does.
     """
     lines = []
-    if said.void:
-        lines.append(tr("Declared void by the instructor: {why}", why=said.void))
-    if said.comment:
-        lines.append(tr("The instructor says: {words}", words=said.comment))
+    if answer.void:
+        lines.append(tr("Declared void by the instructor: {why}", why=answer.void))
+    if answer.comment:
+        lines.append(tr("The instructor says: {words}", words=answer.comment))
     if held:
         lines.append(tr("Not released: the student sees no result yet (course {name})", name=held))
     return lines
@@ -158,18 +158,18 @@ class RemarkActions(QObject):
 
     def follow(
         self,
-        said: Mapping[str, Remarks],
+        message: Mapping[str, Remarks],
         held: Mapping[str, str],
         unsigned: frozenset[str] = frozenset(),
     ) -> None:
         """Offer what can be said now.
 
         Args:
-            said: what the instructor said, by attempt.
+            message: what the instructor said, by attempt.
             held: courses that hold a result back, by attempt.
             unsigned: attempts that this station has not signed, and nobody has admitted.
         """
-        self._said, self._held, self._unsigned = said, held, unsigned
+        self._said, self._held, self._unsigned = message, held, unsigned
         ids = list(self._chosen()) if ACCESS.may_manage else []
         self.button.setVisible(ACCESS.may_manage)
         self.button.setEnabled(bool(ids))
@@ -235,39 +235,39 @@ class RemarkActions(QObject):
         self._write(ids, comment=text)
         self.noted.emit(tr("Comment kept") if text else tr("Comment taken away"))
 
-    def _void(self, ids: Sequence[str], why: str) -> None:
-        if not why:
+    def _void(self, ids: Sequence[str], reason: str) -> None:
+        if not reason:
             raise PeopleError(tr("Say why: the student reads it in the list and in the debrief."))
-        self._write(ids, void=why)
+        self._write(ids, void=reason)
         many = tr("{n} attempts declared void", n=len(ids))
         self.noted.emit(counted(len(ids), tr("1 attempt declared void"), many))
 
-    def _admit(self, ids: Sequence[str], why: str) -> None:
+    def _admit(self, ids: Sequence[str], reason: str) -> None:
         if not ACCESS.may_manage or self._record is None:
             raise PeopleError(tr("Only the instructor does that: Sessions ▸ Sign in."))
-        admit([self._record(name) for name in ids], why)
+        admit([self._record(name) for name in ids], reason)
         self.changed.emit()
         many = tr("{n} attempts admitted", n=len(ids))
         self.noted.emit(counted(len(ids), tr("1 attempt admitted"), many))
 
-    def _say(self, done: str, **said: str | bool) -> None:
+    def _say(self, done: str, **message: str | bool) -> None:
         ids = self._ids()
-        if said.get("released"):
+        if message.get("released"):
             ids = [name for name in ids if name in self._held]
         if not ids:
             return
         try:
-            self._write(ids, **said)
+            self._write(ids, **message)
         except AcusError as error:
             self.failed.emit(error)
         else:
             many = tr("{done}: {n} attempts", done=done, n=len(ids))
             self.noted.emit(counted(len(ids), tr("{done}: 1 attempt", done=done), many))
 
-    def _write(self, ids: Sequence[str], **said: str | bool) -> None:
+    def _write(self, ids: Sequence[str], **message: str | bool) -> None:
         if not ACCESS.may_manage:
             raise PeopleError(tr("Only the instructor does that: Sessions ▸ Sign in."))
-        People().remark_all(ids, **said)
+        People().remark_all(ids, **message)
         self.changed.emit()
 
     def _ask(self, title: str, words: str, text: str, take: Callable[[str], object]) -> None:

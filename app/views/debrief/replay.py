@@ -112,7 +112,7 @@ class Replayer(QObject):
 
     @property
     def is_playing(self) -> bool:
-        """Whether it runs."""
+        """Return whether it runs."""
         return self._timer.isActive()
 
     def begin(self, end: float, at: float) -> None:
@@ -446,12 +446,12 @@ class ReplayViews(QWidget):
 
     @property
     def has_ct(self) -> bool:
-        """Whether the CT of the attempt is shown."""
+        """Return whether the CT of the attempt is shown."""
         return self.grid.shown is FOUR_VIEWS
 
     @property
     def is_settled(self) -> bool:
-        """Whether everything that there is has been drawn."""
+        """Return whether everything that there is has been drawn."""
         if not self.has_ct:
             return self.open.isVisibleTo(self)
         drawn = all(pane.canvas.is_settled for pane in self.panes)
@@ -488,9 +488,9 @@ class ReplayViews(QWidget):
             self.grid.arrange(FOUR_VIEWS)
         self.show_row(self._row)
 
-    def show_missing(self, why: str, offer: bool) -> None:
+    def show_missing(self, reason: str, offer: bool) -> None:
         """Say why there are neither slices nor 3D, and offer to open the CT."""
-        self.why.setText(why)
+        self.why.setText(reason)
         self.open.setVisible(offer)
         self.viewing.set_needle(None)
         cells = (("missing", (0, 0, 1, 12)), (BULLSEYE, (1, 0, 2, 12)))

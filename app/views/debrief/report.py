@@ -303,7 +303,7 @@ def _first_page(painter: QPainter, review: Review) -> None:
 
 
 def _risks(painter: QPainter, review: Review, y: float) -> float:
-    """How near the needle came to structures of risk; returns where the page goes on."""
+    """Return how near the needle came to structures of risk; returns where the page goes on."""
     lines = risk_lines(review)
     if not lines:
         return y

@@ -371,22 +371,22 @@ class SessionsPage(QWidget):
         self._asked += 1
         asked, deleted = self._asked, self._in_trash
 
-        def take(found: Listed) -> None:
+        def take(result: Listed) -> None:
             if asked == self._asked:
-                self.show_listed(found)
+                self.show_listed(result)
 
         run_in_background(self, lambda _: listed(self._folder, deleted), take, self._fail)
 
-    def show_listed(self, found: Listed) -> None:
+    def show_listed(self, result: Listed) -> None:
         """Show these sessions: those that who is here may see, and that are asked for."""
-        self._listed = found
+        self._listed = result
         chosen = {one.id for one in self.selected()}
         shown = [
             one
-            for one in found.summaries
+            for one in result.summaries
             if ACCESS.may_see(one.student) and (self._only is None or self._only(one))
         ]
-        rows = replace(found, summaries=shown)
+        rows = replace(result, summaries=shown)
         self.model.set_listed(rows, ACCESS.may_manage)
         self._fit_columns()
         self._choose(chosen)

@@ -65,7 +65,7 @@ class AssistanceDial(QWidget):
 
     @property
     def share(self) -> float:
-        """What is shown, -1…1."""
+        """Return what is shown, -1…1."""
         return self.slider.value() / _FULL
 
     def set_share(self, share: float) -> None:
@@ -75,10 +75,10 @@ class AssistanceDial(QWidget):
             self.slider.setValue(percent)
         self._show(self.slider.value())
 
-    def set_locked(self, why: str) -> None:
-        """Keep the dial as it is, because of `why`; empty lets it be turned again."""
-        self.slider.setEnabled(not why)
-        self.setToolTip(literal(why or self._help))
+    def set_locked(self, reason: str) -> None:
+        """Keep the dial as it is, because of `reason`; empty lets it be turned again."""
+        self.slider.setEnabled(not reason)
+        self.setToolTip(literal(reason or self._help))
 
     def _show(self, percent: int) -> None:
         text = share_words(percent / _FULL)

@@ -68,7 +68,7 @@ class AxialGauge(QWidget):
 
     @property
     def force(self) -> float | None:
-        """What is shown [N]; None while nobody knows."""
+        """Return what is shown [N]; None while nobody knows."""
         return self._force
 
     @property
@@ -78,7 +78,7 @@ class AxialGauge(QWidget):
 
     @property
     def words(self) -> str:
-        """What the force does."""
+        """Return what the force does."""
         if self._force is None:
             return tr("Force along the needle: not known")
         if abs(self._force) < _QUIET:

@@ -186,7 +186,7 @@ def towards(letters: str) -> str:
 def corrections(
     frame: PathFrame, needle_tilts: ArrayLike, short: bool = False, hub: bool = False
 ) -> tuple[str, str]:
-    """How to turn the needle onto the path: in the plane of the slice, and out of it.
+    """Return how to turn the needle onto the path: in the plane of the slice, and out of it.
 
     Args:
         frame: axes of the pad.
@@ -225,7 +225,7 @@ def _correction(
 
 
 def lateral(frame: PathFrame, offset: Offset, short: bool = False) -> str:
-    """How far the tip is off the path, and to which side.
+    """Return how far the tip is off the path, and to which side.
 
     Args:
         frame: of the path to the target as it is now.
@@ -546,7 +546,7 @@ class Bullseye(QWidget):
 
     @property
     def hand(self) -> HandPose | None:
-        """Where the simulated hand wants the needle; None without one."""
+        """Return where the simulated hand wants the needle; None without one."""
         return self._hand.pose if self._hand else None
 
     # --- inside -----------------------------------------------------------------------------------

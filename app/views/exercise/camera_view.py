@@ -54,7 +54,7 @@ def draw_curve(painter: QPainter, points: list[QPointF]) -> None:
 
 
 def draw_region(painter: QPainter, region: QRectF) -> None:
-    """Where the marker is looked for, dotted."""
+    """Return where the marker is looked for, dotted."""
     painter.setBrush(Qt.BrushStyle.NoBrush)
     painter.setPen(QPen(QColor(0, 0, 0, 150), 3.0))
     painter.drawRect(region)

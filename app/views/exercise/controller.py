@@ -127,7 +127,7 @@ class ExerciseDisplay:
         self._show_tracker(run, snapshot, now)
         if now - self._status_time >= STATUS_PERIOD:
             self._status_time = now
-            items = status_items(snapshot, rate, missing, late, kept=not run.demonstrates)
+            items = status_items(snapshot, rate, missing, late, stored=not run.demonstrates)
             extra = (item for more in self.extra_items for item in more(snapshot))
             self._views.status.show_items((*extra, *items), robot_status(snapshot, items))
 
@@ -297,13 +297,13 @@ class ExerciseController(QObject):
 
     @property
     def is_absent(self) -> bool:
-        """Whether the needle is not there yet, and nothing of it is shown."""
+        """Return whether the needle is not there yet, and nothing of it is shown."""
         return self._display.is_absent
 
-    def set_waiting(self, why: str) -> None:
-        """Let no attempt begin, because of `why`; empty ends that. One that runs goes on."""
-        self._waiting = why
-        self._views.panel.set_waiting(why)
+    def set_waiting(self, reason: str) -> None:
+        """Let no attempt begin, because of `reason`; empty ends that. One that runs goes on."""
+        self._waiting = reason
+        self._views.panel.set_waiting(reason)
 
     @property
     def run(self) -> ExerciseRun | None:
@@ -312,7 +312,7 @@ class ExerciseController(QObject):
 
     @property
     def is_running(self) -> bool:
-        """Whether an attempt runs, of a student or a demonstration."""
+        """Return whether an attempt runs, of a student or a demonstration."""
         return self._run is not None and self._run.trainer.snapshot().state in RUNNING
 
     @property
@@ -352,11 +352,11 @@ class ExerciseController(QObject):
             self.needle_moved.emit(shown.pose)
         self._take_result(run)
 
-    def _tell_unreadable(self, why: str) -> None:
+    def _tell_unreadable(self, reason: str) -> None:
         """Say once why there is no snapshot; the next poll tries again."""
-        if why != self._unreadable:
-            self._unreadable = why
-            self._fail(why)
+        if reason != self._unreadable:
+            self._unreadable = reason
+            self._fail(reason)
 
     def _drain(self, run: ExerciseRun) -> None:
         for event in run.trainer.events.drain():

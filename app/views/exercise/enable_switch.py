@@ -122,7 +122,7 @@ class Enabling:
 
 
 def enabling(snapshot: Snapshot, held: bool) -> Enabling:
-    """How a snapshot says that the forces are armed."""
+    """Return how a snapshot says that the forces are armed."""
     device = snapshot.device
     ramp = float(device.row[sv.ARMING]) if device is not None else 0.0
     fault = fault_text(int(device.fault)) if device is not None else ""
@@ -183,7 +183,7 @@ class EnableSwitch(QAbstractButton):
 
     @property
     def is_held(self) -> bool:
-        """Whether key or button is held."""
+        """Return whether key or button is held."""
         return self._by_key or self._by_button
 
     @property

@@ -47,12 +47,12 @@ class EnergyFigures:
 
     @property
     def known(self) -> bool:
-        """Whether a guard accounts for the energy."""
+        """Return whether a guard accounts for the energy."""
         return self.bound > 0.0
 
     @property
     def acting(self) -> bool:
-        """Whether the guard takes energy out now."""
+        """Return whether the guard takes energy out now."""
         return self.known and (self.scale < 1.0 or self.damping > 0.0)
 
     @property
@@ -62,7 +62,7 @@ class EnergyFigures:
 
     @property
     def share_stored(self) -> float:
-        """What the laws store as a share of the tank, 0…1."""
+        """Return what the laws store as a share of the tank, 0…1."""
         return min(1.0, max(0.0, self.stored / self.bound)) if self.known else 0.0
 
 
@@ -185,7 +185,7 @@ class EnergyGauge(QWidget):
 
     @property
     def lines(self) -> tuple[str, str, str, str]:
-        """What is written: stored, left, guard, taken out."""
+        """Return what is written: stored, left, guard, taken out."""
         figures = self._figures
         verdict, words = guard_words(figures)
         guard = f"{verdict.colour_and_symbol[1]} {words}"

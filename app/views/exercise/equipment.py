@@ -55,7 +55,7 @@ class Equipment(QObject):
         self._apply_cameras()
 
     def refused(self, what: str) -> bool:
-        """Whether nothing can be changed now because an attempt runs, which is said.
+        """Return whether nothing can be changed now because an attempt runs, which is said.
 
         Args:
             what: would be changed, for people.
@@ -141,7 +141,7 @@ class Equipment(QObject):
 
     @property
     def uses_real_cameras(self) -> bool:
-        """Whether real cameras are used."""
+        """Return whether real cameras are used."""
         if self._taken_cameras is not None:
             return not self._taken_cameras.simulated
         wanted = str(self._settings.value(_REAL_CAMERAS)).lower() == "true"
@@ -193,7 +193,7 @@ class Equipment(QObject):
         return self._conductor.runs.closed()
 
     def is_lent(self) -> bool:
-        """Whether a dialog has the cameras, or an attempt runs (which is said)."""
+        """Return whether a dialog has the cameras, or an attempt runs (which is said)."""
         return self.dialog is not None or self.refused(tr("the cameras"))
 
     def show(self, dialog: QDialog) -> None:

@@ -261,14 +261,14 @@ def free_corner(
 
 
 def _distance(box: QRectF, point: QPointF) -> float:
-    """How far a point is from a rectangle; 0 within it."""
+    """Return how far a point is from a rectangle; 0 within it."""
     x = max(box.left() - point.x(), 0.0, point.x() - box.right())
     y = max(box.top() - point.y(), 0.0, point.y() - box.bottom())
     return hypot(x, y)
 
 
 def is_inside(box: QRectF, area: PadArea) -> bool:
-    """Whether a rectangle lies within the pad's rim."""
+    """Return whether a rectangle lies within the pad's rim."""
     corners = (box.topLeft(), box.topRight(), box.bottomLeft(), box.bottomRight())
     ends = (corner - area.centre for corner in corners)
     return all(hypot(end.x(), end.y()) < area.radius for end in ends)
@@ -403,7 +403,7 @@ class PadCanvas(QWidget):
 
     @property
     def area(self) -> PadArea:
-        """Where the pad lies now."""
+        """Return where the pad lies now."""
         margin = theme.FONT_PX + 3 + _BESIDE
         return PadArea.inside(self.width(), self.height(), margin)
 
@@ -522,7 +522,7 @@ class PadCanvas(QWidget):
             super().keyReleaseEvent(event)
 
     def _turns(self, event: QEvent) -> bool:
-        """Whether a key event turns the needle."""
+        """Return whether a key event turns the needle."""
         if not (self.rolls and isinstance(event, QKeyEvent)):
             return False
         plain = event.modifiers() in (

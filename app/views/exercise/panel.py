@@ -82,16 +82,16 @@ class AttemptActions(QWidget):
         for shortcut, _ in self._keys:
             shortcut.setParent(page)
 
-    def show_state(self, state: State | None, can_start: bool, why: str = "") -> None:
+    def show_state(self, state: State | None, can_start: bool, reason: str = "") -> None:
         """Enable what is legal.
 
         Args:
             state: of the attempt; None without one.
             can_start: whether a new attempt can begin.
-            why: it cannot start now, if there is more to say than that something is missing.
+            reason: it cannot start now, if there is more to say than that something is missing.
         """
         running = state in RUNNING
-        self.start.setToolTip(literal(why or _starts()))
+        self.start.setToolTip(literal(reason or _starts()))
         for button, legal in (
             (self.start, can_start),
             (self.scan, running and state is not State.WITHDRAWING),
@@ -373,12 +373,16 @@ class ExercisePanel(QWidget):
     # --- whether an attempt can begin -------------------------------------------------------------
     @property
     def may_start(self) -> bool:
-        """Whether an attempt can begin now: Start, its key and the line over the views go by it."""
+        """Return whether an attempt can begin now: Start, its key and the line over the views go by
+        it.
+        """
         return self._ready and not self._waiting and self._state not in RUNNING
 
     @property
     def why_not(self) -> str:
-        """What is to be done or waited for before one can begin; empty if nothing is known."""
+        """Return what is to be done or waited for before one can begin; empty if nothing is
+        known.
+        """
         return self._waiting or self._not_ready
 
     def press_start(self) -> None:
@@ -412,15 +416,17 @@ class ExercisePanel(QWidget):
         """Show an assistance that came from elsewhere, -1…1; emits nothing."""
         self.assistance.set_share(share)
 
-    def set_locked(self, why: str) -> None:
-        """Keep the dial as the exercise has it, because of `why`; empty leaves it to the student.
+    def set_locked(self, reason: str) -> None:
+        """Keep the dial as the exercise has it, because of `reason`; empty: the student's.
 
         What is so stands beside the dial.
         """
-        self.assistance.set_locked(why)
-        self._dial_title.setText(tr("Assistance\nfixed") if why else tr("Assistance\nfree to turn"))
+        self.assistance.set_locked(reason)
+        self._dial_title.setText(
+            tr("Assistance\nfixed") if reason else tr("Assistance\nfree to turn")
+        )
         free = tr("Practice: you may turn the dial. Every attempt begins with the exercise's own.")
-        self._dial_title.setToolTip(literal(why or free))
+        self._dial_title.setToolTip(literal(reason or free))
 
     def set_ready(self, ready: bool, note: str = "") -> None:
         """Say whether an attempt can start, and if not, why not."""
@@ -468,9 +474,9 @@ class ExercisePanel(QWidget):
         self.touch.hide()
         self.energy.show_energy(None)
 
-    def set_waiting(self, why: str) -> None:
+    def set_waiting(self, reason: str) -> None:
         """Let Start wait, and say why; empty ends that."""
-        self._waiting = why
+        self._waiting = reason
         self._show_note()
         self._enable()
 

@@ -87,7 +87,7 @@ def pad_view(snapshot: Snapshot, needle_length: float, force_limit: float) -> Pa
 
 
 def hand_pose(snapshot: Snapshot) -> HandPose | None:
-    """Where the loop has the simulated hand now; None where the robot does not tell."""
+    """Return where the loop has the simulated hand now; None where the robot does not tell."""
     device = snapshot.device
     if not isinstance(device, DeviceState):
         return None
@@ -96,7 +96,7 @@ def hand_pose(snapshot: Snapshot) -> HandPose | None:
 
 
 def status_items(
-    snapshot: Snapshot, rate: float, missing: float, heartbeat_age: float, kept: bool = True
+    snapshot: Snapshot, rate: float, missing: float, heartbeat_age: float, stored: bool = True
 ) -> tuple[StatusItem, ...]:
     """Health of every part, for the status strip.
 
@@ -105,7 +105,7 @@ def status_items(
         rate: measured rate of the loop [Hz].
         missing: share of its deadlines that it missed of late, 0…1.
         heartbeat_age: since the window's last sign of life [s].
-        kept: whether what runs is somebody's attempt; of a demonstration nothing is kept.
+        stored: whether what runs is somebody's attempt; of a demonstration nothing is kept.
     """
     device, timing, pose = snapshot.device, snapshot.timing, snapshot.pose
     items = []
@@ -122,7 +122,7 @@ def status_items(
         items.append(recorder_item(False, failure=record.failure))
     else:
         lost = record.lost_rows + record.lost_samples if record is not None else 0
-        items.append(recorder_item(kept and bool(record and record.active), lost))
+        items.append(recorder_item(stored and bool(record and record.active), lost))
     return tuple(items)
 
 

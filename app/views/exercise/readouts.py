@@ -81,12 +81,14 @@ class ForceBar(QWidget):
 
     @property
     def words_of_guidance(self) -> str:
-        """How much guidance there is here, as written below the force; empty if all of it."""
+        """Return how much guidance there is here, as written below the force; empty if all of
+        it.
+        """
         return self._guidance.words if self._guidance is not None else ""
 
     @property
     def guidance(self) -> str:
-        """What holds the force below the limit here, with the reason; empty if nothing."""
+        """Return what holds the force below the limit here, with the reason; empty if nothing."""
         if self._guidance is None:
             return ""
         words = tr("{limit}: {reason}", limit=self._guidance.words, reason=self._guidance.reason)

@@ -77,13 +77,13 @@ class ExerciseRun:
 
     @property
     def is_real(self) -> bool:
-        """Whether there is a robot that can push a hand."""
+        """Return whether there is a robot that can push a hand."""
         return self.board is not None and not self.board.simulated
 
     @property
     def held_at_hub(self) -> bool:
-        """Whether a person holds the needle itself, and so its hub: not with mouse, keys or stick,
-        nor where it is shown how those do it.
+        """Return whether a person holds the needle itself, and so its hub: not with mouse, keys or
+        stick, nor where it is shown how those do it.
         """
         return self.is_real or not (self.interactive or self.demonstrates)
 

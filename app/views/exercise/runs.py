@@ -105,14 +105,14 @@ class Runs(QObject):
             if self._task is None and self._wanted is setup:
                 self._build(setup)
 
-    def abort(self, why: str) -> None:
-        """Want no trainer; an attempt that runs ends without force at once and is saved with `why`.
+    def abort(self, reason: str) -> None:
+        """Want no trainer; an attempt that runs ends at once without force, saved with `reason`.
 
         Scoring and writing go on beside the window.
         """
         self._wanted = None
         if self._task is None:
-            self._drop(why)
+            self._drop(reason)
 
     def closed(self) -> Callable[[], None]:
         """Return what waits until the last run has let go of its robot; for other threads."""
@@ -175,17 +175,17 @@ class Runs(QObject):
         except AcusError as error:
             self.failed.emit(error)
 
-    def _drop(self, why: str = "") -> None:
+    def _drop(self, reason: str = "") -> None:
         opened, self._open = self._open, None
         if opened is None:
             return
         self._setup = None  # with its CT
-        if why:
+        if reason:
             opened.run.trainer.disarm()
 
         def close() -> None:
-            if why:
-                opened.run.trainer.abort(why)
+            if reason:
+                opened.run.trainer.abort(reason)
             opened.close()
 
         self.gone.emit()

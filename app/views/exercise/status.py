@@ -115,13 +115,13 @@ class RobotLight(QAbstractButton):
 
     @property
     def item(self) -> StatusItem | None:
-        """What is shown."""
+        """Return what is shown."""
         return self._item
 
     @property
     def _words(self) -> str:
-        """What is said beside the light, as far as there is room: no text of a button, whose whole
-        is to be seen.
+        """Return what is said beside the light, as far as there is room: no text of a button, whose
+        whole is to be seen.
         """
         return "" if self._item is None else self._item.title
 
@@ -241,7 +241,7 @@ class StatusStrip(QWidget):
 
     @property
     def is_detailed(self) -> bool:
-        """Whether all details are shown."""
+        """Return whether all details are shown."""
         return self.light.isChecked()
 
     def set_detailed(self, detailed: bool) -> None:
@@ -325,5 +325,5 @@ class StatusCell(QWidget):
 
     @property
     def item(self) -> StatusItem | None:
-        """What is shown."""
+        """Return what is shown."""
         return self._item

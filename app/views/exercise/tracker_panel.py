@@ -97,11 +97,11 @@ class TrackerPanel(QWidget):
 
     @property
     def overlays(self) -> Overlays:
-        """What is drawn over the pictures."""
+        """Return what is drawn over the pictures."""
         return self.cameras[0].overlays
 
     def due(self, now: float) -> bool:
-        """Whether the pictures may be refreshed at `now` [s] and anybody would see it."""
+        """Return whether the pictures may be refreshed at `now` [s] and anybody would see it."""
         return self.isVisible() and now - self._shown >= REFRESH
 
     def show_tracker(

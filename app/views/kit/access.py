@@ -32,17 +32,19 @@ class Access(QObject):
 
     @property
     def instructor(self) -> bool:
-        """Whether the instructor is signed in."""
+        """Return whether the instructor is signed in."""
         return self._visitor.instructor
 
     @property
     def guarded(self) -> bool:
-        """Whether an instructor's password is set."""
+        """Return whether an instructor's password is set."""
         return self._visitor.known.guarded
 
     @property
     def may_manage(self) -> bool:
-        """Whether people, courses, all results, deleting and exports are open to who is here."""
+        """Return whether people, courses, all results, deleting and exports are open to who is
+        here.
+        """
         return self._visitor.may_manage
 
     @property
@@ -82,7 +84,7 @@ class Access(QObject):
         return self._visitor.owner(recorded)
 
     def may_see(self, recorded: str) -> bool:
-        """Whether attempts of whom a record names are open to who is here."""
+        """Return whether attempts of whom a record names are open to who is here."""
         return self._visitor.may_see(recorded)
 
     def refusal(self, exercise: str) -> str:

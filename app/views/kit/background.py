@@ -82,7 +82,7 @@ class BackgroundTask(QObject):
         self._box.progress.cancel()
 
     def is_running(self) -> bool:
-        """Whether the callback is still to come."""
+        """Return whether the callback is still to come."""
         return self._is_running
 
     def drop(self) -> None:

@@ -28,7 +28,7 @@ class Names(QObject):
 
     @property
     def are_hidden(self) -> bool:
-        """Whether names are hidden."""
+        """Return whether names are hidden."""
         return self._hidden
 
     def hide(self, hidden: bool) -> None:

@@ -80,7 +80,7 @@ class Wizard(QDialog):
     # --- what a subclass says -------------------------------------------------------------------
     @property
     def busy(self) -> bool:
-        """Whether a step works; it keeps its page until it ends."""
+        """Return whether a step works; it keeps its page until it ends."""
         return False
 
     def marks(self) -> Sequence[tuple[Verdict, str]]:

@@ -61,12 +61,12 @@ class MeasureEditor(QObject):
 
     @property
     def can_undo(self) -> bool:
-        """Whether there is a step to take back."""
+        """Return whether there is a step to take back."""
         return self._history.can_undo
 
     @property
     def can_redo(self) -> bool:
-        """Whether there is a step to take again."""
+        """Return whether there is a step to take again."""
         return self._history.can_redo
 
     def measured(self, item: Measurement) -> Measured:

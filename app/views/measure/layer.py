@@ -96,7 +96,7 @@ class MeasureGrip:
         return Angle(start, here, here)
 
     def _is_second(self, draft: Angle, start: Point) -> bool:
-        """Whether the present drag is for the other side: it did not begin the angle."""
+        """Return whether the present drag is for the other side: it did not begin the angle."""
         return draft.a_mm != start
 
     def _ellipse(self, position: QPointF) -> Region:
@@ -174,7 +174,7 @@ class MeasureLayer:
 
     @property
     def drawn(self) -> tuple[Drawn, ...]:
-        """What is shown in this slice."""
+        """Return what is shown in this slice."""
         return self._item.drawn
 
     def place(self, plane: SlicePlane, index: float, scale: float) -> None:
@@ -245,12 +245,14 @@ def drawn(
 
 
 def is_free(item: Measurement) -> bool:
-    """Whether it lies in no axial, sagittal or coronal slice: then any slice may show a part."""
+    """Return whether it lies in no axial, sagittal or coronal slice: then any slice may show a
+    part.
+    """
     return bool((np.ptp(np.array(item.points), axis=0) > FLAT_MM).all())
 
 
 def is_near(distance_mm: float, plane: SlicePlane) -> bool:
-    """Whether something so far from the slice's middle counts as in it: half a slice."""
+    """Return whether something so far from the slice's middle counts as in it: half a slice."""
     return abs(distance_mm) <= max(0.5 * plane.step_mm, 0.25) * (1.0 + 1e-6)
 
 

@@ -170,13 +170,13 @@ class PacsPanel(QDialog):
                 self.note.setText(tr("No PACS is configured yet: press Configure…"))
         self._enable()
 
-    def show_found(self, found: list[Found]) -> None:
+    def show_found(self, result: list[Found]) -> None:
         """List what a search has found."""
         self._stopped()
         self.tree.clear()
-        for series, here in found:
+        for series, here in result:
             self.tree.addTopLevelItem(_row(series, here))
-        self.note.setText(tr("{count} series", count=len(found)))
+        self.note.setText(tr("{count} series", count=len(result)))
         first = self.tree.topLevelItem(0)
         if first is not None:
             self.tree.setCurrentItem(first)

@@ -133,7 +133,7 @@ class TipStep(QWidget):
 
     @property
     def running(self) -> bool:
-        """Whether positions are collected or the tip is computed."""
+        """Return whether positions are collected or the tip is computed."""
         return self.rocking is not None or self._task is not None
 
     def set_pen(self, settings: PenSettings | None, live: PenPort | None) -> None:
@@ -156,14 +156,14 @@ class TipStep(QWidget):
         self.refresh()
         self.poll()
 
-    def end(self, why: str = "") -> None:
+    def end(self, reason: str = "") -> None:
         """Stop and drop what was collected; idempotent."""
         self._release()
         self._task = None  # what it finds is not taken any more
         self.bar.setValue(0)
         self.refresh()
-        if why:
-            tell(self.state, Verdict.IDLE, why)
+        if reason:
+            tell(self.state, Verdict.IDLE, reason)
 
     def poll(self) -> None:
         """Show how far it is; compute once there is enough."""
@@ -270,8 +270,8 @@ class TipStep(QWidget):
             line = Line(Verdict.BAD, str(error))
         tell(self.state, line.verdict, line.text)
 
-    def _take(self, found: PenCalibration) -> None:
-        self._task, self.found = None, found
+    def _take(self, result: PenCalibration) -> None:
+        self._task, self.found = None, result
         self.bar.setValue(1000)
         self.refresh()
         practised = tr("done; a simulated pen is practice only and is not kept")

@@ -85,9 +85,9 @@ def tip_line(pen: PenProfile) -> Line:
     return Line(Verdict.WARNING, tr("the tip is where the drawing has it: measure it"))
 
 
-def result_lines(found: PenCalibration) -> tuple[Line, ...]:
+def result_lines(result: PenCalibration) -> tuple[Line, ...]:
     """Return what a calibration of the tip found."""
-    tip, check = found.tip, found.check
+    tip, check = result.tip, result.check
     good = Verdict.GOOD if tip.sd_mm <= 1.0 else Verdict.WARNING
     lines = [
         Line(
@@ -119,7 +119,7 @@ def result_lines(found: PenCalibration) -> tuple[Line, ...]:
             )
         )
     lines.append(
-        Line(Verdict.GOOD, tr("direction of the shaft to {deg:.2f}°", deg=found.axis.sd_deg))
+        Line(Verdict.GOOD, tr("direction of the shaft to {deg:.2f}°", deg=result.axis.sd_deg))
     )
     return tuple(lines)
 

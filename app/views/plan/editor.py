@@ -171,17 +171,17 @@ class PlanEditor(QObject):
 
     @property
     def dirty(self) -> bool:
-        """Whether points were changed since the plan was opened or saved."""
+        """Return whether points were changed since the plan was opened or saved."""
         return self.edit.draft != self._saved.draft
 
     @property
     def can_undo(self) -> bool:
-        """Whether there is a step to take back."""
+        """Return whether there is a step to take back."""
         return self._history.can_undo and not self.locked
 
     @property
     def can_redo(self) -> bool:
-        """Whether there is a step to take again."""
+        """Return whether there is a step to take again."""
         return self._history.can_redo and not self.locked
 
     # --- what it stands on --------------------------------------------------------------------
@@ -205,7 +205,7 @@ class PlanEditor(QObject):
         self.keeps_target = keeps
 
     def _moves_target(self, draft: DraftPlan) -> bool:
-        """Whether a draft has another target than the one to be kept."""
+        """Return whether a draft has another target than the one to be kept."""
         return self.keeps_target and draft.target_mm != self.edit.draft.target_mm
 
     # --- edits --------------------------------------------------------------------------------
@@ -320,7 +320,7 @@ class PlanEditor(QObject):
             self._announce()
 
     def refuse_locked(self) -> bool:
-        """Whether an attempt keeps the plan as it is; then that is said."""
+        """Return whether an attempt keeps the plan as it is; then that is said."""
         if self.locked:
             self.refused.emit("the plan cannot change while an attempt runs: end it first")
         return self.locked

@@ -21,11 +21,11 @@ class Undoable(Protocol):
 
     @property
     def can_undo(self) -> bool:
-        """Whether there is a step to take back."""
+        """Return whether there is a step to take back."""
 
     @property
     def can_redo(self) -> bool:
-        """Whether there is a step to take again."""
+        """Return whether there is a step to take again."""
 
     def undo(self) -> None:
         """Take the last step back."""
@@ -61,12 +61,12 @@ class UndoOrder(QObject):
 
     @property
     def can_undo(self) -> bool:
-        """Whether an editor has a step to take back."""
+        """Return whether an editor has a step to take back."""
         return any(editor.can_undo for editor in self._past)
 
     @property
     def can_redo(self) -> bool:
-        """Whether an editor has a step to take again."""
+        """Return whether an editor has a step to take again."""
         return any(editor.can_redo for editor in self._future)
 
     def undo(self) -> None:

@@ -41,8 +41,8 @@ def view_title(view: ViewName) -> str:
     }[view]
 
 
-def off_words(why: str) -> str:
-    """Say that a view is off, and how it is switched on if it may be; `why` it may not."""
-    if why:
+def off_words(reason: str) -> str:
+    """Say that a view is off, and how it is switched on if it may be; `reason` it may not."""
+    if reason:
         return tr("Not shown in this exercise")
     return tr("Not shown in this exercise; switch it on in View ▸ Shown by the exercise")

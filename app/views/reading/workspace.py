@@ -170,7 +170,7 @@ class WorkspacePage(QWidget):
 
     @property
     def views(self) -> PatientViews:
-        """Where the patient is seen, for those who draw there."""
+        """Return where the patient is seen, for those who draw there."""
         return PatientViews(self.viewing, self.panes, self.needle_panes, self.scene)
 
     @property

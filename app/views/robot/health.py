@@ -115,7 +115,7 @@ def link_item(status: int, real: bool) -> StatusItem:
 
 
 def loop_items(run: ExerciseRun, snapshot: Snapshot, rates: Rates) -> tuple[StatusItem, ...]:
-    """How the loop keeps its time, and how old its angles are."""
+    """Return how the loop keeps its time, and how old its angles are."""
     items = []
     timing, device = snapshot.timing, snapshot.device
     if timing is not None:
@@ -173,7 +173,7 @@ def health(run: ExerciseRun, snapshot: Snapshot, rates: Rates) -> tuple[HealthGr
 
 
 def force_items(run: ExerciseRun, snapshot: Snapshot) -> tuple[StatusItem, ...]:
-    """Whether there is force, and what holds it back."""
+    """Return whether there is force, and what holds it back."""
     device = snapshot.device
     row = device.row if device is not None else sv.empty_state()
     fault = fault_text(int(device.fault)) if device is not None else ""
@@ -295,7 +295,7 @@ def energy_items(snapshot: Snapshot) -> tuple[StatusItem, ...]:
 
 
 def device_items(run: ExerciseRun) -> tuple[StatusItem, ...]:
-    """Who is at the other end."""
+    """Return who is at the other end."""
     board = run.board
     kind = tr("real, {port}", port=run.port or "?") if run.is_real else tr("simulated")
     where = StatusItem(

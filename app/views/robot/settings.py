@@ -43,7 +43,7 @@ class RobotSettings:
 
     @property
     def practise_holding(self) -> bool:
-        """Whether the simulated robot is armed by a held key as well."""
+        """Return whether the simulated robot is armed by a held key as well."""
         return str(self._settings.value("robot/held-arming")).lower() == "true"
 
     @practise_holding.setter
@@ -64,7 +64,7 @@ class RobotSettings:
 
     @property
     def gauge(self) -> GaugeMode:
-        """When the energy gauge is on the page."""
+        """Return when the energy gauge is on the page."""
         try:
             return GaugeMode(str(self._settings.value("robot/energy-gauge")))
         except ValueError:

@@ -57,7 +57,7 @@ class Runner(QObject):
 
     @property
     def running(self) -> bool:
-        """Whether a routine runs."""
+        """Return whether a routine runs."""
         return self._routine is not None
 
     def start(self, step: RoutineName) -> None:
@@ -146,7 +146,7 @@ class CommissioningWizard(Wizard):
 
     @property
     def busy(self) -> bool:
-        """Whether a routine runs."""
+        """Return whether a routine runs."""
         return self.runner.running
 
     def marks(self) -> tuple[tuple[Verdict, str], ...]:

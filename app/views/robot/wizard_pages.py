@@ -129,7 +129,7 @@ def state_of(bench: Bench, step: RoutineName) -> tuple[Verdict, str, str]:
 
 
 def connection_lines(bench: Bench) -> tuple[tuple[str, str], ...]:
-    """Who is at the other end, line by line."""
+    """Return who is at the other end, line by line."""
     info = bench.info
     return (
         (tr("Profile"), bench.profile.name),
@@ -142,7 +142,7 @@ def connection_lines(bench: Bench) -> tuple[tuple[str, str], ...]:
 
 
 def clearance_words(bench: Bench) -> tuple[Verdict, str]:
-    """How much force the robot is cleared for, and why it is not more."""
+    """Return how much force the robot is cleared for, and why it is not more."""
     clearance = bench.clearance()
     if not clearance.reason:
         return Verdict.GOOD, tr("cleared for {n:g} N at the hand", n=clearance.force_cap)

@@ -226,7 +226,7 @@ class SurfaceActor:
         renderer.AddActor(actor)
 
     def nearest(self, backwards: FloatArray) -> float:
-        """How near [mm] it comes at most to an eye that looks against `backwards`."""
+        """Return how near [mm] it comes at most to an eye that looks against `backwards`."""
         bounds = np.array(self._actor.GetBounds()).reshape(3, 2)
         return float(np.maximum(bounds[:, 0] * backwards, bounds[:, 1] * backwards).sum())
 
@@ -241,7 +241,7 @@ class SurfaceActor:
 
     @property
     def is_seen_through(self) -> bool:
-        """Whether it is in the picture, and translucent."""
+        """Return whether it is in the picture, and translucent."""
         return bool(self._actor.GetVisibility()) and self._actor.GetProperty().GetOpacity() < 1.0
 
     def set_opacity(self, opacity: float) -> None:

@@ -103,7 +103,7 @@ class Section:
     window: WindowLevel
 
     def shows_the_same(self, other: Section) -> bool:
-        """Whether the other one gives the same picture at the same place."""
+        """Return whether the other one gives the same picture at the same place."""
         if (self.patient, self.window) != (other.patient, other.window):
             return False
         pairs = (

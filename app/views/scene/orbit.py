@@ -129,7 +129,9 @@ class Orbit:
         return replace(self, half_mm=half)
 
     def pixels(self, points_mm: ArrayLike, size_px: tuple[int, int]) -> FloatArray:
-        """Where points are seen, (n, 3) -> (n, 2) [px], right and down from the upper left."""
+        """Return where points are seen, (n, 3) -> (n, 2) [px], right and down from the upper
+        left.
+        """
         away = np.asarray(points_mm, dtype=np.float64) - self.focus_mm
         mm, (width, height) = self.mm_per_px(size_px), size_px
         return np.column_stack(

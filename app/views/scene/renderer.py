@@ -108,7 +108,7 @@ class SceneRenderer:
 
     @property
     def idle(self) -> bool:
-        """Whether every request was answered."""
+        """Return whether every request was answered."""
         with self._wake:
             return not self._busy and self._shot is None
 
@@ -193,7 +193,7 @@ class SceneFeed(QObject):
 
     @property
     def error(self) -> str:
-        """Why no pictures come, one line; empty while all is well."""
+        """Return why no pictures come, one line; empty while all is well."""
         return self._renderer.error
 
     @property
@@ -214,7 +214,7 @@ class SceneFeed(QObject):
 
     @property
     def is_settled(self) -> bool:
-        """Whether the picture is the fine one of what there is to be seen."""
+        """Return whether the picture is the fine one of what there is to be seen."""
         if self._paused:
             return True
         return self._fine and not self._pending and self._renderer.idle

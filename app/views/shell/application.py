@@ -30,7 +30,9 @@ class NoDisplayError(AcusError):
 
 
 def has_display() -> bool:
-    """Whether a window can be shown: a display server, or another platform than X and Wayland."""
+    """Return whether a window can be shown: a display server, or another platform than X and
+    Wayland.
+    """
     if os.environ.get("QT_QPA_PLATFORM"):
         return True
     if sys.platform != "linux":

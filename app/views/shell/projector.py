@@ -21,22 +21,22 @@ class Projector(QObject):
 
     @property
     def is_light(self) -> bool:
-        """Whether the colours are those for a lit room."""
+        """Return whether the colours are those for a lit room."""
         return theme.present() is LIGHT
 
     @property
     def is_large(self) -> bool:
-        """Whether the text is large."""
+        """Return whether the text is large."""
         return theme.scale() > 1.0
 
     @property
     def hides_names(self) -> bool:
-        """Whether pseudonyms, folders and students are hidden."""
+        """Return whether pseudonyms, folders and students are hidden."""
         return NAMES.are_hidden
 
     @property
     def is_on(self) -> bool:
-        """Whether all three are as a room needs them."""
+        """Return whether all three are as a room needs them."""
         return self.is_light and self.is_large and self.hides_names
 
     def set_all(self, on: bool) -> None:

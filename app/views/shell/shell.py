@@ -120,7 +120,7 @@ class Shell:
 
     @property
     def is_working(self) -> bool:
-        """Whether the panes are shown, and no other page."""
+        """Return whether the panes are shown, and no other page."""
         return self._pages.currentWidget() is self._workspace
 
     def show_workspace(self) -> None:

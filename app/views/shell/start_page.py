@@ -443,7 +443,7 @@ class StartFacts(QObject):
             passed = {name for name, standing in found.items() if standing.passed}
             return found, comes_next(passed, exercises, student, ACCESS.refusal)
 
-        def show(found: tuple[dict[str, Standing], str]) -> None:
+        def show(result: tuple[dict[str, Standing], str]) -> None:
             whose = (
                 tr("Done and best: everybody at this station. Sign in to see your own.")
                 if student is None
@@ -451,7 +451,7 @@ class StartFacts(QObject):
             )
             if student is None and not manages:
                 whose = tr("Sign in as a student to see what you have done.")
-            self._page.set_standings(*found, whose)
+            self._page.set_standings(*result, whose)
             self._done()
 
         self._standings = run_in_background(self, read, show, lambda _: self._done())

@@ -200,7 +200,7 @@ class Tour(QObject):
 
     @property
     def is_wanted(self) -> bool:
-        """Whether nobody has taken or declined it here."""
+        """Return whether nobody has taken or declined it here."""
         return str(self._settings.value(SEEN, "")) != "true"
 
     def decline(self) -> None:

@@ -292,12 +292,12 @@ class SliceCanvas(PlaneView):
 
     @property
     def is_drawn(self) -> bool:
-        """Whether picture and shapes are those of now; words may follow."""
+        """Return whether picture and shapes are those of now; words may follow."""
         return not (self._due or self.feed.is_waiting)
 
     @property
     def is_settled(self) -> bool:
-        """Whether all that there is has been drawn, and no picture is still to come."""
+        """Return whether all that there is has been drawn, and no picture is still to come."""
         return self.is_drawn and not self._words.is_waiting
 
     def add_layer(

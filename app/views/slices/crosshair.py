@@ -416,5 +416,5 @@ class NeedleTraces:
         return viewing.frame(pane) if seen else None
 
 
-def _is_flat(one: Frame, other: Frame) -> bool:
-    return abs(float(one.normal @ other.normal)) > STEEPEST
+def _is_flat(item: Frame, other: Frame) -> bool:
+    return abs(float(item.normal @ other.normal)) > STEEPEST

@@ -127,7 +127,7 @@ class Shape:
         self.drawing: Drawing | None = None
 
     def isVisible(self) -> bool:
-        """Whether it is drawn."""
+        """Return whether it is drawn."""
         return self.visible
 
     def setVisible(self, visible: bool) -> None:

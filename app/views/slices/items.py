@@ -64,11 +64,11 @@ class MarkItem(Shape):
         self._symbol, self._picture, self._middle = QPixmap(), QPixmap(), QPointF()
 
     def x(self) -> float:
-        """Where it stands [mm]."""
+        """Return where it stands [mm]."""
         return self._at.x()
 
     def y(self) -> float:
-        """Where it stands [mm]."""
+        """Return where it stands [mm]."""
         return self._at.y()
 
     def place(self, x: float, y: float, words: Callable[[], str], near: bool) -> None:
@@ -193,10 +193,12 @@ def label_font() -> QFont:
     return font
 
 
-def _alike(one: QRectF | None, other: QRectF | None) -> bool:
-    """Whether two places are the same to a quarter of a pixel: less is not worth drawing anew."""
-    if one is None or other is None:
-        return one is other
-    shift, growth = one.topLeft() - other.topLeft(), one.size() - other.size()
+def _alike(item: QRectF | None, other: QRectF | None) -> bool:
+    """Return whether two places are the same to a quarter of a pixel: less is not worth drawing
+    anew.
+    """
+    if item is None or other is None:
+        return item is other
+    shift, growth = item.topLeft() - other.topLeft(), item.size() - other.size()
     changes = (shift.x(), shift.y(), growth.width(), growth.height())
     return all(abs(change) < 0.25 for change in changes)

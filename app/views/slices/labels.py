@@ -168,7 +168,7 @@ def _costs(
 
 
 def _covered(rects: FloatArray, points: FloatArray, reach: FloatArray | float) -> NDArray[np.bool_]:
-    """Which points, shape (2, n), each candidate covers, or nearly so."""
+    """Return which points, shape (2, n), each candidate covers, or nearly so."""
     left, top, w, h = rects[..., None]
     x, y = points
     across = (left - reach <= x) & (x <= left + w + reach)
@@ -176,7 +176,7 @@ def _covered(rects: FloatArray, points: FloatArray, reach: FloatArray | float) -
 
 
 def _overlap(rects: FloatArray, other: Rect) -> NDArray[np.bool_]:
-    """Whether each rectangle covers part of another one."""
+    """Return whether each rectangle covers part of another one."""
     x, y, w, h = rects
     u, v, a, b = other
     return (x < u + a) & (u < x + w) & (y < v + b) & (v < y + h)

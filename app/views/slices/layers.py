@@ -449,7 +449,7 @@ class LayerStack:
         self.errors.place_tip(error, plane, index)
 
     def _stands(self, scale: float) -> bool:
-        """Whether the needle has moved less than can be seen since it was placed last."""
+        """Return whether the needle has moved less than can be seen since it was placed last."""
         before, now = self.needle.shown, self._viewing.needle
         if before is None or now is None or before is now or before.valid is not now.valid:
             return False

@@ -98,7 +98,7 @@ class NeedlePlanes(QObject):
 
     @property
     def shows_path(self) -> bool:
-        """Whether the panes lie along the planned path."""
+        """Return whether the panes lie along the planned path."""
         return self.laid_along is Along.PATH
 
     def words(self) -> str:
@@ -170,8 +170,8 @@ class NeedlePlanes(QObject):
         self.changed.emit()
 
 
-def _alike(one: NeedleFrame, other: NeedleFrame) -> bool:
-    pairs = ((one.tip_mm, other.tip_mm), (one.axis, other.axis), (one.y, other.y))
+def _alike(item: NeedleFrame, other: NeedleFrame) -> bool:
+    pairs = ((item.tip_mm, other.tip_mm), (item.axis, other.axis), (item.y, other.y))
     return all(np.abs(a - b).max() < 1e-9 for a, b in pairs)
 
 

@@ -29,7 +29,7 @@ class Unhurried(QObject):
 
     @property
     def is_waiting(self) -> bool:
-        """Whether it is still to be done."""
+        """Return whether it is still to be done."""
         return self._timer.isActive()
 
     def ask(self) -> None:

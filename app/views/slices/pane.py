@@ -55,7 +55,7 @@ class Cine(QObject):
 
     @property
     def is_running(self) -> bool:
-        """Whether the slices run."""
+        """Return whether the slices run."""
         return self._timer.isActive()
 
     @property
@@ -213,7 +213,7 @@ class SlicePane(QFrame):
 
 
 def _is_shared(event: QKeyEvent) -> bool:
-    """Whether an attempt's keys are the same, so that who is there for them decides."""
+    """Return whether an attempt's keys are the same, so that who is there for them decides."""
     return event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_Escape)
 
 

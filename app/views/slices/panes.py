@@ -21,7 +21,7 @@ class PaneId(StrEnum):
 
     @property
     def is_needle(self) -> bool:
-        """Whether its plane belongs to the needle, not to the crosshair."""
+        """Return whether its plane belongs to the needle, not to the crosshair."""
         return self in NEEDLE_PANES
 
 

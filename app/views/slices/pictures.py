@@ -66,7 +66,7 @@ class Screen:
     ratio: float
 
     def place(self, rect: Rect) -> Rect:
-        """Where a rectangle of the plane [mm] lies [px]."""
+        """Return where a rectangle of the plane [mm] lies [px]."""
         left, top, width, height = rect
         return (
             (left - self.left) * self.scale,
@@ -77,7 +77,7 @@ class Screen:
 
     @property
     def rect_mm(self) -> QRectF:
-        """What of the plane is on it [mm]."""
+        """Return what of the plane is on it [mm]."""
         width, height = self.width / self.scale, self.height / self.scale
         return QRectF(self.left, self.top, width, height)
 
@@ -123,7 +123,7 @@ class Values:
         return cls(plane, index, region, hu, bounds)
 
     def are(self, plane: SlicePlane, index: float, region: PixelGrid | None) -> bool:
-        """Whether they are those of this slice."""
+        """Return whether they are those of this slice."""
         return self.plane is plane and (self.index, self.region) == (index, region)
 
 
@@ -149,7 +149,7 @@ class Wish:
     number: int = 0
 
     def same(self, other: Wish | None) -> bool:
-        """Whether both ask for the same pixels."""
+        """Return whether both ask for the same pixels."""
         return other is not None and self.plane is other.plane and self.key == other.key
 
     @property
@@ -232,7 +232,7 @@ class PictureMaker(QObject):
     # --- in the window's thread -----------------------------------------------------------------
     @property
     def is_awaited(self) -> bool:
-        """Whether a picture is to come that is not late yet."""
+        """Return whether a picture is to come that is not late yet."""
         return any(feed.is_near for feed in self._feeds.values())
 
     def await_for(self, feed: PictureFeed) -> None:
@@ -264,7 +264,7 @@ class PictureMaker(QObject):
             self._made.pop(who, None)
 
     def waits(self, who: Hashable) -> bool:
-        """Whether a picture is still to come, or to be taken."""
+        """Return whether a picture is still to come, or to be taken."""
         with self._wake:
             return who in self._wishes or who in self._made or who in self._working
 
@@ -343,7 +343,7 @@ class PictureMaker(QObject):
             return who, self._wishes.pop(who)
 
     def _free(self) -> Hashable:
-        """Whose wish comes next: nobody's whose last one is still in the making."""
+        """Return whose wish comes next: nobody's whose last one is still in the making."""
         return next((who for who in self._wishes if who not in self._working), None)
 
 
@@ -378,12 +378,12 @@ class PictureFeed:
 
     @property
     def bounds_mm(self) -> Rect:
-        """Where they lie in the plane."""
+        """Return where they lie in the plane."""
         return (0.0, 0.0, 0.0, 0.0) if self.picture is None else self.picture.values.bounds_mm
 
     @property
     def is_near(self) -> bool:
-        """Whether a picture is still to come and what belongs over it may wait for it."""
+        """Return whether a picture is still to come and what belongs over it may wait for it."""
         return self.is_waiting and not self._is_late
 
     def want(

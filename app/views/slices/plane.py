@@ -98,7 +98,9 @@ class SlicePlane:
 
     @property
     def is_native(self) -> bool:
-        """Whether it shows the volume's own slices, at whole indices, not interpolated ones."""
+        """Return whether it shows the volume's own slices, at whole indices, not interpolated
+        ones.
+        """
         return self.slicer is not None
 
     @property
@@ -141,7 +143,7 @@ class SlicePlane:
 
     # --- places -------------------------------------------------------------------------------
     def point(self, lps_mm: ArrayLike, index: float) -> PlanePoint:
-        """Where an LPS point [mm] appears in slice `index`, and how far ahead of it it is.
+        """Return where an LPS point [mm] appears in slice `index`, and how far ahead of it it is.
 
         Raises:
             NumericalError: if the point has not three coordinates.
@@ -340,7 +342,7 @@ def presented(plane: SlicePlane, presentation: Presentation) -> SlicePlane:
 
 
 def _thick(plain: SlicePlane, slab: Slab) -> tuple[int, float]:
-    """How many whole slices a slab takes, and how thick it is [mm]."""
+    """Return how many whole slices a slab takes, and how thick it is [mm]."""
     if not plain.is_native:
         return 1, slab.thickness_mm
     slices = max(1, round(slab.thickness_mm / plain.step_mm)) if slab else 1

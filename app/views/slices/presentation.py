@@ -36,7 +36,7 @@ class Slab:
     thickness_mm: float = 0.0
 
     def __bool__(self) -> bool:
-        """Whether it is thicker than a slice."""
+        """Return whether it is thicker than a slice."""
         return self.thickness_mm > 0.0
 
     @property
@@ -78,7 +78,7 @@ class Turn:
     mirrored: bool = False
 
     def __bool__(self) -> bool:
-        """Whether anything is turned."""
+        """Return whether anything is turned."""
         return self.quarters != 0 or self.mirrored
 
     def turned(self, quarters: int) -> Turn:

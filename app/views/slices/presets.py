@@ -54,7 +54,7 @@ def preset_name(name: str) -> str:
 
 
 def menu_windows(
-    volume: Volume | None, kept: Mapping[str, WindowLevel] = NOTHING_KEPT
+    volume: Volume | None, stored: Mapping[str, WindowLevel] = NOTHING_KEPT
 ) -> list[tuple[str, str, WindowLevel]]:
     """Name, key (or nothing) and window of every choice.
 
@@ -69,7 +69,7 @@ def menu_windows(
     order = [*own, *(name for name in KEYED if name in choices)]
     order += [name for name in choices if name not in order]
     rows = [(preset_name(name), keys.get(name, ""), choices[name]) for name in order]
-    return rows + [(name, "", window) for name, window in kept.items()]
+    return rows + [(name, "", window) for name, window in stored.items()]
 
 
 def keyed_window(

@@ -277,10 +277,10 @@ class Readouts(QObject):
         return "\n".join(text for one in self._corners for text, _ in one.lines)
 
 
-def _touch(one: Written, other: Written) -> bool:
-    """Whether two words cover each other, or stand beside each other without a gap."""
-    near = one.geometry().adjusted(-APART, 0, APART, 0)
-    return not (one.is_empty or other.is_empty) and near.intersects(other.geometry())
+def _touch(item: Written, other: Written) -> bool:
+    """Return whether two words cover each other, or stand beside each other without a gap."""
+    near = item.geometry().adjusted(-APART, 0, APART, 0)
+    return not (item.is_empty or other.is_empty) and near.intersects(other.geometry())
 
 
 def _made(volume: Volume) -> list[str]:

@@ -60,7 +60,7 @@ def chord(
     direction: tuple[float, float],
     bounds: tuple[float, float, float, float],
 ) -> tuple[float, float]:
-    """Where a line enters and leaves a rectangle, as distances along it from a point.
+    """Return where a line enters and leaves a rectangle, as distances along it from a point.
 
     Args:
         at: the point.
@@ -82,10 +82,10 @@ def chord(
 
 
 def crossing(
-    one: tuple[float, float, float, float], other: tuple[float, float, float, float]
+    item: tuple[float, float, float, float], other: tuple[float, float, float, float]
 ) -> tuple[float, float] | None:
     """Point where two lines (point x, y, unit direction dx, dy) meet; None if they are parallel."""
-    x, y, dx, dy = one
+    x, y, dx, dy = item
     u, v, du, dv = other
     sine = dx * dv - dy * du
     if abs(sine) < 1e-6:

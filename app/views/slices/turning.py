@@ -68,7 +68,7 @@ def turn_planes(viewing: Viewing, start: StartingPlanes, axis: ArrayLike, angle:
 
 
 def is_turned(viewing: Viewing) -> bool:
-    """Whether any of the three patient views is oblique."""
+    """Return whether any of the three patient views is oblique."""
     return any(viewing.is_oblique(pane) for pane in MPR_PANES)
 
 
@@ -122,7 +122,7 @@ class LineGrip:
         self._start = None
 
     def hover(self, position: QPointF) -> bool:
-        """Whether a line lies under a pixel, away from the crosshair and from marks."""
+        """Return whether a line lies under a pixel, away from the crosshair and from marks."""
         viewing, plane = self._canvas.viewing, self._canvas.plane
         if plane is None or viewing.tool is not Tool.NAVIGATE:
             return False

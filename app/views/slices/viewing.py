@@ -73,7 +73,7 @@ class Planes:
         return self._shown[pane]
 
     def presentation(self, pane: PaneId) -> Presentation:
-        """How a pane looks at its plane: slab and turn."""
+        """Return how a pane looks at its plane: slab and turn."""
         return self._presentations.get(pane, Presentation())
 
     def set_presentation(self, pane: PaneId, presentation: Presentation) -> None:
@@ -254,7 +254,7 @@ class Viewing(QObject):
         return self._planes.shown(pane)
 
     def is_oblique(self, pane: PaneId) -> bool:
-        """Whether a pane lies along a frame of its own, not along the volume."""
+        """Return whether a pane lies along a frame of its own, not along the volume."""
         return pane in self._planes.oblique
 
     def own(self, pane: PaneId) -> SlicePlane | None:
@@ -262,7 +262,7 @@ class Viewing(QObject):
         return self._planes.own(pane)
 
     def presentation(self, pane: PaneId) -> Presentation:
-        """How a pane looks at its plane: slab and turn."""
+        """Return how a pane looks at its plane: slab and turn."""
         return self._planes.presentation(pane)
 
     def set_presentation(self, pane: PaneId, presentation: Presentation) -> None:

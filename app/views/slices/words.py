@@ -120,7 +120,7 @@ class Written:
         return self._rect.topLeft()
 
     def isVisible(self) -> bool:
-        """Whether it is painted."""
+        """Return whether it is painted."""
         return self._visible
 
     def setVisible(self, visible: bool) -> None:
@@ -142,7 +142,7 @@ class Written:
 
     @property
     def is_empty(self) -> bool:
-        """Whether it shows nothing."""
+        """Return whether it shows nothing."""
         return not self._visible
 
     @property
@@ -219,12 +219,12 @@ class Overlay(Written):
 
     @property
     def is_cut(self) -> bool:
-        """Whether there is more to read than is shown."""
+        """Return whether there is more to read than is shown."""
         return bool(self.left_out) or any(self._elided(line) != line for line in self._shown)
 
     @property
     def is_empty(self) -> bool:
-        """Whether it shows nothing."""
+        """Return whether it shows nothing."""
         return not self._shown or not self._visible
 
     def text(self) -> str:

@@ -70,16 +70,16 @@ class StructureBook(QObject):
 
     @property
     def can_undo(self) -> bool:
-        """Whether there is a step to take back."""
+        """Return whether there is a step to take back."""
         return self._history.can_undo and not self.locked
 
     @property
     def can_redo(self) -> bool:
-        """Whether there is a step to take again."""
+        """Return whether there is a step to take again."""
         return self._history.can_redo and not self.locked
 
     def is_visible(self, name: str) -> bool:
-        """Whether the structure of a name is drawn."""
+        """Return whether the structure of a name is drawn."""
         return name not in self._hidden
 
     # --- distances ----------------------------------------------------------------------------
@@ -204,7 +204,7 @@ class StructureBook(QObject):
         self.changed.emit()
 
     def _fitting(self) -> int:
-        """How many steps, from the newest, hold no more than `MOST_KEPT` of other masks."""
+        """Return how many steps, from the newest, hold no more than `MOST_KEPT` of other masks."""
         seen = {id(one.mask) for one in self.structures}
         held = 0
         for number, structures in enumerate(reversed(self._history.past)):

@@ -147,7 +147,7 @@ class StructureOutline(Shape):
 
     @property
     def is_named(self) -> bool:
-        """Whether its name is written: it is large enough."""
+        """Return whether its name is written: it is large enough."""
         size = self._path.boundingRect()
         return max(size.width(), size.height()) * self._scale >= SMALLEST_NAMED_PX
 
@@ -276,8 +276,8 @@ class StructureLayer:
         """Show nothing."""
         self._drop(set())
 
-    def _drop(self, kept: set[str]) -> None:
-        for name in set(self._items) - kept:
+    def _drop(self, stored: set[str]) -> None:
+        for name in set(self._items) - stored:
             self._drawing.remove(self._items.pop(name))
             self._shown.pop(name, None)
 

@@ -82,8 +82,8 @@ class StructureWatch(QObject):
             self.needle = clearance
             self.needle_changed.emit(clearance)
 
-    def _tell(self, found: tuple[PathClearance, ...], now: float) -> None:
-        for one in found:
+    def _tell(self, result: tuple[PathClearance, ...], now: float) -> None:
+        for one in result:
             name, before = one.structure.name, self._told.get(one.structure.name, Nearness.FREE)
             if one.nearness is Nearness.FREE:
                 if one.distance_mm > one.structure.warn_mm + HYSTERESIS_MM:

@@ -216,16 +216,16 @@ def read_opencv(
     return stereo_of(cameras[0], cameras[1], "OpenCV FileStorage", names=names)
 
 
-def _require(named: str, found: dict[str, tuple[Path, FloatArray]]) -> None:
-    missing = [key for key in _PAIR if key not in found]
-    if missing and _LENS in found:
+def _require(named: str, result: dict[str, tuple[Path, FloatArray]]) -> None:
+    missing = [key for key in _PAIR if key not in result]
+    if missing and _LENS in result:
         raise CalibrationError(
             f"{named}: a lens of OpenCV's one-camera sample; it does not say how two cameras stand "
             "to each other. Give what stereo_calib writes (intrinsics.yml and extrinsics.yml), or "
             "calibrate the pictures with `acus calibrate stereo`"
         )
     if missing:
-        there = ", ".join(key for key in _PAIR if key in found) or "none of them"
+        there = ", ".join(key for key in _PAIR if key in result) or "none of them"
         raise CalibrationError(
             f"{named}: a pair of OpenCV needs M1, D1, M2, D2 (intrinsics.yml) and R, T "
             f"(extrinsics.yml), found {there}; give both files"

@@ -129,17 +129,19 @@ class HandChooser(QWidget):
 
     @property
     def moves_hub(self) -> bool:
-        """Whether the hub goes where the hand goes, and so the tip the other way."""
+        """Return whether the hub goes where the hand goes, and so the tip the other way."""
         return bool(self.sense.currentData())
 
     @property
     def own_moves_hub(self) -> bool:
-        """Whether the user has it so, whatever an exercise has fixed: what is remembered."""
+        """Return whether the user has it so, whatever an exercise has fixed: what is remembered."""
         return self._own_turn if self._turn_why else self.moves_hub
 
     @property
     def why_sense_stays(self) -> str:
-        """Why the exercise keeps which end goes where the hand goes; empty where it does not."""
+        """Return why the exercise keeps which end goes where the hand goes; empty where it does
+        not.
+        """
         return self._turn_why
 
     def set_moves_hub(self, hub: bool) -> None:
@@ -166,11 +168,11 @@ class HandChooser(QWidget):
             return
         self._take(name)
 
-    def fix(self, name: str, why: str) -> None:
-        """Use this source at the usual gain, because of `why`, until `release`."""
+    def fix(self, name: str, reason: str) -> None:
+        """Use this source at the usual gain, because of `reason`, until `release`."""
         if not self._why:
             self._own = self.name, str(self.gain.currentData())
-        self._why = why
+        self._why = reason
         self.gain.setCurrentIndex(max(0, self.gain.findData("normal")))
         self._take(name)
         self._enable()
@@ -184,14 +186,14 @@ class HandChooser(QWidget):
             self._take(name)
             self._enable()
 
-    def fix_sense(self, hub: bool, why: str) -> None:
-        """Let the hub go where the hand goes, or the tip, because of `why`, until it is released.
+    def fix_sense(self, hub: bool, reason: str) -> None:
+        """Let the hub go where the hand goes, or the tip, because of `reason`, until released.
 
         The hub is then the handle of a long tool, and the help says so.
         """
         if not self._turn_why:
             self._own_turn = self.moves_hub
-        self._turn_why = why
+        self._turn_why = reason
         self._turn(hub)
         self._enable()
         self._show_note(self._note)
@@ -248,7 +250,7 @@ class HandChooser(QWidget):
 
     @property
     def words(self) -> str:
-        """How the hand moves; empty without one."""
+        """Return how the hand moves; empty without one."""
         return self._words() if self._interactive else ""
 
     def _show_help(self) -> None:

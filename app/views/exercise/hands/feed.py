@@ -65,7 +65,7 @@ class Feed(QObject):
 
     @property
     def is_held(self) -> bool:
-        """Whether somebody holds."""
+        """Return whether somebody holds."""
         return self._holder is not None
 
     def press(self, holder: Hashable, inwards: bool, fine: bool) -> None:

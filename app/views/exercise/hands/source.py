@@ -117,7 +117,7 @@ class Pads(Protocol):
         ...
 
     def read(self) -> Sticks | None:
-        """Where the sticks stand now; None while no gamepad is plugged in."""
+        """Return where the sticks stand now; None while no gamepad is plugged in."""
         ...
 
 
@@ -255,7 +255,7 @@ class PygamePads:
             self._pygame = None
 
     def read(self) -> Sticks | None:
-        """Where the sticks stand; None while no gamepad is plugged in."""
+        """Return where the sticks stand; None while no gamepad is plugged in."""
         if self._pygame is None:
             return None
         self._pygame.event.pump()

@@ -1,0 +1,32 @@
+"""Words that a stranger stumbles over grow no more."""
+
+import ast
+
+from tools.words import count, risen, words_in
+
+
+def test_no_refused_word_is_there_more_often_than_before():
+    """`python -m tools.words --list` names each; docs/vocabulary.md says which to use."""
+    counts, _ = count()
+    assert risen(counts) == []
+
+
+def test_names_at_borders_docstrings_without_a_verb_and_texts_are_seen():
+    tree = ast.parse(
+        "class Row:\n"
+        "    why: str\n"
+        "def take(found, *, told=1):\n"
+        '    """Whether it is taken."""\n'
+        "    one = 1\n"
+        "    self._kept = one\n"
+        '    tr("It counts for nobody.")\n'
+    )
+    words = sorted(word for word, _ in words_in(tree))
+    assert words == [
+        "docstring: Whether",
+        "name: found",
+        "name: kept",
+        "name: told",
+        "name: why",
+        "text: counts for nobody",
+    ]

@@ -1,0 +1,112 @@
+"""Count words that a stranger stumbles over, and refuse more of them.
+
+    python -m tools.words [--list] [--write]
+
+Looked at are names that cross a function's border (functions, parameters, attributes and fields),
+the first word of a function's docstring, which is a verb, and literal texts of the window. What is
+there now stands in tools/words.yaml: a count that rises ends with code 3, one that falls is written
+by `--write`. docs/vocabulary.md says which words to use.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import re
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+
+import yaml
+
+ROOT = Path(__file__).resolve().parents[1]
+COUNTS = Path(__file__).with_name("words.yaml")
+
+NAMES = frozenset(("found", "kept", "one", "said", "told", "why"))
+"""Names that say nothing of what they hold; `result`, `stored`, `message`, `reason` do."""
+
+NO_VERBS = frozenset(("How", "What", "When", "Where", "Whether", "Which", "Who", "Whose", "Why"))
+"""Begin no docstring of a function: it says what the function does, as in "Return whether …"."""
+
+PHRASES = ("beside the window", "anew", "counts for nobody", "tells of", "is said")
+"""A native speaker says it otherwise."""
+
+
+def words_in(tree: ast.AST) -> Iterator[tuple[str, int]]:
+    """Yield each refused word of a module, as `kind: word`, with its line."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            first = (ast.get_docstring(node) or "").split(" ", 1)[0].rstrip(",:;")
+            if first in NO_VERBS:
+                yield f"docstring: {first}", node.lineno
+            names = [node.name, *(each.arg for each in _parameters(node.args))]
+        elif isinstance(node, ast.ClassDef):
+            fields = [each.target for each in node.body if isinstance(each, ast.AnnAssign)]
+            names = [each.id for each in fields if isinstance(each, ast.Name)]
+        elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
+            names = [node.attr]
+        elif isinstance(node, ast.Call):
+            text = _text(node)
+            phrases = [each for each in PHRASES if re.search(rf"\b{each}\b", text)]
+            yield from ((f"text: {phrase}", node.lineno) for phrase in phrases)
+            continue
+        else:
+            continue
+        for name in names:
+            if name.strip("_") in NAMES:
+                yield f"name: {name.strip('_')}", node.lineno
+
+
+def _parameters(arguments: ast.arguments) -> Iterator[ast.arg]:
+    yield from (*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs)
+    yield from filter(None, (arguments.vararg, arguments.kwarg))
+
+
+def _text(call: ast.Call) -> str:
+    """Return the literal text that a call of `tr` translates; empty for others."""
+    first = call.args[0] if call.args else None
+    translates = isinstance(call.func, ast.Name) and call.func.id == "tr"
+    literal = translates and isinstance(first, ast.Constant) and isinstance(first.value, str)
+    return first.value if literal else ""  # type: ignore[union-attr]
+
+
+def count(root: Path = ROOT) -> tuple[Counter[str], list[str]]:
+    """Return how often each refused word is there, and a line for each place."""
+    counts: Counter[str] = Counter()
+    places = []
+    for path in (file for room in ("app", "acus") for file in sorted((root / room).rglob("*.py"))):
+        for word, line in words_in(ast.parse(path.read_text(encoding="utf-8"))):
+            counts[word] += 1
+            places.append(f"{path.relative_to(root)}:{line}: {word}")
+    return counts, places
+
+
+def risen(counts: Counter[str]) -> list[str]:
+    """Return a sentence for each word that is there more often than tools/words.yaml says."""
+    allowed = yaml.safe_load(COUNTS.read_text(encoding="utf-8")) or {}
+    return [
+        f"{word!r} is there {number} times, {allowed.get(word, 0)} before: see docs/vocabulary.md"
+        for word, number in sorted(counts.items())
+        if number > allowed.get(word, 0)
+    ]
+
+
+def main() -> int:
+    """Print the counts; return 3 where one has risen."""
+    parser = argparse.ArgumentParser(prog="python -m tools.words", description=__doc__)
+    parser.add_argument("--list", action="store_true", help="name each place")
+    parser.add_argument("--write", action="store_true", help="keep the counts of now")
+    options = parser.parse_args()
+    counts, places = count()
+    if options.list:
+        print(*places, sep="\n")
+    if options.write:
+        COUNTS.write_text("".join(f"'{word}': {n}\n" for word, n in sorted(counts.items())))
+    sentences = risen(counts)
+    print(*sentences, f"{sum(counts.values())} words that {COUNTS.name} counts", sep="\n")
+    return 3 if sentences else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
