@@ -176,7 +176,8 @@ def show(name: str, way: str, result: dict[str, Any]) -> None:
         f"{result['looks']:6.1f} looks/s   panes ≥{result['rate']:6.1f}/s, "
         f"age {result['age']:5.1f} (p99 {result['age99']:5.1f}) ms   "
         f"tracker {result['fixes']:5.1f}/s, {result['latency']:5.1f} ms, "
-        f"{result['valid']:4.0%} valid   loop late p99 {result['late99']:.3f} ms   cores {result['program']:.2f} + {result['child']:.2f}",
+        f"{result['valid']:4.0%} valid   loop late p99 {result['late99']:.3f} ms   "
+        f"cores {result['program']:.2f} + {result['child']:.2f}",
         flush=True,
     )
 
