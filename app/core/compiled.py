@@ -21,6 +21,8 @@ from app.core.parameters import StageFunction
 _ROOMS = ("core", "mechanisms", "imaging", "simulation", "tracking", "device")
 _MARKS = (b"app.core.compiled", b": Final")
 _KEPT_BUILDS = 12
+_OWN = os.path.join(os.path.dirname(os.path.dirname(__file__)), "")
+"""Folder of the program, as the files in it name themselves."""
 
 
 def kernels_digest() -> str:
@@ -88,7 +90,23 @@ def njit(*args: Any, **options: Any) -> Any:
         "error_model": "numpy",
         "no_cfunc_wrapper": plain,
     } | options
-    return numba.njit(*args, **options)
+    if plain and args:
+        return numba.njit(*args, **options, **_checks(args[0]))
+
+    def compiled(function: Any) -> Any:
+        return numba.njit(*args, **options, **_checks(function))(function)
+
+    return compiled
+
+
+def _checks(function: Any) -> dict[str, bool]:
+    """Check every index of a function that is not the program's own, wherever it runs.
+
+    An index outside raises IndexError, which ends the loop at zero force, instead of writing into
+    memory of the program.
+    """
+    is_own = function.__code__.co_filename.startswith(_OWN)
+    return {} if is_own else {"boundscheck": True}
 
 
 def _leave_shapes_out() -> None:
@@ -121,6 +139,11 @@ class _Counter(event.Listener):
 
 
 event.register("numba:compile", _Counter())
+
+
+def is_stage(function: Any) -> bool:
+    """Whether something has been compiled as a stage of the tick."""
+    return STAGE_SIGNATURE.args in getattr(function, "signatures", ())
 
 
 def stage(function: StageFunction) -> StageFunction:

@@ -9,7 +9,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from app.core.plugins import ENERGY, PARAMETERS, SLOTS, TEXT, PluginKind, StageDeclaration, complete
+from app.core.plugins import (
+    ENERGY,
+    PARAMETERS,
+    SLOTS,
+    TEXT,
+    WRITES,
+    PluginKind,
+    StageDeclaration,
+    complete,
+)
+from app.core.trial import Trial
 from app.device.errors import LawError
 from app.mechanisms.profile import DeviceProfile
 
@@ -39,7 +49,7 @@ KIND: Final[PluginKind[Law]] = PluginKind(
     fields={
         "title": TEXT,
         "reads": SLOTS,
-        "writes": SLOTS,
+        "writes": WRITES,
         "energy": ENERGY,
         "parameters": PARAMETERS,
     },
@@ -47,6 +57,7 @@ KIND: Final[PluginKind[Law]] = PluginKind(
     package="app.device.control.laws",
     folder="laws",
     functions=("parameters", "energy_bound", "step"),
+    trial=Trial("app.device.control.law_trial", bare=("app.device.control",)),
 )
 
 
