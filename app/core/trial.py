@@ -152,7 +152,8 @@ def _run(trial: Trial, path: Path, argument: str) -> dict[str, Any]:
         try:
             verdict: dict[str, Any] = json.loads(done.stdout.rsplit("\n", 1)[-1])
         except ValueError:
-            return {"reason": f"{path}: {_ended(done.returncode, page)}"}
+            waited = done.returncode == -getattr(signal, "SIGALRM", 0)
+            return {"reason": f"{path}: {_ended(done.returncode, page)}", "again": waited}
     return verdict
 
 
@@ -178,7 +179,7 @@ def _ended(code: int, page: mmap.mmap) -> str:
     place, (_, allowed) = _place(page), struct.unpack_from(HEAD, page)
     if code in (-getattr(signal, "SIGPROF", 0), -getattr(signal, "SIGALRM", 0)):
         if code == -signal.SIGALRM:
-            return f"in the trial {place} waits: it had not returned after {PATIENCE:g} s"
+            return f"in the trial {place} waits: it had not returned after {PATIENCE:g} s or more"
         return (
             f"in the trial {place} did not return within {allowed:g} s; a tick has 1 ms: loop over"
             " a fixed range of numbers, and wait for nothing"

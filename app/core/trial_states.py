@@ -61,14 +61,16 @@ def run_of(number: int) -> tuple[FloatArray, list[str]]:
     states[:, list(sv.SUMS)] = 0.0
     said = ["an ordinary state"] * RUN
     if number % 4:
+        first = (number - number // 4 - 1) * (RUN // 4)  # of its kind, over all such runs
         for k in range(1, RUN):
-            said[k] = _spoil(states[k], rng, number * RUN + k, faults) or said[k]
+            said[k] = _spoil(states[k], rng, k % 4, first + k // 4, faults) or said[k]
     return states, said
 
 
-def _spoil(state: FloatArray, rng: np.random.Generator, k: int, faults: list[int]) -> str:
-    """Make a state of a run a fault or odd, as its number says; return it in words."""
-    kind, number = k % 4, k // 4
+def _spoil(
+    state: FloatArray, rng: np.random.Generator, kind: int, number: int, faults: list[int]
+) -> str:
+    """Make a state a fault or odd; return it in words, or nothing where it stays as it is."""
     if kind == 1:
         code, which = number % _CODES, number // _CODES % (len(faults) + 1)
         slots = faults[which : which + 1] or faults
