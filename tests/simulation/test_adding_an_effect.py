@@ -157,9 +157,9 @@ def test_a_wrong_declaration_is_named(folder: Path, old: str, new: str, message:
 @pytest.mark.parametrize(
     ("added", "message"),
     [
-        ("    state[sv.ENABLED] = 2.0\n", "line 46: step.. writes enabled, which it does not"),
+        ("    state[sv.ENABLED] = 2.0\n", "line 49: step.. writes enabled, which it does not"),
         ("    while state[sv.TIME] > 0.0:\n        pass\n", "in state 0 .* did not return within"),
-        ("    p[int(state[sv.TIME])] = 1.0\n", "line 46: step.. raises IndexError"),
+        ("    p[int(state[sv.TIME])] = 1.0\n", "line 49: step.. raises IndexError"),
         ("    p[7] = 1.0\n", "index 7 is out of bounds for axis 0 with size 2; the state has"),
     ],
 )

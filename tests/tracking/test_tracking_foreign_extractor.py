@@ -63,7 +63,13 @@ HARMFUL = {
 }
 
 
-@pytest.mark.parametrize("name", HARMFUL)
+LONG = pytest.mark.long("statistics")
+SOON = ("raises", "endless")
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[LONG] * (name not in SOON)) for name in HARMFUL]
+)
 def test_an_extractor_that_could_stop_the_tracker_is_refused(own, name):
     change, reason = HARMFUL[name]
     save(own, change)
