@@ -77,6 +77,7 @@ check: setup  ## style, types, structure
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(BIN)/python -m tools.structure --check
 
 bench: setup  ## every figure against its peer, in one run
 	./tools/with-display $(BIN)/python -m tests.bench $(BENCH)

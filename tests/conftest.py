@@ -29,13 +29,13 @@ settings.register_profile("seeded", derandomize=True, deadline=None)
 settings.load_profile("seeded")
 
 FIRST = (
-    "views/test_views_arm.py",
-    "simulation/test_simulation_arm_eyes.py",
+    "arm/views/test_arm_view.py",
+    "arm/test_arm_run.py",
     "test_compose_trial.py",
     "careless/test_careless_user.py",
-    "simulation/test_simulation_arm.py",
+    "arm/test_arm_scene.py",
     "studies/test_studies_coverage.py",
-    "test_packages_of_the_arm.py",
+    "arm/test_arm_packages.py",
     "imaging/test_imaging_pacs.py",
     "views/test_views_author.py",
     "tracking/test_tracking_marker_coverage.py",

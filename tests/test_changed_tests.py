@@ -20,6 +20,11 @@ def test_a_module_reaches_the_tests_of_its_layer_and_above_only():
         ("app/scoring/metrics/path_ratio.py", "tests/scoring/test_scoring_metrics.py"),
         ("app/commands/ct.py", "tests/test_command_line.py"),
         ("app/simulation/effects/bevel.py", "tests/simulation/test_simulation_compiler.py"),
+        ("app/arm/hard_cases/hand.py", "tests/hard/test_hard_register.py"),
+        ("app/arm/studies/grasp.py", "tests/studies/test_studies_rule.py"),
+        ("app/arm/features/arm.py", "tests/views/test_views_window.py"),
+        ("app/arm/comparisons/arm.py", "tests/studies/test_studies_machines.py"),
+        ("tests/arm/defects/hand.py", "tests/hard/test_hard_register.py"),
     ],
 )
 def test_what_is_found_by_being_there_reaches_who_looks_for_it(changed, reached):

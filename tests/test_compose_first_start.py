@@ -7,6 +7,7 @@ import pytest
 
 from app.compose import first_start
 from app.compose.first_start import COMMAND, TrackerKernels
+from app.core.child_process import environment
 from app.core.progress import Cancelled, Progress
 
 THREE = "for _ in range(3): print(flush=True)\nimport sys; sys.stdin.read()"
@@ -59,6 +60,8 @@ def test_a_process_that_fails_is_not_waited_for(rehearsed):
 
 
 def test_the_process_ends_with_whoever_started_it():
-    with subprocess.Popen(COMMAND, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL) as child:
+    with subprocess.Popen(
+        COMMAND, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, env=environment()
+    ) as child:
         child.stdin.close()
         assert child.wait(60) == 1

@@ -1,5 +1,6 @@
 """The pages for people: links, anchors and pictures exist, the site needs no other host."""
 
+import json
 import os
 import re
 import subprocess
@@ -8,11 +9,14 @@ from pathlib import Path
 
 import pytest
 
+from app.views.shell.feature_plugins import declared_features
+from app.views.shell.features import FEATURES
 from app.views.shell.help import HOME, PAGES, anchor
 
 ROOT = Path(__file__).resolve().parents[1]
 DOCS = ROOT / "docs"
-SOURCES = [ROOT / "README.md", *sorted(DOCS.rglob("*.md"))]
+ROOTS = ("README.md", "CONTRIBUTING.md", "SECURITY.md")
+SOURCES = [*(ROOT / name for name in ROOTS), *sorted(DOCS.rglob("*.md"))]
 
 
 def prose(file):
@@ -77,8 +81,10 @@ def test_prose_is_wrapped():
 def test_every_feature_has_a_page_of_help_and_it_is_there():
     views = ROOT / "app" / "views"
     features = {one.name for one in views.iterdir() if (one / "__init__.py").is_file()}
-    assert set(PAGES) == features - {"kit", "shell"}
-    for page in (*PAGES.values(), HOME):
+    own = {one.__module__.split(".")[2]: one.help for one in FEATURES if one.help}
+    assert not set(PAGES) & set(own)
+    assert {*PAGES, *own} >= features - {"kit", "shell"}
+    for page in (*PAGES.values(), *own.values(), *(one.help for one in declared_features()), HOME):
         name, _, heading = page.partition("#")
         assert not heading or heading in anchors(DOCS / name), page
         assert (DOCS / name).is_file()
@@ -123,6 +129,47 @@ def test_the_search_works_without_a_server(site):
     assert (site / "search" / "search_index.js").is_file()
     assert "search_in_files.js" in (site / "index.html").read_text(encoding="utf-8")
     assert (site / "search_in_files.js").is_file()
+
+
+QUESTIONS = {
+    "password forgotten": "people.html",
+    "PIN of a student": "people.html",
+    "the camera does not find the marker": "troubleshooting.html",
+    "red marker lost": "tracking.html",
+    "what does the score mean": "exercises.html",
+    "CT is refused": "reading.html",
+    "take names out of a CT": "privacy.html",
+    "robot does not answer": "troubleshooting.html",
+    "write my own force law": "extending.html",
+    "replay an attempt": "sessions.html",
+}
+"""What people ask, and the page that must be among the first three answers."""
+
+
+@pytest.fixture(scope="module")
+def search(site):
+    """The site's search: its own index, ranked as lunr does, headings before text."""
+    lunr = pytest.importorskip("lunr", reason="the extra `dev` is not installed")
+    documents = json.loads((site / "search" / "search_index.json").read_text())["docs"]
+    fields = [{"field_name": "title", "boost": 1000}, "text"]
+    index = lunr.lunr(ref="location", fields=fields, documents=documents)
+
+    def pages(question):
+        places = [answer["ref"].split("#")[0] for answer in index.search(question)]
+        return list(dict.fromkeys(places))
+
+    return pages
+
+
+@pytest.mark.long("journey")
+@pytest.mark.parametrize("question", QUESTIONS)
+def test_a_question_finds_its_page_among_the_first_three(search, question):
+    assert QUESTIONS[question] in search(question)[:3]
+
+
+@pytest.mark.long("journey")
+def test_no_name_of_the_code_answers_a_question(search):
+    assert not [page for page in search("RigidTransform frozen array") if "reference/" in page]
 
 
 @pytest.mark.long("journey")

@@ -13,6 +13,7 @@ import pytest
 import yaml
 from device.law_rig import pose
 from extending_page import example, sections
+from imaging.dicom_factory import Slices
 from scoring_attempts import Attempt
 
 from app.core import state_vector as sv
@@ -137,6 +138,34 @@ def test_an_unknown_extractor_is_refused_with_the_known_ones(save):
     known = "ellipse, model_fit, outline_centroid, strongest_spot, thesis"
     with pytest.raises(TrackingError, match=f"no marker extractor 'magic'; there are {known}"):
         extractors(load_rig("wide"), "magic")
+
+
+def test_a_remedy_is_offered_and_reads_a_ct(save, tmp_path):
+    from app.exercises.schema import Exercise
+    from app.exercises.writing import schema_document
+    from app.imaging.reading import read_again, read_with
+    from app.imaging.scanning import scan_folder
+
+    save("How to add a CT remedy", "remedies")
+    Slices(offsets=(0.0, 2.0, 4.0, 6.0, 9.0, 12.0)).write(tmp_path / "ct")
+    (series,) = scan_folder(tmp_path / "ct").series
+    assert series.remedies == ("resample", "longest_run")
+    volume = read_with(series, "longest_run")
+    assert volume.size == (*series.size[:2], 4)
+    assert volume.made == ("the longest even run: 4 of 6 slices",)
+    again = read_again(series, volume.recipe)
+    np.testing.assert_array_equal(again.hu, volume.hu)
+    whole = schema_document()["$defs"]["Ct"]["properties"]["remedy"]["enum"]
+    assert whole == ["none", "resample", "straighten", "halve", "longest_run"]
+    ct = {"folder": str(tmp_path / "ct"), "remedy": "longest_run"}
+    plan = {"entry_mm": [0, -90, 300], "target_mm": [5, -20, 300]}
+    exercise = Exercise.model_validate({"id": "run", "title": "Run", "ct": ct, "plan": plan})
+    assert exercise.ct.remedy == "longest_run"
+    helped = subprocess.run(
+        [sys.executable, "-m", "app", "ct", "digest", "--help"],
+        capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert "halve (too large), longest_run (uneven slices)." in " ".join(helped.stdout.split())
 
 
 @pytest.mark.long("journey")

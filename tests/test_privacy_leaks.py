@@ -43,21 +43,21 @@ def test_no_identifier_of_a_ct_reaches_anything_that_is_written(tmp_path, capfd,
     assert len(leaks(next(source.iterdir()).read_bytes(), words)) > 40  # they can be found
     acus = Acus(tmp_path / "inside", capfd)
     # Of the source itself UIDs are told, to name a series by; nothing else.
-    listing = acus("ct", "list", source, "--json=1", says=False)
+    listing = acus("ct", "list", source, "--json", says=False)
     assert not leaks(
         listing.replace(str(source), "").encode(), {w for w in words if "2.25" not in w}
     )
-    imported = json.loads(acus.apart("app", "ct", "import", source, "--json=1"))
+    imported = json.loads(acus.apart("app", "ct", "import", source, "--json"))["facts"]
     acus("ct", "import", source)
-    acus("ct", "library", "--json=1")
-    acus("ct", "list", imported["folder"], "--json=1")
-    acus("ct", "point", imported["folder"], "--voxel", "3,4,5", "--json=1")
+    acus("library", "list", "--json")
+    acus("ct", "list", imported["folder"], "--json")
+    acus("ct", "point", imported["folder"], "--voxel", "3,4,5", "--json")
     out = tmp_path / "inside" / "out"
     # On the original where it lies, which says more than the copy would.
     assert "score" in acus.apart("tests.virtual_attempt", source, out)
     sessions = ("--folder", out / "sessions")
-    (attempt,) = json.loads(acus("session", "list", *sessions, "--json=1"))["sessions"]
-    acus("session", "show", attempt["id"], *sessions, "--json=1")
+    (attempt,) = json.loads(acus("session", "list", *sessions, "--json"))["facts"]["sessions"]
+    acus("session", "show", attempt["id"], *sessions, "--json")
     path = out / f"{attempt['id']}.csv"
     acus("session", "export", attempt["id"], *sessions, "--trajectory", "--out", path)
     acus("transform", "export", out / "plan.mrk.json", "--out", out / "placed.tfm")

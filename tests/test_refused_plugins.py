@@ -13,6 +13,7 @@ KINDS = {
     "effects": "effect",
     "metrics": "metric",
     "extractors": "marker extractor",
+    "remedies": "CT remedy",
     "studies": "study",
 }
 BROKEN = {

@@ -361,9 +361,9 @@ def test_the_command_says_identical_and_leaves_with_zero_or_three(
     assert checked.exit_code == 0
     assert "identical over 12000 ticks" in checked.output
     rewritten(virtual.path, tmp_path / virtual.path.name)
-    wrong = runner.invoke(command_line(), [*ask, str(tmp_path), "--json=1"])
+    wrong = runner.invoke(command_line(), [*ask, str(tmp_path), "--json"])
     assert wrong.exit_code == 3
-    found = json.loads(wrong.output)
+    found = json.loads(wrong.output)["facts"]
     assert not found["identical"]
     assert found["first_difference"]["tick"] == 301
 

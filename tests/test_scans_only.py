@@ -60,7 +60,7 @@ def test_a_needle_is_brought_to_the_target_by_control_scans_alone(tmp_path) -> N
     for _ in range(4):
         trainer.scan(order)
         scan = scans_of(trainer.events.drain())[-1]
-        picture = scan_image(volume, scan.order, scan.needle, bool(scan.streak), scan.shift_mm)
+        picture = scan_image(volume, scan.order, scan.needle, scan.streak, scan.shift_mm)
         seen.append(remaining_mm(picture, plan.entry_mm, plan.target_mm))
         assert seen[-1] is not None
         if abs(seen[-1]) < 1.0:

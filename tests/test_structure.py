@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 import app
-from tools.structure import MOST_ALONE, MOST_NAMES, Structure, read
+from tools.structure import MOST_ALONE, MOST_NAMES, Structure, over_budget, read, read_budget
 
 ROOT = Path(app.__file__).parents[1]
 TOOLKITS = ("PySide6", "pyqtgraph", "vtkmodules", "vtk")
@@ -182,3 +182,19 @@ def test_what_stands_in_views_draws_or_speaks():
     }
     assert modules - with_qt == set(WITHOUT_QT)
     assert len(WITHOUT_QT) <= MOST_WITHOUT_QT
+
+
+def test_no_room_has_more_nodes_than_it_is_granted():
+    """`python -m tools.structure --budget` grants more; the commit says what the new replaces."""
+    assert over_budget(read(), read_budget()) == ()
+
+
+def test_a_room_over_its_budget_or_without_one_is_named(tmp_path):
+    (tmp_path / "app" / "mechanisms" / "gimbal").mkdir(parents=True)
+    (tmp_path / "app" / "core.py").write_text("x = 1\n")
+    (tmp_path / "app" / "mechanisms" / "gimbal" / "machine.py").write_text("y = 2\n")
+    structure = read(tmp_path)
+    assert structure.size == {"core": 5, "mechanisms/gimbal": 5}
+    [small, missing] = over_budget(structure, {"core": 3})
+    assert "core has 5 nodes, 2 more" in small
+    assert "mechanisms/gimbal has 5 nodes, 5 more" in missing

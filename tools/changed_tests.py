@@ -1,12 +1,12 @@
 """Print the test files that a change can reach: `python -m tools.changed_tests [SINCE]`.
 
 Changed is what differs from a commit (the last one, if none is named), and what git does not know
-yet. A change in a module of `app` reaches the modules that import it, in its own layer and the ones
-above, and the tests that import any of these, by themselves, by a helper or by a `conftest.py`
-above them. A module may be found by being there (an effect, a metric, a feature of the window): who
-imports its package is reached too. A test that starts programs is reached by whatever `acus` is
-made of. Anything else that lies in the checkout is read by whoever likes, and reaches every test;
-pages reach their own.
+yet. A change in a module of `app` or `acus` reaches the modules that import it, in its own layer
+and the ones above, and the tests that import any of these, by themselves, by a helper or by a
+`conftest.py` above them. A module may be found by being there (an effect, a metric, a feature of
+the window): who imports its package is reached too, and of a folder of plug-ins who looks for files
+of its kind. A test that starts programs is reached by whatever `acus` is made of. Anything else
+that lies in the checkout is read by whoever likes, and reaches every test; pages reach their own.
 """
 
 import ast
@@ -17,13 +17,20 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from app.core.plugin_folders import APP, folders
+
 if TYPE_CHECKING:
     from grimp import ImportGraph
 
 ROOT = Path(__file__).resolve().parents[1]
 
 ALWAYS = ("tests/test_structure.py",)
-PAGES = ("tests/test_docs.py", "tests/test_promises.py", "tests/test_extending.py")
+PAGES = (
+    "tests/test_docs.py",
+    "tests/test_promises.py",
+    "tests/test_extending.py",
+    "tests/test_python_page.py",
+)
 """Tests of README and docs."""
 
 
@@ -57,7 +64,8 @@ def tests_for(changed: Iterable[str]) -> list[str]:
     picked = set(ALWAYS) | set(PAGES if pages else ())
     if any(not _module(path) for path in changed - pages):
         return sorted(tests | picked)
-    reached = reached_modules({name for name in modules if name.startswith("app")}) | modules
+    program = {name for name in modules if name.startswith(("acus", "app"))}
+    reached = reached_modules(program) | modules
     imports = _imports_of_tests()
     while more := {name for name in imports.keys() - reached if imports[name] & reached}:
         reached |= more
@@ -71,7 +79,7 @@ def _paths() -> list[str]:
 
 
 def reached_modules(changed: Set[str]) -> set[str]:
-    """Return changed modules of `app` and all that rest on them, at any remove."""
+    """Return changed modules of `acus` and `app` and all that rest on them, at any remove."""
     graph = _graph()
     inside = {name: graph.find_descendants(name) for name in changed & graph.modules}
     waiting = [*changed, *(below for names in inside.values() for below in names)]
@@ -89,15 +97,40 @@ def reached_modules(changed: Set[str]) -> set[str]:
             while "." in package:
                 waiting += {package} | _files_in(graph, package)
                 package = package.rpartition(".")[0]
-        waiting += importers
+        waiting += importers | _finders(name)
     return reached
+
+
+def _finders(name: str) -> set[str]:
+    """Return who finds a module of a folder of plug-ins by the kind of its file."""
+    for folder in folders():
+        kind, _, file = name.removeprefix(f"{folder.package}.").partition(".")
+        if file and name.startswith(f"{folder.package}."):
+            return {
+                module
+                for module, text in _looking().items()
+                if f'"{kind}"' in text and not module.startswith(f"{folder.package}.")
+            }
+    return set()
+
+
+@cache
+def _looking() -> Mapping[str, str]:
+    """Return the text of every module above `core` that looks into folders of plug-ins."""
+    above = (path for path in APP.rglob("*.py") if not path.is_relative_to(APP / "core"))
+    texts = {path: path.read_text(encoding="utf-8") for path in above}
+    return {
+        _module(path.relative_to(ROOT).as_posix()): text
+        for path, text in texts.items()
+        if "plugin_folders" in text or "PluginKind(" in text
+    }
 
 
 @cache
 def _graph() -> "ImportGraph":
     import grimp
 
-    return grimp.build_graph("app", exclude_type_checking_imports=False, cache_dir=None)
+    return grimp.build_graph("acus", "app", exclude_type_checking_imports=False, cache_dir=None)
 
 
 def _importers(graph: "ImportGraph", name: str) -> set[str]:
@@ -107,7 +140,7 @@ def _importers(graph: "ImportGraph", name: str) -> set[str]:
 def _module(path: str) -> str:
     """Return the dotted name of a Python file of the checkout's packages; "" for any other."""
     top = path.split("/")[0]
-    if top not in ("app", "tests", "tools") or not path.endswith(".py"):
+    if top not in ("acus", "app", "tests", "tools") or not path.endswith(".py"):
         return ""
     return path.removesuffix(".py").replace("/", ".").removesuffix(".__init__")
 
@@ -128,10 +161,11 @@ def _imports(path: Path, files: Iterable[str]) -> set[str]:
     """Return the dotted names that a file of tests rests on, and of `from a import b` a and a.b.
 
     Helpers are imported by their own name or with their folder's (both are on the path); a
-    `conftest` above a file by nobody.
+    `conftest` above a file by nobody; and who lists modules finds those in folders that it names.
     """
     names = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    text = path.read_text(encoding="utf-8")
+    for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
@@ -143,7 +177,8 @@ def _imports(path: Path, files: Iterable[str]) -> set[str]:
     for name in files:
         folder, _, last = name.rpartition(".")
         above = last == "conftest" and own.startswith(f"{folder}.") and own != name
-        if above or names & {last, name.removeprefix("tests.")}:
+        listed = "iter_modules" in text and f'"{folder.rpartition(".")[2]}"' in text
+        if above or listed or names & {last, name.removeprefix("tests.")}:
             names.add(name)
     return names
 

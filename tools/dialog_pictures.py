@@ -10,9 +10,9 @@ from app.imaging.library import CtLibrary
 from app.imaging.pacs.query import FoundSeries, FoundStudy
 from app.imaging.pacs.settings import PacsSettings, keep
 from app.imaging.scanning import scan_folder
+from app.views.pacs.panel import PacsPanel
 from app.views.series.browser import SeriesBrowser
-from app.views.series.feature import ImportReport
-from app.views.series.pacs_panel import PacsPanel
+from app.views.series.intake import ImportReport
 from tools.reading_studio import Studio
 from tools.robot_pictures import pause, wait
 

@@ -1,4 +1,4 @@
-"""Write the tables of `acus study dicom DIR…` into docs/studies.md.
+"""Write the tables of `acus study dicom DIR…` into docs/studies.md, agreeing rows as counts.
 
 python -m tools.dicom_tables DIR…
 """
@@ -9,6 +9,8 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+from app.studies.dicom_cases.comparison import SAME_MM
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "studies.md"
@@ -21,16 +23,51 @@ def main() -> None:
         command = [sys.executable, "-m", "app", "study", "dicom", *sys.argv[1:], "--out", folder]
         subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
         document = json.loads(Path(folder, "dicom.json").read_text())
-        tables = [_table(Path(folder, f"dicom-{name}.csv")) for name in ("read", "refused")]
+        read, refused = (_rows(Path(folder, f"dicom-{name}.csv")) for name in ("read", "refused"))
+        tables = [
+            _table([[row[0], *row[2:]] for row in counted(read)]),
+            _table([row[:3] for row in refused]),
+        ]
     text = "\n\n".join([*tables, *document["lines"]])
     before, rest = PAGE.read_text().split(BEGIN)
     PAGE.write_text(f"{before}{BEGIN}\n{text}\n{END}{rest.split(END)[1]}")
 
 
-def _table(path: Path) -> str:
+def counted(rows: list[list[str]]) -> list[list[str]]:
+    """Return the rows with those that agree and lie within 0.01 mm counted by folder and kind.
+
+    Rows are `dicom.csv`'s: name, size, verdict, voxels, geometry, two distances [mm], reason.
+    """
+    groups: dict[tuple[str, ...], list[list[str]]] = {}
+    for number, row in enumerate(rows):
+        alike = (_folder(row[0]), *row[2:5], row[7]) if _agrees(row) else (str(number),)
+        groups.setdefault(alike, []).append(row)
+    return [_one_row(key[0], group) for key, group in groups.items()]
+
+
+def _one_row(folder: str, group: list[list[str]]) -> list[str]:
+    first = group[0]
+    if len(group) == 1:
+        return first
+    farthest = (max((row[at] for row in group), key=float) for at in (5, 6))
+    return [f"{len(group)} of {folder}", first[1], *first[2:5], *farthest, first[7]]
+
+
+def _folder(name: str) -> str:
+    return name.partition("/")[0] if "/" in name else "pydicom"
+
+
+def _agrees(row: list[str]) -> bool:
+    return row[3].startswith("equal") and row[4] == "equal" and float(row[6]) <= SAME_MM
+
+
+def _rows(path: Path) -> list[list[str]]:
     with path.open(newline="") as file:
-        head, *rows = csv.reader(file)
-    lines = [head, ["---"] * len(head), *rows]
+        return list(csv.reader(file))
+
+
+def _table(rows: list[list[str]]) -> str:
+    lines = [rows[0], ["---"] * len(rows[0]), *rows[1:]]
     return "\n".join("| " + " | ".join(cell or "-" for cell in line) + " |" for line in lines)
 
 

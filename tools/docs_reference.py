@@ -18,6 +18,9 @@ from mkdocs.utils import get_relative_url
 ROOT = Path(__file__).resolve().parents[1]
 APP = ROOT / "app"
 
+_OUT_OF_SEARCH = "---\nsearch:\n  exclude: true\n---\n"
+"""Begins a page that only who reads code looks for: its names would hide the guide's answers."""
+
 Crossing = Mapping[str, Mapping[str, set[str]]]
 """Room → module → names that other rooms import from it."""
 
@@ -57,7 +60,14 @@ def _add(modules: dict[str, set[str]], module: str, name: str) -> None:
 def page(room: str, modules: Mapping[str, set[str]], whole: bool) -> str:
     """Markdown of a room's page."""
     doc = ast.get_docstring(ast.parse((APP / room / "__init__.py").read_text(encoding="utf-8")))
-    lines = [f"# {room}", "", doc or "", "", f"What other rooms import from `app.{room}`.", ""]
+    lines = [
+        f"{_OUT_OF_SEARCH}# {room}",
+        "",
+        doc or "",
+        "",
+        f"What other rooms import from `app.{room}`.",
+        "",
+    ]
     for module in sorted(modules):
         names = sorted(modules[module])
         lines += [f"## {module.removeprefix('app.')}", ""]
@@ -82,7 +92,12 @@ def index(found: Crossing) -> str:
         f"| [{room}]({room}.md) | {len(found[room])} | {sum(map(len, found[room].values()))} |"
         for room in found
     ]
-    head = ["# Reference", "", "Made from imports and docstrings by `make docs`.", ""]
+    head = [
+        f"{_OUT_OF_SEARCH}# Reference",
+        "",
+        "Made from imports and docstrings by `make docs`.",
+        "",
+    ]
     table = ["| room | modules that others import | names |", "|---|---|---|"]
     return "\n".join([*head, *table, *rows, ""])
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from app.studies.hard import cases
 from app.studies.hard_cases.case import SUBSYSTEMS, HardCase
-from app.studies.hard_cases.register import cases
+from tests.hard.defects import defects
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "accuracy" / "hard.md"
 
@@ -14,9 +15,10 @@ HEAD = """# Hard cases
 
 Every subsystem has places where its formulas are delicate: needles that stand upright, elbows
 that meet, rays that are parallel, rests of ten minutes. Each of them is an entry of one register
-(`app/studies/hard_cases`) with a reference, a bound that the program keeps, what happens one step
-beyond it, and a deliberate defect that the bound must catch. The tests try them all, and so does
-`acus study hard`, on your computer, with the errors that it finds.
+(`app/studies/hard_cases`) with a reference, a bound that the program keeps, and what happens one
+step beyond it. `acus study hard` tries them all on your computer, with the errors that it finds.
+The tests do so too, and compute each case wrongly on purpose (`tests/hard/defects`): the bound must
+catch that defect.
 
 References marked *60 digits* are kept beside the register; `tools/exact` computes them with mpmath
 from the same doubles. This page is written by `python -m tools.hard_page`; how to add a case stands
@@ -42,7 +44,8 @@ def _row(case: HardCase) -> str:
     bound = f"{case.bound:.1g} {case.unit}" if case.bound else f"0 {case.unit}"
     if case.relative:
         bound = f"{case.bound:.1g} of it"
-    cells = (case.case, case.given, case.reference.how, bound, case.beyond.text, case.defect.text)
+    defect = defects()[case.name].text
+    cells = (case.case, case.given, case.reference.how, bound, case.beyond.text, defect)
     return f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
 
 

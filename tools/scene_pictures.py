@@ -1,8 +1,7 @@
-"""Makes the pictures of the 3D view: the same six views as before it was made anew, and its modes.
+"""Makes the pictures of the 3D view: six views, and its modes.
 
 Part of `make docs-pictures`. `python -m tools.scene_pictures FOLDER` draws the chest CT of the test
-data (left out where it is not there) and the built-in patient, without a window. What the same
-views read like before stands beside them as `scene-before-*.png`, which nothing makes again.
+data (left out where it is not there) and the built-in patient, without a window.
 """
 
 from __future__ import annotations

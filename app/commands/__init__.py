@@ -1,24 +1,23 @@
 """The command line: one file per noun; each parses, calls one room and returns an `Answer`.
 
-A file named in `NOUNS` exposes `register(root)`, which adds its commands; names that a command had
-before stay beside the new one, hidden. Rooms are imported inside the commands, so that
-`acus --help` is instant.
+Every file here that defines `register(root)`, and every file in `commands/` of a folder of
+plug-ins, adds its commands by it; `PLACE` says where the noun stands among those of the program in
+`acus --help`. Rooms are imported inside the commands, so that `acus --help` is instant.
 """
 
 from importlib import import_module
+from operator import attrgetter
+from pathlib import Path
+from types import ModuleType
 from typing import Annotated
 
 import typer
 
 from app import __version__
 from app.commands.answer import Commands
+from app.core import plugin_folders
 
-NOUNS = (
-    *("run", "demo", "check", "ct", "pacs", "structures", "transform", "session"),
-    *("store", "people", "results"),
-    *("device", "camera", "calibrate", "registration", "pen", "urdf", "explain"),
-    *("exercise", "law", "plugin", "study"),
-)
+_MARK = b"\ndef register("
 
 
 def build() -> typer.Typer:
@@ -29,9 +28,31 @@ def build() -> typer.Typer:
         add_completion=True,
     )
     root.callback()(_options)
-    for noun in NOUNS:
-        import_module(f"{__name__}.{noun}").register(root)
+    for noun in _nouns():
+        noun.register(root)
+    for added in plugin_folders.modules("commands"):
+        _register(added, root)
     return root
+
+
+def _nouns() -> list[ModuleType]:
+    """Import the program's own files of commands, in the order of `acus --help`."""
+    files = (path for path in Path(__file__).parent.glob("*.py") if _MARK in path.read_bytes())
+    modules = [import_module(f"{__name__}.{path.stem}") for path in files]
+    return sorted(modules, key=attrgetter("PLACE"))
+
+
+def _register(added: ModuleType, root: typer.Typer) -> None:
+    """Add the commands of a plug-in; one of somebody else's that fails is refused."""
+    path = Path(added.__file__ or "")
+    folder = plugin_folders.folder_of(path)
+    try:
+        added.register(root)
+    except Exception as error:
+        if folder is not None and folder.is_own:
+            raise
+        reason = f"register() does not work: {type(error).__name__}: {error}"
+        plugin_folders.refused[path] = f"{path}: {reason}"
 
 
 def _print_version(wanted: bool) -> None:

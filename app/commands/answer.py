@@ -13,16 +13,14 @@ from typing import Annotated, Any, TypeVar
 import typer
 from typer.core import TyperCommand
 
-from app.core.errors import ConfigurationError
 from app.core.exits import Exit
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 FORM = 2
-"""Number of the JSON's root form; `--json=1` prints the form before it, for one release."""
+"""Number of the JSON's root form."""
 
-_FORMS = ("1", "2")
-_wanted: ContextVar[int] = ContextVar("form of the JSON that was asked for, 0 for text", default=0)
+_wanted: ContextVar[bool] = ContextVar("whether JSON was asked for, not text", default=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,48 +32,30 @@ class Answer:
         lines: the same for people, a line each; or a function that prints them.
         yes: the answer where the command asks a question; False ends it with exit code 3.
         crashed: something broke that the command went on after; ends it with exit code 1.
-        first_form: what `--json=1` prints where that is no object, or has other keys.
     """
 
     facts: Mapping[str, Any]
     lines: Sequence[str] | Callable[[], object] = ()
     yes: bool | None = None
     crashed: bool = False
-    first_form: Any = ...
 
 
-AsJson = Annotated[
-    bool,
-    typer.Option("--json", help="Print one JSON object (docs/json.md); --json=1: in its old form."),
-]
+AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object (docs/json.md).")]
 
 
 class AnsweringCommand(TyperCommand):
-    """A command that returns an `Answer`; `--json` may name a form, as in `--json=1`."""
-
-    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Take the form of the JSON out of the arguments, before any `--`."""
-        end = args.index("--") if "--" in args else len(args)
-        form = 0
-        for place, word in enumerate(args[:end]):
-            if word == "--json":
-                form = FORM
-            elif word.startswith("--json="):
-                form = _form(word.removeprefix("--json="))
-                args = [*args[:place], "--json", *args[place + 1 :]]
-        ctx.meta["acus.json"] = form
-        return super().parse_args(ctx, args)
+    """A command that returns an `Answer`."""
 
     def invoke(self, ctx: Any) -> None:
         """Run the command, print its answer; end with code 3 where the answer is no."""
-        form: int = ctx.meta["acus.json"]
-        token = _wanted.set(form)
+        as_json: bool = ctx.params["as_json"]
+        token = _wanted.set(as_json)
         try:
             found: Answer = super().invoke(ctx)
         finally:
             _wanted.reset(token)
-        if form:
-            typer.echo(_text(found, ctx.command_path.partition(" ")[2], form))
+        if as_json:
+            typer.echo(_text(found, ctx.command_path.partition(" ")[2]))
         elif callable(found.lines):
             found.lines()
         else:
@@ -111,7 +91,7 @@ class Commands(typer.Typer):
 
 def wants_json() -> bool:
     """Whether the command that is running was asked for JSON: then it says nothing on the way."""
-    return _wanted.get() > 0
+    return _wanted.get()
 
 
 def _with_json(function: Callable[..., Answer]) -> Callable[..., Answer]:
@@ -130,24 +110,15 @@ def _with_json(function: Callable[..., Answer]) -> Callable[..., Answer]:
     return call
 
 
-def _form(text: str) -> int:
-    if text not in _FORMS:
-        raise ConfigurationError(f"--json={text}: the forms are {' and '.join(_FORMS)}")
-    return int(text)
-
-
-def _text(found: Answer, name: str, form: int) -> str:
+def _text(found: Answer, name: str) -> str:
     from app import __version__
     from app.core.json_values import finite
 
-    if form == 1:
-        document = found.facts if found.first_form is ... else found.first_form
-    else:
-        document = {
-            "acus": __version__,
-            "form": FORM,
-            "command": name,
-            "answer": found.yes,
-            "facts": found.facts,
-        }
+    document = {
+        "acus": __version__,
+        "form": FORM,
+        "command": name,
+        "answer": found.yes,
+        "facts": found.facts,
+    }
     return json.dumps(finite(document), indent=1, ensure_ascii=False, allow_nan=False)

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from app.tracking.optics.calibration import StereoCalibration
 
 
-PLACE = "x,y,z[,rx,ry,rz]"
+POSE = "x,y,z[,rx,ry,rz]"
 
 
 @app.command("world")
@@ -51,7 +51,7 @@ def world(
         list[str],
         typer.Option(
             "--at",
-            metavar=PLACE,
+            metavar=POSE,
             help="The place: first inner corner [mm, world], turns about world x, y, z [deg] "
             "(180,0,0: print up, columns along x). Once for each --images.",
         ),
@@ -125,7 +125,7 @@ def place_of(text: str) -> "RigidTransform":
         numbers = []
     if len(numbers) not in (3, 6) or not all(isfinite(number) for number in numbers):
         raise CalibrationError(
-            f"--at {text!r} is not {PLACE}: millimetres and degrees, e.g. -60,180,90,180,0,0"
+            f"--at {text!r} is not {POSE}: millimetres and degrees, e.g. -60,180,90,180,0,0"
         )
     return place(*numbers)
 
@@ -204,6 +204,9 @@ Window = Annotated[
     typer.Option(min=1, max=50, help="Half the sub-pixel window [px], to compare; else chosen."),
 ]
 Out = Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Write the YAML here.")]
+
+
+PLACE = 140
 
 
 def register(root: typer.Typer) -> None:

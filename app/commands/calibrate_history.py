@@ -70,7 +70,6 @@ def redo() -> Answer:
     return _in_use(history)
 
 
-@app.command("condemn", hidden=True)
 @app.command("reject")
 def reject(
     calibration_id: Id,
@@ -152,7 +151,6 @@ def import_(
     )
 
 
-@app.command("board", hidden=True)
 @app.command("print")
 def board_(
     out: Annotated[Path, typer.Option("--out", help="PDF file to write.")],

@@ -22,13 +22,15 @@ Cameras = Annotated[
 ]
 
 
+PLACE = 130
+
+
 def register(app: typer.Typer) -> None:
     """Add `acus camera …`."""
     group = Commands(help="Cameras: choose, test, aim, measure.")
     group.command("list")(list_cameras)
     group.command("use")(use)
     group.command("test")(examine)
-    group.command("show", hidden=True)(examine)
     group.command("aim")(aim)
     group.command("latency")(latency)
     app.add_typer(group, name="camera")

@@ -12,6 +12,9 @@ if TYPE_CHECKING:
 _MARKS = {"good": "✔", "warning": "▲", "bad": "✖", "waiting": "–"}
 
 
+PLACE = 30
+
+
 def register(app: typer.Typer) -> None:
     """Add the command."""
     app.command("check")(check)
@@ -45,10 +48,10 @@ def check(
     found = newest_check() if last else _made(device, cameras, plate, point, touch)
     if found is None:
         none = ["no daily check was made yet"]
-        return Answer({"check": None}, none, yes=False, first_form=None)
+        return Answer({"check": None}, none, yes=False)
     document = found.model_dump(mode="json")
     passed = found.verdict not in (CheckVerdict.BAD, CheckVerdict.WAITING)
-    return Answer({"check": document}, _lines(found), yes=passed, first_form=document)
+    return Answer({"check": document}, _lines(found), yes=passed)
 
 
 def _made(

@@ -7,14 +7,7 @@ def exercises(incomplete: str) -> list[str]:
     """Return the exercises of the library that begin so."""
     from app.exercises.library import library
 
-    return _fitting(library().ids(), incomplete)
-
-
-def studies(incomplete: str) -> list[str]:
-    """Return the studies that begin so, and `list`."""
-    from app.studies.runner import study_names
-
-    return _fitting(("list", *study_names()), incomplete)
+    return fitting(library().ids(), incomplete)
 
 
 def sessions(incomplete: str) -> list[str]:
@@ -23,7 +16,7 @@ def sessions(incomplete: str) -> list[str]:
 
     if _guarded():
         return []
-    return _fitting(sorted(path.stem for path in folder().glob("*.mcap")), incomplete)
+    return fitting(sorted(path.stem for path in folder().glob("*.mcap")), incomplete)
 
 
 def courses(incomplete: str) -> list[str]:
@@ -32,7 +25,7 @@ def courses(incomplete: str) -> list[str]:
 
     if _guarded():
         return []
-    return _fitting([course.id for course in known()[0]], incomplete)
+    return fitting([course.id for course in known()[0]], incomplete)
 
 
 def students(incomplete: str) -> list[str]:
@@ -41,14 +34,14 @@ def students(incomplete: str) -> list[str]:
 
     if _guarded():
         return []
-    return _fitting([person.pseudonym for person in People().everybody()], incomplete)
+    return fitting([person.pseudonym for person in People().everybody()], incomplete)
 
 
 def profiles(incomplete: str) -> list[str]:
     """Return the device profiles that begin so."""
     from app.mechanisms.profile import profile_names
 
-    return _fitting(profile_names(), incomplete)
+    return fitting(profile_names(), incomplete)
 
 
 def _guarded() -> bool:
@@ -58,5 +51,6 @@ def _guarded() -> bool:
     return People().has_instructor()
 
 
-def _fitting(names: Iterable[str], incomplete: str) -> list[str]:
+def fitting(names: Iterable[str], incomplete: str) -> list[str]:
+    """Return the names that begin so."""
     return [name for name in names if name.startswith(incomplete)]

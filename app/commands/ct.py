@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 
 from app.commands.answer import Answer, Commands
 from app.core.errors import ConfigurationError
@@ -13,25 +14,42 @@ if TYPE_CHECKING:
     from app.core.progress import Progress
     from app.imaging.library import Imported, LibraryEntry
     from app.imaging.privacy.burned_in import MaskBox
-    from app.imaging.series import Listing, Remedy, Series
+    from app.imaging.series import Listing, Series
     from app.imaging.volume import Volume
 
-app = Commands(help="CT series: list, points, import.")
+
+class RemedyGroup(TyperGroup):
+    """Commands whose `--remedy` names every remedy in its help, read when the help is asked for."""
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        """Return name, command and the other arguments."""
+        name, command, others = super().resolve_command(ctx, args)
+        for option in getattr(command, "params", ()) if "--help" in others else ():
+            if option.name == "remedy":
+                option.help = _remedies_help()
+        return name, command, others
+
+
+app = Commands(help="CT series: list, points, import.", cls=RemedyGroup)
 library = Commands(help="The CTs that were taken in: list, remove.")
 
 MASK_HELP = "Pixels to blacken, in every picture or in one (from 1); may be repeated."
 
-Mend = Annotated[
-    str | None,
-    typer.Option(
-        metavar="WORD",
-        help="Read the series on request: resample (uneven slices), straighten (gantry tilt), "
-        "halve (too large).",
-    ),
-]
+
+def _remedies_help() -> str:
+    from app.imaging.remedies import remedies
+
+    ways = (f"{one.name} ({one.against})" for one in remedies())
+    return f"Read the series on request: {', '.join(ways)}."
+
+
+Mend = Annotated[str | None, typer.Option(metavar="WORD", help="Read the series on request.")]
 Folder = Annotated[
     Path, typer.Argument(metavar="DIR", help="Folder (at any depth), zip, DICOMDIR or file.")
 ]
+
+
+PLACE = 40
 
 
 def register(root: typer.Typer) -> None:
@@ -175,18 +193,6 @@ def remove(name: Annotated[str, typer.Argument(metavar="NAME", help="Which CT.")
     return list_entries()
 
 
-@app.command("library", hidden=True)
-def list_or_remove(
-    remove: Annotated[str | None, typer.Option(metavar="NAME", help="Delete this CT.")] = None,
-) -> Answer:
-    """List the CTs of the library, or delete one."""
-    from app.imaging.library import CtLibrary
-
-    if remove is not None:
-        CtLibrary().remove(remove)
-    return list_entries()
-
-
 def imported_answer(imported: "Imported") -> Answer:
     """Return what `acus ct import`, `acus pacs get` and `acus pacs move` have taken in."""
     return Answer(_imported(imported), _imported_lines(imported))
@@ -215,23 +221,24 @@ def _entry(entry: "LibraryEntry") -> dict[str, Any]:
         "name": entry.name,
         "label": entry.label,
         "files": entry.files,
-        "remedy": entry.remedy.value,
+        "remedy": entry.remedy,
         "folder": str(entry.folder),
     }
 
 
-def remedy_of(text: str | None) -> "Remedy":
+def remedy_of(text: str | None) -> str:
     """Read `--remedy`.
 
     Raises:
         ConfigurationError: listing what there is.
     """
-    from app.imaging.series import Remedy
+    from app.imaging.remedies import remedies
+    from app.imaging.series import NO_REMEDY
 
-    valid = [one.value for one in Remedy if one is not Remedy.NONE]
+    valid = [one.name for one in remedies()]
     if text is not None and text not in valid:
         raise ConfigurationError(f"--remedy {text!r} is none of {', '.join(valid)}")
-    return Remedy.NONE if text is None else Remedy(text)
+    return NO_REMEDY if text is None else text
 
 
 def boxes_of(masks: list[str] | None) -> list["MaskBox"]:
@@ -284,18 +291,12 @@ def _voxel(
 
 def _volume(folder: Path, series_uid: str | None, remedy: str | None) -> "Volume":
     """Read a series; what was done to it on request is said on the error stream."""
-    from app.imaging.reading import choose, load_ct
-    from app.imaging.series import Remedy
+    from app.imaging.reading import choose, load_ct, read_with
+    from app.imaging.scanning import scan_folder
 
     if remedy is None:
         return load_ct(folder, series_uid)
-    valid = [each.value for each in Remedy if each is not Remedy.NONE]
-    if remedy not in valid:
-        raise ConfigurationError(f"--remedy {remedy!r} is none of {', '.join(valid)}")
-    from app.imaging.resampling import read_with
-    from app.imaging.scanning import scan_folder
-
-    asked = Remedy(remedy)
+    asked = remedy_of(remedy)
     listing = scan_folder(folder)
     volume = read_with(choose(listing, series_uid, asked), asked)
     for words in volume.made:
@@ -390,6 +391,6 @@ def _line(series: "Series") -> str:
         f"{series.label}, {series.pseudonym}, {series.key}",
         series.reason,
         *series.notes,
-        "" if series.remedy == "none" else f"on request: {series.remedy}",
+        f"on request: {', '.join(series.remedies)}" if series.remedies else "",
     ]
     return "  ".join(part for part in parts if part)

@@ -1,20 +1,35 @@
-"""`acus demo`: a whole exercise shown by a scripted trainee."""
+"""`acus demo`: a whole exercise shown by a scripted trainee, or by whom a plug-in adds.
+
+A file in `demonstrations/` of a folder of plug-ins declares itself in a literal `DECLARATION`
+(`title`; `help` for `--device`; `about`, a paragraph for `--help`) and defines three functions:
+
+    prepare(exercise, simulated, tell)  refuses what it cannot show; imports what it needs
+    alone(seed, folder, tell)           shows what the window does not, without a display;
+                                        returns why that failed, or nothing
+    leader(feature)                     a `Leader` of `views.shell.demonstration`
+"""
 
 from __future__ import annotations
 
+import ast
+from collections.abc import Iterator
 from enum import StrEnum
+from inspect import cleandoc
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
 from app.commands import completion
+from app.core import plugin_folders
 from app.core.errors import AcusError
+from app.core.files import read_at_most
 
 if TYPE_CHECKING:
     from app.exercises.schema import Exercise
     from app.session.result import AttemptResult
-    from app.views.shell.demonstration import DemonstrationScript
+    from app.views.shell.demonstration import DemonstrationScript, MakesLeader
 
 
 TOO_BUSY: Final = (
@@ -33,16 +48,38 @@ class SkillName(StrEnum):
     EXPERT = "expert"
 
 
-class DemoDevice(StrEnum):
-    """Machines that a demonstration shows."""
+_OWN: Final = "pantograph"
 
-    PANTOGRAPH = "pantograph"
-    ARM = "arm"
+
+def _demonstrations() -> Iterator[tuple[str, dict[str, str]]]:
+    """Read what they say about themselves as text: `acus --help` imports nothing heavy."""
+    for path in plugin_folders.files("demonstrations"):
+        try:
+            said = plugin_folders.declared(ast.parse(read_at_most(path).decode()).body)
+        except (OSError, SyntaxError, ValueError) as error:
+            plugin_folders.refused[path] = f"{path} cannot be read: {error}"
+        else:
+            yield path.stem, {key: str(value) for key, value in said.items()}
+
+
+_OTHERS: Final = dict(_demonstrations())
+
+DemoDevice = StrEnum(  # type: ignore[misc]  # its names are those of the files
+    "DemoDevice", {name.upper(): name for name in (_OWN, *_OTHERS)}
+)
+"""Machines that a demonstration shows."""
+
+_DEVICE: Final = DemoDevice(_OWN)
+_HELP: Final = " ".join(f"{name}: {said.get('help', '')}" for name, said in _OTHERS.items())
+
+
+PLACE = 20
 
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    app.command("demo")(demo)
+    about = (cleandoc(demo.__doc__ or ""), *(said.get("about", "") for said in _OTHERS.values()))
+    app.command("demo", help="\n\n".join(about))(demo)
 
 
 def demo(
@@ -74,67 +111,45 @@ def demo(
     ] = False,
     device: Annotated[
         DemoDevice,
-        typer.Option(help="arm: a simulated arm carries out the plan; it never drives a real one."),
-    ] = DemoDevice.PANTOGRAPH,
+        typer.Option(
+            help=" ".join(f"{one}: {said.get('help', '')}" for one, said in _OTHERS.items())
+        ),
+    ] = _DEVICE,
 ) -> None:
     """Show a whole exercise, from the plan to the debrief.
 
     Without a display it runs as with --headless; with code 3 if the attempt is void then.
-
-    With --device arm a simulated arm carries out the exercise's plan: it finds its tool by the
-    pictures of two cameras, grasps it, brings it to the entry and inserts it. Without a display its
-    own scene is shown first: pictures of what it sees and does there, with a report. It is a
-    simulation only and never drives a real arm. Ends with code 3 if the tool is not
-    inserted; says why.
     """
     from app.exercises.library import load_exercise
 
     shown = load_exercise(exercise)
-    if device is DemoDevice.ARM:
-        if shown.touch is not None:
-            raise AcusError(
-                f"in {shown.id} targets are touched, and the arm inserts along a path: name another"
-                " exercise, or leave out --device arm"
-            )
-        if pen or cameras != "simulated":
-            raise AcusError(
-                "the arm works before its own simulated cameras; leave out --pen and --cameras"
-            )
-        _import_arm()
+    other = None if device.value == _OWN else _demonstration(device.value)
+    if other is not None:
+        other.prepare(shown, cameras == "simulated" and not pen, typer.echo)
     from app.views.shell.application import has_display
 
     hidden = headless or not has_display()
-    name = "demo-arm" if device is DemoDevice.ARM else "demo"
+    name = "demo" if other is None else f"demo-{device.value}"
     folder = out or (Path("out") / name if hidden else None)
-    if device is DemoDevice.ARM and hidden and folder is not None:
-        _show_arm(seed, folder)
-    _show(ct, shown, hidden, folder, seed, skill, cameras, pen, device is DemoDevice.ARM)
+    if other is not None and hidden and folder is not None:
+        _show_alone(other, seed, folder)
+    leader = None if other is None else other.leader
+    _show(ct, shown, hidden, folder, seed, skill, cameras, pen, leader)
 
 
-def _import_arm() -> None:
-    """Say what it is, and raise the error that names the extra before a window opens for nothing.
-
-    Raises:
-        AcusError: if MuJoCo, OMPL or Ruckig is not installed.
-    """
-    from app.compose.arm import SIMULATION_ONLY
-    from app.planning.arm.search import import_ompl
-    from app.planning.arm.timing import import_ruckig
-    from app.simulation.arm.mjcf import import_mujoco
-
-    typer.echo(SIMULATION_ONLY)
-    for load in (import_mujoco, import_ompl, import_ruckig):
-        load()
+def _demonstration(name: str) -> ModuleType:
+    for module in plugin_folders.modules("demonstrations", name):
+        return module
+    raise AcusError(" ".join(plugin_folders.refused.values()))
 
 
-def _show_arm(seed: int, folder: Path) -> None:
-    from app.compose.arm import demonstrate
+def _show_alone(other: ModuleType, seed: int, folder: Path) -> None:
     from app.core.exits import Exit
 
-    shown = demonstrate(seed, folder, typer.echo)
+    failure = other.alone(seed, folder, typer.echo)
     typer.echo(f"pictures and report are in {folder}")
-    if shown.failure is not None:
-        typer.echo(f"the tool was not inserted ({shown.failure}): {shown.message}")
+    if failure:
+        typer.echo(failure)
         raise typer.Exit(Exit.NO)
 
 
@@ -147,7 +162,7 @@ def _show(
     skill: SkillName,
     cameras: str,
     pen: bool,
-    by_arm: bool = False,
+    leader: MakesLeader | None = None,
 ) -> None:
     from app.commands.session import tell_folder
     from app.compose.desktop import Desktop
@@ -167,14 +182,14 @@ def _show(
         tell_folder()
     application = start(offscreen=hidden)
     sessions = None if out is None else out / "sessions"
-    trainee = None if by_arm else skill.value
+    trainee = skill.value if leader is None else None
     window = open_window(Desktop(trainee, seed, sessions, (shown,)))
     if pen:
         window.equipment.take_pen("simulated")
     else:
         window.equipment.take("")  # nobody stands beside the robot that is remembered
     window.equipment.take_cameras(chosen)
-    script = DemonstrationScript(shown.id, ct, pictures=out, by_arm=by_arm)
+    script = DemonstrationScript(shown.id, ct, pictures=out, leader=leader)
     collector = collect_for(window)
     show = Demonstration(window, script)
     failures: list[str] = []

@@ -29,12 +29,14 @@ Profile = Annotated[
 ]
 
 
+PLACE = 120
+
+
 def register(app: typer.Typer) -> None:
     """Add `acus device …`."""
     group = Commands(help="Robots on serial ports.")
     group.command("list")(list_ports)
     group.command("show")(show)
-    group.command("info", hidden=True)(show)
     group.command("test")(measure)
     group.command("calibrate")(calibrate)
     group.command("emulate")(emulate)
@@ -66,7 +68,7 @@ def list_ports() -> Answer:
         )
     lines.append("profiles:")
     lines += [f"  {p['name']:<12} {p['protocol']}, {p['description']}" for p in profiles]
-    return Answer({"ports": rows, "profiles": profiles}, lines, first_form=rows)
+    return Answer({"ports": rows, "profiles": profiles}, lines)
 
 
 def show(port: Port, profile: Profile = "icube") -> Answer:

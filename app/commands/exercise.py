@@ -28,6 +28,9 @@ Name = Annotated[
 Uid = Annotated[str | None, typer.Option(help="SeriesInstanceUID, where several fit.")]
 
 
+PLACE = 190
+
+
 def register(root: typer.Typer) -> None:
     """Add the group."""
     root.add_typer(app, name="exercise")
@@ -50,7 +53,7 @@ def list_exercises() -> Answer:
                 "level": one.level,
                 "title": one.title,
                 "purpose": one.purpose.value,
-                "shipped": path.parent == folders()[0],
+                "shipped": path.parent != folders()[1],
                 "file": str(path),
             }
         )

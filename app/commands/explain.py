@@ -10,6 +10,9 @@ from app.commands.answer import Answer
 _TICK_NS = 1e9 / 1000.0
 
 
+PLACE = 180
+
+
 def register(app: typer.Typer) -> None:
     """Add `acus explain`."""
     app.command("explain")(explain)

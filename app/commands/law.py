@@ -9,10 +9,12 @@ from app.commands.answer import Answer, Commands
 app = Commands(help="The force laws, the program's and your own.")
 
 
+PLACE = 200
+
+
 def register(root: typer.Typer) -> None:
     """Add the group."""
     root.add_typer(app, name="law")
-    root.command("laws", hidden=True)(list_laws)
 
 
 @app.command("list")
@@ -28,7 +30,7 @@ def list_laws(
     rows = _rows(tried)
     lines = [f"{'✖' if row['refused'] else '✔'} {row['law']}: {_words(row)}" for row in rows]
     fine = not any(row["refused"] for row in rows)
-    return Answer({"laws": rows}, lines, yes=fine, first_form=rows)
+    return Answer({"laws": rows}, lines, yes=fine)
 
 
 def _rows(tried: bool) -> list[dict[str, Any]]:

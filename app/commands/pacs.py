@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from app.commands.answer import Answer, Commands
-from app.commands.ct import MASK_HELP, Mend
+from app.commands.ct import MASK_HELP, Mend, RemedyGroup
 
 if TYPE_CHECKING:
     from app.core.progress import Progress
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from app.imaging.pacs.query import FoundSeries
     from app.imaging.pacs.settings import PacsSettings
 
-app = Commands(help="Read from a PACS: find series, take them in.")
+app = Commands(help="Read from a PACS: find series, take them in.", cls=RemedyGroup)
 
 Server = Annotated[
     str | None, typer.Option("--pacs", metavar="NAME", help="Which, where several are configured.")
@@ -24,6 +24,9 @@ Mask = Annotated[
     list[str] | None, typer.Option(metavar="COL,ROW,WIDTH,HEIGHT[,PICTURE]", help=MASK_HELP)
 ]
 SeriesUid = Annotated[str, typer.Argument(metavar="SERIES", help="SeriesInstanceUID, of `find`.")]
+
+
+PLACE = 50
 
 
 def register(root: typer.Typer) -> None:

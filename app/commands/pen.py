@@ -20,6 +20,9 @@ Edge = Annotated[
 app = Commands(help="A pen with printed markers before a webcam.")
 
 
+PLACE = 160
+
+
 def register(root: typer.Typer) -> None:
     """Add the group."""
     root.add_typer(app, name="pen")
@@ -36,7 +39,7 @@ def list_pens() -> Answer:
         pen = PenSettings(pen=name).profile()
         rows.append({"name": name, "description": pen.description, "tip": _tip(pen)})
     lines = [f"{row['name']:8} {row['description']}; {row['tip']}" for row in rows]
-    return Answer({"pens": rows}, lines, first_form=rows)
+    return Answer({"pens": rows}, lines)
 
 
 @app.command("print")

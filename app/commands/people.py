@@ -20,6 +20,9 @@ CourseId = Annotated[
 FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
 
+PLACE = 100
+
+
 def register(app: typer.Typer) -> None:
     """Add the groups `people` and `course`."""
     people = Commands(help="Students, groups, and the instructor.")
@@ -27,7 +30,6 @@ def register(app: typer.Typer) -> None:
     people.command("add")(add)
     people.command("roster")(roster)
     people.command("pin")(pin)
-    people.command("assign")(assign)
     people.command("erase")(erase)
     people.command("instructor")(set_instructor)
     people.command("remark")(remark)
@@ -42,29 +44,23 @@ def register(app: typer.Typer) -> None:
 def list_(
     names: Annotated[bool, typer.Option("--names", help="Names too.")] = False,
 ) -> Answer:
-    """List students, groups, and whose old records are (instructor)."""
+    """List students and their groups (instructor)."""
     from app.session.people import People
 
     people = People()
     instructor(people)
     found = people.everybody(names)
-    assigned = people.assigned()
-    shown = {person.key: person.pseudonym for person in found}
     facts = {
         "students": [
             {"pseudonym": p.pseudonym, "key": p.key, "groups": list(p.groups)}
             | ({"name": p.name} if names else {})
             for p in found
         ],
-        "assigned": {text: shown.get(key, "") for text, key in assigned.items()},
         "instructor": people.has_instructor(),
     }
     lines = [
         f"{p.pseudonym:24} {', '.join(p.groups) or '-':24} {p.name if names else p.key}"
         for p in found
-    ]
-    lines += [
-        f"records that name {text!r} are {shown.get(k, '')}'s" for text, k in assigned.items()
     ]
     return Answer(facts, lines or ["no students yet: `acus people add` or `acus people roster`"])
 
@@ -135,22 +131,6 @@ def pin(
     return Answer({"pseudonym": pseudonym}, [f"{pseudonym} has a new PIN"])
 
 
-def assign(
-    text: Annotated[str, typer.Argument(metavar="TEXT", help="Student as old records name them.")],
-    pseudonym: Annotated[str, typer.Argument(metavar="[PSEUDONYM]", help="None: nobody.")] = "",
-) -> Answer:
-    """Say whose old records are that name a free text (instructor)."""
-    from app.session.people import People
-
-    people = People()
-    instructor(people)
-    people.assign(text, pseudonym)
-    return Answer(
-        {"text": text, "pseudonym": pseudonym},
-        [f"records that name {text!r} are {pseudonym or 'nobody'}'s"],
-    )
-
-
 def erase(
     pseudonym: Pseudonym,
     records: Annotated[
@@ -160,7 +140,7 @@ def erase(
 ) -> Answer:
     """Erase a person for good (instructor): it cannot be undone.
 
-    Name, PIN, comments and assignments go. Records hold a random key only and are deleted, or stay
+    Name, PIN and comments go. Records hold a random key only and are deleted, or stay
     as nobody's. Files that were exported before are out of reach.
     """
     from app.session.archive import erase_person
@@ -174,13 +154,8 @@ def erase(
         f"{pseudonym} was erased; records deleted: {found.deleted}, kept as nobody's: "
         f"{found.anonymous}"
     ]
-    if found.typed:
-        lines.append(
-            f"{found.typed} older records hold the name that was typed: erase with --records to be "
-            "rid of them"
-        )
-    facts = {"pseudonym": pseudonym, "records": found.deleted, "typed": found.typed}
-    return Answer(facts | {"anonymous": found.anonymous}, lines)
+    facts = {"pseudonym": pseudonym, "records": found.deleted, "anonymous": found.anonymous}
+    return Answer(facts, lines)
 
 
 def set_instructor(

@@ -1,5 +1,7 @@
 """`acus plugin`: files of your own of every kind, and why some cannot be used."""
 
+import os
+
 import typer
 
 from app.commands.answer import Answer, Commands
@@ -8,6 +10,9 @@ app = Commands(
     help="Your own laws, effects, metrics, studies, machines. They run with all your rights: take "
     "none from people whom you do not trust."
 )
+
+
+PLACE = 210
 
 
 def register(root: typer.Typer) -> None:
@@ -43,7 +48,7 @@ def list_plugins() -> Answer:
         for row in rows
     ]
     fine = not any(row["refused"] for row in rows)
-    folders = {kind: str(folder) for kind, folder in plugin_folders().items()}
+    folders = {k: os.pathsep.join(map(str, places)) for k, places in plugin_folders().items()}
     if not rows:
         lines = ["no files of your own yet; save them in these folders (make what is missing):"]
         lines += [f"  {kind}: {folder}" for kind, folder in folders.items()]

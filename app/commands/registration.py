@@ -26,6 +26,9 @@ DEFAULT_TARGET_MM = (0.0, 160.56, 30.0)
 """60 mm below the fulcrum: the middle of the needle's range."""
 
 
+PLACE = 150
+
+
 def register(root: typer.Typer) -> None:
     """Add `registration` and `plate` to the command line."""
     root.add_typer(app, name="registration")
@@ -57,7 +60,6 @@ def check(
 
 
 @plates.command("list")
-@app.command("plates", hidden=True)
 def list_plates() -> Answer:
     """List the plates that come with the program."""
     from app.planning.registration.plate import load_plate, plate_names
@@ -65,7 +67,7 @@ def list_plates() -> Answer:
     found = [load_plate(name) for name in plate_names()]
     rows = [plate.model_dump(mode="json") for plate in found]
     lines = [f"{one.name}  {len(one.fiducials)} fiducials  {one.description}" for one in found]
-    return Answer({"plates": rows}, lines, first_form=rows)
+    return Answer({"plates": rows}, lines)
 
 
 @app.command("list")
@@ -93,7 +95,7 @@ def list_checks() -> Answer:
         for row in rows
     ]
     none = f"no registration checks in {Registrations.own().folder}"
-    return Answer({"checks": rows}, lines or [none], first_form=rows)
+    return Answer({"checks": rows}, lines or [none])
 
 
 def _target(text: str | None) -> "FloatArray":

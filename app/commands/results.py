@@ -31,6 +31,9 @@ PDF = "pdf"
 FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
 
+PLACE = 110
+
+
 def register(app: typer.Typer) -> None:
     """Add `results board`, `results curve` and `results export`."""
     results = Commands(help="Results of students and groups.")
@@ -131,15 +134,14 @@ def export(
         raise typer.BadParameter("--student is for pdf; the tables hold everybody")
     instructor()
     found, attempts, people = _board(course, group, folder)
-    everybody = {person.key: person for person in people.everybody(names)}
-    known = {text: everybody[key] for text, key in people.keys().items()}
+    known = {person.key: person for person in people.everybody(names)}
     if course or group:
         shown = {person.key for person in found.students}
-        attempts = [a for a in attempts if a.student in known and known[a.student].key in shown]
+        attempts = [a for a in attempts if a.student in shown]
     if course:
         exercises = {item.exercise for item in found.items}
         attempts = [one for one in attempts if one.exercise in exercises]
-    listed = {key: person.name for key, person in everybody.items()} if names else {}
+    listed = {key: person.name for key, person in known.items()} if names else {}
     results = Results(found, attempts, known, people.remarks(), listed)
     if form == PDF:
         _write_report(results, out, student, course, group)

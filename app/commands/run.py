@@ -9,6 +9,8 @@ import typer
 
 from app.commands import completion
 
+PLACE = 10
+
 
 def register(app: typer.Typer) -> None:
     """Add the command."""

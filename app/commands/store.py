@@ -11,6 +11,9 @@ from app.core.words import counted
 FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
 
+PLACE = 90
+
+
 def register(app: typer.Typer) -> None:
     """Add `store status`, `rebuild`, `backup`, `restore` and `empty-trash`."""
     store = Commands(help="The folder of records: index, backup, trash.")

@@ -20,6 +20,9 @@ Folder = Annotated[Path, typer.Option("--ct", metavar="DIR", help="Folder of the
 Uid = Annotated[str | None, typer.Option("--series", help="SeriesInstanceUID, if several fit.")]
 
 
+PLACE = 60
+
+
 def register(root: typer.Typer) -> None:
     """Add `structures` to the command line."""
     root.add_typer(app, name="structures")
@@ -92,7 +95,7 @@ def distance(
         through = f", {one.through_mm:.1f} mm inside" if one.through_mm else ""
         where = f"at depth {one.depth_mm:.1f} mm{through}"
         lines.append(f"{one.structure.name}  {far}  {where}  {one.nearness}")
-    return Answer({"structures": rows}, lines, first_form=rows)
+    return Answer({"structures": rows}, lines)
 
 
 def _notes(structures: "StructureSet") -> list[str]:

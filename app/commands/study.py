@@ -18,15 +18,25 @@ PIPE_WIDTH = 160
 """Columns of a table that is not read on a terminal."""
 
 
+PLACE = 220
+
+
 def register(app: typer.Typer) -> None:
     """Add `acus study`."""
     app.command("study")(study)
 
 
+def _completed(incomplete: str) -> list[str]:
+    """Return the studies that begin so, and `list`."""
+    from app.studies.runner import study_names
+
+    return completion.fitting(("list", *study_names()), incomplete)
+
+
 def study(
     name: Annotated[
         str,
-        typer.Argument(help="name of a study, `list` or `all`", autocompletion=completion.studies),
+        typer.Argument(help="name of a study, `list` or `all`", autocompletion=_completed),
     ],
     inputs: Annotated[
         list[Path] | None,
@@ -72,9 +82,9 @@ def study(
     else:
         result = run(chosen, repeats, lend=lent)
     if write and isinstance(result, Result):
-        from app.studies.kept import folder, keep
+        from app.studies.kept import keep, place
 
-        typer.echo(f"wrote {keep(result, repeats, folder() / f'{name}.json')}", err=True)
+        typer.echo(f"wrote {keep(result, repeats, place(name))}", err=True)
     data = document(result) if isinstance(result, Result) else survey_document(result)
     if out is not None:
         from app.studies.files import write as write_files
@@ -113,7 +123,7 @@ def _all(out: Path | None, repeats: int, fresh: bool, write: bool, quick: bool) 
     from app.commands.calibrate_parts import with_progress
     from app.core import paths
     from app.studies.batch import Done, StudyOutcome, run_all
-    from app.studies.kept import folder, keep
+    from app.studies.kept import keep, place
     from app.studies.runner import study_names
     from app.studies.study import Result
 
@@ -122,7 +132,7 @@ def _all(out: Path | None, repeats: int, fresh: bool, write: bool, quick: bool) 
     def told(done: Done) -> None:
         typer.echo(f"{done.name}: {done.outcome}{done.text and ': ' + done.text}", err=True)
         if write and isinstance(done.result, Result):
-            keep(done.result, repeats, folder() / f"{done.name}.json")
+            keep(done.result, repeats, place(done.name))
 
     found = with_progress(
         lambda progress: run_all(study_names(), where, repeats, fresh, progress, told, lent, quick)
@@ -146,4 +156,4 @@ def _list() -> Answer:
             title, question = name, f"cannot be used: {error}"
         rows.append({"name": name, "title": title, "question": question})
     lines = [f"{row['name']:24} {row['question']}" for row in rows]
-    return Answer({"studies": rows}, lines, first_form=rows)
+    return Answer({"studies": rows}, lines)

@@ -11,6 +11,9 @@ from app.core.errors import ConfigurationError
 app = Commands(help="Rigid transforms as .tfm files of ITK and 3D Slicer.")
 
 
+PLACE = 70
+
+
 def register(root: typer.Typer) -> None:
     """Add `transform` to the command line."""
     root.add_typer(app, name="transform")

@@ -10,6 +10,9 @@ from app.commands.answer import Answer, Commands
 app = Commands(help="Device profiles to and from URDF.")
 
 
+PLACE = 170
+
+
 def register(root: typer.Typer) -> None:
     """Add `urdf` to the command line."""
     root.add_typer(app, name="urdf")

@@ -20,7 +20,6 @@ from app.session.checks.facts import DailyFacts, TouchFacts
 from app.session.checks.gather import daily_facts, robot_facts, touch_facts
 from app.session.touch import TouchCollector, TouchError
 from app.tracking.cameras.settings import CameraSettings
-from app.tracking.inspection import Inspector
 
 START: Final = 60.0
 """A first start compiles kernels [s]."""
@@ -102,7 +101,7 @@ class DailyCheck:
             robot.clearance() if robot is not None else None,
             robot.readiness if robot is not None else None,
         )
-        seen = Inspector(rig.stereo).inspect(lines=False)
+        seen = rig.tracker.inspect(lines=False)
         return daily_facts(snapshot, seen, facts, self._touch, self._failure)
 
     def move_to(self, point: FloatArray) -> None:

@@ -15,6 +15,7 @@ from types import MappingProxyType
 from typing import Final
 
 from app import views
+from app.core import plugin_folders
 from app.core.errors import ConfigurationError
 from app.core.plugins import SLOTS, TEXT, Declaration, PluginKind
 from app.simulation.consumers import Consumer
@@ -39,24 +40,40 @@ _MARK: Final = b"\nDECLARATION"
 
 
 @cache
-def declared_views(folder: Path = VIEWS) -> Mapping[str, Consumer]:
+def declared_views(folder: Path | None = None) -> Mapping[str, Consumer]:
     """Return who consumes what among the views, by the name of the view.
 
+    A file of somebody else's that is wrong is left out, and refused with the reason.
+
     Args:
-        folder: searched with all folders in it.
+        folder: searched with all folders in it; None: the program's views and those of plug-ins.
 
     Raises:
-        ConfigurationError: naming the file and what is wrong with its declaration, or both files
-            that declare one view.
+        ConfigurationError: naming the file of the program and what is wrong with its declaration,
+            or both files that declare one view.
     """
     found: dict[str, Consumer] = {}
     files: dict[str, Path] = {}
-    for path in sorted(folder.rglob("*.py")):
-        if _MARK not in path.read_bytes():
+    places = (VIEWS, *(one.path / "views" for one in plugin_folders.folders()))
+    for path in (
+        path
+        for place in (places if folder is None else (folder,))
+        for path in sorted(place.rglob("*.py"))
+    ):
+        try:
+            if _MARK not in path.read_bytes():
+                continue
+            declared = KIND.read(path)
+            name = declared.view
+            if name in found:
+                raise ConfigurationError(
+                    f"view {name!r} is declared twice: {files[name]} and {path}"
+                )
+        except (OSError, ConfigurationError) as error:
+            shared = plugin_folders.folder_of(path)
+            if shared is None or shared.is_own:
+                raise
+            plugin_folders.refused[path] = str(error)
             continue
-        declared = KIND.read(path)
-        name = declared.view
-        if name in found:
-            raise ConfigurationError(f"view {name!r} is declared twice: {files[name]} and {path}")
         found[name], files[name] = Consumer(f"“{declared.title}” shows it", declared.reads), path
     return MappingProxyType(found)

@@ -29,12 +29,9 @@ if TYPE_CHECKING:
     from app.core.arrays import FloatArray
     from app.device.commissioning.bench import Bench
     from app.mechanisms.profile import DeviceProfile
-    from app.simulation.arm.performance import ArmPerformance
     from app.tracking.cameras.settings import CameraSettings
-    from app.tracking.inspection import Inspection
+    from app.tracking.needle_tracker import StereoAbilities
     from app.tracking.pen.settings import PenSettings
-    from app.tracking.pen.tracker import PenTracker
-    from app.tracking.tracker import Tracker
     from app.views.exercise.run import ExerciseRun
     from app.views.shell.services import RobotPort, RunSetup
 
@@ -180,14 +177,6 @@ class Desktop:
         progress.report(0.5, "asking the webcam for its first picture")
         return open_live_pen(settings)
 
-    def carry_out(
-        self, placed: PlacedPlan, seed: int, stands_deg: float, progress: Progress
-    ) -> ArmPerformance:
-        """Let the simulated arm carry out a plan; called beside the window, takes seconds."""
-        with turn(progress):  # kernels, MuJoCo and planners: behind the window, not before it
-            from app.compose.arm import carry_out
-        return carry_out(placed, seed, stands_deg, progress)
-
     def open_run(self, setup: RunSetup, progress: Progress) -> DesktopRun:
         """Build and start a trainer; called beside the window, may take seconds."""
         with turn(progress):  # kernels and OpenCV: behind the window, not before it
@@ -250,34 +239,17 @@ def _wait_until_alive(rig: Rig, progress: Progress) -> None:
         raise LoopError(f"the control loop has not ticked in {waited:.0f} s; start it again")
 
 
-def _inspector(tracker: Tracker | PenTracker) -> Callable[[bool, bool], Inspection]:
-    from app.tracking.inspection import Inspector
-    from app.tracking.pen.drawing import PenInspector
-    from app.tracking.pen.tracker import PenTracker
-
-    if isinstance(tracker, PenTracker):
-        return PenInspector(tracker).inspect
-    return Inspector(tracker).inspect
-
-
-def _touched(tracker: Tracker | PenTracker) -> Callable[[float, float], None] | None:
-    from app.tracking.pen.tracker import PenTracker
-
-    return None if isinstance(tracker, PenTracker) else tracker.touched
-
-
 def _learner(
-    tracker: Tracker | PenTracker, cameras: CameraSettings | None
+    stereo: StereoAbilities | None, cameras: CameraSettings | None
 ) -> Callable[[str, FloatArray], None] | None:
     """Learn the marker's colour from a click, for the next start too."""
     from app.tracking.cameras.settings import keep_colour
-    from app.tracking.pen.tracker import PenTracker
 
-    if isinstance(tracker, PenTracker):
+    if stereo is None:
         return None
 
     def learn(camera: str, pixel: FloatArray) -> None:
-        colour = tracker.learn_colour(camera, pixel)
+        colour = stereo.learn_colour(camera, pixel)
         if cameras is not None:
             keep_colour(cameras, colour)
 
@@ -305,7 +277,7 @@ class DesktopRun:
         from app.session.shown_views import Shown
         from app.views.exercise.run import ExerciseRun
 
-        setup, robot = self._rig.setup, self._rig.robot
+        setup, robot, tracker = self._rig.setup, self._rig.robot, self._rig.tracker
         return ExerciseRun(
             self._rig.trainer,
             setup.placed,
@@ -314,9 +286,9 @@ class DesktopRun:
             rings=rings_of(setup.exercise),
             depth_tolerance=depth_tolerance_of(setup.exercise),
             touches=setup.exercise.touch is not None,
-            inspect=_inspector(self._rig.tracker),
-            touched=_touched(self._rig.tracker),
-            learn_colour=_learner(self._rig.tracker, setup.cameras),
+            inspect=tracker.inspect,
+            touched=None if tracker.stereo is None else tracker.stereo.touched,
+            learn_colour=_learner(tracker.stereo, setup.cameras),
             board=None if robot is None else robot.link.info(),
             port=setup.port or "",
             clearance=None if robot is None else robot.clearance(),

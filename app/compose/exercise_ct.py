@@ -17,8 +17,7 @@ def read_ct(exercise: Exercise, progress: Progress | None = None) -> Volume:
         Cancelled: if `progress` was cancelled.
     """
     from app.imaging.phantom.series import phantom_series
-    from app.imaging.reading import choose, load_ct
-    from app.imaging.resampling import read_with
+    from app.imaging.reading import choose, load_ct, read_with
     from app.imaging.scanning import scan_folder
 
     progress, ct = progress or Progress(), exercise.ct

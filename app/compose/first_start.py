@@ -21,13 +21,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import IO, Final
 
+from app.core.child_process import environment, module_command
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 
 ABOUT: Final = 300
 """Kernels that a child compiles, numba's own among them; only a bar goes by it."""
 
-COMMAND: Final = (sys.executable, "-W", "ignore", "-m", "app.compose.first_start")
+COMMAND: Final = tuple(module_command("app.compose.first_start", options=("-W", "ignore")))
 
 _LOOK: Final = 0.1
 DEFAULT: Final = "model_fit"
@@ -97,7 +98,7 @@ class TrackerKernels:
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL,
-                cwd=Path(__file__).resolve().parents[2],
+                env=environment(),
             )
         atexit.register(self.close)
         output = self._child.stdout

@@ -1,4 +1,4 @@
-"""Files of others: laws, effects, metrics, marker extractors and studies, and which are refused.
+"""Files of others: laws, effects, machines, exercises and the like, and which are refused.
 
 They are read and not run, so that the answer costs little and harms nobody. Asked to, they are
 imported too, each in a process of its own, which it may end. What only using them would find is
@@ -8,15 +8,21 @@ said by the one who uses them.
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from importlib import import_module
 from pathlib import Path
 from typing import Any, Final
 
 from app import mechanisms
 from app.core import paths
+from app.core import plugin_folders as folders
+from app.core.errors import AcusError
+from app.core.plugin_trial import import_fault
 from app.core.plugins import PluginKind, read_statements
 from app.core.progress import Progress
+from app.exercises.library import read_exercise
+from app.mechanisms.profile import load_profile
 from app.mechanisms.profile.device import machine_fault
 
 
@@ -25,7 +31,7 @@ class PluginFile:
     """A file that is not the program's own.
 
     Attributes:
-        kind: what it is: `force law`, `effect`, `metric`, `marker extractor`, `study` or `machine`.
+        kind: what it is: `force law`, `effect`, `machine`, `feature`, `exercise` or the like.
         path: the file; of a machine its folder.
         title: as it declares it; empty if it is refused.
         refused: why it cannot be used, with file, line and what would be valid; empty if it can.
@@ -67,35 +73,107 @@ def plugin_files(tried: bool = False, progress: Progress | None = None) -> tuple
             title = "" if reason else kind.read(path).title
             found.append(PluginFile(kind.word, path, title, reason))
     progress.report(len(kinds) / (len(kinds) + 1), "machines")
-    return (*found, *_machines(tried))
+    found += _machines(tried)
+    for folder in folders.folders():
+        if not folder.is_own:
+            found += _parts(folder, tried)
+    return _with_refused(found)
+
+
+def _with_refused(found: list[PluginFile]) -> tuple[PluginFile, ...]:
+    """Return files with what whoever wanted to use them has refused since the program began."""
+    reasons = dict(sorted(folders.refused.items()))
+    files = [
+        replace(file, title="", refused=file.refused or reasons[file.path])
+        if file.path in reasons
+        else file
+        for file in found
+    ]
+    listed = {file.path for file in files}
+    files += [
+        PluginFile("folder" if not path.suffix else path.parent.name, path, "", reason)
+        for path, reason in reasons.items()
+        if path not in listed
+    ]
+    return tuple(files)
 
 
 def _machines(tried: bool) -> list[PluginFile]:
-    """List the user's own machines: folders, read as text as the files of the other kinds are."""
-    found = []
-    own = {path.name for path in Path(mechanisms.__file__ or "").parent.iterdir()}
-    for folder in sorted(paths.plugins("mechanisms").glob("*/")):
-        if folder.name.startswith(("_", ".")):
-            continue
-        title, reason = "", ""
-        if folder.name in own:
-            reason = f"{folder}: {folder.name!r} is a name of the program's own; rename the folder"
-            found.append(PluginFile("machine", folder, "", reason))
-            continue
-        for name, wanted in (("profile.py", "PROFILE"), ("machine.py", "machine")):
-            try:
-                body = read_statements(folder / name)
-            except (OSError, SyntaxError, ValueError) as error:
-                reason = f"{folder / name} cannot be read: {error}"
-                break
+    """List machines of others: folders, read as text as the files of the other kinds are."""
+    shared = (one.path / "machines" for one in folders.folders() if not one.is_own)
+    places = (*shared, *paths.plugin_places("mechanisms"))
+    return [
+        _machine(folder, tried)
+        for folder in (folder for place in places for folder in sorted(place.glob("*/")))
+        if not folder.name.startswith(("_", "."))
+    ]
+
+
+def _machine(folder: Path, tried: bool) -> PluginFile:
+    if (Path(mechanisms.__file__ or "").parent / folder.name).exists():
+        reason = f"{folder}: {folder.name!r} is a name of the program's own; rename the folder"
+        return PluginFile("machine", folder, "", reason)
+    title = ""
+    for name, wanted in (("profile.py", "PROFILE"), ("machine.py", "machine")):
+        reason = ""
+        try:
+            body = read_statements(folder / name)
+        except (OSError, SyntaxError, ValueError) as error:
+            reason = f"{folder / name} cannot be read: {error}"
+        else:
             if wanted not in _defined(body):
                 reason = f"{folder / name} does not define {wanted}; see 'How to add a machine'"
-                break
-            if tried and (reason := machine_fault(folder.name, Path(name).stem)):
-                break
-            title = (ast.get_docstring(ast.Module(body, [])) or folder.name).split("\n")[0]
-        found.append(PluginFile("machine", folder, "" if reason else title, reason))
-    return found
+            elif tried:
+                reason = machine_fault(folder.name, Path(name).stem)
+            title = _docstring(body) or folder.name
+        if reason:
+            return PluginFile("machine", folder, "", reason)
+    return PluginFile("machine", folder, title, "")
+
+
+_PARTS: Final = {
+    "features": "feature",
+    "views": "view",
+    "demonstrations": "demonstration",
+    "commands": "command",
+    "hard_cases": "file of hard cases",
+    "comparisons": "compared machine",
+}
+"""Subfolder of a folder of plug-ins -> what a file in it is, where no kind of plug-in says so."""
+
+
+def _parts(folder: folders.PluginFolder, tried: bool) -> Iterator[PluginFile]:
+    """Yield what a folder of somebody else's holds beside plug-ins that one file makes."""
+    for part, kind in _PARTS.items():
+        for path in folder.files(part):
+            title, reason = "", ""
+            try:
+                body = read_statements(path)
+                declared = folders.declared(body)
+            except (OSError, SyntaxError, ValueError) as error:
+                reason = f"{path} cannot be read: {error}"
+            else:
+                if part == "views" and not declared:
+                    continue  # a piece of a feature
+                title = str(declared.get("title") or _docstring(body) or path.stem)
+                fault = import_fault(path, f"{folder.package}.{part}") if tried else ""
+                reason = f"{path} cannot be imported: {fault}" if fault else ""
+            yield PluginFile(kind, path, "" if reason else title, reason)
+    for path in sorted((folder.path / "devices").glob("*.yaml")):
+        yield _checked("device profile", path, lambda path: load_profile(path).description)
+    for path in sorted((folder.path / "exercises").glob("*.yaml")):
+        yield _checked("exercise", path, lambda path: read_exercise(path).title)
+
+
+def _checked(kind: str, path: Path, title: Callable[[Path], str]) -> PluginFile:
+    try:
+        return PluginFile(kind, path, title(path), "")
+    except AcusError as error:
+        return PluginFile(kind, path, "", str(error))
+
+
+def _docstring(body: list[ast.stmt]) -> str:
+    return (ast.get_docstring(ast.Module(body, [])) or "").split("\n")[0]
 
 
 def _defined(body: list[ast.stmt]) -> set[str]:
@@ -107,10 +185,10 @@ def _defined(body: list[ast.stmt]) -> set[str]:
     return names
 
 
-def plugin_folders() -> dict[str, Path]:
+def plugin_folders() -> dict[str, tuple[Path, ...]]:
     """Return where the user's own files of each kind lie; a folder need not exist."""
-    folders = {kind.word: paths.plugins(kind.folder) for kind, _ in _kinds()}
-    return folders | {"machine": paths.plugins("mechanisms")}
+    places = {kind.word: paths.plugin_places(kind.folder) for kind, _ in _kinds()}
+    return places | {"machine": paths.plugin_places("mechanisms")}
 
 
 def refused_files() -> tuple[PluginFile, ...]:
@@ -119,17 +197,20 @@ def refused_files() -> tuple[PluginFile, ...]:
 
 
 def _kinds() -> tuple[tuple[PluginKind[Any], Callable[[], Mapping[Path, str]]], ...]:
-    """Every kind with what looks its files through."""
+    """Return every kind with what looks its files through; further rooms bring theirs."""
     from app.device.control import law, laws
+    from app.imaging import remedies
     from app.scoring import metrics
     from app.simulation import effects
-    from app.studies import runner
     from app.tracking.markers import choice
 
+    rooms = sorted(path.parent.name for path in folders.APP.glob("*/plugin_kinds.py"))
+    more = (import_module(f"{folders.APP.name}.{room}.plugin_kinds").KINDS for room in rooms)
     return (
         (law.KIND, laws.refused),
         (effects.KIND, effects.refused),
         (metrics.KIND, metrics.KIND.refused),
         (choice.KIND, choice.KIND.refused),
-        (runner.KIND, runner.KIND.refused),
+        (remedies.KIND, remedies.refused),
+        *((kind, kind.refused) for kinds in more for kind in kinds),
     )

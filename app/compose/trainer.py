@@ -57,9 +57,9 @@ from app.simulation.trainee import TraineeScript, script_stage
 from app.tracking.cameras.settings import CameraSettings
 from app.tracking.errors import TrackingError
 from app.tracking.motion.depth_filter import FASTEST
+from app.tracking.needle_tracker import NeedleTracker, StereoAbilities
 from app.tracking.optics.rig import load_rig
 from app.tracking.pen.settings import PenSettings
-from app.tracking.pen.tracker import PenTracker
 from app.tracking.tracker import Tracker
 
 
@@ -224,21 +224,21 @@ class Rig:
     setup: TrainerSetup
     profile: DeviceProfile
     loop: Loop
-    tracker: Tracker | PenTracker
+    tracker: NeedleTracker
     trainer: Trainer
     robot: Robot | None = None
     pen: Pen | None = None
 
     @property
-    def stereo(self) -> Tracker:
-        """The tracker with two cameras.
+    def stereo(self) -> StereoAbilities:
+        """What the tracker can do with two cameras.
 
         Raises:
             TrackingError: if a pen and its webcam are in place of robot and cameras.
         """
-        if isinstance(self.tracker, PenTracker):
+        if self.tracker.stereo is None:
             raise TrackingError("this needs the two cameras of a robot; a pen has one webcam")
-        return self.tracker
+        return self.tracker.stereo
 
     def close(self) -> None:
         """End everything at zero force, then let go of a real robot; idempotent."""

@@ -3,7 +3,9 @@
 Import `njit` from here, never from numba: the cache folder must be set before numba is loaded.
 Numba's own cache looks at the file of a kernel only, not at the files it calls; the folder
 therefore carries a digest of every file that holds kernels or the constants they are built with
-(`Final`), so that an edit in any of them is never run from a stale build.
+(`Final`), so that an edit in any of them is never run from a stale build. The program's own folders
+of plug-ins count in it. Kernels of somebody else's plug-in lie in a folder of their own, which
+carries the digest of his files too: an edit there makes his kernels anew, and nobody else's.
 """
 
 import atexit
@@ -11,30 +13,68 @@ import hashlib
 import os
 import shutil
 import tempfile
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from types import FunctionType
 from typing import Any
 
-from app.core import paths
+from app.core import paths, plugin_folders
 from app.core.loading import COMPILED
 from app.core.parameters import StageFunction
 
 _ROOMS = ("core", "mechanisms", "imaging", "simulation", "tracking", "device")
 _MARKS = (b"app.core.compiled", b": Final")
+_TOPMOST = frozenset(
+    ("commands", "comparisons", "demonstrations", "features", "hard_cases", "studies", "views")
+)
+"""Subfolders of a folder of plug-ins whose constants no kernel but their own is built with."""
 _KEPT_BUILDS = 12
 _OWN = os.path.join(os.path.dirname(os.path.dirname(__file__)), "")
 """Folder of the program, as the files in it name themselves."""
 
 
 def kernels_digest() -> str:
-    """Digest of every file that holds kernels or constants that they are built with."""
-    app = Path(__file__).resolve().parents[1]
+    """Digest of every file of the program that holds kernels or constants they are built with."""
+    app = plugin_folders.APP
     digest = hashlib.sha256()
     for room, marks in (*((room, _MARKS) for room in _ROOMS), ("studies", _MARKS[:1])):
-        for file in sorted((app / room).rglob("*.py")):
-            content = file.read_bytes()
-            if any(mark in content for mark in marks):
-                digest.update(str(file.relative_to(app)).encode() + content)
+        _take(digest, app / room, marks, app)
+    for folder in plugin_folders.folders():
+        if folder.is_own:
+            for part in sorted(folder.path.iterdir()):
+                marks = _MARKS[:1] if part.name in _TOPMOST else _MARKS
+                _take(digest, part, marks, app)
     return digest.hexdigest()[:16]
+
+
+def plugin_digest(file: Path) -> str:
+    """Digest of what somebody else's plug-in is compiled from; empty for a file of the program.
+
+    Args:
+        file: of the plug-in, in a folder of plug-ins or in a machine's folder of the user's own.
+    """
+    if file.is_relative_to(plugin_folders.APP):
+        return ""
+    shared, places = plugin_folders.folder_of(file), paths.plugin_places("mechanisms")
+    if shared is not None:
+        folder = shared.path
+    elif own := next((place for place in places if file.is_relative_to(place)), None):
+        folder = own / file.relative_to(own).parts[0]
+    else:
+        return ""
+    digest = hashlib.sha256()
+    _take(digest, folder, _MARKS, folder)
+    return digest.hexdigest()[:16]
+
+
+def _take(digest: Any, place: Path, marks: tuple[bytes, ...], root: Path) -> None:
+    """Let a file, or all files in a folder, that one of these marks is in count in a digest."""
+    for file in sorted(place.rglob("*.py")) if place.is_dir() else [place]:
+        content = file.read_bytes() if file.suffix == ".py" else b""
+        if any(mark in content for mark in marks):
+            digest.update(str(file.relative_to(root)).encode() + content)
 
 
 def _cache_folder() -> Path:
@@ -64,6 +104,8 @@ from numba.core import event  # noqa: E402
 from numba.core.typing.templates import builtin_registry  # noqa: E402
 from numba.np import arrayobj  # noqa: E402
 
+_CHOOSING = threading.RLock()
+
 STAGE_SIGNATURE = types.void(types.float64[::1], types.float64[::1])
 """`void(state[::1], parameters[::1])`: every stage of a tick. Memory of a stage lives in its own
 parameters array."""
@@ -83,23 +125,23 @@ def njit(*args: Any, **options: Any) -> Any:
     What has no signature goes into no table of stages, and needs no wrapper for C (13 % of the time
     that the tracker's kernels compile).
     """
-    plain = not args or callable(args[0])
+    plain = not args or isinstance(args[0], FunctionType)
     options = {
         "nogil": True,
         "cache": True,
         "error_model": "numpy",
         "no_cfunc_wrapper": plain,
     } | options
-    if plain and args:
-        return numba.njit(*args, **options, **_checks(args[0]))
+    signature = () if plain else args
 
-    def compiled(function: Any) -> Any:
-        return numba.njit(*args, **options, **_checks(function))(function)
+    def compiled(function: FunctionType) -> Any:
+        with _cached_for(function):
+            return numba.njit(*signature, **options | _checks(function))(function)
 
-    return compiled
+    return compiled(args[0]) if plain and args else compiled
 
 
-def _checks(function: Any) -> dict[str, bool]:
+def _checks(function: FunctionType) -> dict[str, bool]:
     """Check every index of a function that is not the program's own, wherever it runs.
 
     An index outside raises IndexError, which ends the loop at zero force, instead of writing into
@@ -107,6 +149,22 @@ def _checks(function: Any) -> dict[str, bool]:
     """
     is_own = function.__code__.co_filename.startswith(_OWN)
     return {} if is_own else {"boundscheck": True}
+
+
+@contextmanager
+def _cached_for(function: FunctionType) -> Iterator[None]:
+    """Let a function of somebody else's plug-in be cached by what it is compiled from too."""
+    digest = plugin_digest(Path(function.__code__.co_filename))
+    if not digest:
+        yield
+        return
+    with _CHOOSING:
+        shared = numba.config.CACHE_DIR
+        numba.config.CACHE_DIR = str(Path(shared) / f"plugin-{digest}")
+        try:
+            yield
+        finally:
+            numba.config.CACHE_DIR = shared
 
 
 def _leave_shapes_out() -> None:
@@ -127,7 +185,7 @@ def _leave_shapes_out() -> None:
 _leave_shapes_out()
 
 
-class _Counter(event.Listener):
+class _KernelCounter(event.Listener):
     """Counts what is compiled, not what is loaded."""
 
     def on_start(self, event: Any) -> None:
@@ -138,7 +196,7 @@ class _Counter(event.Listener):
         COMPILED.add()
 
 
-event.register("numba:compile", _Counter())
+event.register("numba:compile", _KernelCounter())
 
 
 def is_stage(function: Any) -> bool:

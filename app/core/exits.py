@@ -1,4 +1,4 @@
-"""Exit codes of every command; the table in README.md says the same."""
+"""Exit codes of every command; the table in docs/command-line.md says the same."""
 
 from enum import IntEnum
 

@@ -65,13 +65,22 @@ def settings() -> Path:
     return Path(os.environ.get("ACUS_SETTINGS") or _of_user("config"))
 
 
-def plugins(kind: str) -> Path:
-    """Per-user folder of a laboratory's own files: `laws`, `effects`, `mechanisms` or the like.
+def plugin_places(kind: str) -> tuple[Path, ...]:
+    """Return the folders of a laboratory's own files: `laws`, `effects`, `mechanisms` or the like.
 
-    `ACUS_LAWS`, `ACUS_EFFECTS`, `ACUS_METRICS`, `ACUS_STUDIES`, `ACUS_EXTRACTORS` and
-    `ACUS_MECHANISMS` override.
+    `ACUS_LAWS`, `ACUS_EFFECTS`, `ACUS_METRICS`, `ACUS_STUDIES`, `ACUS_EXTRACTORS`, `ACUS_REMEDIES`
+    and `ACUS_MECHANISMS` list others in the place of the per-user one, as PATH lists folders.
     """
-    return Path(os.environ.get(f"ACUS_{kind.upper()}") or data() / kind)
+    return _listed(f"ACUS_{kind.upper()}") or (data() / kind,)
+
+
+def plugin_folders() -> tuple[Path, ...]:
+    """Return the folders of plug-ins that `ACUS_PLUGINS` lists, as PATH lists folders."""
+    return tuple(path.absolute() for path in _listed("ACUS_PLUGINS"))
+
+
+def _listed(variable: str) -> tuple[Path, ...]:
+    return tuple(map(Path, filter(None, os.environ.get(variable, "").split(os.pathsep))))
 
 
 def _of_user(kind: str) -> str:

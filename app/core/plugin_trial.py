@@ -14,15 +14,14 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import json
-import os
 import signal
 import subprocess
-import sys
 from pathlib import Path
 from typing import Final
 
 from app import __version__
 from app.core import paths
+from app.core.child_process import environment, interpreter
 from app.core.files import read_at_most, write_atomically
 
 SECONDS: Final = 5
@@ -111,12 +110,10 @@ def _tried(path: Path, package: str, folder: Path | None) -> str:
     parts = (path.stem,) if folder is None else path.relative_to(folder).with_suffix("").parts
     name, more = ".".join((package, *parts)), () if folder is None else (str(folder),)
     limits = tuple(map(str, (SECONDS, TIMES, MOST)))
-    root = str(Path(__file__).resolve().parents[2])
-    there = os.pathsep.join(filter(None, (root, os.environ.get("PYTHONPATH"))))
     try:
         done = subprocess.run(
-            [sys.executable, "-P", "-c", _CHILD, str(path), package, name, *limits, *more],
-            env=os.environ | {"PYTHONPATH": there},
+            [*interpreter(), "-c", _CHILD, str(path), package, name, *limits, *more],
+            env=environment(),
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,

@@ -2,9 +2,9 @@
 
 A plug-in says what it is in a literal `DECLARATION = {...}` at its top. It is read as text: a file
 that is not chosen is never imported. A `Kind` says for one sort of plug-in what must be declared,
-where its files lie (the program's folder, folders appended to its package's `__path__`, the user's
-own folder) and which error is raised. Every message has file, line, field, value and what would be
-valid. See docs/extending.md.
+where its files lie (the program's folder, folders appended to its package's `__path__`, folders of
+plug-ins, the user's own folders) and which error is raised. Every message has file, line, field,
+value and what would be valid. See docs/extending.md.
 
 Names of the program's own cannot be taken. A file of somebody else's is imported only after a
 process of its own has shown that it can be (`core.plugin_trial`), and whatever it raises is an
@@ -19,7 +19,7 @@ import importlib.util
 import math
 import sys
 import threading
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from difflib import get_close_matches
@@ -31,7 +31,7 @@ from sys import float_info
 from types import MappingProxyType, ModuleType
 from typing import Any, Final, Generic, NamedTuple, TypeVar
 
-from app.core import paths
+from app.core import paths, plugin_folders
 from app.core.errors import AcusError
 from app.core.files import read_at_most
 from app.core.plugin_trial import import_fault
@@ -140,11 +140,10 @@ class PluginKind(Generic[D]):
         fields: key -> what must stand there; all of these keys.
         optional: key -> what must stand there if the key does.
         error: makes the error of the room that asks.
-        package: whose folders hold such files; empty if they are found otherwise.
-        folder: name of the user's own folder; empty if there is none.
+        package: whose folders hold such files; empty if they lie in folders of plug-ins alone.
+        folder: name of the subfolder in folders of plug-ins and, for a kind with a package, of the
+            user's own folder; empty if such files are found otherwise.
         functions: that a file must define at its top level.
-        older: rewrites what a file of an earlier form says into this form; None leaves a file
-            without a declaration refused.
         spared: key of a declaration that spares a file, where it is true, these functions.
         marks: a file of the program's folder counts only if one of these is in it; empty: all do.
         trial: of files that are not the program's own and run in the loop or the tracker.
@@ -158,7 +157,6 @@ class PluginKind(Generic[D]):
     folder: str = ""
     functions: tuple[str, ...] = ()
     spared: str = ""
-    older: Callable[[Path, PluginText], PluginText] | None = None
     marks: tuple[bytes, ...] = ()
     trial: Trial | None = None
     optional: Mapping[str, Field] = field(default_factory=lambda: MappingProxyType({}))
@@ -169,17 +167,21 @@ class PluginKind(Generic[D]):
         return self.noun.split(" ", 1)[1]
 
     def files(self, name: str = "*") -> list[Path]:
-        """Files of all plug-ins: the program's own, appended folders', then the user's.
+        """Files of all plug-ins: the program's own, appended folders', folders of plug-ins', then
+        the user's.
 
         Args:
             name: of one plug-in; all of them without it.
         """
+        shared = plugin_folders.files(self.folder, name)
+        if not self.package:
+            return shared
         package = importlib.import_module(self.package)
-        folders = [*map(Path, package.__path__), paths.plugins(self.folder)]
+        found = [*_within(map(Path, package.__path__), name), *shared]
+        found += _within(paths.plugin_places(self.folder), name)
         return [
             path
-            for folder in dict.fromkeys(folders)
-            for path in sorted(folder.glob(f"{name}.py"))
+            for path in dict.fromkeys(found)
             if not path.stem.startswith("_") and (not self.is_own(path) or self._counts(path))
         ]
 
@@ -270,6 +272,7 @@ class PluginKind(Generic[D]):
         standing = vars(package).get(name)
         loaded = getattr(standing, "__name__", "") == f"{self.package}.{name}"
         its_own = (folder / f"{name}.py").exists() or (folder / name).is_dir()
+        its_own |= any(map(self.is_own, plugin_folders.files(self.folder, escape(name))))
         if not its_own and (standing is None or loaded):
             return ""
         return f"{path}: {name!r} is a name of the program's own; rename the file"
@@ -302,6 +305,9 @@ class PluginKind(Generic[D]):
 
     def is_own(self, path: Path) -> bool:
         """Whether a file is one of the program's own."""
+        shared = plugin_folders.folder_of(path)
+        if shared is not None or not self.package:
+            return shared is not None and shared.is_own
         package = importlib.import_module(self.package)
         return package.__file__ is not None and path.parent == Path(package.__file__).parent
 
@@ -321,7 +327,10 @@ class PluginKind(Generic[D]):
         Raises:
             AcusError: made by `error`, naming the file and what went wrong in it.
         """
+        shared = plugin_folders.folder_of(declared.path)
         name = f"{self.package}.{declared.name}"
+        if shared is not None:
+            name = shared.module_name(declared.path)
         with _IMPORTING:
             known = sys.modules.get(name)
             if known is not None and known.__file__ == str(declared.path):
@@ -330,12 +339,8 @@ class PluginKind(Generic[D]):
                 before(declared)
             if fault := self.fault(declared.path):
                 raise self.error(fault)
-            specification = importlib.util.spec_from_file_location(name, declared.path)
-            if specification is None or specification.loader is None:
-                raise self.error(f"{self.word} file {declared.path} cannot be imported")
-            module = sys.modules[name] = importlib.util.module_from_spec(specification)
             try:
-                specification.loader.exec_module(module)
+                module = _imported(name, declared.path, shared is not None)
                 if after is not None:
                     after(module)
             except BaseException as reason:  # whatever somebody's file does: no half of it stays
@@ -346,7 +351,8 @@ class PluginKind(Generic[D]):
                 raise self.error(
                     f"{self.word} file {declared.path} cannot be imported: {text}"
                 ) from reason
-            setattr(sys.modules[self.package], declared.name, module)
+            if shared is None:
+                setattr(sys.modules[self.package], declared.name, module)
         return module
 
     def _counts(self, path: Path) -> bool:
@@ -359,18 +365,32 @@ class PluginKind(Generic[D]):
         return ", ".join(self.names()) or "none"
 
 
+def _imported(name: str, path: Path, has_package: bool) -> ModuleType:
+    """Import a file by its name in the package that it lies in, or as a module of another."""
+    if has_package:
+        return importlib.import_module(name)
+    specification = importlib.util.spec_from_file_location(name, path)
+    if specification is None or specification.loader is None:
+        raise ImportError("it is no Python file")
+    module = sys.modules[name] = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    return module
+
+
+def _within(folders: Iterable[Path], name: str) -> list[Path]:
+    return [path for folder in folders for path in sorted(folder.glob(f"{name}.py"))]
+
+
 class PluginText(NamedTuple):
     """A file that was read.
 
     Attributes:
         document: the literal; None if there is none.
         lines: key, or the name of a parameter, -> line on which its value stands.
-        body: the statements of the file.
     """
 
     document: dict[str, Any] | None
     lines: Mapping[str, int]
-    body: list[ast.stmt]
 
 
 def read_statements(path: Path) -> list[ast.stmt]:
@@ -386,8 +406,6 @@ def read_statements(path: Path) -> list[ast.stmt]:
 def _read(kind: PluginKind[Any], path: Path, text: str) -> Any:
     body = ast.parse(text, str(path)).body
     source = _literal(kind, body, path)
-    if kind.older is not None:
-        source = kind.older(path, source)
     if source.document is None:
         raise kind.error(f"{path} has no {_NAME} = {{...}}; see 'How to add {kind.noun}'")
     given = set(source.document) - set(kind.optional)
@@ -425,8 +443,8 @@ def _literal(kind: PluginKind[Any], body: list[ast.stmt], path: Path) -> PluginT
                     f"{path}, line {node.lineno}: {_NAME} is not a literal: {reason}"
                 ) from reason
             if isinstance(document, dict) and isinstance(node.value, ast.Dict):
-                return PluginText(document, {"": node.lineno, **_lines(node.value)}, body)
-    return PluginText(None, {}, body)
+                return PluginText(document, {"": node.lineno, **_lines(node.value)})
+    return PluginText(None, {})
 
 
 def _lines(node: ast.Dict) -> dict[str, int]:

@@ -21,7 +21,6 @@ import shutil
 import signal
 import struct
 import subprocess
-import sys
 import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -30,6 +29,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from app.core import paths
+from app.core.child_process import environment, module_command
 from app.core.errors import AcusError
 from app.core.files import read_at_most, write_atomically
 from app.core.trial_states import words
@@ -117,25 +117,23 @@ def _same(files: Any) -> bool:
 
 
 def _run(trial: Trial, path: Path, argument: str) -> dict[str, Any]:
-    root = Path(__file__).resolve().parents[2]
     request = {
         "program": trial.program,
         "bare": list(trial.bare),
         "path": str(path),
         "argument": argument,
     }
-    environment = os.environ | {
-        "NUMBA_BOUNDSCHECK": "1",
-        "NUMBA_NRT_STATS": "1",  # counts what a tick allocates
-        "NUMBA_CACHE_DIR": str(_kernels()),
-        "PYTHONPATH": os.pathsep.join(filter(None, (str(root), os.environ.get("PYTHONPATH")))),
-    }
+    surroundings = environment(
+        NUMBA_BOUNDSCHECK="1",
+        NUMBA_NRT_STATS="1",  # counts what a tick allocates
+        NUMBA_CACHE_DIR=str(_kernels()),
+    )
     with _page() as (name, page):
         try:
             done = subprocess.run(
-                [sys.executable, "-P", "-m", "app.core.trial_process"],
+                module_command("app.core.trial_process"),
                 input=json.dumps(request | {"page": name}),
-                env=environment,
+                env=surroundings,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL,
                 text=True,

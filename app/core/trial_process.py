@@ -14,6 +14,7 @@ import types
 from pathlib import Path
 from typing import Any, Final
 
+from app.core import plugin_folders
 from app.core.errors import AcusError
 from app.core.trial import digest_of
 from app.core.trial_watch import PAGE, Watch, doing_in
@@ -58,7 +59,9 @@ def _leave_out(package: str, root: Path) -> None:
 def _files(path: Path, root: Path) -> dict[str, str]:
     """Digests of the files that were imported beside the program's and the libraries' own."""
     libraries = _within(*sysconfig.get_paths().values(), sys.prefix, sys.base_prefix)
-    own, near = _within(str(root / "app")), _within(str(path.parents[1]))
+    shared = plugin_folders.folder_of(path)
+    own = _within(str(root / "app"))
+    near = _within(str(shared.path if shared else path.parents[1]))
     names = {getattr(module, "__file__", None) or "" for module in list(sys.modules.values())}
     return {
         name: digest_of(Path(name))

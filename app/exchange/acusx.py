@@ -239,7 +239,7 @@ def _ct_members(
 ) -> dict[str, Path]:
     """De-identify the CT into a folder, and see that it is still the same."""
     from app.imaging.library import CtLibrary
-    from app.imaging.resampling import read_with
+    from app.imaging.reading import read_with
 
     library, remedy = CtLibrary(folder / "library"), exercise.ct.remedy
     taken = library.import_series(volume.series, (), progress.part(0.0, 0.7), remedy)
@@ -268,7 +268,7 @@ def _identity(exercise: Exercise, volume: Volume) -> CtIdentity:
         kind=found.kind,  # type: ignore[arg-type]
         size=found.size,
         affine_mm=found.affine_mm,
-        remedy=exercise.ct.remedy.value,
+        remedy=exercise.ct.remedy,
     )
 
 
@@ -482,8 +482,7 @@ def _ct_folder(
     """
     from app.imaging.errors import SeriesAmbiguousError
     from app.imaging.library import CtLibrary, discard
-    from app.imaging.reading import choose
-    from app.imaging.resampling import read_with
+    from app.imaging.reading import choose, read_with
     from app.imaging.scanning import scan_folder
 
     remedy, wanted = exercise.ct.remedy, manifest.ct.digest

@@ -1,8 +1,8 @@
 """Results of a group leave: tidy and wide tables, a gradebook that Moodle imports, and JSON.
 
 Tables are CSV (RFC 4180, UTF-8 with byte order mark); with `semicolons` as Excel opens them on
-computers whose decimal sign is the comma. Who made an attempt is told by pseudonym; the text of old
-records that nobody was assigned to stands as it was typed, with an empty pseudonym.
+computers whose decimal sign is the comma. Who made an attempt is told by pseudonym; a name that was
+typed without signing in stands as it was typed, with an empty pseudonym.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ class Results:
     Attributes:
         board: students by exercises.
         attempts: all that are told, oldest first.
-        people: by what records name.
+        people: by key, which is what records name.
         remarks: by attempt.
         names: names by key where the instructor wants them in the files.
     """

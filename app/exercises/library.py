@@ -8,11 +8,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from app.core import paths
+from app.core import paths, plugin_folders
 from app.core.configuration import line_of, parse_text, read_text
 from app.core.errors import AcusError, ConfigurationError
 from app.exercises.errors import ExerciseError, UnknownExerciseError
 from app.exercises.schema import Exercise
+from app.mechanisms.profile import device
 
 EARLIER: Final = re.compile(r"([a-z0-9-]+)@([0-9]+)")
 """Name of a file (without its ending) that keeps an earlier version: `id@version`."""
@@ -31,7 +32,8 @@ class Library:
     """All exercises; iterating gives those that can be used.
 
     Attributes:
-        exercises: by level; within one, shipped before the user's, then by file name.
+        exercises: by level; within one, shipped and those of plug-ins before the user's, then by
+            file name.
         broken: files that cannot be used: to be shown, not hidden.
         files: where each lies, by its id.
     """
@@ -61,7 +63,10 @@ def library() -> Library:
     found: dict[str, Exercise] = {}
     files: dict[str, Path] = {}
     broken: list[Broken] = []
-    for path in (path for folder in folders() for path in sorted(folder.glob("*.yaml"))):
+    shipped, own = folders()
+    shared = (folder.path / "exercises" for folder in plugin_folders.folders())
+    places = (shipped, *shared, own)
+    for path in (path for place in places for path in sorted(place.glob("*.yaml"))):
         if EARLIER.fullmatch(path.stem):
             continue
         try:
@@ -192,5 +197,6 @@ def unknown_profile(field: str, value: str) -> str:
 
 def profile_names(field: str) -> tuple[str, ...]:
     """Names that the field `device` or `rig` may hold."""
-    folder = {"device": "devices", "rig": "cameras"}[field]
-    return tuple(sorted(file.stem for file in (paths.resources() / folder).glob("*.yaml")))
+    if field == "device":
+        return tuple(device.profile_names())
+    return tuple(sorted(file.stem for file in (paths.resources() / "cameras").glob("*.yaml")))

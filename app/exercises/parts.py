@@ -6,11 +6,22 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import Discriminator, Field, Tag, field_validator, model_validator
+from pydantic import (
+    AfterValidator,
+    Discriminator,
+    Field,
+    GetJsonSchemaHandler,
+    Tag,
+    field_validator,
+    model_validator,
+)
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, PydanticCustomError
 
 from app.core.configuration import Strict
 from app.core.units import MILLIMETRE
-from app.imaging.series import Remedy
+from app.imaging.remedies import is_word, words
+from app.imaging.series import NO_REMEDY
 from app.planning.placement import PatientOrientation, Placement
 from app.planning.plan import Plan
 from app.simulation.needles import OUTER_DIAMETER
@@ -50,6 +61,25 @@ TELLING = frozenset(
 """Views that tell where the needle or its target is now: none of them where control scans guide."""
 
 
+def _of_the_table(name: str) -> str:
+    if is_word(name):
+        return name
+    *most, last = map(repr, words())
+    raise PydanticCustomError("remedy", f"Input should be {', '.join(most)} or {last}")
+
+
+class _RemedyNames:
+    """Lists the remedies in the JSON Schema, as they are when it is made."""
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        return {"type": "string", "enum": list(words())}
+
+
+RemedyName = Annotated[str, AfterValidator(_of_the_table), _RemedyNames()]
+
+
 class PhantomCt(Strict):
     """The procedural torso: one patient for each seed."""
 
@@ -63,7 +93,7 @@ class Ct(Strict):
         phantom: the procedural patient.
         folder: a folder; relative to the exercise file.
         series: SeriesInstanceUID, where the folder holds several.
-        remedy: what is asked for in reading it, of a folder: `resample`, `straighten` or `halve`.
+        remedy: what is asked for in reading it, of a folder: the name of a CT remedy.
         digest: SHA-256 of the geometry and voxels that the exercise was made on, of a folder
             (`Volume.digest`): another CT in that folder is refused. None where nobody has looked.
     """
@@ -71,7 +101,7 @@ class Ct(Strict):
     phantom: PhantomCt | None = None
     folder: Path | None = None
     series: str | None = None
-    remedy: Remedy = Remedy.NONE
+    remedy: RemedyName = NO_REMEDY
     digest: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")] | None = None
 
     @model_validator(mode="after")
@@ -84,7 +114,7 @@ class Ct(Strict):
             raise ValueError("series goes with folder; the phantom has one series only")
         if self.digest is not None and self.phantom is not None:
             raise ValueError("digest goes with folder; the phantom is known by its seed")
-        if self.remedy is not Remedy.NONE and self.folder is None and self.phantom is not None:
+        if self.remedy != NO_REMEDY and self.folder is None and self.phantom is not None:
             raise ValueError("remedy goes with folder; the phantom is read as it is")
         return self
 

@@ -163,8 +163,7 @@ def _volume_of(exercise: Exercise, progress: Progress) -> Volume:
 
     with turn(progress):  # pydicom: behind the window, not before it
         from app.imaging.phantom.series import phantom_series
-        from app.imaging.reading import choose, load_ct
-        from app.imaging.resampling import read_with
+        from app.imaging.reading import choose, load_ct, read_with
         from app.imaging.scanning import scan_folder
     ct = exercise.ct
     if ct.folder is None:

@@ -23,7 +23,6 @@ class Identity:
     """Which object a file holds. Patient and study appear only inside the pseudonym.
 
     Attributes:
-        former: the pseudonym that earlier versions wrote: only to find old records by.
         owner: what says whose image it is, as (attribute, keyed digest) pairs; an attribute that
             is absent is left out. Only to be compared.
     """
@@ -36,7 +35,6 @@ class Identity:
     label: str
     pseudonym: str
     frame_of_reference: str
-    former: str = ""
     owner: tuple[tuple[str, str], ...] = ()
 
 

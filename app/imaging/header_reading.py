@@ -20,7 +20,7 @@ from app.imaging.pixel_data import PixelFormat
 from app.imaging.pixel_finding import TRUNCATED, find_pixels
 from app.imaging.privacy.key import derived, installation_key
 from app.imaging.privacy.known_words import body_parts, is_kernel
-from app.imaging.privacy.pseudonyms import former_pseudonym, pseudonym
+from app.imaging.privacy.pseudonyms import pseudonym
 from app.imaging.series import Ignored
 from app.imaging.units import another_unit
 
@@ -228,7 +228,6 @@ def _identity(header: Elements) -> Identity:
         image_type=elements.parts(header, TAGS["ImageType"]),
         label=_label(get("SeriesNumber"), get("BodyPartExamined"), get("ConvolutionKernel")),
         pseudonym=name,
-        former=former_pseudonym(get("PatientID"), get("StudyInstanceUID")),
         frame_of_reference=get("FrameOfReferenceUID"),
         owner=_owner(name, tuple(get(name) for name in _OWNER)),
     )

@@ -31,7 +31,7 @@ from app.imaging.privacy.burned_in import MaskBox
 from app.imaging.privacy.report import LOCK, Deidentified, RemovalReport
 from app.imaging.reading import offer
 from app.imaging.scanning import scan_folder
-from app.imaging.series import Remedy, Series
+from app.imaging.series import NO_REMEDY, Series
 from app.imaging.worker.jobs import DEIDENTIFY
 from app.imaging.worker.limits import MEMORY_BYTES, MOST_SECONDS, Allowance, size_of
 from app.imaging.worker.pool import shared_worker
@@ -153,7 +153,7 @@ class LibraryEntry:
         label: series number, body part, kernel.
         files: how many.
         report: what was removed, as `RemovalReport.document` gives it.
-        remedy: what must be asked for to open it; NONE for one that opens as it is.
+        remedy: what must be asked for to open it; `NO_REMEDY` for one that opens as it is.
     """
 
     name: str
@@ -161,7 +161,7 @@ class LibraryEntry:
     label: str
     files: int
     report: dict[str, Any]
-    remedy: Remedy = Remedy.NONE
+    remedy: str = NO_REMEDY
 
 
 @dataclass(frozen=True, slots=True)
@@ -248,7 +248,7 @@ class CtLibrary:
         series: Series,
         boxes: Sequence[MaskBox] = (),
         progress: Progress | None = None,
-        remedy: Remedy = Remedy.NONE,
+        remedy: str = NO_REMEDY,
     ) -> Imported:
         """De-identify a series into the library.
 
@@ -297,11 +297,11 @@ def _require_one_patient(series: Series) -> None:
             )
 
 
-def _require_openable(series: Series, remedy: Remedy) -> None:
+def _require_openable(series: Series, remedy: str) -> None:
     if not series.slices:
         why = "only DICOM series are taken into the library; open this file"
         raise SeriesRefusedError(why if series.usable else f"{series.reason}; {why}")
-    if series.usable or (remedy is not Remedy.NONE and series.remedy is remedy):
+    if series.usable or (remedy in series.remedies):
         return
     raise SeriesRefusedError(f"this series cannot be used: {series.reason}{offer(series)}")
 
@@ -339,7 +339,7 @@ def _found_in(folder: Path) -> tuple[Images, str]:
 
 
 def _fill(
-    folder: Path, series: Series, boxes: Sequence[MaskBox], remedy: Remedy, progress: Progress
+    folder: Path, series: Series, boxes: Sequence[MaskBox], remedy: str, progress: Progress
 ) -> tuple[Deidentified, Images]:
     """Have every file written and verified by the worker process, and say what it is about."""
     headers = {header.path: header for header in series.slices}.values()
@@ -358,7 +358,7 @@ def _fill(
         "label": label,
         "pseudonym": made.study,
         "images": sorted(images),
-        "remedy": remedy.value if not series.usable else Remedy.NONE.value,
+        "remedy": remedy if not series.usable else NO_REMEDY,
         "report": made.report.document(),
     }
     write_atomically(folder / _ABOUT, json.dumps(about, indent=1) + "\n")
@@ -369,7 +369,7 @@ def _entry(folder: Path) -> LibraryEntry | None:
     try:
         about = json.loads((folder / _ABOUT).read_text(encoding="utf-8"))
         count = sum(1 for _ in folder.glob("*.dcm"))
-        remedy = Remedy(about.get("remedy", Remedy.NONE.value))
+        remedy = str(about.get("remedy", NO_REMEDY))
         return LibraryEntry(
             folder.name, folder, str(about["label"]), count, dict(about["report"]), remedy
         )

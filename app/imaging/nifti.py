@@ -21,7 +21,7 @@ from app.imaging.errors import (
     WorkerError,
 )
 from app.imaging.nifti_file import NiftiHeader
-from app.imaging.series import Ignored, Series
+from app.imaging.series import Ignored, Refusal, Series
 from app.imaging.structures.errors import ExtraMissingError
 from app.imaging.volume import Volume
 from app.imaging.worker.jobs import NIFTI_HEADER, NIFTI_VALUES
@@ -80,6 +80,7 @@ def _series(path: Path, header: NiftiHeader) -> Series:
         direction=None if lost else tuple((affine[:3, :3] / spacing).ravel().tolist()),
         usable=not reason,
         reason=reason,
+        refusal=Refusal.OTHER if reason else Refusal.NOTHING,
         slices=(),
         pseudonym=f"NIfTI-{header.digest[:8]}",
         frame_of_reference="",

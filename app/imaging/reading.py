@@ -1,6 +1,7 @@
 """Series to volume: each slice is read into its place, then scaled there to Hounsfield units.
 
-At reduced size voxels are averaged in blocks. Of a single file too, where one of its pixels lies in
+At reduced size voxels are averaged in blocks. A series that cannot be read as it is, is read on
+request by a remedy, and the volume says how. Of a single file too, where one of its pixels lies in
 the patient, and its value.
 """
 
@@ -27,9 +28,11 @@ from app.imaging.errors import (
 )
 from app.imaging.filling import filled, padding_of
 from app.imaging.header import SliceHeader
+from app.imaging.remedies import offered
+from app.imaging.remedies import read as read_mended
 from app.imaging.rescaling import fresh_array, integral
 from app.imaging.scanning import scan_folder
-from app.imaging.series import AS_IT_IS, Listing, Remedy, Series
+from app.imaging.series import AS_IT_IS, NO_REMEDY, Listing, Recipe, Refusal, Series
 from app.imaging.volume import Volume
 
 
@@ -177,7 +180,7 @@ def load_ct(
     return read_series(choose(listing, series_uid), progress.part(0.4, 1.0))
 
 
-def choose(listing: Listing, series_uid: str | None = None, remedy: Remedy = Remedy.NONE) -> Series:
+def choose(listing: Listing, series_uid: str | None = None, remedy: str = NO_REMEDY) -> Series:
     """Pick the series named (UID, or UID#part), or the only usable one.
 
     Args:
@@ -195,7 +198,7 @@ def choose(listing: Listing, series_uid: str | None = None, remedy: Remedy = Rem
         raise FolderError(nothing_in(listing))
     if series_uid is not None:
         return _named(listing, series_uid, remedy)
-    usable = tuple(s for s in listing.series if s.usable or remedy is s.remedy is not Remedy.NONE)
+    usable = tuple(s for s in listing.series if s.usable or remedy in s.remedies)
     if len(usable) > 1:
         uids = ", ".join(f"{series.key} ({series.label})" for series in usable)
         raise SeriesAmbiguousError(
@@ -221,7 +224,7 @@ def nothing_in(listing: Listing) -> str:
     )
 
 
-def _named(listing: Listing, series_uid: str, remedy: Remedy) -> Series:
+def _named(listing: Listing, series_uid: str, remedy: str) -> Series:
     named = [s for s in listing.series if series_uid in (s.uid, s.key)]
     exact = [s for s in named if s.key == series_uid]
     found = exact or [s for s in named if s.usable] or named[:1]
@@ -235,7 +238,7 @@ def _named(listing: Listing, series_uid: str, remedy: Remedy) -> Series:
             f"{parts}",
             tuple(found),
         )
-    if remedy is Remedy.NONE and not found[0].usable:
+    if remedy == NO_REMEDY and not found[0].usable:
         raise SeriesRefusedError(_refusal(found[0]))
     return found[0]
 
@@ -247,9 +250,10 @@ def _refusal(series: Series) -> str:
 
 def offer(series: Series) -> str:
     """Say with which `--remedy` a refused series can be read; nothing where there is none."""
-    if series.usable or series.remedy is Remedy.NONE:
+    if series.usable or not series.remedies:
         return ""
-    return f"; it can be read if you ask to {series.remedy} (--remedy {series.remedy})"
+    ways = (f"ask to {remedy} (--remedy {remedy})" for remedy in series.remedies)
+    return f"; it can be read if you {' or '.join(ways)}"
 
 
 def read_series(series: Series, progress: Progress | None = None) -> Volume:
@@ -268,11 +272,46 @@ def read_series(series: Series, progress: Progress | None = None) -> Volume:
 
         return read_nifti(series, progress)
     if too_large := memory.need(series.slices).reason:  # less is free than at the scan
-        raise TooLargeError(
-            f"series {series.key} {too_large}; ask to halve it", _halvable(series, too_large)
-        )
+        raise _too_large(series, too_large)
     hu = read_pixels(series, progress)
     return Volume(read_only(hu), grid_of(series).affine_mm, series, unit=series.unit)
+
+
+def read_with(
+    series: Series,
+    remedy: str = NO_REMEDY,
+    progress: Progress | None = None,
+    spacing_mm: float | None = None,
+    factors: tuple[int, int, int] = (1, 1, 1),
+) -> Volume:
+    """Read a series as it is, or mended in the way asked for.
+
+    Args:
+        series: usable, or one for which the remedy that is asked for is offered.
+        remedy: name of what is asked for.
+        progress: told how far it is; cancels.
+        spacing_mm: of resampled slices; the usual distance of the series' own where None.
+        factors: voxels along i, j and k that halving averages to one; as the memory needs where
+            all are 1.
+
+    Raises:
+        SeriesRefusedError: if the series cannot be read that way; says why.
+        ImagingError: if there is no such remedy; names those that there are.
+        FileDamagedError: if a file has changed since the scan or cannot be decoded; names it.
+        Cancelled: if `progress` was cancelled.
+    """
+    progress = progress or Progress()
+    if remedy == NO_REMEDY:
+        return read_series(series, progress)
+    if not series.slices or not (series.usable or remedy in series.remedies):
+        why = series.reason or "it is one file that holds a whole volume"
+        raise SeriesRefusedError(f"asking to {remedy} series {series.key} does not help: {why}")
+    return read_mended(series, Recipe(remedy, factors, spacing_mm), progress)
+
+
+def read_again(series: Series, recipe: Recipe, progress: Progress | None = None) -> Volume:
+    """Read a series in the way in which it was read before; raises as `read_with` does."""
+    return read_with(series, recipe.remedy, progress, recipe.spacing_mm, recipe.factors)
 
 
 def grid_of(series: Series) -> stack.Stack:
@@ -316,13 +355,15 @@ def _check_room(series: Series, factors: tuple[int, int, int]) -> None:
     """See that there is room for twice the memory that was counted on."""
     i, j, k = (max(1, n // f) for n, f in zip(series.size, factors, strict=True))
     if too_large := memory.need_of((i, j, k), 4).reason:
-        why = f"has values beyond 16 bits and {too_large}"
-        raise TooLargeError(f"series {series.key} {why}; ask to halve it", _halvable(series, why))
+        raise _too_large(series, f"has values beyond 16 bits and {too_large}")
 
 
-def _halvable(series: Series, reason: str) -> Series:
-    """Return the series as the scan would have found it, had it known."""
-    return replace(series, usable=False, reason=reason, remedy=Remedy.HALVE)
+def _too_large(series: Series, reason: str) -> TooLargeError:
+    """Make an error that holds the series as the scan would have found it, had it known."""
+    known = replace(series, usable=False, reason=reason, refusal=Refusal.TOO_LARGE)
+    known = replace(known, remedies=offered(known).names)
+    ask = f"; ask to {known.remedy} it" if known.remedies else ""
+    return TooLargeError(f"series {series.key} {reason}{ask}", known)
 
 
 def _padding(headers: tuple[SliceHeader, ...], whole: NDArray[Any]) -> NDArray[np.bool_] | None:

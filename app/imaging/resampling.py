@@ -1,10 +1,8 @@
-"""Series that cannot be read as they are, read on request all the same, and the volume says how.
+"""A series whose slices lie unevenly, or are tilted, on an even, right-angled grid.
 
-Resampling puts uneven slices on an even, right-angled grid; straightening does the same with a
-tilted stack. Each value lies between its two neighbouring slices, each sampled where its own file
-puts it: linear along the normal, bilinear in the slice. Where slices are missing nothing is
-invented: the gap stays empty, and so does what lies nearer to padding than to anything measured: no
-value is mixed with it. Halving averages blocks of voxels, so that a volume fits the memory.
+Each value lies between its two neighbouring slices, each sampled where its own file puts it: linear
+along the normal, bilinear in the slice. Where slices are missing nothing is invented: the gap stays
+empty, and so does what lies nearer to padding than to anything measured: no value is mixed with it.
 """
 
 from collections.abc import Callable
@@ -21,9 +19,9 @@ from app.core.progress import Progress
 from app.imaging import memory, stack
 from app.imaging.errors import SeriesRefusedError, TooLargeError
 from app.imaging.filling import padding_of
-from app.imaging.reading import grid_of, read_pixels, read_series, reduced_affine
+from app.imaging.reading import grid_of, read_pixels
 from app.imaging.rescaling import EMPTY_HU, fresh_array
-from app.imaging.series import Recipe, Remedy, Series
+from app.imaging.series import Recipe, Series
 from app.imaging.volume import Volume
 
 FINEST_MM, COARSEST_MM = 0.1, 20.0
@@ -34,67 +32,6 @@ _MEASURED = 0.5
 
 _WHOLE = 1e-4
 """A sampling place this near to a pixel (or slice) is that pixel, in pixels (or slices)."""
-
-
-def read_with(
-    series: Series,
-    remedy: Remedy = Remedy.NONE,
-    progress: Progress | None = None,
-    spacing_mm: float | None = None,
-    factors: tuple[int, int, int] | None = None,
-) -> Volume:
-    """Read a series as it is, or mended in the way asked for.
-
-    Args:
-        series: usable, or one whose `remedy` is the one asked for.
-        remedy: what is asked for.
-        progress: told how far it is; cancels.
-        spacing_mm: of resampled slices; the usual distance of the series' own where None.
-        factors: voxels along i, j and k that halving averages to one; as the memory needs where
-            None.
-
-    Raises:
-        SeriesRefusedError: if the series cannot be read that way; says why.
-        FileDamagedError: if a file has changed since the scan or cannot be decoded; names it.
-        Cancelled: if `progress` was cancelled.
-    """
-    progress = progress or Progress()
-    if remedy is Remedy.NONE:
-        return read_series(series, progress)
-    if not series.slices or not (series.usable or series.remedy is remedy):
-        why = series.reason or "it is one file that holds a whole volume"
-        raise SeriesRefusedError(f"asking to {remedy} series {series.key} does not help: {why}")
-    if remedy is Remedy.HALVE:
-        return _halved(series, progress, factors)
-    return _straight(series, remedy, spacing_mm, progress)
-
-
-def read_again(series: Series, recipe: Recipe, progress: Progress | None = None) -> Volume:
-    """Read a series in the way in which it was read before; raises as `read_with` does."""
-    factors = recipe.factors if recipe.remedy is Remedy.HALVE else None
-    return read_with(series, recipe.remedy, progress, recipe.spacing_mm, factors)
-
-
-def _halved(
-    series: Series, progress: Progress, wanted: tuple[int, int, int] | None = None
-) -> Volume:
-    factors = wanted or memory.need(series.slices).factors
-    grid = grid_of(series)
-    if wanted is None and factors == (1, 1, 1):
-        _, pixel, between = np.linalg.norm(grid.affine_mm[:3, :3], axis=0)
-        factors = (2, 2, 2 if between < 1.5 * pixel else 1)
-    try:
-        hu = read_pixels(series, progress, factors)
-    except TooLargeError:  # its values need twice the memory that its headers promised
-        if wanted is not None:
-            raise
-        factors = memory.need_of(series.size, 4).factors
-        hu = read_pixels(series, progress, factors)
-    i, j, k = factors
-    made = f"reduced: {i} × {j} × {k} voxels averaged to one"
-    affine = reduced_affine(grid.affine_mm, factors)
-    recipe = Recipe(Remedy.HALVE, factors)
-    return Volume(read_only(hu), affine, series, (made,), series.unit, recipe)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -114,11 +51,22 @@ class _Target:
     step_mm: float
 
 
-def _straight(
-    series: Series, remedy: Remedy, spacing_mm: float | None, progress: Progress
-) -> Volume:
+def resampled(series: Series, recipe: Recipe, progress: Progress) -> Volume:
+    """Read a series onto a right-angled grid of even slices.
+
+    Args:
+        series: usable, or refused for the places of its slices only.
+        recipe: the spacing of its slices; the usual distance of the series' own where None.
+        progress: told how far it is; cancels.
+
+    Raises:
+        SeriesRefusedError: if slices of that spacing cannot be made.
+        TooLargeError: if the memory does not suffice.
+        FileDamagedError: if a file has changed since the scan or cannot be decoded; names it.
+        Cancelled: if `progress` was cancelled.
+    """
     grid = grid_of(series)
-    target = _target(series, grid, spacing_mm)
+    target = _target(series, grid, recipe.spacing_mm)
     both = series.size[0] * series.size[1] * series.size[2] + int(np.prod(target.size))
     width = memory.voxel_bytes(series.slices)
     if memory.need_of((both, 1, 1), width).reason:
@@ -140,7 +88,7 @@ def _straight(
         picture = np.where(np.isnan(picture), np.float32(empty), picture)
         hu[k] = np.rint(picture) if stored.dtype.kind == "i" else picture
     made = _words(series, grid, target, len(gaps))
-    recipe = Recipe(remedy, spacing_mm=target.step_mm)
+    recipe = Recipe(recipe.remedy, spacing_mm=target.step_mm)
     return Volume(read_only(hu), target.affine_mm, series, made, series.unit, recipe)
 
 

@@ -4,7 +4,7 @@ Of a group of images that a volume cannot be made of it is said why, and what ca
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final
 
@@ -16,7 +16,8 @@ from app.imaging.acquisitions import Group
 from app.imaging.header import CT_IMAGE, MR_IMAGE, MULTI_FRAME, ImagePlane, Point, SliceHeader
 from app.imaging.nifti import find_nifti
 from app.imaging.pixel_finding import TRUNCATED
-from app.imaging.series import Ignored, Listing, Remedy, Series
+from app.imaging.remedies import offered
+from app.imaging.series import Ignored, Listing, Refusal, Series
 from app.imaging.sorting import SECONDARY_CAPTURE, split
 from app.imaging.sources import is_nifti, open_source
 from app.imaging.units import caveat
@@ -39,13 +40,13 @@ class Suitability:
 
     Attributes:
         reason: first reason against reading it as a volume, in plain words; empty if none.
-        remedy: what would make it readable, or better, on request.
+        refusal: which kind of reason it is.
         notes: what should be known of it all the same.
         tilt_deg: gantry tilt [degrees].
     """
 
     reason: str
-    remedy: Remedy = Remedy.NONE
+    refusal: Refusal = Refusal.NOTHING
     notes: tuple[str, ...] = ()
     tilt_deg: float = 0.0
 
@@ -59,21 +60,21 @@ def judge(group: Group, root: Path) -> Suitability:
     """
     headers = group.headers
     if group.obstacle:
-        return Suitability(group.obstacle, notes=group.notes)
+        return Suitability(group.obstacle, Refusal.OTHER, group.notes)
     for wrong in _JUDGES:
         if reason := wrong(headers, root):
-            return Suitability(reason, notes=group.notes)
+            return Suitability(reason, Refusal.OTHER, group.notes)
     slices = _stack(headers)
     tilt = slices.tilt_deg
     names = _Names(headers, slices.order, root)
     if reason := stack.doubled(slices, names) or stack.turned(slices, names):
-        return Suitability(reason, notes=group.notes, tilt_deg=tilt)
+        return Suitability(reason, Refusal.OTHER, group.notes, tilt)
     notes = (*group.notes, *_notes(headers, tilt), *_gap_notes(headers, slices))
     if reason := stack.irregular(slices, names):
-        return Suitability(reason, Remedy.RESAMPLE, notes, tilt)
+        return Suitability(reason, Refusal.UNEVEN, notes, tilt)
     if reason := memory.need(headers).reason:
-        return Suitability(reason, Remedy.HALVE, notes, tilt)
-    return Suitability("", Remedy.STRAIGHTEN if tilt else Remedy.NONE, notes, tilt)
+        return Suitability(reason, Refusal.TOO_LARGE, notes, tilt)
+    return Suitability("", notes=notes, tilt_deg=tilt)
 
 
 class _Names(Sequence[str]):
@@ -291,9 +292,11 @@ def _series(group: Group, root: Path) -> Series:
         slices = stack.stack(planes, size)
         headers = [headers[index] for index in slices.order]
         grid = _grid(planes[0], slices)
-    if verdict.reason and verdict.remedy is Remedy.NONE:
-        headers.extend(group.copies)  # of what cannot be read every file is named
-    return _described(headers, grid, group, verdict)
+    series = _described(headers, grid, group, verdict)
+    offer = offered(series)
+    if not (series.usable or offer.names):  # of what cannot be read every file is named
+        series = _described([*headers, *group.copies], grid, group, verdict)
+    return replace(series, remedies=offer.names, notes=(*series.notes, *offer.faults))
 
 
 def _described(
@@ -315,9 +318,8 @@ def _described(
         pseudonym=first.identity.pseudonym,
         frame_of_reference=_shared_frame(headers),
         windows=first.windows,
-        former=first.identity.former,
         part=group.part,
-        remedy=verdict.remedy,
+        refusal=verdict.refusal,
         notes=(*verdict.notes, *_frame_notes(headers)),
         unit="" if is_mr(headers) else "HU",
         tilt_deg=verdict.tilt_deg,

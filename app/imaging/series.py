@@ -11,14 +11,17 @@ from typing import Any
 
 from app.imaging.header import Point, SliceHeader
 
+NO_REMEDY = "none"
+"""In the place of a remedy's name: the series is read as it is. No remedy may be called so."""
 
-class Remedy(StrEnum):
-    """What can be done on request with a series that cannot, or need not, be read as it is."""
 
-    NONE = "none"
-    RESAMPLE = "resample"
-    STRAIGHTEN = "straighten"
-    HALVE = "halve"
+class Refusal(StrEnum):
+    """What keeps a series from being read as it is; the first of several."""
+
+    NOTHING = "nothing"
+    UNEVEN = "uneven"  # the places of its slices alone
+    TOO_LARGE = "too large"  # the memory alone
+    OTHER = "other"  # its `reason` says what
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,9 +50,10 @@ class Series:
         pseudonym: stands for patient and study.
         frame_of_reference: FrameOfReferenceUID; empty where the files do not share one.
         windows: (width, level) pairs of the files [HU].
-        former: pseudonym that earlier versions gave, to find old records by; never written.
         part: which pass of the series, such as "acquisition-2"; empty where it is all of it.
-        remedy: what makes a refused series readable on request, or a usable one better.
+        refusal: which kind of reason it is.
+        remedies: names of the remedies that make a refused series readable on request, or a usable
+            one better; see `imaging.remedies`.
         notes: what a reader should know though it keeps nothing from being read.
         unit: of the values, "HU"; empty for MR and others without one.
         tilt_deg: angle between the slices' normal and their stacking direction (gantry tilt);
@@ -70,9 +74,9 @@ class Series:
     pseudonym: str
     frame_of_reference: str
     windows: tuple[tuple[float, float], ...]
-    former: str = ""
     part: str = ""
-    remedy: Remedy = Remedy.NONE
+    refusal: Refusal = Refusal.NOTHING
+    remedies: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     unit: str = "HU"
     tilt_deg: float = 0.0
@@ -82,6 +86,11 @@ class Series:
     def key(self) -> str:
         """Name of the series in its folder: its UID, with `#part` where it is one pass of it."""
         return f"{self.uid}#{self.part}" if self.part else self.uid
+
+    @property
+    def remedy(self) -> str:
+        """Name of the remedy that is offered first; `NO_REMEDY` where none is."""
+        return self.remedies[0] if self.remedies else NO_REMEDY
 
     @property
     def frame(self) -> str:
@@ -133,15 +142,15 @@ class Listing:
 
 @dataclass(frozen=True, slots=True)
 class Recipe:
-    """How a series was read; `resampling.read_again` follows it.
+    """How a series was read, or is to be; `reading.read_again` follows it.
 
     Attributes:
-        remedy: what was asked for.
+        remedy: name of the remedy that was asked for; `NO_REMEDY` for none.
         factors: voxels along i, j and k that were averaged to one.
         spacing_mm: of the slices that were made; None where none were.
     """
 
-    remedy: Remedy = Remedy.NONE
+    remedy: str = NO_REMEDY
     factors: tuple[int, int, int] = (1, 1, 1)
     spacing_mm: float | None = None
 

@@ -25,7 +25,3 @@ class DegenerateError(MechanismError):
 
 class NotFiniteError(MechanismError, NumericalError):
     """An angle, a point or a force is NaN or infinite."""
-
-
-class GraspError(MechanismError):
-    """The hand cannot grip what was asked for so: the message says why."""

@@ -11,7 +11,7 @@ import numpy as np
 from app.core.arrays import frozen, read_only
 from app.core.loading import ONE_AT_A_TIME, turn
 from app.core.progress import Progress
-from app.imaging.series import Remedy, Series
+from app.imaging.series import NO_REMEDY, Series
 from app.imaging.volume import Volume
 from app.imaging.window import PRESETS
 from app.mechanisms.profile import load_profile
@@ -70,7 +70,7 @@ def load_phantom(seed: int, progress: Progress) -> Patient:
 
 
 def read_patient(
-    series: Series, folder: Path, progress: Progress, remedy: Remedy = Remedy.NONE
+    series: Series, folder: Path, progress: Progress, remedy: str = NO_REMEDY
 ) -> Patient:
     """Read a series that the user chose, as it is or in the way asked for.
 
@@ -80,7 +80,7 @@ def read_patient(
     """
     with ONE_AT_A_TIME:
         from app.imaging.body import find_body
-        from app.imaging.resampling import read_with
+        from app.imaging.reading import read_with
 
     volume = read_with(series, remedy, progress.part(0.0, 0.75))
     body = find_body(volume, progress.part(0.75, 0.85))

@@ -16,7 +16,7 @@ from collections import OrderedDict
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,7 @@ from app.imaging.errors import ImagingError, WorkerLostError
 from app.imaging.worker.jobs import Job
 from app.imaging.worker.limits import Allowance
 from app.imaging.worker.pool import ImagingWorker
+from app.imaging.worker.values import ATTACHED
 from app.scoring.errors import MetricNotAskedError, MetricUnavailableError
 
 if TYPE_CHECKING:
@@ -154,7 +155,9 @@ def load(progress: Progress) -> None:
     importlib.import_module("app.scoring.trajectory")
 
 
-def measure(path: Path, packed: NDArray[np.uint8], progress: Progress) -> MetricOutcome:
+def measure(
+    path: Path, packed: Annotated[NDArray[np.uint8], ATTACHED], progress: Progress
+) -> MetricOutcome:
     """Import a file, and ask it for an attempt.
 
     Args:

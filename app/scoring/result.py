@@ -19,19 +19,9 @@ FORMAT = "acus-score/1"
 
 SCORING_VERSION = 5
 """Of the rules that make a score: it grows whenever a metric, the judging, or what makes an attempt
-void gives another answer to the same attempt. Scores of two versions are not comparable. Version 1
-did not say its number; up to version 2 a value counted as it was measured, since 3 as the best one
-within its standard deviation; up to 3 an insertion began anew after each pause; up to 4 a force
-counted in the body only, and only where the pose was valid."""
-
-FIRST_WITH_DOUBT = 3
-"""Version from which on it does."""
-
-FIRST_OVER_PAUSES = 4
-"""Version from which on an insertion goes on after a pause."""
-
-FIRST_OVER_ATTEMPT = 5
-"""Version from which on a force counts in the whole attempt, whether the depth was known or not."""
+void gives another answer to the same attempt. Scores of two versions are not comparable. Rules of
+earlier versions were never released; whoever raises the number after a release keeps those of
+before, so that a score can be checked by its own."""
 
 TRACKING = "tracking_valid"
 """Metric that decides whether a score is void."""
@@ -66,13 +56,6 @@ class Score:
         if self.total is None or weight <= 0.0:
             return None
         return 100.0 * hypot(*(row.weight * row.utility_sd for row in self.rows)) / weight
-
-    def by_version(self, version: int) -> Score:
-        """Judge the same values as an earlier version did."""
-        if version >= FIRST_WITH_DOUBT:
-            return self
-        rows = tuple(replace(row, sd=None) for row in self.rows)
-        return replace(judge(rows, self.rules, self.attempt_void), version=version)
 
     @property
     def unseen(self) -> bool:
@@ -154,7 +137,7 @@ class Score:
                 void_reason=document["void_reason"],
                 rules=ScoreRules.model_validate(document["rules"]),
                 attempt_void=document["attempt_void"],
-                version=int(document.get("scoring_version", 1)),
+                version=int(document["scoring_version"]),
             )
         except (KeyError, TypeError, AttributeError, ValueError, ValidationError) as error:
             reason = f"{type(error).__name__}: {' '.join(str(error).split())}"

@@ -68,9 +68,6 @@ class Trajectory:
         agreement: within this screen and needle agreed at the target with 95 % [m]; 0 where nobody
             had to check.
         clamped: whether the force was at the robot's limit, shape (n,); None if not known.
-        pauses_end_stays: whether a pause ends a stay in the body, as up to scoring version 3.
-        force_in_body: whether force counts with the needle in the body only, as up to scoring
-            version 4.
         touches: targets that were to be touched; None where there were none.
 
     Raises:
@@ -95,8 +92,6 @@ class Trajectory:
     spread: FloatArray | None = None
     agreement: float = 0.0
     clamped: NDArray[np.bool_] | None = None
-    pauses_end_stays: bool = False
-    force_in_body: bool = False
     touches: Touches | None = None
 
     def __post_init__(self) -> None:
@@ -166,7 +161,7 @@ class Trajectory:
             MetricUnavailableError: if the needle was never inserted.
         """
         self.insertions()
-        return self.inserted if self.force_in_body else self.running | self.paused
+        return self.running | self.paused
 
     def insertions(self) -> list[slice]:
         """Stretches with the needle in the body and the attempt running, in order.
@@ -190,9 +185,8 @@ class Trajectory:
         Raises:
             MetricUnavailableError: if there is none.
         """
-        insertions = self.insertions()
-        found = insertions if self.pauses_end_stays else runs(self._in_body())
-        stays = [np.arange(stay.start, stay.stop) for stay in found]
+        self.insertions()
+        stays = [np.arange(stay.start, stay.stop) for stay in runs(self._in_body())]
         return [stay[~self.paused[stay]] for stay in stays]
 
     def measured_stays(self) -> list[NDArray[np.intp]]:

@@ -20,15 +20,13 @@ class Known:
 
     Attributes:
         guarded: whether an instructor's password is set.
-        pseudonyms: by what records name.
-        keys: of students, likewise.
+        pseudonyms: of students, by the key that records name.
         refused: why the student who is signed in may not begin an exercise, by its id.
         assessed: exercises that a course holds as assessments -> title of the course.
     """
 
     guarded: bool = False
     pseudonyms: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
-    keys: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
     refused: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
     assessed: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
 
@@ -40,7 +38,7 @@ class Known:
             SessionError: if they cannot be read.
         """
         assessed = {name: held[0].title for name, held in assessed_by(courses()[0]).items()}
-        return cls(people.has_instructor(), people.pseudonyms(), people.keys(), {}, assessed)
+        return cls(people.has_instructor(), people.pseudonyms(), {}, assessed)
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +62,7 @@ class Visitor:
 
     def owner(self, recorded: str) -> str:
         """Return the key of the student whom a record names; empty where nobody is known."""
-        return self.known.keys.get(recorded, "")
+        return recorded if recorded in self.known.pseudonyms else ""
 
     def may_see(self, recorded: str) -> bool:
         """Whether attempts of whom a record names are open."""

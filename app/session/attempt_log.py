@@ -186,7 +186,6 @@ class AttemptLog:
             score=document,
             conditions=conditions_of(
                 header.records(),
-                {a.name: a.data for a in header.attachments},
                 samples,
                 score.version if score is not None else 0,
                 self.events,

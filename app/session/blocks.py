@@ -1,13 +1,11 @@
 """Binary blocks of the loop's ticks: what a replay needs and checks, at the loop's own rate.
 
 Layout (all little-endian): magic `ACUB`, version u16, columns u16, rows u32, lost u32, first tick
-u64. Version 1: the columns one after the other, each `rows` float64. Version 2: the columns as
-`session.columns` stores them; a digest u32 per row; number of slots u16, and of each row whose tick
-is a multiple of `STATE_EVERY` the whole state as float64.
+u64; the columns as `session.columns` stores them; a digest u32 per row; number of slots u16, and of
+each row whose tick is a multiple of `STATE_EVERY` the whole state as float64.
 """
 
 import struct
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Final
 
@@ -32,15 +30,6 @@ SLOT_NAMES: Final = tuple(
     {index: name for name, index in slots.INDEX.items()}.get(k, "") for k in range(slots.SLOTS)
 )
 """Name of every slot of the state in its order."""
-
-
-def slots_of_record(names: Iterable[str]) -> tuple[str, ...]:
-    """Return a record's own names of its state's slots as they are called now.
-
-    Before there was the input `hold_breath`, its place stood empty, without a name and always zero:
-    nobody asked. Such a record therefore has today's slots.
-    """
-    return tuple(name or "hold_breath" for name in names)
 
 
 INPUTS: Final = tuple(name for name in SLOT_NAMES[: slots.INPUTS] if name)
@@ -89,8 +78,8 @@ class TickBlock:
         values: rows of the record's columns, shape (n, m), read-only.
         first_tick: tick of the first row.
         lost: ticks between the block before and this one that were overwritten unread.
-        digests: of the state after each row, shape (n,); none in version 1.
-        state_rows: rows whose whole state is stored, shape (k,); none in version 1.
+        digests: of the state after each row, shape (n,).
+        state_rows: rows whose whole state is stored, shape (k,).
         states: these states, shape (k, slots), read-only.
     """
 
@@ -129,13 +118,11 @@ def unpack(data: bytes, budget: ReadingBudget) -> TickBlock:
             f"a block of {len(data)} bytes does not begin with {MAGIC.decode()}"
         )
     _, version, count, rows, lost, first = _HEADER.unpack_from(data)
-    if version not in (1, VERSION):
-        raise BrokenRecordingError(
-            f"block version {version}; this program reads versions 1 and {VERSION}"
-        )
+    if version != VERSION:
+        raise BrokenRecordingError(f"block version {version}; this program reads {VERSION}")
     body = data[_HEADER.size :]
-    if version == 1 or rows == 0:
-        return _plain(body, count, rows, lost, first)
+    if rows == 0:
+        return _empty(body, count, lost, first)
     if rows > len(body):  # a digest alone takes four bytes a row
         raise BrokenRecordingError(f"a block of {rows} rows has {len(data)} bytes")
     values, place = columns.decode(body, rows, count, budget)
@@ -150,13 +137,12 @@ def _state_rows(tick: FloatArray) -> NDArray[np.int64]:
     return np.flatnonzero(np.mod(tick, STATE_EVERY) == 0.0)
 
 
-def _plain(body: bytes, count: int, rows: int, lost: int, first: int) -> TickBlock:
-    if len(body) != 8 * count * rows:
-        raise BrokenRecordingError(f"a block of {rows} rows has {len(body)} bytes of numbers")
-    values = np.frombuffer(body, dtype="<f8").reshape(count, rows).T
-    array = read_only(np.ascontiguousarray(values, dtype=np.float64))
+def _empty(body: bytes, count: int, lost: int, first: int) -> TickBlock:
+    if body:
+        raise BrokenRecordingError(f"a block of 0 rows has {len(body)} bytes of numbers")
     none, nowhere = np.zeros(0, dtype=np.uint32), np.zeros(0, dtype=np.int64)
-    return TickBlock(array, first, lost, none, nowhere, read_only(np.zeros((0, 0))))
+    nothing = read_only(np.zeros((0, count)))
+    return TickBlock(nothing, first, lost, none, nowhere, read_only(np.zeros((0, 0))))
 
 
 def _checks(data: bytes, rows: int, states: int) -> tuple[NDArray[np.uint32], FloatArray]:

@@ -115,7 +115,6 @@ def progress_board(
     students: Sequence[Person],
     items: Sequence[CourseItem],
     attempts: Sequence[Indexed],
-    whose: Mapping[str, str],
     remarks: Mapping[str, Remarks],
     now: datetime.datetime,
     held: Container[str] = (),
@@ -126,7 +125,6 @@ def progress_board(
         students: rows.
         items: columns.
         attempts: of the index, oldest first.
-        whose: key of the student by what records name (`People.keys`).
         remarks: what the instructor said, by attempt.
         now: time that "since" is told from.
         held: attempts whose results are not open to who looks at the board.
@@ -137,7 +135,7 @@ def progress_board(
     left: dict[tuple[str, str], Counter[str]] = defaultdict(Counter)
     void: dict[tuple[str, str], list[str]] = defaultdict(list)
     for one in attempts:
-        key, item = whose.get(one.student, ""), wanted.get(one.exercise)
+        key, item = one.student, wanted.get(one.exercise)
         if item is None or key not in rows:
             continue
         said = remarks.get(one.id)
@@ -153,7 +151,7 @@ def progress_board(
         groups = comparison_groups([one.conditions for one in some])
         most = _largest(groups)
         for one, group in zip(some, groups, strict=True):
-            key = whose[one.student]
+            key = one.student
             if group == most:
                 counted[key, exercise].append(one)
             else:
@@ -203,13 +201,13 @@ def board_of(
         for person in people.everybody()
         if (not group or group in person.groups) and (course is None or course.takes(person))
     ]
-    whose = people.keys()
-    own = [one for one in attempts if one.student in whose]
+    known = people.pseudonyms()
+    own = [one for one in attempts if one.student in known]
     items = course.items if course is not None else every_item([one for one in own if one.stands])
     now = now or datetime.datetime.now(datetime.UTC)
     asked = ((one.id, one.student, one.exercise, one.version) for one in own)
     held = held_back(asked) if released else {}
-    board = progress_board(students, items, own, whose, people.remarks(), now, held)
+    board = progress_board(students, items, own, people.remarks(), now, held)
     return board, attempts
 
 
@@ -268,20 +266,20 @@ def standings(
     index, people = Index(folder), People()
     index.refresh()
     there = (people_folder() / PEOPLE).exists()
-    whose, remarks = (people.keys(), people.remarks()) if there else ({}, {})
+    remarks = people.remarks() if there else {}
     known = {one.key: one for one in people.everybody()} if there else {}
     taken, (some_courses, _) = {one.id: one for one in exercises}, courses()
     found: dict[str, Standing] = {}
     for one in index.attempts():
-        exercise, owner = taken.get(one.exercise), whose.get(one.student, "")
-        mine = owner == student.key if student is not None else may_see(one.student)
+        exercise = taken.get(one.exercise)
+        mine = one.student == student.key if student is not None else may_see(one.student)
         if exercise is None or not mine:
             continue
         item, said = CourseItem(exercise=exercise.id, version=exercise.version), remarks.get(one.id)
         if _why_not_counted(one, item, said):
             continue
         released = said is not None and said.released
-        held = holding(some_courses, known.get(owner), one.exercise, one.version, released)
+        held = holding(some_courses, known.get(one.student), one.exercise, one.version, released)
         before = found.get(one.exercise, Standing())
         totals = [total for total in (before.best, one.total) if total is not None]
         found[one.exercise] = Standing(

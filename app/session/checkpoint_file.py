@@ -14,7 +14,7 @@ import numpy as np
 
 from app.core.arrays import read_only
 from app.device.checkpoint import Checkpoint
-from app.session.blocks import SLOT_NAMES, slots_of_record
+from app.session.blocks import SLOT_NAMES
 from app.session.errors import BrokenRecordingError
 
 MAGIC: Final = b"ACUC"
@@ -92,7 +92,7 @@ def unpack(data: bytes) -> RecordedCheckpoint:
 def _read(document: dict[str, Any], body: bytes) -> RecordedCheckpoint:
     names = tuple(str(name) for name, _ in document["stages"])
     sizes = tuple(int(size) for _, size in document["stages"])
-    slots = slots_of_record(str(name) for name in document["slots"])
+    slots = tuple(str(name) for name in document["slots"])
     numbers = read_only(np.frombuffer(body, dtype="<f8").astype(np.float64))
     if min(sizes, default=0) < 0 or len(numbers) != len(slots) + sum(sizes):
         raise ValueError(f"{len(numbers)} numbers for {len(slots)} slots and {sum(sizes)} more")

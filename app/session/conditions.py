@@ -3,10 +3,9 @@
 What held the needle is one of them; it stands in every record.
 """
 
-import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -62,9 +61,6 @@ AGREEMENT: Final = "agreement"
 EXERCISE_FILE: Final = "exercise.json"
 """Attachment that holds the exercise."""
 
-_NO_BOARD: Final = ("EMULATED", "MEMORY")
-"""Serial numbers of emulated boards of versions that did not say that they are."""
-
 _RUNNING: Final = (State.ALIGNING.value, State.INSERTING.value, State.HOLDING.value)
 
 Metadata = Mapping[str, Mapping[str, str]]
@@ -72,22 +68,20 @@ Metadata = Mapping[str, Mapping[str, str]]
 
 def conditions_of(
     metadata: Metadata,
-    attachments: Mapping[str, bytes],
     samples: Samples,
     scoring_version: int,
     events: Sequence[Event] = (),
 ) -> Conditions:
-    """Gather the conditions of one attempt; what an old or damaged record does not say is empty.
+    """Gather the conditions of one attempt; what a damaged record does not say is empty.
 
     Args:
         metadata: metadata records by name.
-        attachments: attached files by name; `exercise.json` stands in for what old heads lack.
         samples: the attempt over time.
         scoring_version: of its score; 0 without one.
         events: of the attempt, which tell what was chosen while it ran.
     """
     exercise = metadata.get("exercise", {})
-    said = _said(metadata.get(CONDITIONS, {}), attachments)
+    said = metadata.get(CONDITIONS, {})
     trainee, device = metadata.get(TRAINEE, {}), metadata.get("device", {})
     agreement = _number(metadata.get(AGREEMENT, {}).get("radius_mm"))
     return Conditions(
@@ -133,17 +127,11 @@ def assistance_of(samples: Samples, start: float | None = None) -> Assistance | 
 
 
 def kind_of(device: Mapping[str, str]) -> DeviceKind:
-    """Tell what stood behind the needle, by the metadata record `device`.
-
-    A record of a version whose boards did not say that they are emulated cannot vouch for a real
-    robot: it is unknown.
-    """
+    """Tell what stood behind the needle, by the metadata record `device`."""
     if "yes" in (device.get("simulated"), device.get("pen")):
         return DeviceKind.SIMULATED
     if "pen" in device:
         return DeviceKind.PEN
-    if device.get("serial") in _NO_BOARD:
-        return DeviceKind.EMULATED
     try:
         return DeviceKind(device.get("kind", ""))
     except ValueError:
@@ -154,22 +142,6 @@ def _taken_over(events: Iterable[Event]) -> str:
     """Return the last hand that took the needle over; one that is not known is left out."""
     hands = [event.data.get("hand") for event in events if event.kind == TAKEN_OVER]
     return next((hand for hand in reversed(hands) if hand in HANDS and isinstance(hand, str)), "")
-
-
-def _said(record: Mapping[str, str], attachments: Mapping[str, bytes]) -> Mapping[str, str]:
-    """Return what the exercise sets: by the record, else by the attached exercise of an old one."""
-    if record:
-        return record
-    try:
-        exercise: Any = json.loads(attachments[EXERCISE_FILE])
-        views = exercise["views"]
-        return {
-            "level": str(exercise["level"]),
-            "views": ",".join(str(view) for view in views),
-            "assistance": str(exercise["assistance"]),
-        }
-    except (KeyError, TypeError, ValueError, RecursionError):
-        return {}
 
 
 def _whole(text: str | None) -> int | None:

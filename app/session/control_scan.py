@@ -7,7 +7,7 @@ makes the same picture of them again from the CT.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
@@ -27,7 +27,7 @@ KIND: Final = "scan"
 """Kind of the event."""
 
 VERSION: Final = 2
-"""Of the event's data; the first had neither `version` nor `range_mm` nor `streak`."""
+"""Of the event's data."""
 
 TEACHING_ESTIMATE: Final = "teaching estimate"
 """Stands wherever a dose is shown: it is no dose of any scanner."""
@@ -44,7 +44,7 @@ class ControlScan:
         needle: where the needle was, DICOM LPS [mm].
         shift_mm: how far breathing had moved the target, LPS, shape (3,), read-only.
         dose: notional dose-length product [mGy·cm]: a teaching estimate.
-        streak: whether its pictures show the metal's streak; None where the record does not say.
+        streak: whether its pictures show the metal's streak.
     """
 
     number: int
@@ -53,7 +53,7 @@ class ControlScan:
     needle: ScanNeedle
     shift_mm: FloatArray
     dose: float
-    streak: bool | None = None
+    streak: bool = False
 
     @property
     def seen(self) -> Seen:
@@ -99,7 +99,7 @@ class ControlScan:
                 ),
                 frozen(data["shift_lps_mm"], (3,), "shift_lps_mm"),
                 float(data["dose_mgy_cm"]),
-                streak if isinstance(streak := data.get("streak"), bool) else None,
+                data["streak"] is True,
             )
         except (AcusError, LookupError, TypeError, ValueError):
             return None  # of a damaged record; the scan is still counted
@@ -173,17 +173,10 @@ def take(
     )
 
 
-def scans_of(events: Iterable[Event], streak: bool | None = None) -> tuple[ControlScan, ...]:
-    """Control scans with an order among events, in order.
-
-    `streak`: for those whose event does not say it.
-    """
+def scans_of(events: Iterable[Event]) -> tuple[ControlScan, ...]:
+    """Control scans with an order among events, in order."""
     found = (ControlScan.of(event) for event in events)
-    return tuple(
-        replace(scan, streak=streak) if scan.streak is None else scan
-        for scan in found
-        if scan is not None
-    )
+    return tuple(scan for scan in found if scan is not None)
 
 
 def scan_marks(events: Iterable[Event]) -> tuple[ScanMark, ...]:

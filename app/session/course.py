@@ -355,7 +355,7 @@ def waiting_for_release(
     Args:
         course: the course.
         attempts: of the index.
-        persons: whose attempts are whose, by what records name.
+        persons: by key, which is what records name.
         remarks: what the instructor said, by attempt.
     """
     return [
@@ -410,11 +410,11 @@ def held_back(attempts: Iterable[tuple[str, str, str, int]]) -> dict[str, str]:
     if not (people_folder() / PEOPLE).exists():
         return {}
     people, (known, _) = People(), courses()
-    whose, remarks = people.keys(), people.remarks()
+    remarks = people.remarks()
     persons = {person.key: person for person in people.everybody()}
     found = {}
     for name, student, exercise, version in attempts:
-        said, person = remarks.get(name), persons.get(whose.get(student, ""))
+        said, person = remarks.get(name), persons.get(student)
         released = said is not None and said.released
         course = holding(known, person, exercise, version, released)
         if course is not None:

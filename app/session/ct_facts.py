@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from app.imaging.series import Recipe, Remedy
+from app.imaging.remedies import is_word
+from app.imaging.series import Recipe
 from app.imaging.volume import Volume
 
 
@@ -69,7 +70,7 @@ class CtFacts:
             return facts
         return facts | {
             "made": json.dumps(self.made, ensure_ascii=False),
-            "remedy": self.recipe.remedy.value,
+            "remedy": self.recipe.remedy,
             "factors": json.dumps(self.recipe.factors),
             "spacing_mm": json.dumps(self.recipe.spacing_mm),
         }
@@ -84,7 +85,7 @@ class CtFacts:
         return {
             "pseudonym": self.pseudonym,
             "made": list(self.made),
-            "remedy": None if recipe is None else recipe.remedy.value,
+            "remedy": None if recipe is None else recipe.remedy,
             "factors": None if recipe is None else list(recipe.factors),
             "spacing_mm": None if recipe is None else recipe.spacing_mm,
         }
@@ -99,9 +100,10 @@ def _recipe(record: Mapping[str, str]) -> Recipe | None:
         i, j, k = (int(factor) for factor in json.loads(record["factors"]))
         spacing = json.loads(record["spacing_mm"])
         step = None if spacing is None else float(spacing)
-        if min(i, j, k) < 1:
+        remedy = record["remedy"]
+        if min(i, j, k) < 1 or not is_word(remedy):
             return None
-        return Recipe(Remedy(record["remedy"]), (i, j, k), step)
+        return Recipe(remedy, (i, j, k), step)
     except (KeyError, TypeError, ValueError):
         return None
 

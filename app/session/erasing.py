@@ -26,12 +26,10 @@ class Erased(NamedTuple):
     Attributes:
         deleted: how many went.
         anonymous: how many stay as nobody's.
-        typed: how many stay and hold the name that was typed.
     """
 
     deleted: int
     anonymous: int
-    typed: int
 
 
 def erase_person(
@@ -39,9 +37,8 @@ def erase_person(
 ) -> Erased:
     """Erase a person for good; return what became of the records.
 
-    Name, PIN, groups, comments and assignments go. Records of attempts made signed in hold a random
-    key only: they go too, or stay as nobody's. Older records may hold a name that was typed: what
-    is signed cannot be changed, so such a record stays as it is unless records are deleted.
+    Name, PIN, groups and comments go. Records of attempts made signed in hold a random key only:
+    they go too, or stay as nobody's. One made without signing in names nobody who is known here.
 
     Raises:
         PeopleError: if there is no such student.
@@ -49,24 +46,19 @@ def erase_person(
     """
     people = people or People()
     person = people.find(pseudonym)
-    texts = {text for text, key in people.assigned().items() if key == person.key}
     index = Index(folder)
     index.refresh()
-    own = {one.id: one.student for one in index.attempts([person.key, *texts])}
-    for path in records(folder / TRASH):
-        student = read_kept(path).summary.student
-        if student == person.key or student in texts:
-            own[path.stem] = student
-    ids = list(own)
-    gone = [path for place in (folder, folder / TRASH) for path in records(place)]
-    files = [file for path in gone if path.stem in own for file in beside(path)]
+    own = {one.id for one in index.attempts([person.key])}
+    trash = records(folder / TRASH)
+    own |= {path.stem for path in trash if read_kept(path).summary.student == person.key}
+    ids, there = sorted(own), (*records(folder), *trash)
+    files = [file for path in there if path.stem in own for file in beside(path)]
     if delete_records:
         people.forget_keys([person.key], ids, ids, files)
         index.refresh()
-        return Erased(len(ids), 0, 0)
+        return Erased(len(ids), 0)
     people.forget_keys([person.key], ids)
-    typed = sum(student in texts for student in own.values())
-    return Erased(0, len(own) - typed, typed)
+    return Erased(0, len(ids))
 
 
 def finish_erasing(folder: Path, people: People) -> int:

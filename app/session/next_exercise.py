@@ -242,12 +242,10 @@ def around(
     """
     index = Index(folder)
     index.refresh()
-    attempts, (person, whose, courses_here, remarks) = index.attempts(), who_did(shown.student)
+    attempts, (person, courses_here, remarks) = index.attempts(), who_did(shown.student)
 
     def same(student: str) -> bool:
-        if person is None:
-            return student == shown.student
-        return whose.get(student, "") == person.key
+        return student == shown.student
 
     def is_open(one: Indexed) -> bool:
         if manages:
@@ -290,23 +288,19 @@ def _yourself(done: str, exercises: Sequence[Exercise], refused: Callable[[str],
     return Proposal(same.id, same.title, ProposalReason.YOURSELF, level=same.level)
 
 
-Whose = tuple[Person | None, Mapping[str, str], Sequence[Course], Mapping[str, Remarks]]
-"""Who did an attempt, whose the others are, courses, and what the instructor said of attempts."""
+def who_did(recorded: str) -> tuple[Person | None, Sequence[Course], Mapping[str, Remarks]]:
+    """Return whom a record names, all courses, and what the instructor said of attempts.
 
-
-def who_did(recorded: str) -> Whose:
-    """Find who is meant by what a record names, and what holds for him; nobody where none is known.
+    Nobody where none is known.
 
     Raises:
         SessionError: if people or courses cannot be read.
     """
     if not (people_folder() / PEOPLE).exists():
-        return None, {}, (), {}
+        return None, (), {}
     people = People()
-    whose = people.keys()
-    key = whose.get(recorded, "")
-    person = next((one for one in people.everybody() if one.key == key), None) if key else None
-    return person, whose, courses()[0], people.remarks()
+    person = next((one for one in people.everybody() if one.key == recorded), None)
+    return person, courses()[0], people.remarks()
 
 
 def held_by(shown: Review) -> str:

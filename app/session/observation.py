@@ -30,9 +30,8 @@ from app.tracking.fix import NeedleFix
 if TYPE_CHECKING:
     from app.device.control.loop import Loop
     from app.device.control.timing import Timing
-    from app.tracking.pen.tracker import PenTracker
+    from app.tracking.needle_tracker import NeedleTracker
     from app.tracking.statistics import TrackerStatistics
-    from app.tracking.tracker import Tracker
 
 
 STILL: Final = 0.1
@@ -210,7 +209,7 @@ class RobotAndCameras:
     def __init__(
         self,
         loop: Loop,
-        tracker: Tracker | PenTracker | None,
+        tracker: NeedleTracker | None,
         inputs: LoopInputs,
         trust: DepthTrust = TRUST,
     ) -> None:

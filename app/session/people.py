@@ -358,43 +358,8 @@ class People:
         return person
 
     def pseudonyms(self) -> dict[str, str]:
-        """Return what to show for what records name: pseudonyms by key, and by assigned text."""
-        everybody = {person.key: person.pseudonym for person in self.everybody()}
-        return everybody | {
-            text: everybody[key] for text, key in self.assigned().items() if key in everybody
-        }
-
-    def keys(self) -> dict[str, str]:
-        """Whose attempts are whose: key by what records name, the key itself included."""
-        everybody = [person.key for person in self.everybody()]
-        known = set(everybody)
-        texts = {text: key for text, key in self.assigned().items() if key in known}
-        return {key: key for key in everybody} | texts
-
-    def assigned(self) -> dict[str, str]:
-        """Return the keys of students by the free text of old records that was mapped to them."""
-        if not (self.folder / PEOPLE).exists():
-            return {}
-        from sqlalchemy import select
-
-        with self.database.read() as connection:
-            found = connection.execute(select(_tables().tables["assigned"]))
-            return {row.text: row.person for row in found}
-
-    def assign(self, text: str, pseudonym: str) -> None:
-        """Say whose the attempts are whose records name `text`; an empty pseudonym takes it back.
-
-        Raises:
-            PeopleError: if there is no such student.
-        """
-        from sqlalchemy import insert
-
-        table = _tables().tables["assigned"]
-        person = self.find(pseudonym).key if pseudonym else ""
-        with self.database.write() as connection:
-            connection.execute(table.delete().where(table.c.text == text))
-            if person:
-                connection.execute(insert(table), {"text": text, "person": person})
+        """Return the pseudonyms by key, which is what records name."""
+        return {person.key: person.pseudonym for person in self.everybody()}
 
     # --- attempts ---------------------------------------------------------------------------------
     def remarks(self) -> dict[str, Remarks]:
@@ -625,7 +590,6 @@ def _tables() -> MetaData:
     key = text("key", primary_key=True)
     Table("persons", known, key, text("pseudonym"), text("pin"), text("created"))
     Table("members", known, text("person", primary_key=True), text("grp", primary_key=True))
-    Table("assigned", known, text("text", primary_key=True), text("person"))
     Table("settings", known, text("name", primary_key=True), text("value"))
     Table("erased_attempts", known, text("id", primary_key=True))
     Table("erased", known, text("key", primary_key=True), text("time"))
@@ -660,7 +624,6 @@ def _yesterday() -> str:
 OF_PERSON: Final = {
     "persons": "key",
     "members": "person",
-    "assigned": "person",
     "failures": "account",
 }
 """Tables that hold something of a person, each with the column of its key."""

@@ -20,9 +20,6 @@ from app.session.roster import checked_pseudonym, looks_like_a_key
 
 Rows = tuple[tuple[str | int | float | None, ...], ...]
 
-_SINCE: Final = {"admitted": 2}
-"""Tables that came with a later version of the list."""
-
 _TOLD: Final = 5
 """So many names are told."""
 
@@ -68,7 +65,7 @@ def read_rows(path: Path, whose: str) -> PeopleRows:
                 {
                     name: _table(source, name, columns, whose)
                     for name, columns in _columns().items()
-                    if version >= _SINCE.get(name, 1) and _is_table(kinds, name, whose)
+                    if _is_table(kinds, name, whose)
                 }
             )
     except (sqlite3.Error, UnicodeError) as error:  # of a text, or of a name in its definition
@@ -78,11 +75,11 @@ def read_rows(path: Path, whose: str) -> PeopleRows:
 def merged(here: PeopleRows, there: PeopleRows) -> PeopleRows:
     """Return the people of a backup in the place of those who are here.
 
-    Persons, groups and what was assigned are those of the backup. What was said of attempts stays
-    where the backup says nothing. A password is never taken away, erasures are those of both, and
-    who was erased is in neither.
+    Persons and groups are those of the backup. What was said of attempts stays where the backup
+    says nothing. A password is never taken away, erasures are those of both, and who was erased is
+    in neither.
     """
-    found = {name: there.rows(name) for name in ("persons", "members", "assigned")}
+    found = {name: there.rows(name) for name in ("persons", "members")}
     for name in ("remarks", "admitted", "erased", "erased_attempts"):
         found[name] = _union(here.rows(name), there.rows(name))
     found["failures"] = here.rows("failures")
@@ -125,10 +122,10 @@ def untaken(of: PeopleRows, left: PeopleRows, whose: str) -> list[str]:
             if said[place] and name not in lost and known.get(name, _NOTHING)[place] != said[place]
         ]
         lines += [count_words(len(some), word, whose)] if some else []
-    for table, word in (("members", "membership"), ("assigned", "assignment"), ("admitted", "")):
+    for table, word in (("members", "membership"), ("admitted", "admission")):
         others = [row for row in of.rows(table) if row not in left.rows(table)]
         others = [row for row in others if not gone & {*map(str, row)}]
-        lines += [count_words(len(others), word or "admission", whose)] if others else []
+        lines += [count_words(len(others), word, whose)] if others else []
     return lines
 
 

@@ -79,18 +79,11 @@ class Recording:
         return CtFacts.of_metadata(self.metadata.get("ct", {}))
 
     def control_scans(self) -> tuple[ControlScan, ...]:
-        """Control scans with an order; the streak of old ones is that of the recorded exercise."""
-        return scans_of(self.events, self._streak())
+        """Control scans with an order."""
+        return scans_of(self.events)
 
-    def _streak(self) -> bool | None:
-        try:
-            streak = json.loads(self.attachments["exercise.json"])["guidance"]["streak"]
-        except (KeyError, TypeError, ValueError, RecursionError):
-            return None
-        return streak if isinstance(streak, bool) else None
-
-    def trajectory(self, only_pointed: bool = False) -> Trajectory:
-        """Return the attempt as scoring wants it; with `only_pointed` as up to scoring version 4.
+    def trajectory(self) -> Trajectory:
+        """Return the attempt as scoring wants it.
 
         Raises:
             BrokenRecordingError: if the record holds no usable plan.
@@ -109,7 +102,6 @@ class Recording:
             excused(self.events),
             agreement_of(self.metadata),
             touches_of(self.events),
-            only_pointed,
         )
 
     def placed_plan(self) -> PlacedPlan:

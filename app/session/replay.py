@@ -329,10 +329,7 @@ def replay(
 def why_not(inputs: Inputs) -> str:
     """Return why a record cannot be replayed; empty if it can."""
     if inputs.checkpoint is None:
-        return (
-            "it holds no checkpoint of the loop: it was recorded by an older version, or its "
-            "beginning is damaged"
-        )
+        return "it holds no checkpoint of the loop: its beginning is damaged"
     if not len(inputs.values):
         return "it holds no tick of the loop"
     tick, start = int(inputs.column("tick")[0]), inputs.checkpoint.checkpoint.tick

@@ -55,7 +55,6 @@ def trajectory(
     excused: float = 0.0,
     agreement: float = 0.0,
     touches: Touches | None = None,
-    only_pointed: bool = False,
 ) -> Trajectory:
     """Turn samples into what scoring wants.
 
@@ -74,7 +73,6 @@ def trajectory(
         excused: time of pauses that cost nothing [s], see `pauses.excused`.
         agreement: see `agreement_of` [m].
         touches: targets that were to be touched; None where there were none.
-        only_pointed: leave out what has no direction, as up to scoring version 4.
 
     Raises:
         SessionError: if no sample has a direction of the needle.
@@ -84,25 +82,22 @@ def trajectory(
         samples.valid & np.isfinite(samples.tip).all(axis=1) & np.isfinite(samples.depth)
     )
     pointed: NDArray[np.bool_] = np.asarray(np.isfinite(samples.axis).all(axis=1))
-    keep = rising.copy()
-    if only_pointed:
-        keep &= pointed
-    if not (keep & pointed).any():
+    if not (rising & pointed).any():
         raise SessionError("no sample of this attempt has a direction of the needle")
     tip, depth = samples.tip, samples.depth
     if not placed_at.any():
         tip, depth = np.broadcast_to(placed.p_entry, tip.shape), np.zeros(len(depth))
-    place, direction = _last(placed_at)[keep], _last(pointed)[keep]
-    hub, guide, target = samples.hub[keep], samples.guide[keep], samples.target[keep]
+    place, direction = _last(placed_at)[rising], _last(pointed)[rising]
+    hub, guide, target = samples.hub[rising], samples.guide[rising], samples.target[rising]
     return Trajectory(
         placed=placed,
-        time=samples.time[keep],
+        time=samples.time[rising],
         tip=tip[place],
         axis=samples.axis[direction],
         depth=depth[place],
-        felt=np.nan_to_num(samples.felt[keep], nan=0.0) if renders else None,
-        phase=_phases(samples.state[keep]),  # type: ignore[arg-type]  # names are taken as well as codes
-        depth_valid=np.isin(samples.depth_source[keep], FROM_CAMERAS) & samples.valid[keep],
+        felt=np.nan_to_num(samples.felt[rising], nan=0.0) if renders else None,
+        phase=_phases(samples.state[rising]),  # type: ignore[arg-type]  # names are taken as well as codes
+        depth_valid=np.isin(samples.depth_source[rising], FROM_CAMERAS) & samples.valid[rising],
         hub=hub if np.isfinite(hub).all() else None,
         guide=guide if np.isfinite(guide).all() else None,
         target_shift=target - placed.p_target if np.isfinite(target).all() else None,
@@ -110,10 +105,10 @@ def trajectory(
         scans=scans,
         risks=risks,
         excused=excused,
-        spread=None if samples.spread is None else samples.spread[keep],
+        spread=None if samples.spread is None else samples.spread[rising],
         agreement=agreement,
         touches=touches,
-        clamped=samples.clamped[keep] if renders and samples.clamped is not None else None,
+        clamped=samples.clamped[rising] if renders and samples.clamped is not None else None,
     )
 
 

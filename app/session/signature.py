@@ -4,7 +4,7 @@ Beside a record stands `<id>.sig`: digests of the record, of its score and of it
 lists show of them, and an HMAC-SHA256 (RFC 2104) over all that with the key of this station.
 *verified* means: written by this station and unchanged since. It does not mean that the owner of
 the disk could not forge it, for whoever reads the key can sign. *unsigned* is a record without a
-signature, as all of earlier versions are, or with that of another station.
+signature, or with that of another station.
 """
 
 from __future__ import annotations

@@ -21,11 +21,11 @@ class Inputs:
         columns: slot names.
         values: shape (n, len(columns)), read-only. NaN in `hand_*` while a scripted trainee acts.
         lost: rows that were overwritten before they could be recorded.
-        slots: names of the slots of the program that recorded it; empty before version 2.
-        digests: of the whole state after each row, shape (n,); empty before version 2.
+        slots: names of the slots of the program that recorded it.
+        digests: of the whole state after each row, shape (n,); empty if some are missing.
         state_rows: rows whose whole state is recorded too, shape (k,).
         states: these states, shape (k, len(slots)), read-only.
-        checkpoint: what the first row follows on; None before version 2.
+        checkpoint: what the first row follows on; None if it cannot be read.
     """
 
     columns: tuple[str, ...]
@@ -65,7 +65,7 @@ def read_inputs(content: FileContents, problems: list[str]) -> Inputs:
     """
     channel = content.channels.get("/loop/inputs", {})
     columns = _names(channel.get("slots", "")) or blocks.COLUMNS
-    slots = blocks.slots_of_record(_names(channel.get("state", "")))
+    slots = _names(channel.get("state", ""))
     parts = _blocks(content, len(columns), problems)
     checked = bool(slots) and all(len(part.digests) == len(part.values) for part in parts)
     whole = [(row, p) for row, p in _starts(parts) if p.states.shape[1] == len(slots) > 0]

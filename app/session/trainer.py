@@ -38,8 +38,7 @@ from app.tracking.fix import NeedleFix
 if TYPE_CHECKING:
     from app.device.control.loop import Loop
     from app.exercises.schema import Exercise
-    from app.tracking.pen.tracker import PenTracker
-    from app.tracking.tracker import Tracker
+    from app.tracking.needle_tracker import NeedleTracker
 
 TICK_PERIOD: Final = 0.02
 """The trainer looks at everything this often [s]."""
@@ -64,7 +63,7 @@ class Trainer:
     def __init__(
         self,
         loop: Loop,
-        tracker: Tracker | PenTracker | None,
+        tracker: NeedleTracker | None,
         placed: PlacedPlan,
         exercise: Exercise,
         context: RunContext | None = None,

@@ -7,7 +7,7 @@ sessions takes it from here. Deliberate forgery of the samples themselves is not
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Final
 
 from pydantic import ValidationError
@@ -16,8 +16,7 @@ from app.core.errors import AcusError
 from app.scoring.conditions import Conditions
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import ScoreFormatError
-from app.scoring.metrics import available
-from app.scoring.result import FIRST_OVER_ATTEMPT, FIRST_OVER_PAUSES, SCORING_VERSION, Score
+from app.scoring.result import SCORING_VERSION, Score
 from app.scoring.rows import ScoreRules
 from app.scoring.score import score
 from app.scoring.tolerance import Tolerance
@@ -82,8 +81,8 @@ class Verification:
 
     @property
     def confirmed(self) -> bool:
-        """Whether what was written is what the record gives."""
-        return not self.changes and not self.cut
+        """Whether what was written is what the record gives, by the rules that it states."""
+        return self.same_rules and not self.changes and not self.cut
 
     @property
     def standing(self) -> Score | None:
@@ -120,6 +119,9 @@ class Verification:
         if not self.finished:
             return ["the attempt was not finished: it has no score to verify"]
         remarks = [] if self.same_rules and not self.cut else [*self.remarks()]
+        if not self.same_rules:
+            known = f"this program has the rules of version {SCORING_VERSION} only"
+            remarks.append(f"it cannot be checked: {known}")
         if not self.confirmed:
             cut = (self.cut,) if self.cut else ()
             return [*remarks, *cut, *(change.sentence() for change in self.changes)]
@@ -158,18 +160,16 @@ def verify(recording: Recording) -> Verification:
         return Verification(recording.id, written, None, "", (), finished, cut)
     now, unscored = _recomputed(recording, written)
     changes = [Change(SCORE_FILE, unreadable, "a score")] if unreadable else []
-    if written is not None or now is not None:
-        own = _as_then(recording, written, now) if written and now else now
-        changes += _changes(written, own, unscored)
+    comparable = written is None or written.version == SCORING_VERSION
+    if comparable and (written is not None or now is not None):
+        changes += _changes(written, now, unscored)
     return Verification(recording.id, written, now, unscored, tuple(changes), finished)
 
 
 def conditions(recording: Recording, standing: Score | None) -> Conditions:
     """Gather what a recorded attempt was made under, with the version of the score that stands."""
     version = standing.version if standing is not None else 0
-    return conditions_of(
-        recording.metadata, recording.attachments, recording.samples, version, recording.events
-    )
+    return conditions_of(recording.metadata, recording.samples, version, recording.events)
 
 
 def state_of(recording: Recording) -> str:
@@ -200,18 +200,6 @@ def _recomputed(recording: Recording, written: Score | None) -> tuple[Score | No
         return None, str(error)
 
 
-def _as_then(recording: Recording, written: Score, now: Score) -> Score:
-    """Return what the rules that the score was written under give."""
-    if written.version < FIRST_OVER_ATTEMPT:
-        then = replace(
-            recording.trajectory(only_pointed=True),
-            pauses_end_stays=written.version < FIRST_OVER_PAUSES,
-            force_in_body=True,
-        )
-        now = score(then, *judged_by(recording, written))
-    return now.by_version(written.version)
-
-
 def judged_by(
     recording: Recording, written: Score | None
 ) -> tuple[Mapping[str, Tolerance], ScoreRules]:
@@ -224,7 +212,7 @@ def judged_by(
         }
         return tolerances, ScoreRules.model_validate(exercise["rules"])
     except (KeyError, TypeError, AttributeError, ValueError, ValidationError, RecursionError):
-        pass  # an old or damaged exercise: the score carries what it was judged by
+        pass  # a damaged exercise: the score carries what it was judged by
     if written is None:
         return DEFAULT_TOLERANCES, ScoreRules()
     return {row.name: row.tolerance for row in written.rows if row.tolerance}, written.rules
@@ -241,15 +229,12 @@ def _changes(written: Score | None, now: Score | None, unscored: str) -> list[Ch
         ("void", written.void_reason, now.void_reason),
         ("pass mark", written.rules.pass_mark, now.rules.pass_mark),
     ]
-    own = {name for name, metric in available().items() if metric.is_own}
     before = {row.name: row for row in written.rows}
     after = {row.name: row for row in now.rows}
     for name in dict.fromkeys((*before, *after)):
         a, b = before.get(name), after.get(name)
         if a is None and b is not None and b.tolerance is None:
             continue  # a metric that came later and counts nothing
-        if b is None and a is not None and a.tolerance is None and name not in own:
-            continue  # one of somebody else's, from when those were recorded too
         pairs.append((name, a.value if a else "no such metric", b.value if b else "no such metric"))
         if a and b and a.sd is not None and not _alike(a.sd, b.sd):
             pairs.append((f"uncertainty of {name}", a.sd, b.sd))

@@ -63,5 +63,5 @@ def _arrays(effect: Effect, module: Any) -> Iterator[Any]:
                 given = effect.checked(values)
                 for model in effect.models:
                     for slot in (sv.PLANT_DEPTH, sv.DEPTH):
-                        array = effects.array_by(module, effect, given, Binding(scene, slot, model))
+                        array = module.parameters(given, Binding(scene, slot, model))
                         yield np.ascontiguousarray(array, dtype=np.float64).ravel()

@@ -1,14 +1,21 @@
 """Survey: does every subsystem hold where its formulas are delicate?
 
-The cases stand in `hard_cases`, one register for this table, the tests and the documentation.
+The cases stand in `hard_cases`, here and in folders of plug-ins: one register for this table, the
+tests and the documentation.
 """
 
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from pkgutil import iter_modules
 from typing import Any, Final
 
+from app.core import plugin_folders
 from app.core.progress import Progress
+from app.studies import hard_cases
+from app.studies.errors import StudyError
 from app.studies.findings import Findings, Sheet, Survey
-from app.studies.hard_cases.case import HardOutcome, tried
-from app.studies.hard_cases.register import cases
+from app.studies.hard_cases.case import SUBSYSTEMS, HardCase, HardOutcome, tried
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Hard cases: every subsystem where its formulas are delicate",
@@ -27,6 +34,27 @@ COLUMNS: Final = (
     "beyond the bound",
     "holds",
 )
+
+
+@cache
+def cases() -> tuple[HardCase, ...]:
+    """Return the cases of every file that defines `CASES`, in the order of the subsystems.
+
+    Raises:
+        StudyError: if a subsystem has no case, or two cases have one name.
+    """
+    gathered: list[HardCase] = []
+    names = [f"{hard_cases.__name__}.{info.name}" for info in iter_modules(hard_cases.__path__)]
+    modules = [*map(import_module, names), *plugin_folders.modules("hard_cases")]
+    for module in sorted(modules, key=lambda module: module.__name__.rpartition(".")[2]):
+        if Path(module.__file__ or "") not in plugin_folders.refused:
+            gathered += getattr(module, "CASES", ())
+    called = [case.name for case in gathered]
+    if twice := sorted({name for name in called if called.count(name) > 1}):
+        raise StudyError(f"two hard cases are called {twice[0]!r}; rename one")
+    if bare := set(SUBSYSTEMS) - {case.subsystem for case in gathered}:
+        raise StudyError(f"subsystems without a hard case: {', '.join(sorted(bare))}")
+    return tuple(sorted(gathered, key=lambda case: SUBSYSTEMS.index(case.subsystem)))
 
 
 def _row(outcome: HardOutcome) -> tuple[str | float, ...]:

@@ -3,20 +3,20 @@
     found = kept("velocity")
     found.points, found.default, found.sweet_spot, found.exception
 
-One JSON file per study in the folder `tables`, written by `acus study NAME --write`. It holds what
-`table.document` says, and when and by which version it was measured, with how many repeats; nothing
-of the machine. Times are processor time of one call, medians: ratios hold elsewhere, seconds do
-not. Reading needs none of what running a study needs.
+One JSON file per study in the folder `tables` beside the study, written by
+`acus study NAME --write`. It holds what `table.document` says, and when and by which version it was
+measured, with how many repeats; nothing of the machine. Times are processor time of one call,
+medians: ratios hold elsewhere, seconds do not. Reading needs none of what running a study needs.
 """
 
 import json
 from dataclasses import dataclass
 from datetime import date
-from importlib.resources import files
 from pathlib import Path
 from typing import Any, Final
 
 from app import __version__
+from app.core import plugin_folders
 from app.core.files import write_atomically
 from app.studies.errors import StudyError
 from app.studies.findings import Findings, Sheet
@@ -67,7 +67,7 @@ class Kept:
 
 def kept_names() -> tuple[str, ...]:
     """Names of the studies whose tables are kept, sorted."""
-    return tuple(sorted(path.stem for path in folder().glob("*.json")))
+    return tuple(sorted(path.stem for folder in _folders() for path in folder.glob("*.json")))
 
 
 def kept(name: str) -> Kept:
@@ -76,15 +76,25 @@ def kept(name: str) -> Kept:
     Raises:
         StudyError: for a name without a table, listing the names, or a file that is no such table.
     """
-    path = folder() / f"{name}.json"
+    path = place(name)
     if not path.is_file():
         raise StudyError(f"no table of study {name!r} is kept; there are {', '.join(kept_names())}")
     return read(path)
 
 
-def folder() -> Path:
-    """Folder of the tables that come with the program."""
-    return Path(str(files("app.studies"))) / "tables"
+def place(name: str) -> Path:
+    """Return the file of a study's table that comes with the program."""
+    return (
+        next((f for f in _folders() if (f.parent / f"{name}.py").exists()), _OWN) / f"{name}.json"
+    )
+
+
+_OWN: Final = Path(__file__).with_name("tables")
+
+
+def _folders() -> tuple[Path, ...]:
+    shared = (folder.path / "studies" / "tables" for folder in plugin_folders.folders())
+    return (_OWN, *shared)
 
 
 def read(path: Path) -> Kept:

@@ -2,27 +2,24 @@
 
 All are asked the same: the needle pointed at by rings of directions about the vertical, hub 110 mm
 above the remote centre, tip 90 mm below it; the worst direction of each ring counts. A further
-machine is one more entry of `MACHINES`.
-
-The arm's hub is the gripped point of its tool, its remote centre the middle of the skin of its
-scene, and its base stands as in that scene; how the distance of the base matters is a table.
+machine is a file in `comparisons/`, here or in a folder of plug-ins, that defines `COMPARISON`.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, partial
+from importlib import import_module
 from itertools import product
+from pkgutil import iter_modules
 from typing import Any, Final
 
 import numpy as np
 
+from app.core import plugin_folders
 from app.core.arrays import FloatArray, cross, unit
 from app.core.compiled import njit
 from app.core.progress import Progress
 from app.core.units import DEGREE, MILLIMETRE
-from app.mechanisms import tensegrity
-from app.mechanisms.arm import ArmSolution, arm_singularity
-from app.mechanisms.arm import kernels as arm_kernels
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.lever import axis_kernel, force_map_kernel, torque_kernel
 from app.mechanisms.pantograph import (
@@ -34,11 +31,9 @@ from app.mechanisms.pantograph import (
 )
 from app.mechanisms.pantograph.kernels import forward_kernel, jacobian_kernel
 from app.mechanisms.pantograph.profile import load_pantograph
-from app.mechanisms.tensegrity import kernels as guide_kernels
-from app.mechanisms.tensegrity.cable_kernels import hub_torque_kernel, tensions_kernel
-from app.studies.arm_trocar import ArmInTrocar
+from app.studies import comparisons as own
 from app.studies.findings import Cell, Figure, Findings, Sheet, Survey
-from app.studies.tensegrity import seconds
+from app.studies.timing import seconds
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "The machines side by side: workspace, resolution, stiffness, force, effort, cost",
@@ -53,12 +48,6 @@ DEPTH: Final = 0.090
 """From the remote centre to the tip [m]."""
 
 TILTS_DEG: Final = (0.0, 10.0, 20.0, 30.0, 39.0, 45.0)
-STIFFEST: Final = 5000.0
-"""Largest stiffness that the arm's own controller takes for its tool [N/m], as published."""
-
-STANDS: Final = (0.45, 0.6, 0.8, 0.9)
-"""Distances of the arm's base from the remote centre, on the floor [m]."""
-
 _RING: Final = 24
 _TURNS: Final = 36
 _COLOURS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
@@ -98,6 +87,21 @@ class ComparedMachine:
     tick: Callable[[], tuple[Callable[[], object], int]]
 
 
+@dataclass(frozen=True, slots=True)
+class ComparedPlugin:
+    """A further machine.
+
+    Attributes:
+        title: what it is, for whoever waits: "the arm".
+        make: makes what is asked of it.
+        more: makes tables and lines of this machine alone, if there are any.
+    """
+
+    title: str
+    make: Callable[[], ComparedMachine]
+    more: Callable[[], tuple[tuple[Sheet, ...], tuple[str, ...]]] | None = None
+
+
 def ring(tilt: float, count: int = _RING) -> FloatArray:
     """Needle directions (n, 3), hub to tip, at a tilt from the vertical [rad]."""
     turn = np.linspace(0.0, 2.0 * np.pi, count if tilt > 0.0 else 1, endpoint=False)
@@ -124,20 +128,6 @@ def _pantograph_often(
         _, a, b, c, d = jacobian_kernel(q[k, 0], q[k, 1], x, y, links[0], links[1], links[2])
         gx, gy = force_map_kernel(1.0, -0.5, 0.2, dx, dy, dz, l_in, l_out)
         out[k, 0], out[k, 1] = torque_kernel(gx, gy, a, b, c, d)
-
-
-@njit
-def _tensegrity_often(
-    beta: FloatArray, bars: Any, numbers: Any, l_out: float, out: FloatArray
-) -> None:
-    for k in range(len(beta)):
-        b1, b2 = beta[k, 0], beta[k, 1]
-        _, x, y, z = guide_kernels.forward_kernel(b1, b2, *bars, 1.0)
-        _, x1, x2, y1, y2, z1, z2 = guide_kernels.jacobian_kernel(b1, b2, x, y, z, *bars)
-        load1, load2 = hub_torque_kernel(1.0, -0.5, 0.2, l_out, x1, x2, y1, y2, z1, z2)
-        _, out[k, 0], out[k, 1], out[k, 2], out[k, 3], _, _ = tensions_kernel(
-            b1, b2, load1, load2, 0.0, 0.0, *numbers
-        )
 
 
 def _pantograph() -> ComparedMachine:
@@ -191,120 +181,18 @@ def _pantograph() -> ComparedMachine:
     )
 
 
-def _tensegrity() -> ComparedMachine:
-    geometry, cables = tensegrity.TensegrityGeometry(), tensegrity.Cables()
-    steps = tensegrity.ENCODER_LINES * tensegrity.EDGES_PER_LINE
-
-    def joints(d: FloatArray) -> FloatArray:
-        return tensegrity.inverse(geometry, -d)
-
-    def turning(d: FloatArray) -> FloatArray:
-        return -tensegrity.jacobian(geometry, joints(d))
-
-    def efforts(d: FloatArray, force: FloatArray) -> FloatArray:
-        beta = joints(d)
-        load = tensegrity.hub_torques(tensegrity.jacobian(geometry, beta), force, L_OUT)
-        return tensegrity.tensions(geometry, cables, beta, load).tensions
-
-    def most(d: FloatArray) -> float:
-        return tensegrity.force_limit(geometry, cables, joints(d), L_OUT)
-
-    def stiffness(d: FloatArray) -> float:
-        pulled = tensegrity.tensions(geometry, cables, joints(d), (0.0, 0.0)).tensions
-        values = np.linalg.eigvalsh(tensegrity.guide_stiffness(geometry, cables, -d, pulled))
-        return float(np.sort(values)[1]) / L_OUT**2  # the smallest, 0, belongs to the needle
-
-    def tick() -> tuple[Callable[[], object], int]:
-        poses = np.concatenate([ring(np.deg2rad(tilt)) for tilt in TILTS_DEG[:-1]])
-        beta = np.tile([joints(d) for d in poses], (50, 1))
-        out = np.empty((len(beta), 4))
-        numbers = (*cables.law, *geometry.radii, *geometry.bars)
-        return partial(_tensegrity_often, beta, geometry.bars, numbers, L_OUT, out), len(beta)
-
-    return ComparedMachine(
-        "tensegrity (paper)",
-        "lengths and encoder lines published; tilts, four edges a line, cables and limits assumed",
-        turning,
-        lambda d: DEPTH * turning(d),
-        2.0 * np.pi / steps,
-        efforts,
-        "N",
-        most,
-        stiffness,
-        "the cables, winches held, least tensions; the loop can add the same as on any machine",
-        tick,
-    )
-
-
-@njit
-def _arm_often(q: FloatArray, lengths: Any, at: Any, force: FloatArray, out: FloatArray) -> None:
-    rotation, position, moved = np.empty((3, 3)), np.empty(3), np.empty((6, 7))
-    for k in range(len(q)):
-        arm_kernels.forward_kernel(q[k], lengths, rotation, position)
-        arm_kernels.jacobian_kernel(q[k], lengths, at, moved)
-        for j in range(7):
-            out[k, j] = moved[0, j] * force[0] + moved[1, j] * force[1] + moved[2, j] * force[2]
-
-
-def _arm() -> ComparedMachine:
-    held = ArmInTrocar.standing(L_OUT, DEPTH)
-    arm = held.pivot.arm
-    found: dict[bytes, ArmSolution | MechanismError] = {}
-
-    def posture(d: FloatArray) -> FloatArray:
-        key = d.tobytes()  # all quantities of a direction ask for it, and it takes milliseconds
-        if key not in found:
-            try:
-                found[key] = held.posture(d)
-            except MechanismError as error:
-                found[key] = error
-        known = found[key]
-        if isinstance(known, MechanismError):
-            raise known
-        return known.q
-
-    def efforts(d: FloatArray, force: FloatArray) -> FloatArray:
-        return np.asarray(held.hub_jacobian(posture(d)).T @ force)
-
-    def most(d: FloatArray) -> float:
-        q = posture(d)
-        return held.sideways(q, held.hub_jacobian(q), across(d))[0]
-
-    def stiffness(d: FloatArray) -> float:
-        posture(d)
-        return STIFFEST
-
-    def tick() -> tuple[Callable[[], object], int]:
-        poses = np.concatenate([ring(np.deg2rad(tilt)) for tilt in TILTS_DEG])
-        q = np.tile([posture(d) for d in poses], (50, 1))
-        at = tuple(arm.T_wrist_tool.translation.tolist())
-        out, force = np.empty((len(q), 7)), np.array([1.0, -0.5, 0.2])
-        return partial(_arm_often, q, arm.lengths, at, force, out), len(q)
-
-    return ComparedMachine(
-        "arm through a trocar (iiwa14)",
-        "lengths, limits, torques, masses published; encoders assumed; trocar to 60°; nothing in"
-        " the way; what the fingers hold by friction is far less",
-        lambda d: held.turning(posture(d)),
-        lambda d: held.pivot.tip_jacobian(posture(d)),
-        float(np.sqrt(12.0) * arm.resolution),  # a step whose rounding spreads so
-        efforts,
-        "N·m",
-        most,
-        stiffness,
-        "the arm's controller at its stiffest; how far its joints give way is not published",
-        tick,
-    )
-
-
 @cache
 def machines() -> tuple[ComparedMachine, ...]:
     """Return the machines that are compared."""
-    return tuple(make() for make in MACHINES)
+    return tuple(make() for make in (_pantograph, *(one.make for one in comparisons())))
 
 
-MACHINES: Final[tuple[Callable[[], ComparedMachine], ...]] = (_pantograph, _tensegrity, _arm)
-"""What makes each of them, in the order of the tables."""
+def comparisons() -> tuple[ComparedPlugin, ...]:
+    """Return further machines: those of this room, then those of folders of plug-ins."""
+    names = [f"{own.__name__}.{info.name}" for info in iter_modules(own.__path__)]
+    modules = [*map(import_module, names), *plugin_folders.modules("comparisons")]
+    found = (getattr(one, "COMPARISON", None) for one in modules)
+    return tuple(one for one in found if isinstance(one, ComparedPlugin))
 
 
 def at_tilt(machine: ComparedMachine, tilt: float) -> dict[str, float]:
@@ -452,78 +340,6 @@ def by_turn(machine: ComparedMachine, step_deg: float = 2.5) -> FloatArray:
     )
 
 
-def arm_stands(away: tuple[float, ...] = STANDS) -> Sheet:
-    """Return what the arm holds by how far its base stands from the remote centre."""
-    rows: list[tuple[Cell, ...]] = []
-    scenes = ArmInTrocar.standing(L_OUT, DEPTH).away
-    for distance in sorted((scenes, *away)):
-        held = ArmInTrocar.standing(L_OUT, DEPTH, distance)
-        least_margin, least_dexterity, reached = np.inf, np.inf, []
-        for d in np.concatenate([ring(np.deg2rad(tilt)) for tilt in TILTS_DEG]):
-            try:
-                posture = held.posture(d)
-            except MechanismError:
-                reached.append(False)
-                continue
-            reached.append(True)
-            least_margin = min(least_margin, posture.margin)
-            dexterity = arm_singularity(held.pivot.arm, posture.q).dexterity
-            least_dexterity = min(least_dexterity, dexterity)
-        some = any(reached)
-        rows.append(
-            (
-                f"{distance:.2f}" + (", the scene's" if distance == scenes else ""),
-                100.0 * float(np.mean(reached)),
-                float(np.rad2deg(least_margin)) if some else "-",
-                float(least_dexterity) if some else "-",
-            )
-        )
-    return Sheet(
-        "stands",
-        f"The arm by how far its base stands from the remote centre; tilts to {TILTS_DEG[-1]:g}°",
-        ("distance on the floor [m]", "directions held [%]", "least margin [°]", "dexterity"),
-        tuple(rows),
-    )
-
-
-def arm_by_tilt() -> Sheet:
-    """Return what is asked of the arm alone: what it repeats, forces by its torque limits."""
-    held = ArmInTrocar.standing(L_OUT, DEPTH)
-    rows: list[tuple[Cell, ...]] = []
-    for tilt_deg in TILTS_DEG:
-        found = []
-        for d in ring(np.deg2rad(tilt_deg)):
-            q = held.posture(d).q
-            hub, joint = held.sideways(q, held.hub_jacobian(q), across(d))
-            tip, _ = held.sideways(q, held.pivot.tip_jacobian(q), across(d))
-            weight = float((np.abs(held.weight(q)) / held.pivot.arm.torque).max())
-            found.append((held.repeated(q), hub, tip, weight, joint))
-        worst = min(found, key=lambda row: row[1])
-        rows.append(
-            (
-                tilt_deg,
-                max(row[0] for row in found) / MILLIMETRE,
-                worst[1],
-                worst[4] + 1,
-                min(row[2] for row in found),
-                100.0 * max(row[3] for row in found),
-            )
-        )
-    return Sheet(
-        "arm",
-        "The arm through a trocar: repeatability as published, forces by published torques",
-        (
-            "tilt [°]",
-            "repeatability at the tip [mm]",
-            "force at the gripped point [N]",
-            "ended by joint",
-            "force at the tip [N]",
-            "torque for its own weight [%]",
-        ),
-        tuple(rows),
-    )
-
-
 def draw(figure: Any) -> None:
     """Every quantity by tilt, one line a machine; the tilt that is reached, by turn."""
     tilts = np.arange(0.0, 60.5, 2.5)
@@ -567,9 +383,7 @@ def _measure(progress: Progress | None) -> Findings:
     if progress is not None:
         progress.report(0.3, "by tilt")
     tilts = by_tilt()
-    if progress is not None:
-        progress.report(0.6, "the arm")
-    stands, arm = arm_stands(), arm_by_tilt()
+    sheets = [overview, tilts]
     lines = [
         f"{row[0]}: {row[1]:.1f}° all round, a tick's kinematics {row[3]:.0f} ns."
         for row in overview.rows
@@ -581,12 +395,15 @@ def _measure(progress: Progress | None) -> Findings:
             f"{float(upright[5]):.0f} N/m at the hub by {machine.stiff_by}; "
             f"{float(upright[6]):.1f} N at most, 1 N needs {float(upright[7]):.3g} {machine.unit}."
         )
-    lines.append(
-        f"The arm, upright: its tip repeats to {float(arm.rows[0][1]):.2f} mm by the data sheet's"
-        f" repeatability; {float(arm.rows[0][4]):.0f} N sideways at the tip, its own weight borne."
-    )
-    sheets = (overview, tilts, arm, stands)
-    return Findings(sheets, (Figure("tilts", draw, (16.0, 7.0)),), tuple(lines))
+    for one in comparisons():
+        if one.more is None:
+            continue
+        if progress is not None:
+            progress.report(0.6, one.title)
+        more, said = one.more()
+        sheets += more
+        lines += said
+    return Findings(tuple(sheets), (Figure("tilts", draw, (16.0, 7.0)),), tuple(lines))
 
 
 STUDY: Final = Survey(

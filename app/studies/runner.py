@@ -1,6 +1,5 @@
 """Find studies and run them."""
 
-import ast
 import math
 import statistics
 import time
@@ -10,7 +9,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from app.core.errors import AcusError
-from app.core.plugins import TEXT, Declaration, PluginKind, PluginText
+from app.core.plugins import TEXT, Declaration, PluginKind
 from app.core.progress import Progress
 from app.studies.errors import StudyError
 from app.studies.findings import Survey, SurveyResult
@@ -54,12 +53,10 @@ def find_study(name: str) -> Study | Survey:
     """
     declared = KIND.find(name)
     found = getattr(KIND.load(declared), "STUDY", None)
-    if not isinstance(found, Study | Survey) or found.name not in ("", name):
+    if not isinstance(found, Study | Survey):
         raise StudyError(
             f"study file {declared.path} must define STUDY, a Study or Survey of {name!r}"
         )
-    if found.name:  # a file of the form before
-        return found
     return replace(
         found,
         name=name,
@@ -69,26 +66,6 @@ def find_study(name: str) -> Study | Survey:
     )
 
 
-def _older(path: Path, source: PluginText) -> PluginText:
-    """Read title, question and reference of the form before, where they stand in `STUDY`."""
-    stated = [
-        node.value
-        for node in source.body
-        if isinstance(node, ast.Assign | ast.AnnAssign)
-        for target in (node.targets if isinstance(node, ast.Assign) else [node.target])
-        if isinstance(target, ast.Name) and target.id == "STUDY"
-    ]
-    if source.document is not None or not stated:
-        return source
-    given = {key.arg: key.value for key in getattr(stated[0], "keywords", [])}
-    texts = {key: given.get(key) for key in KIND.fields}
-    document = {
-        key: text.value if isinstance(text, ast.Constant) and text.value else path.stem
-        for key, text in texts.items()
-    }
-    return source._replace(document=document)
-
-
 KIND: Final[PluginKind[DeclaredStudy]] = PluginKind(
     noun="a study",
     declares=DeclaredStudy,
@@ -96,7 +73,6 @@ KIND: Final[PluginKind[DeclaredStudy]] = PluginKind(
     error=StudyError,
     package="app.studies",
     folder="studies",
-    older=_older,
     marks=(b"\nSTUDY", b"\nDECLARATION"),
 )
 

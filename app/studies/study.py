@@ -86,8 +86,7 @@ class Study:
         case: makes a setting ready; of a study that borrows, `case(setting, *lent)`.
         deadline: time that the work may take [s].
         perception: error that a person notices.
-        default: name of the way that the program uses. `NAME: why`, the form before, is read as
-            name and `because`.
+        default: name of the way that the program uses.
         because: why, in a sentence.
         exception: why the default is not what `rule.sweet_spot` finds; empty where it is.
         in_use: finds what the program really calls, to be compared with the default's `used`; None
@@ -121,14 +120,10 @@ class Study:
                 raise StudyError(f"study {self.name}: each {kind} needs a name of its own: {names}")
         ways = [way.name for way in self.ways]
         if self.default not in ways:
-            name, _, because = self.default.partition(": ")
-            if name not in ways:
-                raise StudyError(
-                    f"study {self.name}: its default {name!r} is no way; "
-                    f"there are {', '.join(ways)}"
-                )
-            object.__setattr__(self, "default", name)
-            object.__setattr__(self, "because", self.because or because)
+            raise StudyError(
+                f"study {self.name}: its default {self.default!r} is no way; "
+                f"there are {', '.join(ways)}"
+            )
 
 
 @dataclass(frozen=True, slots=True)

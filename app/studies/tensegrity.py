@@ -5,7 +5,6 @@ The paper's figure 5 redone with its lengths against the 40° cone it asks for, 
 numerical way; what the paper leaves open: conditioning, encoders, cables, the remote centre itself.
 """
 
-import time
 from collections.abc import Callable
 from functools import partial
 from typing import Any, Final
@@ -40,6 +39,7 @@ from app.mechanisms.tensegrity.kernels import (
 )
 from app.mechanisms.tensegrity.numerical import forward_by_root, newton_kernel
 from app.studies.findings import Cell, Figure, Findings, Sheet, Survey
+from app.studies.timing import seconds
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "The tensegrity needle holder: workspace, closure, conditioning, stiffness, encoders",
@@ -130,21 +130,6 @@ def _tensions_often(beta: FloatArray, load: FloatArray, wanted: float, numbers: 
         )
         total += t1 + t2 + t3 + t4
     return total
-
-
-def seconds(*ways: tuple[Callable[[], object], int], rounds: int = 15) -> list[float]:
-    """Processor's time of one call [s] of each way: what makes its calls, and how many they are.
-
-    The ways take turns, so that what slows the machine slows them all; medians of the rounds.
-    """
-    taken: list[list[float]] = [[] for _ in ways]
-    for number in range(rounds + 1):
-        for (run, calls), times in zip(ways, taken, strict=True):
-            start = time.thread_time()
-            run()
-            if number > 0:  # the first is the warm-up
-                times.append((time.thread_time() - start) / calls)
-    return [float(np.median(times)) for times in taken]
 
 
 def workspace() -> Sheet:

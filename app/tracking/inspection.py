@@ -6,10 +6,10 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.tracking.fix import FixStatus, NeedleFix
-from app.tracking.markers.extractor import Mask, Miss
+from app.tracking.markers.extractor import Extractor, Mask, Miss
+from app.tracking.optics.rig import RigProfile
 from app.tracking.stereo.epipolar import epipolar_curve
 from app.tracking.tracked_picture import TrackedPicture
-from app.tracking.tracker import Tracker
 
 Region = tuple[float, float, float, float]
 """Left, top, right, bottom [px]."""
@@ -76,55 +76,53 @@ class Inspection:
         return self.fix.status if self.fix is not None else None
 
 
-class Inspector:
-    """Looks at a tracker; costs nothing while nobody asks.
+def inspected(
+    fix: NeedleFix | None,
+    pictures: tuple[TrackedPicture, ...],
+    rig: RigProfile,
+    extractors: tuple[Extractor, Extractor],
+    masks: bool,
+    lines: bool,
+) -> Inspection:
+    """Return what two cameras show.
 
     Args:
-        tracker: that runs; only read.
+        fix: newest; None before the first.
+        pictures: newest of each camera that has given one.
+        rig: profile of the cameras.
+        extractors: how the marker is found in each, in the order of the rig.
+        masks: whether to compute what counts as the marker's colour (1 ms a picture).
+        lines: whether to compute the epipolar curves (0.1 ms a picture).
     """
+    used = rig.calibration
+    return Inspection(
+        tuple(_inspected(one, pictures, rig, extractors, masks, lines) for one in pictures),
+        fix,
+        rig.rate_hz,
+        rig.name,
+        used.id if used is not None else "",
+        used is None or used.uncertainty_known,
+    )
 
-    def __init__(self, tracker: Tracker) -> None:
-        self._tracker = tracker
 
-    def inspect(self, masks: bool = False, lines: bool = True) -> Inspection:
-        """Return the newest pictures.
-
-        Args:
-            masks: whether to compute what counts as the marker's colour (1 ms a picture).
-            lines: whether to compute the epipolar curves (0.1 ms a picture).
-        """
-        stamped = self._tracker.latest.read()
-        pictures = self._tracker.pictures()
-        inspected = tuple(self._inspect(one, pictures, masks, lines) for one in pictures)
-        newest = stamped.value if stamped else None
-        rig = self._tracker.rig
-        used = rig.calibration
-        return Inspection(
-            inspected,
-            newest,
-            rig.rate_hz,
-            rig.name,
-            used.id if used is not None else "",
-            used is None or used.uncertainty_known,
-        )
-
-    def _inspect(
-        self,
-        picture: TrackedPicture,
-        pictures: tuple[TrackedPicture, ...],
-        masks: bool,
-        lines: bool,
-    ) -> InspectedPicture:
-        models, extractors = self._tracker.rig.models, self._tracker.extractors
-        own = [model.name for model in models].index(picture.name)
-        other = next((one for one in pictures if one.name != picture.name), None)
-        epipolar = np.empty((0, 2))
-        if lines and other is not None and other.pixel is not None:
-            epipolar = epipolar_curve(models[1 - own], other.pixel, models[own])
-        mask = extractors[own].mask(picture.image) if masks else None
-        why = picture.found.reason.words if isinstance(picture.found, Miss) else ""
-        region = _region(picture, extractors[own].region)
-        return InspectedPicture(picture, why, epipolar, mask, region)
+def _inspected(
+    picture: TrackedPicture,
+    pictures: tuple[TrackedPicture, ...],
+    rig: RigProfile,
+    extractors: tuple[Extractor, Extractor],
+    masks: bool,
+    lines: bool,
+) -> InspectedPicture:
+    models = rig.models
+    own = [model.name for model in models].index(picture.name)
+    other = next((one for one in pictures if one.name != picture.name), None)
+    epipolar = np.empty((0, 2))
+    if lines and other is not None and other.pixel is not None:
+        epipolar = epipolar_curve(models[1 - own], other.pixel, models[own])
+    mask = extractors[own].mask(picture.image) if masks else None
+    why = picture.found.reason.words if isinstance(picture.found, Miss) else ""
+    region = _region(picture, extractors[own].region)
+    return InspectedPicture(picture, why, epipolar, mask, region)
 
 
 def _region(picture: TrackedPicture, half: int) -> Region | None:

@@ -26,6 +26,7 @@ from app.tracking.errors import TrackingError
 from app.tracking.fix import FixStatus, NeedleFix, without_point
 from app.tracking.follower import MarkerFollower
 from app.tracking.health import FixHealth, Hiding
+from app.tracking.inspection import Inspection, inspected
 from app.tracking.markers.choice import extractors as default_extractors
 from app.tracking.markers.colour import RED, ColourModel, learn
 from app.tracking.markers.extractor import Centre, Extractor, Hint, MarkerFix, Miss, MissReason
@@ -210,7 +211,7 @@ class Tracker:
             under it; None while it is not known.
 
     Attributes:
-        rig, extractors: as given; for whoever looks at the pictures (`inspection`).
+        rig, extractors: as given.
     """
 
     def __init__(
@@ -251,6 +252,11 @@ class Tracker:
         if self._bands is not None:
             self._bands.use(colour)
         self._worker = Worker(self._step, self._put)
+
+    @property
+    def stereo(self) -> "Tracker":
+        """It has two cameras on a marker (`needle_tracker`)."""
+        return self
 
     def open(self) -> None:
         """Open both cameras and start; opening twice is fine.
@@ -370,6 +376,12 @@ class Tracker:
         """Newest picture of each camera with the found marker, read-only; empty before one came."""
         pictures = dict(self._pictures)
         return tuple(pictures[name] for name in self._names if name in pictures)
+
+    def inspect(self, masks: bool = False, lines: bool = True) -> Inspection:
+        """Return the newest pictures with everything that is made of them (`needle_tracker`)."""
+        stamped = self.latest.read()
+        newest = stamped.value if stamped else None
+        return inspected(newest, self.pictures(), self.rig, self.extractors, masks, lines)
 
     def _show(self, frames: Pair, markers: Markers) -> None:
         for name, frame, marker in zip(self._names, frames, markers, strict=True):

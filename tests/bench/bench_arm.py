@@ -13,11 +13,11 @@ from time import process_time
 
 import numpy as np
 
+from app.arm.mechanics import load_arm, starts
+from app.arm.mechanics.kernels import Three, eight_kernel, forward_kernel
+from app.arm.studies.arm_ik import Poses, at_random, iterate_often, posed, solve_often
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
-from app.mechanisms.arm import load_arm, starts
-from app.mechanisms.arm.kernels import Three, eight_kernel, forward_kernel
-from app.studies.arm_ik import Poses, at_random, iterate_often, posed, solve_often
 
 POSES = 1_000_000
 CHUNK = 50_000

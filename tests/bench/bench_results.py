@@ -34,7 +34,7 @@ from tests.bench.bench_record import record
 from tests.bench.in_turn import compare
 
 STUDENTS, ATTEMPTS = 200, 50
-RECORDS = Path(__file__).resolve().parents[1] / "data" / "records-kept"
+RECORDS = Path(__file__).resolve().parents[1] / "data" / "records"
 
 
 def fill(folder: Path, keys: list[str]) -> None:

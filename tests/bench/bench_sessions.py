@@ -9,7 +9,7 @@ from app.session.store import list_sessions
 from tests.bench.in_turn import compare
 
 COUNT, LIMIT_S, RUNS = 1000, 0.3, 7
-RECORDS = Path(__file__).resolve().parents[1] / "data" / "records-kept"
+RECORDS = Path(__file__).resolve().parents[1] / "data" / "records"
 
 
 def fill(folder: Path) -> None:

@@ -168,6 +168,9 @@ class ApartTracker:
             child.terminate()
             child.wait()
 
+    inspect = Tracker.inspect
+    stereo = Tracker.stereo
+
     def touched(self, measured: float, known: float) -> None:
         """Nothing is touched while it is measured."""
 
@@ -233,6 +236,9 @@ class CheapTracker:
     def close(self) -> None:
         """End."""
         self._stop.set()
+
+    inspect = Tracker.inspect
+    stereo = Tracker.stereo
 
     def touched(self, measured: float, known: float) -> None:
         """Nothing is touched while it is measured."""

@@ -52,9 +52,9 @@ def test_stereo_says_what_json_docs_list_and_writes_its_file(folder: Path, tmp_p
         "83",
         "--out",
         str(file),
-        "--json=1",
+        "--json",
     )
-    document = json.loads(text)
+    document = json.loads(text)["facts"]
     page = (Path(__file__).resolve().parents[2] / "docs" / "json.md").read_text(encoding="utf-8")
     for key in (
         *document,
@@ -98,15 +98,15 @@ def test_stray_files_are_named_and_pictures_of_one_camera_help_its_lens(
         (place / path.name).write_bytes(path.read_bytes())
     (pairs / "notes.txt").write_text("x")
     (pairs / "desk.png").write_bytes((pairs / "left01.png").read_bytes())
-    plain = ["stereo", "--images", str(pairs), *BOARD, "--hold-back", "0", "--json=1"]
-    found = json.loads(run(*plain, "--left-alone", str(more)))
+    plain = ["stereo", "--images", str(pairs), *BOARD, "--hold-back", "0", "--json"]
+    found = json.loads(run(*plain, "--left-alone", str(more)))["facts"]
     assert len(found["residuals"]) == 5
     assert [part.split(":")[0] for part in found["remarks"]] == ["skipped", "no partner"]
     assert "desk.png, notes.txt" in found["remarks"][0]
     assert "right06.png, right07.png" in found["remarks"][1]
     assert found["verdict"] == "usable"
     assert found["reason"] == "unchecked"
-    without = json.loads(run(*plain))
+    without = json.loads(run(*plain))["facts"]
     assert found["cameras"][0]["sd"]["fx"] < without["cameras"][0]["sd"]["fx"]
     assert {one["name"] for one in found["pictures"]} > {"left06.png", "right07.png"}
 
@@ -133,7 +133,7 @@ def test_the_lens_of_one_camera_is_written_as_the_pen_reads_it(folder: Path, tmp
 
 
 def test_views_says_of_every_picture_what_it_is_good_for(folder: Path) -> None:
-    document = json.loads(run("views", "--images", str(folder), *BOARD, "--json=1"))
+    document = json.loads(run("views", "--images", str(folder), *BOARD, "--json"))["facts"]
     assert len(document["views"]) == 14
     assert all(view["used"] for view in document["views"])
 

@@ -1,4 +1,4 @@
-"""`acus calibrate list|show|use|undo|redo|condemn|export|import|board`."""
+"""`acus calibrate list|show|use|undo|redo|reject|export|import|print`."""
 
 import json
 import sys
@@ -39,11 +39,11 @@ def kept() -> CalibrationHistory:
 def test_the_list_says_which_is_in_use_and_which_was_found_bad(acus, kept) -> None:
     assert acus("list") == (0, acus("list")[1])
     assert "* cal-two" in acus("list")[1]
-    assert acus("condemn", "cal-two", "--why", "camera bumped")[1].strip() == "in use: cal-one"
+    assert acus("reject", "cal-two", "--why", "camera bumped")[1].strip() == "in use: cal-one"
     text = acus("list")[1]
     assert "* cal-one" in text
     assert "FOUND BAD: camera bumped" in text
-    document = json.loads(acus("list", "--json=1")[1])
+    document = json.loads(acus("list", "--json")[1])["facts"]
     assert [c["id"] for c in document["calibrations"]] == ["cal-two", "cal-one"]
     assert document["calibrations"][0]["found_bad"] == "camera bumped"
     assert document["calibrations"][1]["in_use"] is True
@@ -60,7 +60,7 @@ def test_an_empty_list_says_so(acus) -> None:
 
 
 def test_undo_redo_and_use_move_what_is_in_use(acus, kept) -> None:
-    assert json.loads(acus("undo", "--json=1")[1]) == {"in_use": "cal-one"}
+    assert json.loads(acus("undo", "--json")[1])["facts"] == {"in_use": "cal-one"}
     assert acus("undo")[1].strip() == "no calibration is in use"
     assert acus("redo")[1].strip() == "in use: cal-one"
     assert acus("use", "cal-t")[1].strip() == "in use: cal-two"
@@ -73,7 +73,7 @@ def test_show_tells_cameras_validation_and_notes(acus, kept) -> None:
     text = acus("show", "cal-one")[1]
     for words in ("640x480", "0.050 mm RMS", "k3 dropped", "cal-one.yaml"):
         assert words in text
-    document = json.loads(acus("show", "cal-one", "--json=1")[1])
+    document = json.loads(acus("show", "cal-one", "--json")[1])["facts"]
     assert document["calibration"]["id"] == "cal-one"
 
 
@@ -94,9 +94,9 @@ def test_what_is_exported_is_imported_again(acus, kept, tmp_path: Path) -> None:
     assert "the calibration's own uncertainty is not known" in text
     assert "own uncertainty" not in acus("show", "cal-one")[1]
     path = tmp_path / "own.yaml"
-    assert acus("export", "cal-one", "--out", str(path), "--json=1")[0] == 0
+    assert acus("export", "cal-one", "--out", str(path), "--json")[0] == 0
     assert path.read_text() == (kept.folder / "cal-one.yaml").read_text()
-    assert len(json.loads(acus("list", "--json=1")[1])["calibrations"]) == 3
+    assert len(json.loads(acus("list", "--json")[1])["facts"]["calibrations"]) == 3
     code, text = acus("export", "cal-one", "--format", "xml", "--out", str(path))
     assert code == 2
     assert "only yaml and ros" in text
@@ -122,13 +122,13 @@ def test_a_board_is_written_as_pdf_and_an_ambiguous_one_is_said_to_be_so(
     acus, tmp_path: Path
 ) -> None:
     path = tmp_path / "board.pdf"
-    code, text = acus("board", "--board", "checkerboard:7x5:25mm", "--out", str(path))
+    code, text = acus("print", "--board", "checkerboard:7x5:25mm", "--out", str(path))
     assert code == 0
     assert "half a turn" in text
     assert path.read_bytes().startswith(b"%PDF")
-    document = json.loads(acus("board", "--out", str(path), "--json=1")[1])
+    document = json.loads(acus("print", "--out", str(path), "--json")[1])["facts"]
     assert document["pattern_mm"] == [180.0, 120.0]
-    code, text = acus("board", "--board", "checkerboard:7x5:60mm", "--out", str(path))
+    code, text = acus("print", "--board", "checkerboard:7x5:60mm", "--out", str(path))
     assert code == 2
     assert "does not fit on A4" in text
-    assert acus("board", "--out", str(tmp_path / "b.png"))[0] == 2
+    assert acus("print", "--out", str(tmp_path / "b.png"))[0] == 2

@@ -56,9 +56,9 @@ def test_the_cameras_places_are_found_and_kept(acus, history, pictures: Path) ->
     assert code == 0
     assert "add --keep" in text
     assert history.active().id == "cal-one"
-    code, text = acus("--images", str(pictures), "--at", at, "--board", SPEC, "--keep", "--json=1")
+    code, text = acus("--images", str(pictures), "--at", at, "--board", SPEC, "--keep", "--json")
     assert code == 0
-    document = json.loads(text)
+    document = json.loads(text)["facts"]
     for model in load_rig("wide").models:
         found = np.array(document["camera_centres_mm"][model.name])
         np.testing.assert_allclose(found, model.centre * 1e3, atol=1.0)

@@ -44,9 +44,9 @@ def test_sources_are_chosen_remembered_and_listed(monkeypatch, capsys, folders):
     assert settings.right.source == "usb:1-1.2"
     assert settings.size == (64, 48)
     assert settings.left.exposure_ms == 5.0
-    code, out, _ = run(monkeypatch, capsys, "camera", "list", "--json=1")
+    code, out, _ = run(monkeypatch, capsys, "camera", "list", "--json")
     assert code == 0
-    assert json.loads(out)["chosen"]["right"]["source"] == "usb:1-1.2"
+    assert json.loads(out)["facts"]["chosen"]["right"]["source"] == "usb:1-1.2"
     assert run(monkeypatch, capsys, "camera", "latency")[1].count("not measured") == 2
 
 
@@ -59,10 +59,10 @@ def test_sources_are_chosen_remembered_and_listed(monkeypatch, capsys, folders):
      (("use", "--rate", "0"), "rate_hz"),
      (("latency", "--display"), "no latency to measure"),
      (("latency", "--display", "--side", "top"), "there is no 'top' camera"),
-     (("show",), "the cameras are simulated"),
-     (("show", "--source", "usb:9-9"), "no camera at usb:9-9"),
-     (("show", "--cameras", "left=a"), "names no cameras|valid are"),
-     (("show", "--cameras", "sideways"), "left=SOURCE,right=SOURCE"),
+     (("test",), "the cameras are simulated"),
+     (("test", "--source", "usb:9-9"), "no camera at usb:9-9"),
+     (("test", "--cameras", "left=a"), "names no cameras|valid are"),
+     (("test", "--cameras", "sideways"), "left=SOURCE,right=SOURCE"),
      (("aim", "--depths", "deep"), "give for example -30,120"),
      (("aim", "--depths", "9,3"), "swap depth_min_mm"),
      (("aim", "--tilt", "120"), "tilt_max_deg"),
@@ -75,13 +75,13 @@ def test_a_bad_choice_is_one_line_that_says_what_to_do(monkeypatch, capsys, word
     assert any(part in err for part in message.split("|"))
 
 
-def test_show_says_what_two_folders_deliver(monkeypatch, capsys, folders):
+def test_it_says_what_two_folders_deliver(monkeypatch, capsys, folders):
     cameras = f"left=folder:{folders}/left,right=folder:{folders}/right"
     run(monkeypatch, capsys, "camera", "use", "--size", "64x48")
-    words = ("camera", "show", "--cameras", cameras, "--seconds", "0.4", "--json=1")
+    words = ("camera", "test", "--cameras", cameras, "--seconds", "0.4", "--json")
     code, out, err = run(monkeypatch, capsys, *words, "--out", folders / "out")
     assert code == 0, err
-    shown = json.loads(out)
+    shown = json.loads(out)["facts"]
     assert [camera["size"] for camera in shown["cameras"]] == [[64, 48]] * 2
     assert abs(shown["skew_ms"]) < 40.0
     assert "no calibration yet" in shown["order"]
@@ -102,31 +102,31 @@ def test_a_learned_colour_is_kept_with_its_cameras_shown_and_forgotten(
     assert keep_colour(load_settings(), blue).is_file()
     assert load_settings().marker_colour == blue
 
-    show = ("camera", "show", "--seconds", "0.3")
-    assert "learned, red 30 green 40 blue 200" in run(monkeypatch, capsys, *show)[1]
-    shown = json.loads(run(monkeypatch, capsys, *show, "--json=1")[1])
+    examine = ("camera", "test", "--seconds", "0.3")
+    assert "learned, red 30 green 40 blue 200" in run(monkeypatch, capsys, *examine)[1]
+    shown = json.loads(run(monkeypatch, capsys, *examine, "--json")[1])["facts"]
     assert shown["marker_colour"]["angle_deg"] == 12.0
     assert parse_cameras(f"right=usb:0,left=folder:{folders}/left").marker_colour is None
 
     assert run(monkeypatch, capsys, "camera", "use", "--forget-colour")[0] == 0
     assert load_settings().marker_colour is None
-    assert "the usual red" in run(monkeypatch, capsys, *show)[1]
+    assert "the usual red" in run(monkeypatch, capsys, *examine)[1]
 
 
 def test_pictures_of_another_size_are_refused_by_name(monkeypatch, capsys, folders):
     cameras = f"left=folder:{folders}/left,right=folder:{folders}/right"
-    code, _, err = run(monkeypatch, capsys, "camera", "show", "--cameras", cameras)
+    code, _, err = run(monkeypatch, capsys, "camera", "test", "--cameras", cameras)
     assert code == 2
     assert "camera left" in err
     assert "64x48" in err
 
 
 def test_the_aim_of_a_rig_is_said_without_a_camera(monkeypatch, capsys, tmp_path):
-    code, out, _ = run(monkeypatch, capsys, "camera", "aim", "--rig", "wide", "--json=1")
+    code, out, _ = run(monkeypatch, capsys, "camera", "aim", "--rig", "wide", "--json")
     assert code == 0
-    assert json.loads(out)["share"] == 1.0
-    words = ("camera", "aim", "--rig", "thesis", "--depths", "-30,120", "--json=1")
-    assert 0.25 < json.loads(run(monkeypatch, capsys, *words)[1])["share"] < 0.4
+    assert json.loads(out)["facts"]["share"] == 1.0
+    words = ("camera", "aim", "--rig", "thesis", "--depths", "-30,120", "--json")
+    assert 0.25 < json.loads(run(monkeypatch, capsys, *words)[1])["facts"]["share"] < 0.4
     words = ("camera", "aim", "--rig", "thesis", "--out", tmp_path / "aim")
     code, out, _ = run(monkeypatch, capsys, *words)
     assert code == 0
@@ -143,17 +143,18 @@ def test_the_latency_test_is_refused_without_a_screen(monkeypatch, capsys, folde
     assert "needs a real screen" in err
 
 
-def test_show_names_every_picture_of_a_folder_that_cannot_be_used(monkeypatch, capsys, folders):
+def test_it_names_every_picture_of_a_folder_that_cannot_be_used(monkeypatch, capsys, folders):
     (folders / "left" / "1.png").write_bytes(b"\x89PNG, cut off")
     (folders / "left" / "notes.jpg").write_bytes(b"")
     assert cv2.imwrite(str(folders / "left" / "3.png"), np.full((24, 32, 3), 90, np.uint8))
-    words = ("camera", "show", "--source", f"folder:{folders}/left", "--seconds", "0.3")
+    words = ("camera", "test", "--source", f"folder:{folders}/left", "--seconds", "0.3")
     code, out, err = run(monkeypatch, capsys, *words)
     assert code == 0, err
     assert "left/1.png is no picture or is damaged" in out
     assert "left/notes.jpg is no picture or is damaged" in out
     assert "different sizes: 64x48 (0.png …), 32x24 (3.png …)" in out
-    advice = json.loads(run(monkeypatch, capsys, *words, "--json=1")[1])["cameras"][0]["advice"]
+    document = json.loads(run(monkeypatch, capsys, *words, "--json")[1])
+    advice = document["facts"]["cameras"][0]["advice"]
     assert sum("is no picture or is damaged" in line for line in advice) == 2
 
 

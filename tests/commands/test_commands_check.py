@@ -32,8 +32,8 @@ def kept(verdict: CheckVerdict) -> None:
 def test_no_check_is_said(monkeypatch, capsys):
     assert run(monkeypatch, "--last") == 3
     assert "no daily check" in capsys.readouterr().out
-    assert run(monkeypatch, "--last", "--json=1") == 3
-    assert json.loads(capsys.readouterr().out) is None
+    assert run(monkeypatch, "--last", "--json") == 3
+    assert json.loads(capsys.readouterr().out)["facts"]["check"] is None
 
 
 def test_the_newest_check_says_what_to_do_and_ends_with_3(monkeypatch, capsys):
@@ -47,8 +47,8 @@ def test_the_newest_check_says_what_to_do_and_ends_with_3(monkeypatch, capsys):
 
 def test_a_good_check_ends_with_0(monkeypatch, capsys):
     kept(CheckVerdict.GOOD)
-    assert run(monkeypatch, "--last", "--json=1") == 0
-    document = json.loads(capsys.readouterr().out)
+    assert run(monkeypatch, "--last", "--json") == 0
+    document = json.loads(capsys.readouterr().out)["facts"]["check"]
     assert document["verdict"] == "good"
     assert document["steps"][0]["name"] == "marker"
 

@@ -25,7 +25,7 @@ def acus(*arguments):
 
 
 def test_the_pens_are_listed_with_what_is_known_of_their_tips():
-    rows = json.loads(acus("list", "--json=1").stdout)
+    rows = json.loads(acus("list", "--json").stdout)["facts"]["pens"]
     assert [row["name"] for row in rows] == ["cube", "ring"]
     assert all("drawing" in row["tip"] for row in rows)
 
@@ -61,10 +61,10 @@ def test_pictures_of_a_rocked_and_rolled_pen_give_its_tip_and_its_shaft(tmp_path
         pose = body_pose(shift, lying / np.linalg.norm(lying), tip, shaft, 0.09 * k)
         cv2.imwrite(str(rolled / f"{k:03d}.bmp"), picture(draw, PenScene(pose, shift), k).image)
     found = acus(
-        "calibrate", "--source", f"folder:{folder}", "--lens", str(lens), "--json=1",
+        "calibrate", "--source", f"folder:{folder}", "--lens", str(lens), "--json",
         "--roll", f"folder:{rolled}",
     )  # fmt: skip
-    document = json.loads(found.stdout)
+    document = json.loads(found.stdout)["facts"]
     assert (
         np.linalg.norm(np.array(document["tip_mm"]) - 1e3 * tip) < 3.0 * document["tip_sd_mm"] + 0.3
     )

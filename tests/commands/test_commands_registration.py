@@ -1,4 +1,4 @@
-"""`acus registration check | plates | list`."""
+"""`acus registration check | list` and `acus plate list`."""
 
 import json
 from pathlib import Path
@@ -10,8 +10,8 @@ from app.__main__ import main
 from app.planning.registration.plate import load_plate
 
 
-def run(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> int:
-    monkeypatch.setattr("sys.argv", ["acus", "registration", *arguments])
+def run(monkeypatch: pytest.MonkeyPatch, *arguments: str, noun: str = "registration") -> int:
+    monkeypatch.setattr("sys.argv", ["acus", noun, *arguments])
     try:
         main()
     except SystemExit as stop:
@@ -35,8 +35,8 @@ def points(folder: Path, shift: dict[str, float], names: str = "ABCDEF") -> Path
 
 def test_good_touches_say_how_well_screen_and_needle_agree(tmp_path, monkeypatch, capsys):
     path = points(tmp_path, {})
-    assert run(monkeypatch, "check", "--touched", str(path), "--json=1") == 0
-    document = json.loads(capsys.readouterr().out)
+    assert run(monkeypatch, "check", "--touched", str(path), "--json") == 0
+    document = json.loads(capsys.readouterr().out)["facts"]
     assert document["trusted"] is True
     assert 0.2 < document["agreement_95_mm"] < 1.5
     assert document["tre_rms_mm"] < document["tre_95_mm"]
@@ -49,8 +49,8 @@ def test_good_touches_say_how_well_screen_and_needle_agree(tmp_path, monkeypatch
 
 def test_a_wrong_touch_ends_with_code_3_and_names_it(tmp_path, monkeypatch, capsys):
     path = points(tmp_path, {"D": 7.0})
-    assert run(monkeypatch, "check", "--touched", str(path), "--json=1") == 3
-    document = json.loads(capsys.readouterr().out)
+    assert run(monkeypatch, "check", "--touched", str(path), "--json") == 3
+    document = json.loads(capsys.readouterr().out)["facts"]
     assert document["agreement_95_mm"] is None
     assert "fiducial D lies" in document["troubles"][0]
 
@@ -70,8 +70,8 @@ def test_a_bad_target_is_named(tmp_path, monkeypatch, capsys, target):
 
 
 def test_plates_are_listed(monkeypatch, capsys):
-    assert run(monkeypatch, "plates", "--json=1") == 0
-    assert json.loads(capsys.readouterr().out)[0]["name"] == "stepped-plate"
+    assert run(monkeypatch, "list", "--json", noun="plate") == 0
+    assert json.loads(capsys.readouterr().out)["facts"]["plates"][0]["name"] == "stepped-plate"
 
 
 def test_no_saved_checks_is_said(tmp_path, monkeypatch, capsys):

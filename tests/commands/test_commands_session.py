@@ -82,8 +82,8 @@ def test_list_and_show_say_that_an_attempt_of_the_arm_is_no_students(
 def test_list_as_json_has_the_documented_keys(
     store: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert run(monkeypatch, "list", "--folder", str(store), "--json=1") == 0
-    document = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
+    assert run(monkeypatch, "list", "--folder", str(store), "--json") == 0
+    document = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)["facts"]
     assert document["folder"] == str(store)
     assert {s["state"] for s in document["sessions"]} == {"ended", "broken"}
     for session in document["sessions"]:
@@ -114,8 +114,8 @@ def test_show_takes_the_beginning_of_an_id(
     text = capsys.readouterr().out
     assert "control scan 1" in text
     assert DISCLAIMER in text
-    assert run(monkeypatch, "show", "20260115", "--json=1") == 0
-    document = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
+    assert run(monkeypatch, "show", "20260115", "--json") == 0
+    document = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)["facts"]
     assert document["events"][0]["kind"] == "scan"
     assert 0.0 <= document["events"][0]["time_s"] <= document["duration_s"]
     assert document["complete"] is True

@@ -15,9 +15,9 @@ RUN = CliRunner()
 
 
 def test_studies_are_listed() -> None:
-    done = RUN.invoke(build(), ["study", "list", "--json=1"])
+    done = RUN.invoke(build(), ["study", "list", "--json"])
     assert done.exit_code == 0
-    assert {row["name"] for row in json.loads(done.stdout)} >= {
+    assert {row["name"] for row in json.loads(done.stdout)["facts"]["studies"]} >= {
         "lateral_tissue",
         "slice_interpolation",
     }
@@ -26,10 +26,10 @@ def test_studies_are_listed() -> None:
 @pytest.mark.long("journey")
 def test_a_study_prints_json_and_writes_table_and_picture(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
-    arguments = ["study", "lateral_tissue", "--json=1", "--repeats", "1", "--out", str(tmp_path)]
+    arguments = ["study", "lateral_tissue", "--json", "--repeats", "1", "--out", str(tmp_path)]
     done = RUN.invoke(build(), arguments)
     assert done.exit_code == 0
-    assert json.loads(done.stdout)["study"] == "lateral_tissue"
+    assert json.loads(done.stdout)["facts"]["study"] == "lateral_tissue"
     assert {path.suffix for path in tmp_path.iterdir()} == {".csv", ".json", ".png", ".svg"}
 
 
@@ -40,9 +40,9 @@ def test_an_unknown_study_or_exercise_is_refused_with_the_known_names() -> None:
 
 
 def test_explain_says_what_is_simulated_why_and_at_what_cost() -> None:
-    done = RUN.invoke(build(), ["explain", "first-insertion", "--json=1"])
+    done = RUN.invoke(build(), ["explain", "first-insertion", "--json"])
     assert done.exit_code == 0
-    document = json.loads(done.stdout)
+    document = json.loads(done.stdout)["facts"]
     cost = {row["effect"]: (row["cost_ns"], row["picture_ns"]) for row in document["simulated"]}
     assert set(cost) == {"lateral_tissue", "shaft_friction", "camera_tone", "camera_jpeg"}
     assert all(sum(one or 0.0 for one in both) > 0.0 for both in cost.values())

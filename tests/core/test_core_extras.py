@@ -9,23 +9,23 @@ from pathlib import Path
 
 import pytest
 
+from app.arm.motion import import_ompl, import_ruckig
+from app.arm.studies.references.programs import import_pinocchio
 from app.core.errors import AcusError
 from app.core.extras import install_command, not_installed
 from app.imaging.pacs.association import network
 from app.imaging.structures.extras import extra
-from app.planning.arm import search, timing
-from app.simulation.arm import mjcf
+from app.simulation.mjcf import import_mujoco
 from app.studies import plot
 from app.studies.findings import Figure
-from app.studies.references.pinocchio_arm import import_pinocchio
 from app.views.sounds.feature import MixerSpeaker
 
 ROOT = Path(__file__).resolve().parents[2]
 FIGURE = Figure("x", lambda _: None, (1.0, 1.0))
 NEEDED = [
-    ("ompl.base", search.import_ompl, "OMPL", "arm"),
-    ("ruckig", timing.import_ruckig, "Ruckig", "arm"),
-    ("mujoco", mjcf.import_mujoco, "MuJoCo", "arm"),
+    ("ompl.base", import_ompl, "OMPL", "arm"),
+    ("ruckig", import_ruckig, "Ruckig", "arm"),
+    ("mujoco", partial(import_mujoco, "arm"), "MuJoCo", "arm"),
     ("pinocchio", import_pinocchio, "Pinocchio", "arm"),
     ("pynetdicom", network, "pynetdicom", "pacs"),
     ("nrrd", partial(extra, "nrrd", ".seg.nrrd files"), "nrrd", "structures"),

@@ -33,9 +33,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.arm.features.arm import ArmFeature
 from app.compose.desktop import Desktop
 from app.core.files import write_atomically
-from app.views.arm.feature import ArmFeature
 from app.views.author.feature import AuthorFeature
 from app.views.debrief.feature import DebriefFeature
 from app.views.shell.application import start

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 sys.path.append(str(Path(__file__).parents[1] / "session"))
-from test_session_course import ADA, BOB, NOW, WHOSE, attempt
+from test_session_course import ADA, BOB, NOW, attempt
 
 from app.core.progress import Cancelled, Progress
 from app.exchange.results import Results, ResultsFormat, results_text
@@ -40,7 +40,7 @@ def results() -> Results:
         full(attempt("b1", "p-b", 61.0, 3)),
         full(attempt("x1", "=typed", 99.0, 4, hand="keyboard")),
     ]
-    board = progress_board([ADA, BOB], [CourseItem(exercise="lung")], some[:3], WHOSE, {}, NOW)
+    board = progress_board([ADA, BOB], [CourseItem(exercise="lung")], some[:3], {}, NOW)
     people = {"p-a": ADA, "p-b": BOB}
     return Results(board, some, people, {"a1": Remarks(comment="steadier")}, {})
 

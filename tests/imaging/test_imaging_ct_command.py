@@ -30,8 +30,8 @@ def test_list_prints_geometry_and_reason_and_no_name(ct, tmp_path):
     Slices(series="2.25.7", shear=0.3).write(tmp_path, "t")
     Slices(series="2.25.8", offsets=(0.0, 2.0, 4.3, 6.0)).write(tmp_path, "u")
     (tmp_path / "note.txt").write_text("x")
-    code, out, _ = ct("list", tmp_path, "--json=1")
-    answer = json.loads(out)
+    code, out, _ = ct("list", tmp_path, "--json")
+    answer = json.loads(out)["facts"]
     good, tilted, uneven = answer["series"]
     assert code == 0
     assert good["usable"]
@@ -56,19 +56,19 @@ def test_list_prints_geometry_and_reason_and_no_name(ct, tmp_path):
 
 def test_a_frame_of_a_multi_frame_file_is_named_from_one(ct, tmp_path):
     write_enhanced(tmp_path / "e", Slices())
-    _, out, _ = ct("list", tmp_path, "--json=1")
-    slices = json.loads(out)["series"][0]["slices"]
+    _, out, _ = ct("list", tmp_path, "--json")
+    slices = json.loads(out)["facts"]["series"][0]["slices"]
     uid = slices[0]["sop_uid"]
     frames = [one["frame"] for one in slices]
     assert sorted(frames) == [1, 2, 3, 4, 5]
     assert {one["sop_uid"] for one in slices} == {uid}
-    _, out, _ = ct("point", tmp_path, "--voxel", "3,2,4", "--json=1")
-    answer = json.loads(out)
+    _, out, _ = ct("point", tmp_path, "--voxel", "3,2,4", "--json")
+    answer = json.loads(out)["facts"]
     assert (answer["sop_uid"], answer["frame"]) == (uid, frames[4])
     _, out, _ = ct(
-        "point", tmp_path, "--sop", uid, "--pixel", "3,2", "--frame", frames[4], "--json=1"
+        "point", tmp_path, "--sop", uid, "--pixel", "3,2", "--frame", frames[4], "--json"
     )
-    assert json.loads(out) == answer
+    assert json.loads(out)["facts"] == answer
     code, _, err = ct("point", tmp_path, "--sop", uid, "--pixel", "3,2", "--frame", "6")
     assert code == 2
     assert "frame 6" in err
@@ -80,8 +80,8 @@ def test_a_frame_of_a_multi_frame_file_is_named_from_one(ct, tmp_path):
 def test_a_digest_is_what_another_program_computes_from_values_and_geometry(ct, tmp_path):
     slices = Slices()
     slices.write(tmp_path)
-    _, out, _ = ct("digest", tmp_path, "--json=1")
-    answer = json.loads(out)
+    _, out, _ = ct("digest", tmp_path, "--json")
+    answer = json.loads(out)["facts"]
     values = np.stack([slices.stored(k) - 1024 for k in range(5)]).astype("<i2")
     assert answer["values"] == hashlib.sha256(values.tobytes()).hexdigest()
     assert answer["kind"] == "<i2"
@@ -99,8 +99,8 @@ def test_slices_far_apart_are_said_to_have_nothing_between_them(ct, tmp_path):
     Slices(offsets=(0.0, 2.5, 5.0), tags={"SliceThickness": "2.5"}).write(tmp_path / "near")
     notes = {}
     for name in ("far", "near"):
-        _, out, _ = ct("list", tmp_path / name, "--json=1")
-        notes[name] = json.loads(out)["series"][0]["notes"]
+        _, out, _ = ct("list", tmp_path / name, "--json")
+        notes[name] = json.loads(out)["facts"]["series"][0]["notes"]
     assert notes["far"] == ["slices lie 247.0 mm apart and are 2.5 mm thick: what is shown between "
                             "them is interpolated, nothing there was scanned"]  # fmt: skip
     assert notes["near"] == []
@@ -110,21 +110,21 @@ def test_a_file_without_a_frame_of_reference_is_not_counted_as_one(ct, tmp_path)
     slices = Slices()
     slices.write(tmp_path)
     slices.write_one(tmp_path / "s000", 0, 0.0, FrameOfReferenceUID=None)
-    _, out, _ = ct("list", tmp_path, "--json=1")
-    (note,) = [one for one in json.loads(out)["series"][0]["notes"] if "frame" in one]
+    _, out, _ = ct("list", tmp_path, "--json")
+    (note,) = [one for one in json.loads(out)["facts"]["series"][0]["notes"] if "frame" in one]
     assert "2 frames" not in note
     assert "name no frame of reference" in note
 
 
 def test_images_at_one_place_have_no_spacing_and_a_mosaic_is_called_one(ct, tmp_path):
     Slices(offsets=(0.0, 8e-14)).write(tmp_path / "same")
-    _, out, _ = ct("list", tmp_path / "same", "--json=1")
-    for series in json.loads(out)["series"]:
+    _, out, _ = ct("list", tmp_path / "same", "--json")
+    for series in json.loads(out)["facts"]["series"]:
         assert series["spacing_mm"] is None
     kinds = {"ImageType": ["ORIGINAL", "PRIMARY", "M", "MOSAIC"]}
     Slices(tags=kinds).write(tmp_path / "mosaic")
-    _, out, _ = ct("list", tmp_path / "mosaic", "--json=1")
-    assert "a mosaic" in json.loads(out)["series"][0]["reason"]
+    _, out, _ = ct("list", tmp_path / "mosaic", "--json")
+    assert "a mosaic" in json.loads(out)["facts"]["series"][0]["reason"]
 
 
 def test_a_refusal_names_the_remedy_that_there_is(ct, tmp_path):
@@ -140,15 +140,15 @@ def test_a_refusal_names_the_remedy_that_there_is(ct, tmp_path):
 def test_point_finds_a_voxel_and_a_pixel(ct, tmp_path):
     slices = Slices()
     slices.write(tmp_path)
-    code, out, _ = ct("point", tmp_path, "--voxel", "3,2,4", "--json=1")
+    code, out, _ = ct("point", tmp_path, "--voxel", "3,2,4", "--json")
     assert code == 0
     expected = {"lps_mm": [-18.5, 31.6, -92.0], "hu": int(slices.stored(4)[2, 3]) - 1024}
-    answer = json.loads(out)
+    answer = json.loads(out)["facts"]
     assert answer["hu"] == expected["hu"]
     assert answer["lps_mm"] == pytest.approx(expected["lps_mm"], abs=1e-9)
     assert (answer["sop_uid"], answer["frame"]) == ("2.25.1000.5", 1)
-    _, out, _ = ct("point", tmp_path, "--sop", "2.25.1000.5", "--pixel", "3,2", "--json=1")
-    assert json.loads(out) == answer
+    _, out, _ = ct("point", tmp_path, "--sop", "2.25.1000.5", "--pixel", "3,2", "--json")
+    assert json.loads(out)["facts"] == answer
     _, out, _ = ct("point", tmp_path, "--voxel", "3,2,4")
     assert out.startswith("LPS -18.500 31.600 -92.000 mm")
 

@@ -18,7 +18,6 @@ from app.imaging.pacs.taking import RemedyWantedError, take
 from app.imaging.privacy.burned_in import MaskBox
 from app.imaging.reading import load_ct
 from app.imaging.scanning import scan_folder
-from app.imaging.series import Remedy
 
 UNEVEN = Slices(offsets=(0.0, 2.0, 4.0, 7.0, 9.0, 11.0))
 
@@ -102,16 +101,16 @@ def test_a_series_that_opens_on_request_is_taken_in_on_request(tmp_path):
     with pytest.raises(SeriesRefusedError, match="--remedy resample"):
         taken(tmp_path / "in")
     with pytest.raises(SeriesRefusedError, match="--remedy resample"):
-        taken(tmp_path / "in", remedy=Remedy.HALVE)
+        taken(tmp_path / "in", remedy="halve")
     assert CtLibrary().entries() == ()
     command = ["ct", "import", str(tmp_path / "in"), "--remedy", "resample"]
     result = CliRunner().invoke(build(), command, catch_exceptions=False)
     assert result.exit_code == 0
     assert "it opens with --remedy resample" in result.stdout
     (entry,) = CtLibrary().entries()
-    assert (entry.files, entry.remedy) == (6, Remedy.RESAMPLE)
+    assert (entry.files, entry.remedy) == (6, "resample")
     before, after = scan_folder(tmp_path / "in").series[0], scan_folder(entry.folder).series[0]
-    assert after.remedy is before.remedy
+    assert after.remedy == before.remedy
     assert [one.plane for one in after.slices] == [one.plane for one in before.slices]
 
 
@@ -123,7 +122,7 @@ def test_what_a_pacs_gave_is_kept_aside_when_it_opens_only_on_request(tmp_path):
             take(Pacs(settings), "2.25.1", SERIES, CtLibrary(), Progress())
         assert Incoming(settings, SERIES).folder.exists()
         assert CtLibrary().entries() == ()
-        how = {"remedy": Remedy.RESAMPLE}
+        how = {"remedy": "resample"}
         found = take(Pacs(settings), "2.25.1", SERIES, CtLibrary(), Progress(), **how)
         assert found.entry.files == 6
         assert not Incoming(settings, SERIES).folder.exists()

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from app.core.errors import NumericalError
+from app.core.progress import Progress
 from app.imaging import screen
 from app.imaging.screen import screen_pixels
 from app.imaging.window import WindowLevel, to_grey
@@ -83,7 +84,7 @@ def test_a_picture_without_size_is_refused(place):
 
 @pytest.mark.parametrize("kind", [np.int16, np.float32])
 def test_once_a_patient_is_prepared_no_slice_of_a_volume_has_anything_compiled(kind):
-    _load_verdict()
+    _load_verdict(Progress())
     before = [list(kernel.signatures) for kernel in (screen._draw, screen._row)]
     volume = np.zeros((4, 5, 6), kind)
     volume.setflags(write=False)

@@ -12,27 +12,10 @@ from app.scoring.errors import MetricError
 from app.scoring.score import check_names, score, with_shown
 from app.scoring.tolerance import Tolerance
 
-FORM_BEFORE = """\"\"\"Largest depth that the tip reached in the body.\"\"\"
 
-from app.core.units import MILLIMETRE
-from app.scoring.trajectory import Trajectory
-
-NAME = "deepest_point"
-LABEL = "Deepest point"
-UNIT = "mm"
-HIGHER_IS_BETTER = False
-READS = ("force_x", "force_y")
-
-
-def compute(trajectory: Trajectory) -> float:
-    trajectory.insertions()
-    return float(trajectory.depth[trajectory.inserted].max()) / MILLIMETRE
-"""
-
-
-@pytest.fixture(params=["appended", "own", "form before"])
+@pytest.fixture(params=["appended", "own"])
 def added(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
-    code = FORM_BEFORE if request.param == "form before" else example("How to add a metric")[1]
+    code = example("How to add a metric")[1]
     (tmp_path / "deepest_point.py").write_text(code, encoding="utf-8")
     if request.param == "appended":
         monkeypatch.setattr(metrics, "__path__", [*metrics.__path__, str(tmp_path)])

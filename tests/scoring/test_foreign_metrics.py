@@ -49,7 +49,7 @@ HARMFUL = {
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setenv("ACUS_CACHE", str(tmp_path / "cache"))
-    for kind in ("metrics", "effects", "extractors", "studies", "laws", "mechanisms"):
+    for kind in ("metrics", "effects", "extractors", "remedies", "studies", "laws", "mechanisms"):
         (tmp_path / kind).mkdir()
         monkeypatch.setenv(f"ACUS_{kind.upper()}", str(tmp_path / kind))
     monkeypatch.setattr(foreign, "LIMIT", Allowance(0.4, 1 << 30, 2.0))
@@ -114,6 +114,7 @@ def test_a_metric_that_counts_and_ends_its_process_leaves_the_others_their_score
         ("metrics", "KIND"),
         ("extractors", "choice"),
         ("extractors", "ellipse"),
+        ("remedies", "halve"),
         ("studies", "runner"),
         ("laws", "fixture"),
         ("effects", "breathing"),

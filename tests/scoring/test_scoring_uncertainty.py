@@ -8,7 +8,7 @@ from scoring_attempts import Attempt
 
 from app.core.units import MILLIMETRE
 from app.scoring.metrics import available
-from app.scoring.result import SCORING_VERSION, Score, judge
+from app.scoring.result import Score, judge
 from app.scoring.rows import Row, ScoreRules
 from app.scoring.score import score
 from app.scoring.tolerance import Tolerance
@@ -212,18 +212,6 @@ def test_the_totals_deviation_is_that_of_its_rows() -> None:
     rows = tuple(Row(n, "", "mm", 4.2, "", BANDS, s) for n, s in zip("ab", sd, strict=True))
     seen = np.std([total(*(4.2 + rng.normal(0.0, sd))) for _ in range(4000)])
     assert judge(rows, rules).total_sd == pytest.approx(seen, rel=0.05)
-
-
-def test_an_earlier_version_judges_as_it_did() -> None:
-    row = Row("lateral_error", "", "mm", 2.5, "", BANDS, 0.4)
-    now = judge((row,), ScoreRules())
-    before = now.by_version(2)
-    assert now.version == SCORING_VERSION
-    assert before.version == 2
-    assert before.total == pytest.approx(90.0)
-    assert now.total == pytest.approx(98.0)
-    assert now.by_version(SCORING_VERSION) is now
-    assert Score.from_json(before.to_json()).recomputed() == before
 
 
 def test_without_a_word_about_the_tip_values_count_as_they_are() -> None:

@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.arm.mechanics import load_arm
+from app.arm.motion.pivot import HeldTool, Pivot
 from app.core.arrays import unit
 from app.core.errors import NumericalError
-from app.mechanisms.arm import load_arm
-from app.planning.arm.pivot import HeldTool, Pivot
 from app.planning.placement import PatientOrientation
 from app.session.pad.geometry import PadScale, path_frame
 from app.session.pad.hand import LEAST_OUTSIDE, Handle, HandLimits, HandPose, PadHand

@@ -2,9 +2,8 @@
 
 import json
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
-from types import MappingProxyType, SimpleNamespace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -95,25 +94,6 @@ def test_a_scan_says_by_itself_what_its_pictures_showed(bench: Bench) -> None:
     assert scan.streak is True
     assert (data["version"], data["streak"]) == (2, True)
     assert data["range_mm"] == [305.2, 315.2]
-
-
-def test_a_scan_of_an_older_record_has_the_streak_of_its_exercise(bench: Bench) -> None:
-    (scan,) = scanned(bench, ScanOrder(310.2))
-    old = {key: value for key, value in scan.data().items()
-           if key not in ("version", "streak", "range_mm")}  # fmt: skip
-    event = Event(1.0, "scan", "control scan 1", {"number": 1} | old)
-    assert [s.streak for s in scans_of([event])] == [None]
-    record = bench.trainer.end().record
-    assert record is not None
-    recording = replace(
-        read_recording(record), events=(event,),
-        attachments=MappingProxyType({"exercise.json": b'{"guidance": {"streak": true}}'}),
-    )  # fmt: skip
-    (again,) = recording.control_scans()
-    assert again.streak is True
-    assert again.needle.tip_mm.tolist() == scan.needle.tip_mm.tolist()
-    damaged = replace(recording, attachments=MappingProxyType({"exercise.json": b"[1"}))
-    assert [s.streak for s in damaged.control_scans()] == [None]
 
 
 def test_a_needle_that_nobody_sees_is_not_scanned_and_nothing_is_counted(bench: Bench) -> None:

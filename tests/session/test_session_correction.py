@@ -10,7 +10,7 @@ import pytest
 from app.session.recording import open_recording
 from app.session.review import correction, review, side_force
 
-KEPT = Path(__file__).parents[1] / "data" / "records-kept"
+MACHINES = Path(__file__).parents[1] / "data" / "records-machines"
 
 
 def moments(turn_deg, at=0.06, seconds=1.0):
@@ -54,7 +54,7 @@ def test_a_turn_that_no_camera_vouches_for_is_none():
 
 
 def test_the_force_is_that_of_the_attempts_own_tissue_and_needle():
-    recording = open_recording(KEPT / "effect-lateral-tissue.mcap")
+    recording = open_recording(MACHINES / "icube-fixture-tissue.mcap")
     force = side_force(recording)
     assert force(0.0) == 0.0
     depths = [0.01, 0.02, 0.04, 0.06, 0.09]
@@ -67,7 +67,7 @@ def test_the_force_is_that_of_the_attempts_own_tissue_and_needle():
 
 
 def test_without_tissue_or_with_another_versions_exercise_nothing_is_said_of_force():
-    recording = open_recording(KEPT / "effect-breathing.mcap")
+    recording = open_recording(MACHINES / "haply-2diy-fixture.mcap")
     said = json.loads(recording.attachments["exercise.json"])
     said["effects"].pop("lateral_tissue", None)
     for text in (json.dumps(said).encode(), b"{}", b"[]", b"no json"):
@@ -76,7 +76,7 @@ def test_without_tissue_or_with_another_versions_exercise_nothing_is_said_of_for
     assert side_force(SimpleNamespace(attachments={})) is None
 
 
-def test_every_kept_record_is_reviewed_with_it():
-    for path in sorted(KEPT.glob("*.mcap")):
+def test_every_record_of_the_machines_is_reviewed_with_it():
+    for path in sorted(MACHINES.glob("*.mcap")):
         found = review(open_recording(path)).correction
         assert found is None or 0.0 < found.earlier < found.depth

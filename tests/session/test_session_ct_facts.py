@@ -2,11 +2,11 @@
 
 import pytest
 
-from app.imaging.series import AS_IT_IS, Recipe, Remedy
+from app.imaging.series import AS_IT_IS, Recipe
 from app.session.ct_facts import CtFacts
 
 MENDED = CtFacts(
-    "CT-1", ("straightened from a gantry tilt of 14.0°",), Recipe(Remedy.STRAIGHTEN, spacing_mm=4.9)
+    "CT-1", ("straightened from a gantry tilt of 14.0°",), Recipe("straighten", spacing_mm=4.9)
 )
 
 
@@ -14,7 +14,7 @@ MENDED = CtFacts(
     "facts",
     [
         MENDED,
-        CtFacts("CT-2", ("reduced",), Recipe(Remedy.HALVE, (2, 2, 1))),
+        CtFacts("CT-2", ("reduced",), Recipe("halve", (2, 2, 1))),
         CtFacts("CT-3", (), AS_IT_IS),
         CtFacts(),
     ],
@@ -36,7 +36,7 @@ def test_a_damaged_record_tells_what_it_can(change: dict[str, str]) -> None:
     assert read.recipe is None or "made" in change
 
 
-def test_a_record_of_an_older_version_does_not_know_how_the_ct_was_read() -> None:
+def test_a_record_that_does_not_say_it_does_not_know_how_the_ct_was_read() -> None:
     read = CtFacts.of_metadata({"pseudonym": "CT-0A7961D5"})
     assert read == CtFacts("CT-0A7961D5")
     assert read.document()["remedy"] is None

@@ -67,7 +67,6 @@ def kept(tmp_path_factory):
             bench.trainer.begin(student)
             bench.insertion()
             bench.trainer.end()
-        people.assign("typed", "Ada")
         people.remark(next(sessions().glob("*.mcap")).stem, comment="x", released=True)
         with pytest.raises(AcusError):
             people.sign_in("Ada", "0000")

@@ -7,10 +7,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from session_fakes import EXERCISE, Bench
+from session_fakes import Bench
 
 from app.core.arrays import read_only
-from app.scoring.score import score
 from app.session.fusion import DISPLAY_LATENCY, FARTHEST, moment, predicted
 from app.session.machine import AttemptEvent, State
 from app.session.needle import DepthSource, NeedlePose
@@ -121,30 +120,6 @@ def test_a_lost_camera_on_the_way_in_lets_the_path_be_judged_from_the_skin_on(be
     assert score.row("path_ratio").value == pytest.approx(1.0, abs=0.02)
     (file,) = bench.folder.glob("*.mcap")
     assert verify(read_recording(file)).changes == ()
-
-
-def test_a_score_of_version_3_is_checked_by_its_own_rule_of_pauses(bench: Bench) -> None:
-    bench.trainer.begin()
-    bench.run(0.5, -0.02)
-    bench.run(2.0, 0.04)
-    bench.tracker.status = "out_of_view"
-    bench.run(1.6)
-    bench.tracker.status = "valid"
-    bench.run(1.5)
-    bench.run(1.0, 0.06)
-    bench.run(2.0, 0.06)
-    bench.trainer.end()
-    (file,) = bench.folder.glob("*.mcap")
-    recording = read_recording(file)
-    then = replace(
-        recording.trajectory(only_pointed=True), pauses_end_stays=True, force_in_body=True
-    )
-    judged = replace(score(then, EXERCISE.tolerances, EXERCISE.rules), version=3)
-    files = {**recording.attachments, "score.json": judged.to_json().encode()}
-    old = replace(recording, attachments=files)
-    found = verify(old)
-    assert found.changes == ()
-    assert "scored by version 3" in " ".join(found.remarks())
 
 
 def test_a_pause_can_be_ended_and_its_forces_stay_off(bench: Bench) -> None:

@@ -41,7 +41,7 @@ def people(tmp_path: Path, wall: Wall) -> People:
 def test_nobody_is_known_and_no_file_made_before_somebody_is(people: People) -> None:
     assert people.everybody() == []
     assert not people.has_instructor()
-    assert (people.keys(), people.remarks(), people.erased()) == ({}, {}, {})
+    assert (people.pseudonyms(), people.remarks(), people.erased()) == ({}, {}, {})
     assert not people.folder.exists()
 
 
@@ -326,20 +326,6 @@ def test_a_roster_of_excel_in_utf_16_is_read() -> None:
     assert (errors, lines) == ([], [RosterLine("Ada", "Élève")])
 
 
-@pytest.mark.promise("docs/people.md: the records themselves are never changed")
-def test_typed_names_of_old_records_are_nobodys_until_assigned(people: People) -> None:
-    people.add(RosterLine("Ada"))
-    key = people.find("Ada").key
-    assert people.keys() == {key: key}
-    people.assign("ada l.", "Ada")
-    assert people.keys() == {key: key, "ada l.": key}
-    assert people.pseudonyms()["ada l."] == "Ada"
-    people.assign("ada l.", "")
-    assert people.keys() == {key: key}
-    with pytest.raises(PeopleError, match="is no student here; there: Ada"):
-        people.assign("x", "Zoe")
-
-
 def test_remarks_add_up(people: People) -> None:
     people.remark("a1", comment="steadier")
     people.remark("a1", void="camera fell over")
@@ -351,13 +337,12 @@ def test_remarks_add_up(people: People) -> None:
 def test_who_is_erased_leaves_nothing_but_a_random_key(people: People) -> None:
     people.add(RosterLine("Ada-unique", "Lovelace", "1843", ("A",)))
     key = people.find("Ada-unique").key
-    people.assign("old ada", "Ada-unique")
     people.remark("a1", comment="remark-unique")
     people.forget_keys([key], ["a1"])
     assert people.everybody(names=True) == []
     assert list(people.erased()) == [key]
     data = b"".join(path.read_bytes() for path in people.folder.iterdir())
-    for text in (b"Ada-unique", b"Lovelace", b"old ada", b"remark-unique"):
+    for text in (b"Ada-unique", b"Lovelace", b"remark-unique"):
         assert text not in data
 
 
@@ -424,10 +409,10 @@ def test_a_disk_without_room_is_called_full_and_not_one_without_locks(
 
     monkeypatch.setattr("app.session.database.step", broken)
     with pytest.raises(DatabaseError, match="put it on a disk of this computer"):
-        people.assign("A", "Ada")
+        people.set_pin("Ada", "1843")
     usage = shutil.disk_usage(people.folder)
     monkeypatch.setattr(
         "app.session.database.shutil.disk_usage", lambda _: usage._replace(free=4096)
     )
     with pytest.raises(DatabaseError, match="disk is full: make room"):
-        people.assign("A", "Ada")
+        people.set_pin("Ada", "1843")

@@ -336,7 +336,7 @@ def test_names_and_persons_change_together_or_not_at_all(
 
 @pytest.mark.long("journey")
 @pytest.mark.promise(
-    "README.md: no finished attempt is lost or unsigned, and nothing is left over after "
+    "CONTRIBUTING.md: no finished attempt is lost or unsigned, and nothing is left over after "
     "the next start"
 )
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")

@@ -14,53 +14,6 @@ from app.simulation.errors import SimulationError
 from app.simulation.plan import compile
 from app.simulation.scene import EffectRequest, Scene
 
-FORM_BEFORE = """'''Shaking of the needle's side force: a sine, for tests of steadiness.'''
-
-from dataclasses import dataclass
-from typing import Any, Final
-
-import numpy as np
-
-from app.core import state_vector as sv
-from app.core.arrays import FloatArray
-from app.core.compiled import stage
-from app.simulation.scene import Binding
-
-DECLARATION: Final[dict[str, Any]] = {
-    "title": "Shaking side force",
-    "reads": ("time",),
-    "writes": ("force_x",),
-    "consumers": ("device axis lateral",),
-    "needs": (),
-    "models": {"sine": "one frequency, exact in time"},
-    "energy": ("active", "driven by time"),
-    "cost_class": "A",
-    "parameters": {
-        "amplitude": ("N", 0.0, 2.0, "largest force"),
-        "frequency": ("Hz", 0.1, 20.0, "of the shaking"),
-    },
-}
-
-
-@dataclass(frozen=True, slots=True)
-class HandTremor:
-    '''Amplitude [N] and frequency [Hz].'''
-
-    amplitude: float = 0.2
-    frequency: float = 9.0
-
-    def parameters(self, binding: Binding) -> FloatArray:
-        '''Return a fresh parameters array.'''
-        return np.array([self.amplitude, 2.0 * np.pi * self.frequency])
-
-
-@stage
-def step(state: FloatArray, parameters: FloatArray) -> None:
-    '''Add the force to FORCE_X.'''
-    if np.isfinite(state[sv.TIME]):
-        state[sv.FORCE_X] += parameters[0] * np.sin(parameters[1] * state[sv.TIME])
-"""
-
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
@@ -95,11 +48,6 @@ def test_an_effect_in_a_folder_appended_to_the_path_is_found_too(folder: Path) -
     shakes_as_the_page_says()
 
 
-def test_an_effect_of_the_form_before_is_still_read(folder: Path) -> None:
-    (folder / "hand_tremor.py").write_text(FORM_BEFORE, encoding="utf-8")
-    shakes_as_the_page_says()
-
-
 @pytest.mark.parametrize(
     ("code", "message"),
     [
@@ -113,24 +61,6 @@ def test_a_broken_effect_file_is_named(folder: Path, code: str, message: str) ->
     (folder / "broken.py").write_text(code, encoding="utf-8")
     with pytest.raises(SimulationError, match=message):
         declaration("broken")
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "message"),
-    [
-        ('"force_x"', '"force_w"', "'force_w' is not a slot"),
-        ("class HandTremor", "class Tremor", "has no dataclass HandTremor"),
-        ("amplitude: float = 0.2", "amplitude: float = np.pi", "no literal number as default"),
-        ("amplitude: float = 0.2", "size: float = 0.2", "differ in"),
-    ],
-)
-def test_a_wrong_declaration_of_the_form_before_is_named(
-    folder: Path, old: str, new: str, message: str
-) -> None:
-    assert old in FORM_BEFORE
-    (folder / "hand_tremor.py").write_text(FORM_BEFORE.replace(old, new), encoding="utf-8")
-    with pytest.raises(SimulationError, match=message):
-        declaration("hand_tremor")
 
 
 @pytest.mark.parametrize(

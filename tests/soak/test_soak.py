@@ -12,7 +12,7 @@ def found() -> Found:
 
 
 @pytest.mark.long("machine")
-@pytest.mark.promise("README.md: nothing broken, no force beyond 5 N, no memory grown")
+@pytest.mark.promise("CONTRIBUTING.md: nothing broken, no force beyond 5 N, no memory grown")
 def test_nothing_is_ever_no_number_and_no_force_is_beyond_five_newton(found):
     assert found.broken == 0
     assert 1.0 < found.most_force <= 5.0 + 1e-9

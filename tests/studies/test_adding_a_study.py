@@ -39,18 +39,11 @@ def test_a_study_in_the_users_own_folder_is_found_too(
     works_as_the_page_says(tmp_path, *example("How to add a study"))
 
 
-def test_a_study_of_the_form_before_is_still_read(folder: Path) -> None:
-    name, code = example("How to add a study")
-    head, rest = code.split("DECLARATION")
-    stated = (
-        'STUDY = Study(\n    name="sine_series",\n    title="Sine by its series",\n'
-        '    question="How many terms are enough?",\n    reference="math.sin, 1e-16",\n'
-    )
-    body = rest.split("}\n", 1)[1].replace("STUDY: Final = Study(\n", stated)
-    works_as_the_page_says(folder, name, head + body)
-
-
 def test_a_file_without_a_study_is_named(folder: Path) -> None:
     (folder / "empty_study.py").write_text("STUDY = 3\n", encoding="utf-8")
+    with pytest.raises(StudyError, match=r"empty_study\.py has no DECLARATION"):
+        find_study("empty_study")
+    declared = example("How to add a study")[1].split("STUDY")[0] + "STUDY = 3\n"
+    (folder / "empty_study.py").write_text(declared, encoding="utf-8")
     with pytest.raises(StudyError, match=r"empty_study\.py must define STUDY"):
         find_study("empty_study")

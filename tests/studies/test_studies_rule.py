@@ -11,18 +11,18 @@ import pytest
 from app.commands.study import lent
 from app.studies.errors import StudyError
 from app.studies.in_use import called, default_of
-from app.studies.kept import folder, keep, kept, kept_names, read, was_of
+from app.studies.kept import keep, kept, kept_names, place, read, was_of
 from app.studies.rule import departure, sweet_spot
-from app.studies.runner import declaration, find_study, study_names
+from app.studies.runner import KIND, declaration, find_study, study_names
 from app.studies.study import Failure, Limit, Point, Prepared, Result, Setting, Study, Way
 
 OWN = [
     name
     for name in study_names()
-    if declaration(name).path.parent == folder().parent
+    if KIND.is_own(declaration(name).path)
     and "= Study(" in declaration(name).path.read_text(encoding="utf-8")
 ]
-"""The program's studies that compare ways."""
+"""The program's studies that compare ways, those of its own folders of plug-ins too."""
 
 
 @cache
@@ -71,7 +71,7 @@ def test_no_table_is_kept_of_a_study_that_is_not_there():
 
 def test_a_table_says_when_it_was_measured_and_nothing_of_the_machine():
     for name in kept_names():
-        data = json.loads((folder() / f"{name}.json").read_text(encoding="utf-8"))
+        data = json.loads(place(name).read_text(encoding="utf-8"))
         assert set(data["measured"]) == {"date", "version", "repeats"}
         text = json.dumps(data)
         assert "/home" not in text

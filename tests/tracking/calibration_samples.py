@@ -42,7 +42,7 @@ def sample(rig: RigProfile, calibration_id: str = "20260101-000000-abcd") -> Ste
         world=PoseCalibration.of(left.T_world_camera, np.array(_spread(rng, 6))),
         validation=Validation(
             views=3, points=120, rms_mm=0.05, max_mm=0.2, scale=1.0001, scale_sd=0.0004,
-            epipolar_px=0.2,
+            epipolar_px=0.2, distance_mm=300.0,
         ),
         notes=("k3 dropped: -20.8 ± 58.3",),
     )  # fmt: skip

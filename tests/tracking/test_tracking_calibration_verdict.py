@@ -30,7 +30,6 @@ def held_back(calibration: StereoCalibration, **values: float) -> StereoCalibrat
         (1.5, 2000.0, Grade.GOOD),  # and this one of no use
         (5.0, 2000.0, Grade.USABLE),
         (8.0, 2000.0, Grade.NOT_GOOD_ENOUGH),
-        (0.5, None, Grade.USABLE),
     ],
 )
 def test_errors_on_pairs_held_back_count_against_the_boards_distance(

@@ -7,7 +7,6 @@ from app.core.clock import VirtualClock
 from app.core.transform import RigidTransform
 from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.errors import TrackingError
-from app.tracking.inspection import Inspector
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import RigProfile
 from app.tracking.stereo.epipolar import distance_to_curve, epipolar_curve
@@ -91,7 +90,7 @@ def test_an_inspection_shows_marker_curve_mask_and_region(wide, wide_renderers, 
     frames = [CameraFrame(renderer.render(scene), 0.0) for renderer in wide_renderers]
     fix = tracker.process(frames[0], frames[1])
     tracker.latest.publish(fix, 0.0)
-    plain, full = Inspector(tracker).inspect(), Inspector(tracker).inspect(masks=True)
+    plain, full = tracker.inspect(), tracker.inspect(masks=True)
     assert full.radius == pytest.approx(fix.radius())
     assert [one.mask is None for one in plain.pictures] == [True, True]
     for one in full.pictures:
@@ -131,10 +130,10 @@ def test_a_click_teaches_the_marker_s_colour_and_one_beside_it_is_refused(
 
 def test_an_inspection_says_why_there_is_no_marker(wide) -> None:
     tracker = Tracker([_Still(), _Still()], wide, VirtualClock(), lambda _: None, np.zeros(3))
-    assert Inspector(tracker).inspect().pictures == ()
+    assert tracker.inspect().pictures == ()
     dark = np.zeros((480, 640, 3), dtype=np.uint8)
     tracker.process(CameraFrame(dark, 0.0), CameraFrame(dark, 0.0))
-    found = Inspector(tracker).inspect(masks=True)
+    found = tracker.inspect(masks=True)
     assert found.radius is None
     assert [one.why for one in found.pictures] == ["nothing in the marker's colour"] * 2
     assert all(len(one.epipolar) == 0 and one.region is None for one in found.pictures)

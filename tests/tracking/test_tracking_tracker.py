@@ -12,7 +12,6 @@ from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.errors import CameraError, TrackingError
 from app.tracking.fix import FixStatus
 from app.tracking.follower import MarkerFollower
-from app.tracking.inspection import Inspector
 from app.tracking.markers.choice import extractors
 from app.tracking.markers.extractor import Centre, MarkerFix, MissReason
 from app.tracking.simulated.cameras import NeedleRenderer, SimulatedCamera
@@ -240,7 +239,7 @@ def test_red_things_off_each_others_epipolar_line_are_no_marker_and_it_is_said(
     assert fix.status is FixStatus.OUT_OF_VIEW
     for picture in tracker.pictures():
         assert picture.found.reason is MissReason.OFF_EPIPOLAR
-    shown = Inspector(tracker).inspect()
+    shown = tracker.inspect()
     assert [one.why for one in shown.pictures] == [MissReason.OFF_EPIPOLAR.words] * 2
 
 

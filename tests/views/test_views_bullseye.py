@@ -136,11 +136,6 @@ def test_the_legend_is_hidden_and_shown_and_the_choice_outlives_the_window(at_wo
     assert bullseye._marks.isVisible()
     window.remembered._set_work(state)
     assert not bullseye._marks.isVisible()
-    del state["legend"], state["moves_hub"], state["detailed"]  # as an earlier version kept it
-    window.remembered._set_work(state)
-    assert bullseye._marks.isVisible()
-    assert not bullseye.source.moves_hub
-    assert not window.workspace.status.is_detailed
 
 
 @pytest.mark.long("journey")

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 
+from app.core.progress import Progress
 from app.mechanisms.pantograph import kernels
 from app.mechanisms.profile import load_profile
 from app.planning import patient
@@ -105,7 +106,7 @@ def test_closing_gives_the_collection_back_and_is_idempotent(application):
 
 
 def test_reading_a_patient_loads_the_verdict_so_that_the_window_never_compiles(application):
-    patient._load_verdict()
+    patient._load_verdict(Progress())
     compiled = {
         name: len(kernel.signatures)
         for name, kernel in vars(kernels).items()

@@ -16,7 +16,7 @@ from window_rig import plan
 from app.core.events import Event
 from app.exercises.guidance import GuidanceMode, GuidancePart
 from app.imaging.scan_order import ScanNeedle, ScanOrder
-from app.imaging.series import Recipe, Remedy
+from app.imaging.series import Recipe
 from app.imaging.structures.distance import SignedDistance
 from app.imaging.structures.edit import brushed
 from app.planning.patient import Patient
@@ -346,15 +346,15 @@ def test_the_debrief_reads_the_ct_again_as_it_was_in_the_attempt(
         asked.append((series, recipe))
         return volume
 
-    monkeypatch.setattr("app.imaging.resampling.read_again", read_again)
+    monkeypatch.setattr("app.imaging.reading.read_again", read_again)
     pseudonym = volume.series.pseudonym
-    for recipe in (volume.recipe, None, Recipe(Remedy.HALVE, (2, 2, 1))):
+    for recipe in (volume.recipe, None, Recipe("halve", (2, 2, 1))):
         window.feature(DebriefFeature).scan_pictures.dialog = None
         window.feature(DebriefFeature).page.show_review(reviewed(ct=CtFacts(pseudonym, (), recipe)))
         window.feature(DebriefFeature).page.scans.cellActivated.emit(0, 0)
         assert settle(lambda: window.feature(DebriefFeature).scan_pictures.dialog is not None)
         window.feature(DebriefFeature).scan_pictures.dialog.close()
-    assert asked == [(volume.series, Recipe(Remedy.HALVE, (2, 2, 1)))]
+    assert asked == [(volume.series, Recipe("halve", (2, 2, 1)))]
 
 
 def test_a_scan_of_another_ct_is_not_made_of_this_one(guided, settle) -> None:

@@ -1,4 +1,4 @@
-"""The library and the PACS in the window: import, report, search, failures."""
+"""The library of CTs in the window: import, report, failures."""
 
 import sys
 import time
@@ -9,25 +9,19 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QDialogButtonBox, QToolButton, QWidget
+from PySide6.QtWidgets import QApplication, QWidget
 
 sys.path.append(str(Path(__file__).parents[1] / "imaging"))
 
 from dicom_factory import Slices
-from pacs_rig import FakePacs
 from test_imaging_enhanced import write_enhanced
 
 from app.commands.ct import boxes_of
-from app.core import paths as core_paths
 from app.imaging.library import CtLibrary
-from app.imaging.pacs.client import Pacs
-from app.imaging.pacs.query import Query
-from app.imaging.pacs.settings import keep
 from app.imaging.privacy.burned_in import MaskBox
 from app.imaging.reading import load_ct
 from app.imaging.scanning import scan_folder
 from app.views.series.feature import LibraryImport
-from app.views.series.pacs_panel import PacsPanel
 
 
 class NoIndicator:
@@ -177,109 +171,3 @@ def test_a_look_that_is_cancelled_keeps_nothing(desk, tmp_path):
     desk.import_from(tmp_path / "in")
     mask_dialog(desk).reject()
     assert desk.entries() == []
-
-
-@pytest.mark.long("journey")
-def test_the_panel_searches_shows_and_hands_over(desk, tmp_path):
-    Slices().write(tmp_path / "stored")
-    with FakePacs(tmp_path / "stored") as pacs:
-        keep((pacs.settings(),))
-        desk.ask_pacs()
-        panel = desk.panel
-        panel.query()
-        assert "what to look for" in panel.note.text()
-        assert not panel.take.isEnabled()
-        panel.patient.setText("SECRET*")
-        panel.query()
-        until(lambda: panel.take.isEnabled())
-        assert panel.tree.topLevelItem(0).text(6) == "5"
-        panel.take.click()
-        mask_dialog(desk).take.click()
-        until(lambda: desk.intake.report is not None)
-    assert len(CtLibrary().entries()) == 1
-    assert aside() == 0
-
-
-@pytest.mark.long("journey")
-def test_a_retrieved_series_that_is_given_up_is_deleted(desk, tmp_path):
-    Slices().write(tmp_path / "stored")
-    with FakePacs(tmp_path / "stored") as pacs:
-        client = Pacs(pacs.settings())
-        study = client.find_studies(Query(patient_id="SECRET*"))[0]
-        desk._retrieve(pacs.settings(), client.find_series(study)[0])
-        dialog = mask_dialog(desk)
-        assert aside() == 5
-        dialog.reject()
-    assert aside() == 0
-    assert desk.entries() == []
-
-
-@pytest.mark.long("journey")
-def test_an_interrupted_retrieval_is_shown_and_resumed(desk, tmp_path):
-    Slices().write(tmp_path / "stored")
-    failed = []
-    desk.failed.connect(failed.append)
-    with FakePacs(tmp_path / "stored", "cut") as pacs:
-        keep((pacs.settings(),))
-        for ill in ("cut", ""):
-            pacs.ill = ill
-            desk.ask_pacs()
-            panel = desk.panel
-            panel.patient.setText("SECRET*")
-            panel.query()
-            until(lambda p=panel: p.take.isEnabled())
-            shown = panel.tree.topLevelItem(0).text(6)
-            assert shown == ("5" if ill else "2 of 5 here, to be resumed")
-            panel.take.click()
-            until(lambda: failed)
-        mask_dialog(desk).take.click()
-        until(lambda: desk.intake.report is not None)
-    assert len(CtLibrary().entries()) == 1
-
-
-def aside():
-    """Pictures that are kept aside, not yet de-identified."""
-    return len(list((core_paths.data() / "incoming").rglob("*.dcm")))
-
-
-def test_a_search_that_fails_is_said_in_the_panel(desk, tmp_path):
-    Slices().write(tmp_path / "stored")
-    with FakePacs(tmp_path / "stored", "find fails") as pacs:
-        keep((pacs.settings(),))
-        panel = PacsPanel()
-        panel.name.setText("S*")
-        panel.query()
-        until(lambda: "out of resources" in panel.note.text())
-        assert panel.search.isEnabled()
-        panel.deleteLater()
-
-
-def test_a_search_can_be_cancelled_in_the_panel(desk, tmp_path):
-    Slices().write(tmp_path / "stored")
-    with FakePacs(tmp_path / "stored", "slow find") as pacs:
-        keep((pacs.settings(timeout_s=20.0),))
-        panel = PacsPanel()
-        panel.name.setText("S*")
-        panel.query()
-        until(lambda: pacs.asked)
-        start = time.monotonic()
-        panel.strip.findChild(QToolButton).click()
-        until(lambda: panel.search.isEnabled())
-        assert time.monotonic() - start < 15.0
-        panel.deleteLater()
-
-
-def test_without_a_configured_pacs_the_panel_leads_to_the_configuration(desk):
-    desk.ask_pacs()
-    panel = desk.panel
-    assert "Configure" in panel.note.text()
-    assert not panel.search.isEnabled()
-    panel.configure.click()
-    dialog = desk.configuration
-    dialog.add_button.click()
-    dialog.form.fields["host"].setText("127.0.0.1")
-    dialog.form.fields["title"].setText("FAKE")
-    dialog.buttons.button(QDialogButtonBox.StandardButton.Save).click()
-    assert panel.search.isEnabled()
-    assert "pacs  (FAKE, 127.0.0.1:104)" in panel.servers.currentText()
-    panel.reject()

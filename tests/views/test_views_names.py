@@ -16,8 +16,8 @@ from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.status import MessageList
 from app.views.kit.names import NAMES, Names
 from app.views.kit.progress_strip import ProgressStrip
+from app.views.pacs.panel import PacsPanel
 from app.views.series.browser import SeriesBrowser, SeriesCard
-from app.views.series.pacs_panel import PacsPanel
 from app.views.shell.message_bar import MessageBar
 
 

@@ -12,7 +12,7 @@ from dicom_factory import Slices
 from pacs_rig import FakePacs
 
 from app.imaging.pacs.settings import TlsSettings, configured, keep, pacs_path
-from app.views.series.pacs_settings import PacsSettingsDialog
+from app.views.pacs.settings import PacsSettingsDialog
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QWidget
 from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.imaging.errors import ImagingError
-from app.imaging.series import Ignored, Listing, Remedy
+from app.imaging.series import Ignored, Listing
 from app.views.kit import theme
 from app.views.kit.background import run_in_background
 from app.views.kit.progress_strip import ElidedLabel, ProgressStrip
@@ -201,13 +201,13 @@ def test_the_chooser_says_why_a_series_cannot_be_used(application, volume):
     second.open()
     assert chosen == []
     first.open()
-    assert chosen == [(good, Remedy.NONE)]
+    assert chosen == [(good, "none")]
     browser.deleteLater()
 
 
 def test_the_chooser_offers_what_would_help(application, volume):
     uneven = replace(
-        volume.series, usable=False, reason="uneven spacing", remedy=Remedy.RESAMPLE, notes=("MR",)
+        volume.series, usable=False, reason="uneven spacing", remedies=("resample",), notes=("MR",)
     )
     browser = SeriesBrowser(Listing(Path("x"), (uneven,), (Ignored(Path("x/a"), "empty file"),)))
     (card,) = browser.cards
@@ -217,7 +217,7 @@ def test_the_chooser_offers_what_would_help(application, volume):
     chosen = []
     browser.chosen.connect(lambda *what: chosen.append(what))
     card.buttons[0][0].click()
-    assert chosen == [(uneven, Remedy.RESAMPLE)]
+    assert chosen == [(uneven, "resample")]
     browser.deleteLater()
 
 

@@ -542,17 +542,27 @@ def test_reports_of_the_group_and_of_the_student_chosen_are_written(
         assert (tmp_path / name).read_bytes().startswith(b"%PDF")
 
 
-@pytest.fixture
-def killed(services):
+def left_of_an_attempt(services, student):
     """What a killed program left of an attempt."""
     now = datetime.now(UTC)
-    header = SessionHeader("k1", now, 0.0, "typed", "first-insertion", "First insertion")
+    header = SessionHeader("k1", now, 0.0, student, "first-insertion", "First insertion")
     recorder = Recorder(services.sessions(), header)
     recorder.open()
     recorder._file.abandon()
     path = recorder.status().path
     os.utime(path, (now.timestamp() - 900.0,) * 2)
     return path
+
+
+@pytest.fixture
+def killed(services):
+    return left_of_an_attempt(services, "typed")
+
+
+@pytest.fixture
+def killed_of_ada(services):
+    person, _ = People().add(RosterLine("Ada"))
+    return left_of_an_attempt(services, person.key)
 
 
 def test_an_interrupted_attempt_is_offered_at_the_start_and_kept_in_the_list_if_nobody_answers(
@@ -578,13 +588,14 @@ def test_an_interrupted_attempt_is_offered_at_the_start_and_kept_in_the_list_if_
     assert cell(sessions, "k1", SCORE) == ""
 
 
-def test_a_student_may_recover_but_not_discard_and_reads_no_name(killed, window, feature, settle):
-    debrief, people = window.feature(DebriefFeature), People()
-    people.add(RosterLine("Ada"))
+def test_a_student_may_recover_but_not_discard_and_reads_no_name(
+    killed_of_ada, window, feature, settle
+):
+    debrief, people, killed = window.feature(DebriefFeature), People(), killed_of_ada
     people.set_instructor("correct horse")
-    people.assign("typed", "Ada")
+    key = people.find("Ada").key
     feature.look()
-    assert settle(lambda: ACCESS.guarded and ACCESS.owner("typed"))
+    assert settle(lambda: ACCESS.guarded and ACCESS.owner(key))
     if debrief.interruptions.box is not None:
         debrief.interruptions.box.close()
         settle()

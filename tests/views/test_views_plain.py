@@ -10,6 +10,7 @@ from PySide6.QtGui import Qt, QTextDocument
 from PySide6.QtWidgets import QApplication, QFormLayout, QLabel, QLineEdit, QToolTip, QWidget
 
 import app
+from app.core.plugin_folders import folders
 from app.exercises.library import load_exercise
 from app.imaging.series import Ignored, Listing
 from app.session.course import Course, CourseItem
@@ -20,7 +21,10 @@ from app.views.kit.text import literal
 from app.views.people.feature import PeopleFeature
 from app.views.series.browser import SeriesBrowser
 
-VIEWS = Path(app.__file__).parent / "views"
+APP = Path(app.__file__).parent
+VIEWS = APP / "views"
+SOURCES = (VIEWS, *(folder.path for folder in folders() if folder.is_own))
+"""Where the window's words stand: folders of plug-ins have views and features too."""
 NAMES = ("<b>Ada</b>", "<img src='/etc/passwd'>Ada", "<a href='file:///x'>here</a>", "<h1>x")
 TEXT_OF = {
     **dict.fromkeys(("setToolTip", "setStatusTip", "setWhatsThis", "setLabelText"), -1),
@@ -35,8 +39,8 @@ RICH = {"accuracy/diagram.py": "its key has colours; each family in it is escape
 
 def calls():
     """Every call in the views: file, node, and the name of what is called."""
-    for path in sorted(VIEWS.rglob("*.py")):
-        name = path.relative_to(VIEWS).as_posix()
+    for path in (path for place in SOURCES for path in sorted(place.rglob("*.py"))):
+        name = path.relative_to(VIEWS if path.is_relative_to(VIEWS) else APP).as_posix()
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Call):
                 called = node.func
@@ -62,7 +66,8 @@ def test_every_label_is_plain():
     assert [one for one in made if one.partition(":")[0] not in RICH] == []
     kinds = [
         f"{path.name}: {node.name}"
-        for path in VIEWS.rglob("*.py")
+        for place in SOURCES
+        for path in place.rglob("*.py")
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
         if isinstance(node, ast.ClassDef)
         and any(getattr(base, "id", "") == "QLabel" for base in node.bases)

@@ -45,11 +45,10 @@ def results_of(students, exercises, attempts, names=None):
         for e in range(exercises)
         for n in range(attempts)
     ]
-    whose = {one.key: one.key for one in people}
     said = {some[0].id: Remarks(comment="Steadier at the skin. " * 12)} if some else {}
     if len(some) > 1:
         said[some[1].id] = Remarks(void="the phone rang")
-    board = progress_board(people, items, some, whose, said, NOW)
+    board = progress_board(people, items, some, said, NOW)
     by_key = {one.key: one for one in people}
     return Results(board, some, by_key, said, names or {})
 

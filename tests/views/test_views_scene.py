@@ -26,6 +26,7 @@ from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
 from app.planning.patient import Patient
 from app.planning.placement import Placement
+from app.views.kit import theme
 from app.views.scene import mesh as meshes
 from app.views.scene import surfaces as extraction
 from app.views.scene.display import LIGHT_BACKGROUND, ORGAN_COLOURS, Display, Section
@@ -34,6 +35,7 @@ from app.views.scene.mesh import coarser, isosurface, structure_mesh
 from app.views.scene.orbit import Orbit
 from app.views.scene.renderer import SceneRenderer, Shot, moving_size
 from app.views.scene.robot import RobotShape
+from app.views.scene.shape import Hoop, ScenePiece, SceneShape
 from app.views.scene.stage import SceneError, Stage
 from app.views.scene.surfaces import BONE_HU, Surfaces, extract_surfaces, reduced, without_marrow
 from app.views.scene.view import SceneView
@@ -262,6 +264,35 @@ def test_needle_plan_and_robot_appear_and_go(stage):
     assert stage.render(Orbit.from_side("S", np.zeros(3), 300.0), SIZE, False)[:, :, :3].max() > 60
     stage.set_robot(None, RigidTransform.identity())
     assert stage.render(orbit, SIZE, False)[:, :, :3].max() == 0
+
+
+def test_what_a_feature_puts_into_the_picture_appears_and_goes_also_for_another(stage):
+    orbit = Orbit.from_side("A", np.zeros(3), 60.0)
+
+    def rod(x, rounded, mark=theme.ROBOT):
+        ends = np.array([[x, 0.0, -20.0], [x, 0.0, 20.0]])
+        hoop = Hoop(np.array([x, 0.0, 30.0]), np.array([0.0, 1.0, 0.0]), (4.0, 8.0), theme.ENTRY)
+        return SceneShape((ScenePiece(ends, 4.0, mark, rounded),), (hoop,))
+
+    def halves():
+        seen = stage.render(orbit, SIZE, False)[:, :, :3].max(axis=(0, 2))
+        return bool(seen[:60].max() > 60), bool(seen[60:].max() > 60)
+
+    stage.set_shape(rod(-30.0, True))
+    (one_side,) = [side for side in (0, 1) if halves()[side]]
+    stage.set_shape(rod(30.0, True))
+    assert halves()[1 - one_side]
+    assert not halves()[one_side]
+    stage.set_shape(rod(-30.0, False))  # of another kind: the solids of the first go
+    assert halves()[one_side]
+    assert not halves()[1 - one_side]
+    stage.set_shape(None)
+    assert halves() == (False, False)
+    shape = rod(0.0, True)
+    assert shape.points_mm.shape == (3, 3)
+    assert shape.moved_mm(None) == np.inf
+    assert shape.moved_mm(rod(2.0, True)) == pytest.approx(2.0)
+    assert len(shape.near_mm(np.array([0.0, 0.0, 30.0]), 11.0)) == 2
 
 
 def test_a_needle_without_length_is_not_drawn(stage):

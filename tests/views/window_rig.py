@@ -6,7 +6,6 @@ from functools import cache
 from types import MappingProxyType, SimpleNamespace
 
 import numpy as np
-from arm_rig import performance_of
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from views_robot_fakes import FakeBench
@@ -176,8 +175,6 @@ class FakeServices:
         self.prepared, self.missing, self.unusable = threading.Event(), "", ()
         self.sources, self.lives = (RobotPort("usb:1-1", "Webcam (usb:1-1)"),), []
         self.pens, self.seen = [], None
-        self.carried, self.cannot, self.arm_waits = [], None, threading.Event()
-        self.arm_waits.set()
         self.ports, self.benches = (RobotPort("/dev/ttyACM0", "icube A17 on /dev/ttyACM0"),), []
 
     def robots(self):
@@ -250,14 +247,6 @@ class FakeServices:
             raise ImportError(self.missing)
         return self.unusable
 
-    def carry_out(self, placed, seed, stands_deg, progress):
-        self.carried.append((placed, seed, stands_deg))
-        while not self.arm_waits.wait(0.01):
-            progress.report(0.5, "looking for the tool")
-        if self.cannot is not None:
-            raise self.cannot
-        return performance_of(placed)
-
     def open_run(self, setup, progress):
         if self.refuses:
             raise AcusError(self.refuses)
@@ -266,7 +255,7 @@ class FakeServices:
 
 
 class RealRuns(FakeServices):
-    """Runs with the real trainer, loop and simulated cameras, and an arm that is made up."""
+    """Runs with the real trainer, loop and simulated cameras."""
 
     def __init__(self, folder):
         super().__init__(folder)

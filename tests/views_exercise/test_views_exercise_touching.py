@@ -6,6 +6,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 from views_exercise_attempts import review
 from views_exercise_fakes import FakeTrainer, pose, snapshot
@@ -24,6 +26,7 @@ from app.views.exercise.briefing import BriefingPage, aid_words, scored_words
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.controller import ExerciseDisplay
 from app.views.exercise.hands.chooser import HandChooser
+from app.views.exercise.offer import BriefingOffer
 from app.views.exercise.pad_canvas import PadCanvas
 from app.views.exercise.panel import TouchNote, hand_words
 from app.views.exercise.readings import pad_view
@@ -261,9 +264,17 @@ def test_no_curve_claims_one_target_where_many_are_touched(qt):
     assert not depth.line_name
 
 
-def test_the_arm_is_not_offered_where_it_would_be_refused(qt):
-    page = BriefingPage()
+def test_a_way_to_watch_is_offered_where_it_suits_and_pressed_by_its_key(qt):
+    page, wanted = BriefingPage(), []
+    offer = BriefingOffer("x", "Watch (W)", "", Qt.Key.Key_W, lambda one: one.touch is None, bool)
+    page.offer_wanted.connect(wanted.append)
+    page.add_offer(offer)
+    _, shown = page.offers["x"]
     page.show_exercise(EXERCISE, None)
-    assert page.arm.isHidden()
+    assert shown.isHidden()
     page.show_exercise(load_exercise("first-insertion"), None)
-    assert not page.arm.isHidden()
+    assert not shown.isHidden()
+    page.show()
+    QTest.keyClick(page, Qt.Key.Key_W)
+    page.close()
+    assert wanted == [offer]

@@ -1,6 +1,6 @@
 """References of the hard cases in 60 digits: what mpmath makes of the same doubles.
 
-Every function computes one or more entries of `app/studies/hard_cases/references.json` from exact
+Every function computes one or more entries of a `references.json` beside hard cases from exact
 doubles, by a formula that is plain and needs no care, in so many digits that none is needed.
 `tools.hard_references` writes them.
 """

@@ -6,8 +6,10 @@ import mpmath  # type: ignore[import-untyped]
 import numpy as np
 from mpmath import acos, atan2, cos, matrix, mpf, sin, sqrt
 
-from app.mechanisms.arm import forward, load_arm
+from app.arm.mechanics import forward, load_arm
 from tools.exact import exact
+
+FOLDER = "app/arm/hard_cases"
 
 ARM = load_arm()
 

@@ -7,8 +7,10 @@ from typing import Any
 import mpmath  # type: ignore[import-untyped]
 from mpmath import atan2, cos, matrix, mpf, sin
 
-from app.mechanisms.hand import load_hand
+from app.arm.hand import load_hand
 from tools.exact import exact
+
+FOLDER = "app/arm/hard_cases"
 
 HAND = load_hand().hand
 L1, L2, L3, BEND = HAND.links

@@ -8,6 +8,8 @@ from mpmath import matrix, mpf
 
 from tools.exact import exact
 
+FOLDER = "app/arm/hard_cases"
+
 FAR = 4.0e6
 BLOB = tuple((FAR + 3.0 * cos(0.9 * k) + 1e-3 * k, FAR - 3.003 * sin(0.9 * k)) for k in range(7))
 """Pixels of an all but round blob, as far away as a mosaic of pictures is wide."""

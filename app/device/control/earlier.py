@@ -3,9 +3,7 @@
 Before machines had stages of their own, kinematics, governor, plant and the laws that know the
 dynamics began with, or ended in, numbers of the pantograph, which was the only machine. Those
 numbers now stand in the machine's own stages, made from the profile that the record has attached;
-all else, memory included, goes over as it was. The cables' watch ended in the joint angles of the
-tick before, which `plausibility` now has; their efforts had no switch for the worst end of the
-depth, and go on without it.
+all else, memory included, goes over as it was. `tests/data/records-machines` are such records.
 """
 
 from typing import Final
@@ -20,15 +18,6 @@ _MODEL: Final = 21
 _CENTRE, _WEIGHT, _COULOMB, _VISCOUS = (3, 4, 5), (15, 16, 17), 18, 19
 _NEEDLE_MASS, _NEEDLE_OFFSET = 12, 14
 """Places in it: remote centre, gravity, friction of the joints, the needle."""
-
-_WATCH: Final = 50
-"""Numbers of the cables' watch without the joint angles before, which it had to tell a jump."""
-
-_EFFORTS: Final = 48
-"""Numbers of the cables' efforts before what was felt counted at the worst end of the depth."""
-
-_NONE: Final = -1
-"""Place of a number that was not there then: zero."""
 
 _PLANT: Final = (
     *range(_MODEL, _MODEL + 17),
@@ -49,8 +38,6 @@ _BEFORE: Final[dict[tuple[str, int], tuple[int, ...]]] = {
     ("plant", _MODEL + 26): _PLANT,
     ("impedance", 15 + _MODEL): _IMPEDANCE,
     ("compensation", 7 + _MODEL): _COMPENSATION,
-    ("cables", _WATCH + 2): tuple(range(_WATCH)),
-    ("tensions", _EFFORTS): (*range(_EFFORTS), _NONE),
 }
 """Stage and length of its array then -> which of its numbers the array has now, in order."""
 
@@ -58,4 +45,4 @@ _BEFORE: Final[dict[tuple[str, int], tuple[int, ...]]] = {
 def as_now(name: str, values: FloatArray) -> FloatArray:
     """Return a stage's array of a record as this program has it; one of today's as it is."""
     order = _BEFORE.get((name, len(values)))
-    return values if order is None else np.append(values, 0.0)[np.array(order)]
+    return values if order is None else values[np.array(order)]

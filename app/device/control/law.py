@@ -4,11 +4,13 @@ Apart from `control.laws`, which imports laws: the trial of a law in a process o
 declaration without the loop around it.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
+from app.core.errors import ConfigurationError
 from app.core.plugins import (
     ENERGY,
     PARAMETERS,
@@ -21,7 +23,7 @@ from app.core.plugins import (
 )
 from app.core.trial import Trial
 from app.device.errors import LawError
-from app.mechanisms.profile import DeviceProfile
+from app.mechanisms.profile import DeviceProfile, load_profile, profile_names
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,11 +38,21 @@ class Law(StageDeclaration):
                 lets a robot hold a direction and this one cannot.
         """
         if "hold" in self.writes and not profile.holds_direction:
+            able = ", ".join(_holding())
             raise LawError(
                 f"law {self.name!r}: {profile.name} cannot hold a direction by itself, its motors"
-                " push; take the law 'fixture', or a device that can, such as tensegrity"
+                " push; take the law 'fixture'"
+                + (able and f", or a device that can, such as {able}")
             )
         return complete(KIND, self, given, profile)
+
+
+def _holding() -> Iterator[str]:
+    """Yield the profiles of robots that hold a direction by themselves."""
+    for name in profile_names():
+        with suppress(ConfigurationError):  # of somebody else's
+            if load_profile(name).holds_direction:
+                yield name
 
 
 KIND: Final[PluginKind[Law]] = PluginKind(

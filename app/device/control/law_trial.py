@@ -12,15 +12,15 @@ from typing import Any, Final
 
 import numpy as np
 
+from app.core import paths, plugin_folders
 from app.core import state_vector as sv
-from app.core.errors import AcusError
+from app.core.errors import AcusError, ConfigurationError
 from app.core.trial_states import STATES, StageTrial
 from app.core.trial_watch import CALL, Watch
 from app.device.control import laws
 from app.device.control.law import KIND, Law, read_law
-from app.mechanisms.profile import load_profile
+from app.mechanisms.profile import DeviceProfile, load_profile
 
-_PROFILES: Final = ("icube", "haply-2diy", "tensegrity")
 _SHARES: Final = (None, 0.0, 1.0, 0.5, 0.02, 0.3)
 """Of the range of every parameter; None: its defaults."""
 
@@ -38,11 +38,19 @@ def run(path: Path, argument: str, watch: Watch) -> dict[str, Any]:
     return {"reason": reason, "states": STATES, "shortest": min(map(len, arrays))}
 
 
+def _profiles(path: Path) -> Iterator[DeviceProfile]:
+    """Yield the shipped robots, and those that come in the folder of plug-ins of the law."""
+    shared = plugin_folders.folder_of(path)
+    for place in (paths.resources(), *((shared.path,) if shared else ())):
+        for file in sorted((place / "devices").glob("*.yaml")):
+            with suppress(ConfigurationError):  # of somebody else's
+                yield load_profile(file)
+
+
 def _arrays(law: Law, module: Any) -> Iterator[Any]:
     """Arrays of parameters for the defaults, the ends and values between, of each robot."""
     rng = np.random.default_rng(1)
-    for name in _PROFILES:
-        profile = load_profile(name)
+    for profile in _profiles(law.path):
         for share in _SHARES:
             given = {
                 key: limit.minimum + share * (limit.maximum - limit.minimum)

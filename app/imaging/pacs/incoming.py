@@ -22,10 +22,12 @@ from app.imaging.errors import FileDamagedError, WorkerError
 from app.imaging.pacs.limits import LARGEST_PICTURE, SPARE_BYTES, SPOOLED, RequestLimits
 from app.imaging.pacs.settings import PacsSettings
 from app.imaging.privacy.key import derived, installation_key
-from app.imaging.worker.jobs import IDENTIFY, Identity
+from app.imaging.worker.jobs import Job
 from app.imaging.worker.limits import PACKAGE_SECONDS, for_file, size_of
 from app.imaging.worker.pool import shared_worker
 
+Identity = tuple[str, str, str, str, str]
+_IDENTIFY: Job[Identity] = Job(f"{__name__}:identity", Identity)
 _IDENTITY = (
     "SOPClassUID",
     "SOPInstanceUID",
@@ -186,7 +188,7 @@ class Incoming:
 
     def _said(self, path: Path) -> Identity:
         allowed = for_file(size_of(path), least=PACKAGE_SECONDS)
-        return shared_worker().call(IDENTIFY, (path.absolute(),), allowed, Progress())
+        return shared_worker().call(_IDENTIFY, (path.absolute(),), allowed, Progress())
 
     def _mistaken(self, sop_class: str, sop_uid: str, said: Identity) -> str:
         """Say what of a picture's identity is not what was asked for; empty where all is."""

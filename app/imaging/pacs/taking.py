@@ -13,7 +13,7 @@ from app.imaging.privacy.burned_in import MaskBox
 from app.imaging.privacy.errors import AnnotatedError, PrivacyError
 from app.imaging.reading import offer
 from app.imaging.scanning import scan_folder
-from app.imaging.series import Remedy, Series
+from app.imaging.series import NO_REMEDY, Series
 
 
 class RemedyWantedError(SeriesRefusedError):
@@ -42,7 +42,7 @@ def fetch(
     study_uid: str,
     series_uid: str,
     progress: Progress,
-    remedy: Remedy | None = Remedy.NONE,
+    remedy: str | None = NO_REMEDY,
 ) -> Fetched:
     """Retrieve a series and set it aside.
 
@@ -82,18 +82,18 @@ def fetch(
     return Fetched(best, incoming)
 
 
-def _worth(series: Series, remedy: Remedy | None) -> tuple[bool, bool, int]:
+def _worth(series: Series, remedy: str | None) -> tuple[bool, bool, int]:
     """Return what counts in choosing among the series that came under one UID."""
-    mended = series.remedy is not Remedy.NONE and remedy in (None, series.remedy)
+    mended = bool(series.remedies) and remedy in (None, *series.remedies)
     return series.usable, mended, len(series.slices)
 
 
-def _require_remedy(series: Series, remedy: Remedy | None) -> None:
+def _require_remedy(series: Series, remedy: str | None) -> None:
     if series.usable:
         return
-    if series.remedy is Remedy.NONE:
+    if not series.remedies:
         raise SeriesRefusedError(f"this series cannot be used: {series.reason}")
-    if remedy not in (None, series.remedy):
+    if remedy not in (None, *series.remedies):
         raise RemedyWantedError(
             f"this series cannot be used as it is: {series.reason}{offer(series)}; what has come "
             "is kept aside for a day and not fetched again"
@@ -105,7 +105,7 @@ def keep(
     library: CtLibrary,
     progress: Progress,
     boxes: Sequence[MaskBox] = (),
-    remedy: Remedy = Remedy.NONE,
+    remedy: str = NO_REMEDY,
 ) -> Imported:
     """De-identify what was fetched into the library and delete the originals.
 
@@ -139,7 +139,7 @@ def take(
     library: CtLibrary,
     progress: Progress,
     boxes: Sequence[MaskBox] = (),
-    remedy: Remedy = Remedy.NONE,
+    remedy: str = NO_REMEDY,
 ) -> Imported:
     """Retrieve a series into the library, de-identified; see `fetch` and `keep` for the errors."""
     fetched = fetch(pacs, study_uid, series_uid, progress.part(0.0, 0.65), remedy)

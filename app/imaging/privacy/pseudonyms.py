@@ -1,6 +1,5 @@
 """Names that stand for patients and studies and tell nothing of them."""
 
-import hashlib
 import re
 from functools import lru_cache
 
@@ -36,10 +35,3 @@ def patient_pseudonym(key: bytes, patient_id: str, study_uid: str) -> str:
     """Name of a patient over all studies; of one study where the patient has no identifier."""
     digest = derived(key, "patient", patient_id or f"study {study_uid}")
     return f"P-{digest.hex()[:8].upper()}"
-
-
-@lru_cache(maxsize=1)
-def former_pseudonym(patient_id: str, study_uid: str) -> str:
-    """Name that earlier versions wrote, without a key: only to recognise it in old records."""
-    digest = hashlib.sha256(f"acus pseudonym\0{patient_id}\0{study_uid}".encode())
-    return f"CT-{digest.hexdigest()[:6].upper()}"

@@ -1,5 +1,7 @@
 """The table of jobs: whatever is parsed of a foreign file, and what comes of it.
 
+What only one folder asks for is named there in the same way.
+
 A job is a function of plain values, with the progress as its last argument. It runs in the child;
 the program names it, and reads what comes back by the type that stands here, never by what the
 child says that it is.
@@ -50,8 +52,6 @@ STRUCTURES: Job[PlacedStructures] = Job(
 DEIDENTIFY: Job[Deidentified] = Job(
     "app.imaging.privacy.deidentifying:deidentify_series", Deidentified
 )
-Identity = tuple[str, str, str, str, str]
-IDENTIFY: Job[Identity] = Job("app.imaging.pacs.incoming:identity", Identity)
 WRITE_SEG: Job[None] = Job("app.imaging.structures.dicom_seg:write_seg_file", None)
 UNPACK: Job[tuple[tuple[str, str], ...]] = Job(
     "app.imaging.sources:unpack_into", tuple[tuple[str, str], ...]

@@ -6,13 +6,12 @@ import signal
 import socket
 import struct
 import subprocess
-import sys
 import time
 from collections import deque
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import Any
 
+from app.core.child_process import environment, module_command
 from app.imaging.errors import WorkerError
 from app.imaging.worker.answers import DONE, PROGRESS, outcome
 from app.imaging.worker.channel import VOLUME, ChannelError, WorkerChannel
@@ -42,8 +41,6 @@ _WHY = {
     "SIGXCPU": ": it computed for longer than any file may",
 }
 """What a signal says of whoever it ended."""
-
-_ROOT = Path(__file__).resolve().parents[3]
 
 
 class Lost(Exception):  # noqa: N818  (an event; who waits turns it into an error)
@@ -225,18 +222,15 @@ def _is_answer(message: Any) -> bool:
 
 
 def _started(module: str, descriptor: int, channel: WorkerChannel) -> "subprocess.Popen[bytes]":
-    environment = os.environ | {
-        "PYTHONPATH": os.pathsep.join(filter(None, [str(_ROOT), os.environ.get("PYTHONPATH")])),
-        "OPENBLAS_NUM_THREADS": "1",  # each thread would take its share of the memory allowed
-        "OMP_NUM_THREADS": "1",
-    }
+    # Each thread of a library would take its share of the memory allowed.
+    own = environment(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
     try:
         return subprocess.Popen(
-            [sys.executable, "-P", "-m", module, str(descriptor)],
+            module_command(module, str(descriptor)),
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,  # decoders grumble there, and parsers quote headers
-            env=environment,
+            env=own,
             pass_fds=(descriptor,),
             start_new_session=True,  # Ctrl+C in a terminal is the program's to handle
         )

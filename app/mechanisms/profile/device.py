@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 from pydantic import model_validator
 
 from app import mechanisms
-from app.core import paths
+from app.core import paths, plugin_folders
 from app.core.arrays import FloatArray, frozen
 from app.core.configuration import Strict, parse, parse_yaml, read_text
 from app.core.errors import ConfigurationError
@@ -212,18 +212,34 @@ class DeviceProfile(Strict):
 
 
 def kinds() -> list[str]:
-    """Kinds of machines: the program's own, and folders of the user's own."""
-    own = str(paths.plugins("mechanisms"))
-    if own not in mechanisms.__path__:
-        mechanisms.__path__.append(own)
-    return sorted(
-        {path.parent.name for folder in mechanisms.__path__ for path in _profiles_in(folder)}
-    )
+    """Kinds of machines: the program's own, those of plug-ins, and folders of the user's own."""
+    for own in map(str, paths.plugin_places("mechanisms")):
+        if own not in mechanisms.__path__:
+            mechanisms.__path__.append(own)
+    shared = (folder.path / _SHARED for folder in plugin_folders.folders())
+    places = (*map(Path, mechanisms.__path__), *shared)
+    return sorted({path.parent.name for folder in places for path in _profiles_in(folder)})
 
 
-def _profiles_in(folder: str) -> Iterator[Path]:
-    # The folders of arm and hand have profiles of another kind, and no machine.
-    return (p for p in Path(folder).glob("*/profile.py") if (p.parent / "machine.py").is_file())
+def _profiles_in(folder: Path) -> Iterator[Path]:
+    # A machine has both files.
+    return (p for p in folder.glob("*/profile.py") if (p.parent / "machine.py").is_file())
+
+
+_SHARED: Final = "machines"
+"""Subfolder of a folder of plug-ins that holds machines."""
+
+
+def _home(kind: str) -> tuple[Path, str, bool]:
+    """Return where a machine's folder lies, the package that is, and whether it is our own."""
+    shared = (f for f in plugin_folders.folders() if (f.path / _SHARED / kind).is_dir())
+    if (_OWN / kind).is_dir():
+        return _OWN, mechanisms.__name__, True
+    for folder in shared:
+        return folder.path / _SHARED, f"{folder.package}.{_SHARED}", folder.is_own
+    places = paths.plugin_places("mechanisms")
+    own = next((place for place in places if (place / kind).is_dir()), places[0])
+    return own, mechanisms.__name__, False
 
 
 DEFAULT_KIND: Final = "pantograph"
@@ -252,20 +268,21 @@ def profile_class(kind: object, origin: str) -> type[DeviceProfile]:
 def _part(kind: str, name: str, origin: str) -> ModuleType:
     """Import a file of a machine; one of the user's own only where that was seen to go well."""
     fault, reason = machine_fault(kind, name), None
+    _, package, is_own = _home(kind)
     if not fault:
         try:
-            return import_module(f"{mechanisms.__name__}.{kind}.{name}")
+            return import_module(f"{package}.{kind}.{name}")
         except KeyboardInterrupt:
             raise
         except BaseException as error:  # whatever somebody's file does
-            if (_OWN / kind).is_dir():
+            if is_own:
                 raise
             fault, reason = str(error) or type(error).__name__, error
     raise ConfigurationError(f"{origin}: machine {kind!r} cannot be used: {fault}") from reason
 
 
 def machine_fault(kind: str, name: str) -> str:
-    """Say why a file of a machine of the user's own cannot be imported; else nothing.
+    """Say why a file of a machine of somebody else's cannot be imported; else nothing.
 
     Args:
         kind: folder of the machine.
@@ -274,19 +291,21 @@ def machine_fault(kind: str, name: str) -> str:
     path = _foreign(kind, name)
     if path is None:
         return ""
-    fault = import_fault(path, mechanisms.__name__, path.parents[1])
+    folder, package, _ = _home(kind)
+    fault = import_fault(path, package, folder)
     return f"{path}: {fault}" if fault else ""
 
 
 def _foreign(kind: str, name: str) -> Path | None:
     """Return a file of a machine that is not the program's own; None if it is, or is not there."""
-    path = paths.plugins("mechanisms") / kind / f"{name}.py"
-    return None if is_own(kind) or not path.is_file() else path
+    folder, _, own = _home(kind)
+    path = folder / kind / f"{name}.py"
+    return None if own or not path.is_file() else path
 
 
 def is_own(kind: str) -> bool:
     """Whether a machine is one of the program's own."""
-    return (_OWN / kind).is_dir()
+    return _home(kind)[2]
 
 
 TRIAL: Final = Trial("app.mechanisms.machine_trial")
@@ -336,8 +355,8 @@ def parse_profile(document: Any, origin: str, text: str = "") -> DeviceProfile:
 
 
 def profile_names() -> list[str]:
-    """Names of the shipped device profiles."""
-    return sorted(path.stem for path in _folder().glob("*.yaml"))
+    """Return the names of the shipped device profiles and of those in folders of plug-ins."""
+    return sorted(_profiles())
 
 
 def load_profile(name_or_path: str | Path) -> DeviceProfile:
@@ -347,7 +366,7 @@ def load_profile(name_or_path: str | Path) -> DeviceProfile:
         ConfigurationError: if there is none (names the valid names), or the file is wrong.
     """
     text = str(name_or_path)
-    path = _folder() / f"{text}.yaml" if text in profile_names() else Path(name_or_path)
+    path = _profiles().get(text, Path(name_or_path))
     if path.suffix not in (".yaml", ".yml"):
         raise ConfigurationError(
             f"no device profile {text!r}; valid names: {', '.join(profile_names())},"
@@ -357,5 +376,9 @@ def load_profile(name_or_path: str | Path) -> DeviceProfile:
     return parse_profile(parse_yaml(content, str(path)), str(path), content)
 
 
-def _folder() -> Path:
-    return paths.resources() / "devices"
+def _profiles() -> dict[str, Path]:
+    """Return the files of profiles by name; a shipped one keeps its name."""
+    shared = (folder.path / "devices" for folder in plugin_folders.folders())
+    places = (paths.resources() / "devices", *shared)
+    files = [path for place in places for path in sorted(place.glob("*.yaml"))]
+    return {path.stem: path for path in reversed(files)}

@@ -149,14 +149,13 @@ class Registrations:
         rig: str,
         simulated: bool,
         series: str = "",
-        former: str = "",
         frame: str = "",
     ) -> RegistrationRecord | None:
         """Newest check that says something of these cameras, and of this CT where it used one.
 
         A check holds for the calibration it was made with: with another one the cameras' frame is
-        another, and nothing was checked. `former` is the CT's pseudonym by earlier versions,
-        `frame` its frame of reference: points of another one lie elsewhere.
+        another, and nothing was checked. `frame` is the CT's frame of reference: points of another
+        one lie elsewhere.
         """
         for record in self.records():
             same = (record.calibration, record.rig, record.simulated) == (
@@ -164,7 +163,7 @@ class Registrations:
                 rig,
                 simulated,
             )
-            ours = record.series == series or (bool(former) and record.series == former)
+            ours = record.series == series
             ours = ours and (not record.frame or not frame or record.frame == frame)
             if same and (not record.picked or ours):
                 return record

@@ -3,9 +3,6 @@
 They are listed and read as text (`core.plugins`); a metric is imported when it is computed, one of
 somebody else's in a process of its own (`scoring.foreign`). Whatever such a file does breaks no
 score: it has no value, and says why.
-
-In the form before, a metric said NAME, LABEL, UNIT, HIGHER_IS_BETTER and READS in constants of
-their own. Such files are still read.
 """
 
 from __future__ import annotations
@@ -16,15 +13,7 @@ from glob import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from app.core.plugins import (
-    FLAG,
-    SLOTS,
-    Declaration,
-    Field,
-    PluginKind,
-    PluginText,
-    read_statements,
-)
+from app.core.plugins import FLAG, SLOTS, Declaration, Field, PluginKind, read_statements
 from app.scoring.errors import (
     MetricError,
     MetricNotAskedError,
@@ -147,38 +136,6 @@ def _readable(files: list[Path]) -> Metric:
         )
 
 
-_BEFORE: Final = {"title": "LABEL", "unit": "UNIT", "higher_is_better": "HIGHER_IS_BETTER"}
-
-
-def _older(path: Path, source: PluginText) -> PluginText:
-    """Rewrite the constants of the form before into a declaration."""
-    nodes = {
-        target.id: node.value
-        for node in source.body
-        if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None
-        for target in (node.targets if isinstance(node, ast.Assign) else [node.target])
-        if isinstance(target, ast.Name)
-    }
-    if source.document is not None or "NAME" not in nodes:
-        return source
-    if missing := [name for name in _BEFORE.values() if name not in nodes]:
-        raise MetricError(f"{path} is not a metric: it has no {', '.join(missing)}")
-    said: dict[str, Any] = {}
-    for name in ("NAME", *_BEFORE.values(), "READS"):
-        try:
-            said[name] = ast.literal_eval(nodes[name]) if name in nodes else ()
-        except ValueError as error:
-            raise MetricError(
-                f"{path}, line {nodes[name].lineno}: {name} is {ast.unparse(nodes[name])}; give a"
-                " literal value"
-            ) from error
-    if said["NAME"] != path.stem:
-        raise MetricError(f"{path}: NAME is {said['NAME']!r}, the file is {path.stem!r}")
-    lines = {key: nodes[name].lineno for key, name in _BEFORE.items()}
-    document = {key: said[name] for key, name in _BEFORE.items()} | {"reads": said["READS"]}
-    return PluginText(document, lines, source.body)
-
-
 def _label(value: Any) -> str:
     if not isinstance(value, str):
         raise TypeError
@@ -198,5 +155,4 @@ KIND: Final[PluginKind[Metric]] = PluginKind(
     package=__name__,
     folder="metrics",
     functions=("compute",),
-    older=_older,
 )

@@ -3,7 +3,7 @@
 A hand at the handle of a long tool (`Handle`) moves that in space: its way s across the shaft turns
 the tool about the fulcrum by s / outside, outside being what of the tool is between fulcrum and
 handle, and so moves the tip by depth / outside · s the other way. These are the rates of
-`planning.arm.pivot`, read from the handle: ḋ = -s / outside.
+an instrument that pivots in a trocar, read from its handle: ḋ = -s / outside.
 """
 
 from dataclasses import dataclass, replace

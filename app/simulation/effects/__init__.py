@@ -2,17 +2,13 @@
 
 Nothing here imports them: their declarations are read as text (`core.plugins`), and only what a
 plan keeps is imported. One that is not the program's own is tried before (`effect_trial`).
-
-In the form before, parameters stood twice: defaults in a dataclass named as the file, which made
-the array, and (unit, least, most, meaning) in the declaration. Such files are still read.
 """
 
-import ast
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -28,7 +24,6 @@ from app.core.plugins import (
     TEXTS,
     WRITES,
     PluginKind,
-    PluginText,
     StageDeclaration,
     complete,
 )
@@ -125,26 +120,16 @@ def array_of(declared: Effect, values: Mapping[str, float], binding: Binding) ->
         return np.array([model, *(values[key] for key in declared.parameters)], dtype=float)
     module = load(declared)
     if KIND.is_own(declared.path):
-        return array_by(module, declared, values, binding)
+        own: FloatArray = module.parameters(values, binding)
+        return own
     with KIND.blamed(declared.path, _PARAMETERS):
-        array = np.ascontiguousarray(array_by(module, declared, values, binding), dtype=np.float64)
+        array = np.ascontiguousarray(module.parameters(values, binding), dtype=np.float64)
     if array.ndim != 1 or array.size < (least := _shortest(declared)):
         raise SimulationError(
             f"{declared.path}: parameters() gives an array of the shape {array.shape} for this"
             f" scene and these values; give one of the shape (n,), and of {least} numbers at least,"
             " as it was tried"
         )
-    return array
-
-
-def array_by(
-    module: ModuleType, declared: Effect, values: Mapping[str, float], binding: Binding
-) -> FloatArray:
-    """Return what an imported effect's own file makes its array of parameters."""
-    if hasattr(module, "parameters"):
-        array: FloatArray = module.parameters(values, binding)
-    else:
-        array = getattr(module, _class_name(declared.name))(**values).parameters(binding)
     return array
 
 
@@ -196,50 +181,6 @@ def _shortest(effect: Effect) -> int:
     return 0 if KIND.trial is None else int(KIND.trial.verdict(effect.path).get("shortest", 0))
 
 
-def _class_name(effect: str) -> str:
-    """Name of the dataclass in a file of the form before: `hand_tremor` -> `HandTremor`."""
-    return "".join(part.capitalize() for part in effect.split("_"))
-
-
-def _older(path: Path, source: PluginText) -> PluginText:
-    """Rewrite a declaration of the form before, whose rows have no default, into today's."""
-    rows = (source.document or {}).get("parameters")
-    if (source.document or {}).get("pictures") is True:
-        return source
-    defined = {node.name for node in source.body if isinstance(node, ast.FunctionDef)}
-    if source.document is None or not isinstance(rows, dict) or "parameters" in defined:
-        return source
-    defaults = _defaults(source.body, path)
-    if set(rows) != set(defaults):
-        raise SimulationError(
-            f"{path}: the fields of the dataclass and DECLARATION['parameters'] differ in "
-            f"{sorted(set(rows) ^ set(defaults))}"
-        )
-    completed: dict[str, Any] = {name: (defaults[name], *rows[name]) for name in defaults}
-    return source._replace(document=source.document | {"parameters": completed})
-
-
-def _defaults(body: list[ast.stmt], path: Path) -> dict[str, float]:
-    wanted = _class_name(path.stem)
-    for node in body:
-        if isinstance(node, ast.ClassDef) and node.name == wanted:
-            fields = [item for item in node.body if isinstance(item, ast.AnnAssign)]
-            try:
-                return {
-                    item.target.id: float(ast.literal_eval(item.value))
-                    for item in fields
-                    if isinstance(item.target, ast.Name) and item.value is not None
-                }
-            except (ValueError, TypeError) as error:
-                raise SimulationError(
-                    f"{path}: a field of {wanted} has no literal number as default"
-                ) from error
-    raise SimulationError(
-        f"{path} has no function parameters(), and (the form before) has no dataclass {wanted};"
-        " see 'How to add an effect'"
-    )
-
-
 KIND: Final[PluginKind[Effect]] = PluginKind(
     noun="an effect",
     declares=Effect,
@@ -258,8 +199,7 @@ KIND: Final[PluginKind[Effect]] = PluginKind(
     error=SimulationError,
     package=__name__,
     folder="effects",
-    functions=("step",),
+    functions=("step", "parameters"),
     spared="pictures",
     trial=Trial("app.simulation.effect_trial"),
-    older=_older,
 )

@@ -1,45 +1,34 @@
-"""Hard cases of the cameras: far and parallel rays, folding lenses, boards face on, one face."""
+"""Hard cases of the cameras: far and parallel rays, folding lenses, boards face on."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from functools import cache, partial
 from typing import Any, Final
 
 import numpy as np
 
-from app.core.arrays import FloatArray, unit
 from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
-from app.studies.hard_cases.case import Defect, HardCase, analytic, answers, digits, named
+from app.studies.hard_cases.case import HardCase, analytic, answers, digits, named
 from app.tracking.calibration.boards import parse_board
 from app.tracking.calibration.mono import calibrate_mono
 from app.tracking.calibration.poses import board_pose
 from app.tracking.calibration.views import BoardView
-from app.tracking.errors import CalibrationError, PenError
+from app.tracking.errors import CalibrationError
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.distortion import fold_radius, undistort_point
-from app.tracking.pen.body import load_pen
-from app.tracking.pen.detector import MarkerSighting
-from app.tracking.pen.locator import BoardLocator
-from app.tracking.pen.pivot import MeasuredPose, pivot
-from app.tracking.pen.pose import PoseStatus
 from app.tracking.stereo.closed_form import closest, linear
-from app.tracking.stereo.triangulation import StereoStatus, Way, triangulate
+from app.tracking.stereo.triangulation import StereoStatus, triangulate
 
 _Way = Callable[..., Any]
 
 SIDE: Final = RigidTransform.from_translation([-0.2, 0.0, 0.0])
 SPREAD: Final = np.array([np.eye(2) * 1e-8, np.eye(2) * 1e-8])
 LENS: Final = np.array([-0.091006, 2.735876, -0.001135, -0.004749, -20.789586])
-BODY: Final = load_pen("cube").body.board()
 
 
 # --- triangulation --------------------------------------------------------------------------------
 def _far() -> tuple[HardCase, ...]:
     poses = RigidTransform.identity(), SIDE
-
-    def in_single(poses: Any, seen: Any, spread: Any) -> Any:
-        return triangulate(poses, np.float32(seen).astype(float), spread)
 
     def met(seen: tuple[float, ...], way: _Way) -> Any:
         x, y, second = seen
@@ -60,7 +49,6 @@ def _far() -> tuple[HardCase, ...]:
             unit="m",
             bound=2e-15 * depth**2 / 0.2,  # one bit of an observation, Z² / b
             beyond=answers("named AT_INFINITY for parallel rays", parallel),
-            defect=Defect("observations in single precision", in_single),
         )
         for depth in (1.0, 100.0, 10_000.0)
     )
@@ -92,10 +80,6 @@ def _skew() -> HardCase:
         unit="m",
         bound=1e-9,  # where Gauss–Newton stops
         beyond=answers("named BEHIND where rays part", behind),
-        defect=Defect(
-            "direct linear transformation",
-            lambda poses, seen, spread: triangulate(poses, seen, spread, Way.LINEAR),
-        ),
     )
 
 
@@ -105,12 +89,6 @@ def _nearly_parallel() -> HardCase:
     first = np.zeros(3), np.array([0.0, 0.0, 1.0])
     second = np.array([1.0, 0.1, 0.0]), np.array([-np.sin(turn), 0.0, np.cos(turn)])
     right = 1.0 / np.tan(turn)
-
-    def by_cosine(first: Any, second: Any) -> Any:
-        (p1, d1), (p2, d2) = first, second
-        offset, c = p2 - p1, float(d1 @ d2)
-        sine2 = max(1.0 - c * c, 1e-300)
-        return p1 + float(offset @ d1 - c * (offset @ d2)) / sine2 * d1, p2
 
     return HardCase(
         subsystem="triangulation",
@@ -131,7 +109,6 @@ def _nearly_parallel() -> HardCase:
                 is StereoStatus.DEGENERATE
             ),
         ),
-        defect=Defect("1 - cos² in the denominator", by_cosine),
     )
 
 
@@ -143,14 +120,6 @@ def _far_from_the_world() -> HardCase:
     seen = np.array([(c := pose @ point)[:2] / c[2] for pose in poses])
     moved = tuple(pose @ away.inverse() for pose in poses)
 
-    def unscaled(poses: Any, seen: Any) -> FloatArray:
-        rows = np.empty((4, 4))
-        for i, (pose, (x, y)) in enumerate(zip(poses, seen, strict=True)):
-            camera = np.column_stack([pose.rotation, pose.translation])
-            rows[2 * i], rows[2 * i + 1] = x * camera[2] - camera[0], y * camera[2] - camera[1]
-        vector = np.linalg.svd(rows.T @ rows)[2][-1]
-        return np.asarray(vector[:3] / vector[3])
-
     return HardCase(
         subsystem="triangulation",
         case="linear triangulation 10 km from the world's origin",
@@ -161,7 +130,6 @@ def _far_from_the_world() -> HardCase:
         unit="m",
         bound=1e-10,  # 1e4 ε, and its lever
         beyond=answers("finite for observations of one point at the epipoles", _at_the_epipoles),
-        defect=Defect("rows as they come, and AᵀA", unscaled),
     )
 
 
@@ -177,18 +145,6 @@ def _lens() -> tuple[HardCase, ...]:
     def straightened(seen: tuple[float, ...], way: _Way) -> Any:
         return way(seen[0], seen[1], LENS, fold)[:2]
 
-    def five_rounds(x: float, y: float, c: Any, fold: float) -> Any:
-        """OpenCV's own: five rounds of a fixed point."""
-        k1, k2, p1, p2, k3 = c
-        a, b = x, y
-        for _ in range(5):
-            r2 = a * a + b * b
-            radial = 1.0 + k1 * r2 + k2 * r2**2 + k3 * r2**3
-            dx = 2.0 * p1 * a * b + p2 * (r2 + 2.0 * a * a)
-            dy = p1 * (r2 + 2.0 * b * b) + 2.0 * p2 * a * b
-            a, b = (x - dx) / radial, (y - dy) / radial
-        return a, b, True
-
     return tuple(
         HardCase(
             subsystem="triangulation",
@@ -203,7 +159,6 @@ def _lens() -> tuple[HardCase, ...]:
                 "no ray beyond the fold, said so",
                 lambda: not undistort_point(1.0, 0.0, LENS, fold)[2],
             ),
-            defect=Defect("five rounds of a fixed point", five_rounds),
         )
         for words, bound in (("0.40", 1e-14), ("0.46, at the edge of the fold", 1e-12))
     )
@@ -215,7 +170,8 @@ def _radius(words: str) -> str:
 
 # --- calibration ----------------------------------------------------------------------------------
 @cache
-def _camera() -> CameraModel:
+def camera() -> CameraModel:
+    """Return the camera that sees exact corners."""
     return CameraModel(
         "left",
         np.array([534.0, 534.0, 342.0, 235.0]),
@@ -235,7 +191,7 @@ def _held(turn_deg: Sequence[float], place: Sequence[float]) -> RigidTransform:
 
 
 def _view(T: RigidTransform, off: float = 0.0) -> BoardView:
-    pixels, _ = _camera().project(T @ BOARD.points)
+    pixels, _ = camera().project(T @ BOARD.points)
     return BoardView(BOARD, np.arange(BOARD.count), pixels + off, (640, 480))
 
 
@@ -249,10 +205,6 @@ def _exact_views() -> HardCase:
         camera = way(views, "left", 0).calibration
         return [*camera.focal_px, *camera.centre_px]
 
-    def half_a_pixel_off(views: Any, name: str, hold_back: int) -> Any:
-        shifted = [replace(view, pixels=view.pixels + 0.5) for view in views]
-        return calibrate_mono(shifted, name, hold_back)
-
     return HardCase(
         subsystem="calibration",
         case="a camera from six exact views of a flat board",
@@ -263,16 +215,12 @@ def _exact_views() -> HardCase:
         unit="px",
         bound=1e-9,
         beyond=named(CalibrationError, lambda: calibrate_mono(facing, "left", 0)),
-        defect=Defect("pixels counted from their corners", half_a_pixel_off),
     )
 
 
 def _slanted() -> tuple[HardCase, ...]:
     parameters = np.array([534.0, 534.0, 342.0, 235.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     one = BoardView(BOARD, np.arange(BOARD.count), np.full((BOARD.count, 2), 200.0), (640, 480))
-
-    def shifted(view: BoardView, p: FloatArray) -> Any:
-        return board_pose(replace(view, pixels=view.pixels + 0.01), p)
 
     def bounded() -> bool:
         try:
@@ -292,116 +240,11 @@ def _slanted() -> tuple[HardCase, ...]:
             unit="m, 1",
             bound=bound,
             beyond=answers("all corners in one pixel: finite, or CalibrationError", bounded),
-            defect=Defect("corners 0.01 px off", shifted),
         )
         for words, pose, bound in (
             ("square to the axis", _held((0.0, 0.0, 0.0), (0.0, 0.0, 0.45)), 1e-12),
             ("seen 5° from its edge", _held((85.0, 0.0, 0.0), (0.0, 0.0, 0.45)), 1e-12),
             ("upside down", _held((0.0, 0.0, 179.999999), (0.0, 0.0, 0.45)), 1e-12),
-        )
-    )
-
-
-# --- pose of the pen ------------------------------------------------------------------------------
-def _face_on(turn: Sequence[float], distance: float) -> RigidTransform:
-    # The cube's first side straight towards the camera, then turned [rad].
-    front = np.array([[0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]])
-    return RigidTransform(rotation_exp(turn) @ front, np.array([0.0, 0.0, distance]))
-
-
-def _seen(pose: RigidTransform, *ids: int) -> list[MarkerSighting]:
-    return [
-        MarkerSighting(m.id, _camera().project_camera(pose @ m.corners)[0], 0.01 * np.eye(8))
-        for m in BODY.markers
-        if m.id in ids
-    ]
-
-
-def _visible(pose: RigidTransform) -> list[int]:
-    return [
-        m.id for m in BODY.markers if pose.rotate(m.normal) @ (pose @ m.corners.mean(axis=0)) < 0
-    ]
-
-
-def _cube() -> tuple[HardCase, ...]:
-    locator = BoardLocator(BODY, 0.05)
-
-    def own(pose: RigidTransform, ids: Sequence[int]) -> Any:
-        return locator.locate(_camera(), _seen(pose, *ids))
-
-    def blurred(pose: RigidTransform, ids: Sequence[int]) -> Any:
-        off = [
-            replace(s, corners=s.corners + 0.1 * (i + 1)) for i, s in enumerate(_seen(pose, *ids))
-        ]
-        return locator.locate(_camera(), off)
-
-    def either() -> bool:
-        found = own(_face_on((0.03, 0.08, 0.0), 1.0), (0,))
-        return found.status is PoseStatus.AMBIGUOUS and bool(np.isfinite(found.covariance).all())
-
-    def error(way: _Way, pose: RigidTransform, ids: Sequence[int]) -> Any:
-        found = way(pose, ids)
-        if found.status is not PoseStatus.FOUND:
-            return np.full(6, np.inf)
-        return (found.T_camera_board @ pose.inverse()).log()
-
-    square_on = _face_on((0.0, 0.5, 0.0), 0.4)
-    edge_on, half = _face_on((0.0, np.pi / 4, 0.0), 0.5), _face_on((0.0, 0.7, 0.0), 0.3)
-    return tuple(
-        HardCase(
-            subsystem="pose of the pen",
-            case=case,
-            given=f"cube {pose.translation[2]:g} m away, exact corners",
-            way=own,
-            found=lambda way, T=pose, i=tuple(ids): error(way, T, i),
-            reference=analytic("the pose that was projected", np.zeros(6)),
-            unit="m, rad",
-            bound=1e-6,  # where the refinement stops: a thousandth of what noise does
-            beyond=answers("named AMBIGUOUS for one face almost straight ahead", either),
-            defect=Defect("corners 0.1 px off, each marker further", blurred),
-        )
-        for case, pose, ids in (
-            ("a cube seen edge on", edge_on, _visible(edge_on)),
-            ("one face alone, from the side and near", half, (0,)),
-            ("one face alone, turned exactly about its own axis", square_on, (0,)),
-        )
-    )
-
-
-def _pivoted() -> tuple[HardCase, ...]:
-    tip, dimple = np.array([0.0, 0.0, 0.18]), np.array([0.1, 0.05, 0.6])
-
-    def poses(rock: float, sides: int = 24) -> list[MeasuredPose]:
-        found = []
-        for k in range(sides):
-            turn = 2.0 * np.pi * k / sides
-            rotation = rotation_exp(rock * np.array([np.cos(turn), np.sin(turn), 0.3]))
-            T = RigidTransform(rotation, dimple - rotation @ tip)
-            found.append(MeasuredPose(T, 1e-8 * np.eye(6)))
-        return found
-
-    def mean_of_axes(poses: Sequence[MeasuredPose]) -> Any:
-        # The dimple as the mean of all tips that the pen would have without a tip.
-        found = pivot(poses)
-        mean = np.mean([pose.T.translation for pose in poses], axis=0)
-        return replace(found, p_tip=unit(found.p_tip) * np.linalg.norm(mean - dimple))
-
-    return tuple(
-        HardCase(
-            subsystem="pose of the pen",
-            case=f"tip of a pen rocked by {words}",
-            given="24 exact poses, tip 180 mm away",
-            way=pivot,
-            found=lambda way, r=rock: way(poses(r)).p_tip,
-            reference=analytic("the tip that stood still", tip),
-            unit="m",
-            bound=bound,
-            beyond=named(PenError, lambda: pivot(poses(np.radians(0.5)))),
-            defect=Defect("distance of the mean pose from the dimple", mean_of_axes),
-        )
-        for words, rock, bound in (
-            ("30°", np.radians(30.0), 1e-12),
-            ("15°", np.radians(15.0), 1e-11),
         )
     )
 
@@ -414,7 +257,5 @@ CASES: Final = (
     *_lens(),
     _exact_views(),
     *_slanted(),
-    *_cube(),
-    *_pivoted(),
 )
-"""Triangulation, calibration, pose of the pen."""
+"""Triangulation, calibration."""

@@ -1,47 +1,46 @@
 """A hard case: an input at which a formula is delicate, what is right there, how far off we may be.
 
 Every case has a reference, good to 60 digits (`references.json`, made by `tools.hard_references`)
-or given by its formula; a bound that the program's own function keeps; what happens one step
-beyond the bound, which is tried; and a deliberate defect, a wrong way to compute the same, that
-must make the case fail. A bound that no defect breaks would guard nothing.
+or given by its formula; a bound that the program's own function keeps; and what happens one step
+beyond the bound, which is tried. A bound that nothing breaks would guard nothing: the tests try
+each with a deliberate defect, a wrong way to compute the same, which must make the case fail.
 """
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from decimal import Decimal, localcontext
 from functools import cache
 from importlib.util import find_spec
 from math import isfinite
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from app.core import plugin_folders
 from app.core.errors import AcusError
 from app.core.extras import install_command
+from app.core.plugins import CHOICES, TEXT, Declaration, PluginKind
 from app.studies.errors import StudyError
 
-REFERENCES: Final = Path(__file__).with_name("references.json")
-"""Inputs and values to 60 digits, by name."""
+REFERENCES: Final = "references.json"
+"""Inputs and values to 60 digits, by name: beside the cases, here and in folders of plug-ins."""
 
-SUBSYSTEMS: Final = (
+_OWN: Final = (
     "kinematics",
     "statics",
     "dynamics",
-    "grasping",
     "force laws",
     "governor",
     "guard",
-    "cables and encoders",
     "effects",
     "integrators",
     "velocity",
     "triangulation",
     "calibration",
-    "pose of the pen",
-    "tool and trocar",
     "rotations",
     "DICOM geometry",
     "oblique planes",
@@ -49,7 +48,61 @@ SUBSYSTEMS: Final = (
     "planning",
     "metrics",
 )
-"""All subsystems, in the order of the table; every one has cases."""
+"""Subsystems in the order of the table; further ones are declared by the file of their cases."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeclaredCases(Declaration):
+    """What a file of hard cases says about itself, here if it adds subsystems.
+
+    Attributes:
+        subsystems: that it adds -> the one behind which each stands in the table.
+    """
+
+    subsystems: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+
+
+KIND: Final[PluginKind[DeclaredCases]] = PluginKind(
+    noun="a file of hard cases",
+    declares=DeclaredCases,
+    fields={"title": TEXT},
+    optional={"subsystems": CHOICES},
+    error=StudyError,
+    folder="hard_cases",
+)
+
+
+def _all_subsystems() -> tuple[str, ...]:
+    order = list(_OWN)
+    own = [path for path in sorted(_HERE.glob("*.py")) if b"\nDECLARATION" in path.read_bytes()]
+    unusable = KIND.refused()
+    plugin_folders.refused.update(unusable)
+    shared = (path for path in KIND.files() if path not in unusable)
+    for declared in map(KIND.read, (*shared, *own)):
+        for subsystem, after in declared.subsystems.items():
+            if after in order:
+                order.insert(order.index(after) + 1, subsystem)
+                continue
+            reason = (
+                f"{declared.path}: {subsystem!r} stands behind {after!r};"
+                f" there are {', '.join(order)}"
+            )
+            if declared.path in own or KIND.is_own(declared.path):
+                raise StudyError(reason)
+            plugin_folders.refused[declared.path] = reason
+    return tuple(order)
+
+
+_HERE: Final = Path(__file__).parent
+SUBSYSTEMS: Final = _all_subsystems()
+"""All subsystems, those that are added too, in the order of the table; every one has cases."""
+
+
+def reference_folders() -> tuple[Path, ...]:
+    """Return where files of references lie: here, and in folders of plug-ins."""
+    shared = (folder.path / "hard_cases" for folder in plugin_folders.folders())
+    return (_HERE, *shared)
+
 
 EXTRAS: Final[Mapping[str, str]] = {"mujoco": "physics"}
 """Package that a case may need -> the extra that brings it."""
@@ -81,7 +134,7 @@ def digits(name: str) -> ReferenceValue:
     entry = _kept().get(name)
     if entry is None:
         raise StudyError(
-            f"{REFERENCES.name} has no reference {name!r}; add it to tools/hard_references.py"
+            f"{REFERENCES} has no reference {name!r}; add it to tools/hard_references.py"
         )
     values = tuple(Decimal(text) for text in entry["value"])
     return ReferenceValue(f"60 digits: {entry['how']}", values, tuple(entry["given"]))
@@ -118,14 +171,6 @@ def answers(text: str, happens: Callable[..., bool]) -> Beyond:
     return Beyond(text, happens)
 
 
-@dataclass(frozen=True, slots=True)
-class Defect:
-    """A wrong way to compute the same, which must fail: in words, and as a function."""
-
-    text: str
-    way: Callable[..., Any]
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HardCase:
     """One case.
@@ -140,12 +185,11 @@ class HardCase:
         unit: of error and bound.
         bound: largest error allowed.
         beyond: what happens one step further.
-        defect: what the bound must catch.
         relative: errors count in shares of the reference's largest number.
         needs: packages that are not in every installation; without them the case is skipped.
 
     Raises:
-        StudyError: without a reference, a bound, a defect or words, or for an unknown subsystem.
+        StudyError: without a reference, a bound or words, or for an unknown subsystem.
     """
 
     subsystem: str
@@ -157,7 +201,6 @@ class HardCase:
     unit: str
     bound: float
     beyond: Beyond
-    defect: Defect
     relative: bool = False
     needs: tuple[str, ...] = ()
 
@@ -176,8 +219,6 @@ class HardCase:
         for name in ("case", "given", "unit"):
             if not getattr(self, name):
                 raise StudyError(f"hard case {self.case!r}: {name} is empty; say it in words")
-        if self.defect.way is self.way:
-            raise StudyError(f"hard case {self.case!r}: its defect is the program's own way")
 
     @property
     def name(self) -> str:
@@ -245,5 +286,9 @@ def _decimals(value: ArrayLike) -> tuple[Decimal, ...]:
 
 @cache
 def _kept() -> Mapping[str, Any]:
-    document: dict[str, Any] = json.loads(REFERENCES.read_text(encoding="utf-8"))
+    document: dict[str, Any] = {}
+    for folder in reference_folders():
+        file = folder / REFERENCES
+        if file.is_file():
+            document |= json.loads(file.read_text(encoding="utf-8"))
     return document

@@ -1,30 +1,22 @@
-"""Hard cases of the force path: laws, governor, guard, velocity; all that must end bounded."""
+"""Hard cases of the force path: laws, governor, guard; all that must end bounded."""
 
 from collections.abc import Callable
-from math import acos, inf, nan, pi, sin, sqrt
+from math import inf, nan, pi, sin, sqrt
 from typing import Any, Final
 
 import numpy as np
 
 from app.core import state_vector as sv
-from app.core.arrays import FloatArray
 from app.device.control.depth_interval import interval_kernel
 from app.device.control.governor import SpeedGovernor
 from app.device.control.law_kernels import across_kernel, damper_share, hill_kernel, spring_kernel
 from app.device.control.passivity import PassivityGuard, damping_for
 from app.device.control.speed_bounds import counted, stoppable
 from app.device.control.vectors import norm_kernel, shrink_kernel
-from app.device.control.velocity import (
-    DEFAULT_VELOCITY,
-    FASTEST,
-    VelocityMethod,
-    velocity_stage,
-)
 from app.mechanisms.pantograph.profile import load_pantograph
-from app.studies.hard_cases.case import Defect, HardCase, analytic, answers, digits
+from app.studies.hard_cases.case import HardCase, analytic, answers, digits
 
 PROFILE: Final = load_pantograph("icube")
-COUNT: Final = 2.0 * pi / PROFILE.encoder.counts_per_turn
 
 _Way = Callable[..., Any]
 
@@ -32,12 +24,6 @@ _Way = Callable[..., Any]
 # --- force laws -----------------------------------------------------------------------------------
 def _across() -> HardCase:
     reference = digits("part of the path across a needle 1e-9 rad from it")
-
-    def by_projection(dx: float, dy: float, dz: float, px: float, py: float, pz: float) -> Any:
-        d, p = np.array([dx, dy, dz]), np.array([px, py, pz])
-        p = p / np.linalg.norm(p)
-        along = float(p @ d)
-        return *(p - along * d), acos(min(along, 1.0))
 
     return HardCase(
         subsystem="force laws",
@@ -53,26 +39,12 @@ def _across() -> HardCase:
             "exactly no force on the path",
             lambda: across_kernel(0.0, 0.0, -1.0, 0.0, 0.0, -1.0) == (0.0, 0.0, 0.0, 0.0),
         ),
-        defect=Defect("projection and acos of the dot product", by_projection),
     )
 
 
 def _springs() -> tuple[HardCase, ...]:
-    def endless(angle: float, stiffness: float, limit: float) -> tuple[float, float]:
-        # The spring as if it were not limited.
-        return stiffness, 0.5 * stiffness * angle * angle * (1.0 + 1e-12)
-
-    def after_noon(angle: float, stiffness: float, limit: float) -> tuple[float, float]:
-        """Work of the limit, not of the limit times the sine, beyond 90°."""
-        bend = limit / stiffness
-        return limit, limit * (angle - 0.5 * bend)
-
     found = []
-    for words, defect in (
-        ("1e-9 rad", Defect("saturated from the start", lambda a, k, f: (f, f * a))),
-        ("90°", Defect("never saturated", endless)),
-        ("1e-9 rad short of 180°", Defect("no fading beyond 90°", after_noon)),
-    ):
+    for words in ("1e-9 rad", "90°", "1e-9 rad short of 180°"):
         reference = digits(f"energy of a saturated spring at {words}")
         found.append(
             HardCase(
@@ -89,7 +61,6 @@ def _springs() -> tuple[HardCase, ...]:
                     "no force against the path, where no direction is better",
                     lambda: spring_kernel(pi, 28.6, 5.0)[0] * sin(pi) < 1e-15,
                 ),
-                defect=defect,
             )
         )
     return tuple(found)
@@ -113,18 +84,10 @@ def _stiff() -> HardCase:
         beyond=answers(
             "no force without a limit", lambda: spring_kernel(1.0, 10.0, 0.0) == (0.0, 0.0)
         ),
-        defect=Defect("stiffness times angle", lambda a, k, f: (k * a / max(sin(a), 1e-300), 0.0)),
     )
 
 
 def _hills() -> tuple[HardCase, ...]:
-    def expanded(angle: float, reach: float, slope: float) -> tuple[float, float]:
-        # The integral multiplied out: its terms cancel towards the end.
-        x = angle / reach
-        whole = x**2 / 2.0 - x**3 + 0.75 * x**4 - 0.2 * x**5
-        force = slope * (1.0 - 3.0 * x + 3.0 * x**2 - x**3) * angle / sin(angle)
-        return force, slope * reach**2 * (0.05 - whole)
-
     found = []
     for words, rest in (("1e-6 of its reach", 1e-6), ("half its reach", 0.5)):
         reference = digits(f"hill {words} from its end")
@@ -144,27 +107,13 @@ def _hills() -> tuple[HardCase, ...]:
                 beyond=answers(
                     "exactly nothing at its end", lambda: hill_kernel(0.4, 0.4, 30.0) == (0.0, 0.0)
                 ),
-                defect=Defect("multiplied out", expanded)
-                if rest < 0.1
-                else Defect("energy of a quartic without its factor", _hill_without_factor),
             )
         )
     return tuple(found)
 
 
-def _hill_without_factor(angle: float, reach: float, slope: float) -> tuple[float, float]:
-    force, _ = hill_kernel(angle, reach, slope)
-    return force, 0.25 * slope * reach**2 * (1.0 - angle / reach) ** 4
-
-
 def _damper() -> HardCase:
     reference = digits("share of a damper against a force just within its limit")
-
-    def subtracting(*v: float) -> float:
-        f, b, limit = np.array(v[:3]), np.array(v[3:6]), v[6]
-        square, along = float(b @ b), float(f @ b)
-        room = limit * limit - float(f @ f)
-        return room / (along + sqrt(along * along + square * room))
 
     return HardCase(
         subsystem="force laws",
@@ -180,7 +129,6 @@ def _damper() -> HardCase:
             "nothing of a damper that is no number",
             lambda: damper_share(1.0, 0.0, 0.0, nan, 0.0, 0.0, 5.0) == 0.0,
         ),
-        defect=Defect("the form of the root that subtracts like numbers", subtracting),
     )
 
 
@@ -203,7 +151,6 @@ def _stoppable() -> tuple[HardCase, ...]:
                 beyond=answers(
                     "none where there is no room", lambda: stoppable(-1.0, 6e-4, 2e-3) == 0
                 ),
-                defect=Defect("the tick alone, without the encoder's doubt", lambda r, d, t: r / t),
             )
         )
     return tuple(found)
@@ -227,10 +174,6 @@ def _kept_bound() -> HardCase:
         unit="rad/s",
         bound=1e-12,
         beyond=answers("none where there is no room", lambda: stoppable(-inf, 6e-4, 2e-3) == 0.0),
-        defect=Defect(
-            "one count of doubt instead of two",
-            lambda r, d, t: stoppable(r, 0.25 * d, t),
-        ),
     )
 
 
@@ -251,7 +194,6 @@ def _counted() -> HardCase:
         unit="1",
         bound=0.0,
         beyond=answers("all of it along the force", lambda: counted(0.1, 0.1) == 0.1),
-        defect=Defect("its size as soon as it goes along", lambda a, s: s if a > 0.0 else a),
     )
 
 
@@ -269,10 +211,6 @@ def _untold() -> HardCase:
             stage.function(state, stage.parameters)
         return [state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT]]
 
-    def trusting(governor: SpeedGovernor) -> Any:
-        stage = governor.stage()
-        return stage._replace(function=lambda state, parameters: None)
-
     return HardCase(
         subsystem="governor",
         case="no torque where the needle's direction is no number",
@@ -283,7 +221,6 @@ def _untold() -> HardCase:
         unit="N·m",
         bound=0.0,
         beyond=answers("the depth unknown: its whole range", _whole_range),
-        defect=Defect("what cannot be bounded is let through", trusting),
     )
 
 
@@ -305,9 +242,6 @@ def _huge() -> tuple[HardCase, ...]:
             bound=1e-15,
             relative=True,
             beyond=answers("a force that is no number has no length", _no_length),
-            defect=Defect(
-                "root of the sum of squares", lambda x, y, z: sqrt(x * x + y * y + z * z)
-            ),
         ),
         HardCase(
             subsystem="governor",
@@ -320,10 +254,6 @@ def _huge() -> tuple[HardCase, ...]:
             bound=1e-15,
             beyond=answers(
                 "as it is within the limit", lambda: shrink_kernel(3.0, 0.0, 0.0, 5.0) == 1.0
-            ),
-            defect=Defect(
-                "limit over the root of the sum of squares",
-                lambda x, y, z, f: f / sqrt(x * x + y * y + z * z),
             ),
         ),
     )
@@ -352,15 +282,6 @@ def _resting_governor() -> HardCase:
         live = np.abs(stage.parameters[stage.parameters != 0.0])
         return float((live < 1e-300).sum())
 
-    def unsnapped(governor: SpeedGovernor) -> Any:
-        stage = governor.stage()
-
-        def step(state: FloatArray, parameters: FloatArray) -> None:
-            stage.function(state, parameters)
-            parameters[-1] = 1e-310
-
-        return stage._replace(function=step)
-
     return HardCase(
         subsystem="governor",
         case="two and a half minutes after a push no subnormal number is left of it",
@@ -371,7 +292,6 @@ def _resting_governor() -> HardCase:
         unit="numbers",
         bound=0.0,
         beyond=answers("the depth unknown: its whole range", _whole_range),
-        defect=Defect("a memory that is not snapped to zero", unsnapped),
     )
 
 
@@ -395,9 +315,6 @@ def _extracting() -> HardCase:
             state[[sv.SENT_LEFT, sv.SENT_RIGHT]] = state[[sv.TORQUE_LEFT, sv.TORQUE_RIGHT]]
         return max(work - bound, 0.0)
 
-    def open_gate(guard: PassivityGuard) -> Any:
-        return guard.stage()._replace(function=lambda state, parameters: None)
-
     return HardCase(
         subsystem="guard",
         case="a hand that draws energy out for 3 s gets no more than was declared",
@@ -408,7 +325,6 @@ def _extracting() -> HardCase:
         unit="J",
         bound=1e-9,
         beyond=answers("no declared energy is no torque", _nothing_declared),
-        defect=Defect("no guard", open_gate),
     )
 
 
@@ -441,7 +357,6 @@ def _damping() -> HardCase:
         beyond=answers(
             "the most there is, at rest", lambda: damping_for(1.0, 0.0, 1e-3, 0.01) <= 0.01
         ),
-        defect=Defect("debt over speed", lambda d, s, t, m: min(d / sqrt(s) / t, m)),
     )
 
 
@@ -477,177 +392,6 @@ def _late_reading() -> HardCase:
         unit="N·m",
         bound=1e-12,
         beyond=answers("no declared energy is no torque", _nothing_declared),
-        defect=Defect(
-            "no guard", lambda g: g.stage()._replace(function=lambda state, parameters: None)
-        ),
-    )
-
-
-# --- velocity -------------------------------------------------------------------------------------
-def _ticks(stage: Any, angles: Any, dt: float = 1e-3, times: Any = None) -> list[float]:
-    """Feed readings; velocities of the left joint, one after the other."""
-    state, found = sv.empty_state(), []
-    state[sv.DT], state[sv.Q_RIGHT] = dt, 0.5
-    for k, angle in enumerate(angles):
-        state[sv.TIME] = state[sv.Q_TIME] = 1.0 + k * dt if times is None else times[k]
-        state[sv.Q_LEFT] = angle
-        stage.function(state, stage.parameters)
-        found.append(float(state[sv.QD_LEFT]))
-    return found
-
-
-def _of(method: VelocityMethod) -> Any:
-    return velocity_stage(PROFILE, method)
-
-
-def _difference(_: VelocityMethod) -> Any:
-    return velocity_stage(PROFILE, VelocityMethod.BACKWARD_DIFFERENCE)
-
-
-def _velocities() -> tuple[HardCase, ...]:
-    found = []
-    quick = 2.0 + 0.2e-3 * np.arange(900)
-    rest = np.concatenate([[2.5], np.full(20_000, 2.6)])
-    wrap = 2.0 + 0.2e-3 * np.arange(600) + np.where(np.arange(600) >= 300, 2.0 * pi, 0.0)
-    absurd = np.where(np.arange(1500) == 300, 1e308, 2.0 + 0.2e-3 * np.arange(1500))
-
-    def raw(_: Any) -> Any:
-        # A difference of whatever comes.
-        stage = _of(VelocityMethod.BACKWARD_DIFFERENCE)
-        memory = [0.0]
-
-        def step(state: FloatArray, parameters: FloatArray) -> None:
-            with np.errstate(all="ignore"):
-                now = (state[sv.Q_LEFT] - memory[0]) / state[sv.DT] + 1e-320
-            state[sv.QD_LEFT], memory[0] = now, float(state[sv.Q_LEFT])
-
-        return stage._replace(function=step)
-
-    for method in VelocityMethod:
-        found += [
-            HardCase(
-                subsystem="velocity",
-                case=f"a decaying velocity ends in exact zero, by {method}",
-                given="a step of 0.1 rad, then 20 s of rest",
-                way=_of,
-                found=lambda way, m=method: _ticks(way(m), rest)[-1],
-                reference=analytic("rest", 0.0),
-                unit="rad/s",
-                bound=0.0,
-                beyond=answers(
-                    "the fastest that a joint turns", lambda m=method: _bounded_by_fastest(m)
-                ),
-                defect=Defect("a difference of whatever comes", raw),
-            ),
-        ]
-    for case, angles, bound in (
-        ("a steady 0.2 rad/s", quick, 1e-9),
-        ("a steady 0.2 rad/s after the encoder wrapped", wrap, 1e-3),
-        ("a steady 0.2 rad/s after one reading of 1e308", absurd, 1e-3),
-    ):
-        found.append(
-            HardCase(
-                subsystem="velocity",
-                case=f"{case}, by the default method",
-                given=f"{len(angles)} readings at 1 kHz",
-                way=_of,
-                found=lambda way, a=angles: _ticks(way(DEFAULT_VELOCITY), a)[-1],
-                reference=analytic("0.2 rad/s", 0.2),
-                unit="rad/s",
-                bound=bound,
-                beyond=answers("a clock that stands still keeps the velocity", _still_clock),
-                defect=Defect("twice the step", _halved),
-            )
-        )
-    found += [_late_tick(), _edge()]
-    return tuple(found)
-
-
-def _halved(method: VelocityMethod) -> Any:
-    stage = _of(method)
-
-    def step(state: FloatArray, parameters: FloatArray) -> None:
-        state[sv.DT] *= 2.0
-        state[sv.Q_TIME] = state[sv.TIME] = 2.0 * state[sv.TIME]
-        stage.function(state, parameters)
-        state[sv.DT] *= 0.5
-
-    return stage._replace(function=step)
-
-
-def _bounded_by_fastest(method: VelocityMethod) -> bool:
-    rng = np.random.default_rng(0)
-    return max(map(abs, _ticks(_of(method), rng.uniform(-3.0, 3.0, 500)))) <= FASTEST
-
-
-def _still_clock() -> bool:
-    stage = _of(DEFAULT_VELOCITY)
-    moving = _ticks(stage, 2.0 + 0.2e-3 * np.arange(300))[-1]
-    state = sv.empty_state()
-    state[sv.QD_LEFT], state[sv.Q_LEFT], state[sv.TIME] = moving, 2.0, 1.299
-    state[sv.Q_TIME], state[sv.Q_RIGHT] = 1.299, 0.5
-    stage.function(state, stage.parameters)  # DT is zero
-    return bool(state[sv.QD_LEFT] == moving)
-
-
-def _late_tick() -> HardCase:
-    gaps = np.where(np.isin(np.arange(900), (300, 301, 600)), 0.1, 1e-3)
-    times = 1.0 + np.cumsum(gaps)
-    angles = np.floor((2.0 + 0.2 * times) / COUNT + 0.5) * COUNT
-
-    def worst(way: _Way) -> Any:
-        stage, state, found = way(DEFAULT_VELOCITY), sv.empty_state(), 0.0
-        state[sv.Q_RIGHT] = 0.5
-        for k in range(900):
-            state[sv.TIME] = state[sv.Q_TIME] = times[k]
-            state[sv.DT], state[sv.Q_LEFT] = min(gaps[k], 5e-3), angles[k]
-            stage.function(state, stage.parameters)
-            found = max(found, abs(float(state[sv.QD_LEFT]))) if k > 250 else found
-        return max(found - 0.2 - COUNT / 1e-3, 0.0)
-
-    def by_step(method: VelocityMethod) -> Any:
-        # The clamped step instead of the time between the stamps.
-        stage = _of(method)
-
-        def step(state: FloatArray, parameters: FloatArray) -> None:
-            kept, state[sv.Q_TIME] = state[sv.Q_TIME], 0.0
-            stage.function(state, parameters)
-            state[sv.Q_TIME] = kept
-
-        return stage._replace(function=step)
-
-    return HardCase(
-        subsystem="velocity",
-        case="ticks 100 ms late, their step clamped to 5 ms, show as no burst of speed",
-        given="0.2 rad/s on an encoder of 20000 counts",
-        way=_of,
-        found=worst,
-        reference=analytic("at most 0.2 rad/s and one count per tick", 0.0),
-        unit="rad/s",
-        bound=1e-9,
-        beyond=answers("a clock that stands still keeps the velocity", _still_clock),
-        defect=Defect("difference over the clamped step", by_step),
-    )
-
-
-def _edge() -> HardCase:
-    # A joint at rest on the edge of a count: one count there and back at every reading.
-    angles = 2.0 + COUNT * (np.arange(2000) % 2)
-
-    def loud(way: _Way) -> Any:
-        return max(map(abs, _ticks(way(DEFAULT_VELOCITY), angles)[100:]))
-
-    return HardCase(
-        subsystem="velocity",
-        case="a joint at rest on the edge of a count, by the default method",
-        given="one count there and back at 1 kHz",
-        way=_of,
-        found=loud,
-        reference=analytic("rest", 0.0),
-        unit="rad/s",
-        bound=COUNT / 1e-3 / 10.0,  # a tenth of what a difference shows
-        beyond=answers("a clock that stands still keeps the velocity", _still_clock),
-        defect=Defect("backward difference", _difference),
     )
 
 
@@ -666,6 +410,5 @@ CASES: Final = (
     _extracting(),
     _damping(),
     _late_reading(),
-    *_velocities(),
 )
-"""Force laws, governor and safety, guard, velocity."""
+"""Force laws, governor and safety, guard."""

@@ -9,31 +9,16 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.device.control.plausibility import Plausibility, is_wrap, plausibility_stage
-from app.studies.hard_cases.case import Defect, HardCase, analytic, answers
+from app.studies.hard_cases.case import HardCase, analytic, answers
 
 COUNT: Final = 2.0 * pi / 20_000
 
 _Way = Callable[[FloatArray, FloatArray], None]
 
 
-def _let_all_pass(state: FloatArray, p: FloatArray) -> None:
-    """Believe every reading."""
-
-
-def _by_distance(state: FloatArray, p: FloatArray) -> None:
-    """Judge a reading by its distance from the newest believed one alone, which grows with time."""
-    stamp, left = state[sv.Q_TIME], state[sv.Q_LEFT]
-    near = abs(left - p[0]) <= radians(3.0) * max((stamp - p[1]) * 1e3, 1.0)
-    if near or p[2] == 0.0:
-        p[0], p[1], p[2] = left, stamp, 1.0
-    state[sv.Q_LEFT] = p[0]
-
-
 def _read(way: _Way, angles: Any) -> FloatArray:
     """Left angles that are left of readings a millisecond apart [rad], shape (n,)."""
-    own = way is plausibility_stage
-    memory = Plausibility(COUNT).stage().parameters if own else np.zeros(8)
-    state, found = sv.empty_state(), []
+    memory, state, found = Plausibility(COUNT).stage().parameters, sv.empty_state(), []
     state[sv.HOMED] = 1.0
     for k, angle in enumerate(angles):
         state[sv.TIME] = state[sv.Q_TIME] = 10.0 + 1e-3 * k
@@ -64,7 +49,6 @@ def _slipped() -> HardCase:
         unit="rad",
         bound=1e-15,
         beyond=answers("after 20 ms it is a fault until homing", faults),
-        defect=Defect("3° for each millisecond since the last believed reading", _by_distance),
     )
 
 
@@ -82,7 +66,6 @@ def _wrapped() -> HardCase:
         beyond=answers(
             "half of 2⁸ counts is called no wrap", lambda: not is_wrap(128.0 * COUNT, COUNT)
         ),
-        defect=Defect("every reading is believed", _let_all_pass),
     )
 
 

@@ -11,7 +11,12 @@ from app.device.faults import Fault
 from app.mechanisms.profile import load_profile
 from app.mechanisms.tensegrity.efforts import watch_stage
 from app.mechanisms.tensegrity.profile import TensegrityProfile
-from app.studies.hard_cases.case import Defect, HardCase, analytic, answers
+from app.studies.hard_cases.case import HardCase, analytic, answers
+
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Cables and encoders of the needle holder",
+    "subsystems": {"cables and encoders": "guard"},
+}
 
 PROFILE: Final = cast(TensegrityProfile, load_profile("tensegrity"))
 _STARTED: Final = 150  # ticks after which all cables have been taut for long enough
@@ -67,21 +72,11 @@ def _silent(state: FloatArray, since: int) -> None:
     state[sv.Q_TIME] -= 1e-3 * (since + 1)
 
 
-def _nothing(state: FloatArray, parameters: FloatArray) -> None:
-    state[sv.MACHINE_FAULT] = 0.0
-
-
-def _late(state: FloatArray, parameters: FloatArray) -> None:
-    # As if the program waited for the staleness of an ordinary robot.
-    old = state[sv.TIME] - state[sv.Q_TIME]
-    state[sv.MACHINE_FAULT] = float(Fault.ENCODER_LOST) if old > 0.1 else 0.0
-
-
 def _goes_on() -> bool:
     return _run(watch_stage, lambda state, since: None) == (0.0, 60.0)
 
 
-def _case(case: str, given: str, fails: _Failing, fault: Fault, defect: Defect) -> HardCase:
+def _case(case: str, given: str, fails: _Failing, fault: Fault) -> HardCase:
     def found(way: _Way) -> Any:
         return _run(way, fails)
 
@@ -95,11 +90,8 @@ def _case(case: str, given: str, fails: _Failing, fault: Fault, defect: Defect) 
         unit="fault, ms beyond 20",
         bound=0.0,
         beyond=answers("while nothing fails, no fault", _goes_on),
-        defect=defect,
     )
 
-
-_TRUSTING: Final = Defect("nobody looks", _nothing)
 
 CASES: Final = (
     _case(
@@ -107,29 +99,25 @@ CASES: Final = (
         "no tension at 0 mm from its stretch",
         _torn,
         Fault.CABLE_BROKEN,
-        _TRUSTING,
     ),
     _case(
         "a torn cable whose motor's current says that it pulls",
         "the reel runs in at 0.25 m/s",
         _runs,
         Fault.CABLE_BROKEN,
-        _TRUSTING,
     ),
-    _case("a cable that hangs", "no tension, 2 mm too long", _hangs, Fault.CABLE_SLACK, _TRUSTING),
+    _case("a cable that hangs", "no tension, 2 mm too long", _hangs, Fault.CABLE_SLACK),
     _case(
         "an encoder that sticks while both of its cables move",
         "0.06 rad between them",
         _sticks,
         Fault.ENCODER_LOST,
-        _TRUSTING,
     ),
     _case(
         "an encoder that is not read any more",
         "readings that grow old",
         _silent,
         Fault.ENCODER_LOST,
-        Defect("wait for 100 ms, as where no cables pull", _late),
     ),
 )
 """What ends the force of a machine with cables."""

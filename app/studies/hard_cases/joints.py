@@ -10,16 +10,16 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.simulation.effects import ball_joint
 from app.simulation.scene import Binding, Scene
-from app.studies.hard_cases.case import Defect, HardCase, analytic, answers, digits
+from app.studies.hard_cases.case import HardCase, analytic, answers, digits
 from app.studies.hard_cases.scene import memory_of
 
 _Way = Callable[..., Any]
-_Stage = Callable[[FloatArray, FloatArray], None]
 LEVER: Final = 0.14
 PRINTED: Final = {"design": float(ball_joint.PRINTED)}
 
 
-def _joint(law: str, given: Mapping[str, float] | None = None) -> FloatArray:
+def joint(law: str, given: Mapping[str, float] | None = None) -> FloatArray:
+    """Return a fresh parameters array of printed ball joints that follow a law."""
     return memory_of(
         "ball_joint", PRINTED | dict(given or {}), Binding(Scene(), sv.PLANT_DEPTH, law)
     )
@@ -41,10 +41,6 @@ def _through_the_play() -> HardCase:
         end = way((z, 0.0, 0.0), (-way_of_tilt, 0.0, 0.0), play, level, stiffness)
         return float(ball_joint.moment(end, play, level, stiffness)[0])
 
-    def euler(z: Any, way: Any, play: float, level: float, stiffness: float) -> Any:
-        held = ball_joint.moment(z, play, level, stiffness)[0]
-        return z[0] + way[0] + abs(way[0]) * held / level, 0.0, 0.0
-
     def none() -> bool:
         free = ball_joint.creep((0.0, 0.0, 0.0), (1e300, 0.0, 0.0), play, level, 0.0)
         return not any(ball_joint.moment(free, play, level, 0.0))
@@ -59,14 +55,13 @@ def _through_the_play() -> HardCase:
         unit="N·m",
         bound=1e-14,
         beyond=answers("no moment without a stiffness", none),
-        defect=Defect("explicit Euler", euler),
     )
 
 
 def _any_tilt() -> bool:
     found = []
     for law in ("kikuuwe", "dahl", "lugre"):
-        memory = _joint(law)
+        memory = joint(law)
         for tilt in (0.0, 1.5, -1.5, nan, 5e-324, 1e-320, 0.3):
             found.append(_tilted(ball_joint.step, memory, tilt)[sv.FORCE])
     most = 1.3 * 2.0 * 0.4 * 5.0 * ball_joint.PRINTED_RADIUS / LEVER
@@ -76,7 +71,7 @@ def _any_tilt() -> bool:
 def _trembling() -> tuple[HardCase, ...]:
     def given_out(way: _Way, law: str) -> float:
         """Most that a hub which trembles through the play gives out beyond what it stores [J]."""
-        memory, before, work, least, most = _joint(law), None, 0.0, 0.0, 0.0
+        memory, before, work, least, most = joint(law), None, 0.0, 0.0, 0.0
         play = 2.0 * 1e-4 / 0.09
         for k in range(4000):
             # Into one edge first; then to and fro over both, by more and by less.
@@ -89,10 +84,6 @@ def _trembling() -> tuple[HardCase, ...]:
             before = now
         return max(most - ball_joint.energy_bound(memory), 0.0)
 
-    def driving(state: FloatArray, parameters: FloatArray) -> None:
-        ball_joint.step(state, parameters)
-        state[sv.FORCE] *= -1.0
-
     return tuple(
         HardCase(
             subsystem="effects",
@@ -104,7 +95,6 @@ def _trembling() -> tuple[HardCase, ...]:
             unit="J",
             bound=0.0,
             beyond=answers("bounded by the level for any tilt and NaN", _any_tilt),
-            defect=Defect("a force along the motion", driving),
         )
         for law in ("kikuuwe", "dahl", "lugre")
     )
@@ -113,7 +103,7 @@ def _trembling() -> tuple[HardCase, ...]:
 def _count_edge() -> HardCase:
     def changes(way: _Way) -> float:
         """Sign changes of the force in 2 s on the edge of an encoder count."""
-        memory = _joint("kikuuwe")
+        memory = joint("kikuuwe")
         random = np.random.default_rng(4)
         for k in range(200):
             _tilted(way, memory, ball_joint.COUNT * np.floor(0.5 * k))
@@ -122,14 +112,6 @@ def _count_edge() -> HardCase:
             tilt = ball_joint.COUNT * (99.0 + np.floor(random.normal(0.5, 0.3)))
             signs.append(np.sign(_tilted(way, memory, float(tilt))[sv.FORCE_X]))
         return float(np.count_nonzero(np.diff(signs)))
-
-    def dahl() -> _Stage:
-        memory = _joint("dahl", {"printed_play": 0.0})
-
-        def step(state: FloatArray, _: FloatArray) -> None:
-            ball_joint.step(state, memory)
-
-        return step
 
     return HardCase(
         subsystem="effects",
@@ -141,7 +123,6 @@ def _count_edge() -> HardCase:
         unit="changes",
         bound=0.0,
         beyond=answers("bounded by the level for any tilt and NaN", _any_tilt),
-        defect=Defect("Dahl's law, which creeps to zero", dahl()),
     )
 
 

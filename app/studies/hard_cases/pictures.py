@@ -24,7 +24,7 @@ from app.scoring.score import score
 from app.scoring.smoothness import log_dimensionless_jerk, spectral_arc_length
 from app.scoring.tolerance import Bands, tolerance
 from app.scoring.trajectory import Trajectory
-from app.studies.hard_cases.case import Defect, HardCase, analytic, answers, digits, named
+from app.studies.hard_cases.case import HardCase, analytic, answers, digits, named
 from app.studies.hard_cases.volumes import volume_of
 
 _Way = Callable[..., Any]
@@ -49,10 +49,6 @@ def _normal() -> HardCase:
         unit="1",
         bound=3e-16,
         beyond=answers("the letters of a direction between two axes are both", _both_letters),
-        defect=Defect(
-            "column × row direction",
-            lambda plane: np.cross(plane.orientation[3:], plane.orientation[:3]),
-        ),
     )
 
 
@@ -68,11 +64,6 @@ def _corner() -> HardCase:
     def corner(way: _Way) -> Any:
         return (way(plane, np.zeros(3)) @ [v[11], v[12], 0.0, 1.0])[:3]
 
-    def swapped(plane: ImagePlane, step: FloatArray) -> Any:
-        """Row spacing along the rows, as the laboratory's viewer has it."""
-        rows, columns = plane.pixel_spacing_mm
-        return plane_affine(replace(plane, pixel_spacing_mm=(columns, rows)), step)
-
     return HardCase(
         subsystem="DICOM geometry",
         case="last corner of an oblique slice 90 km from the origin",
@@ -83,7 +74,6 @@ def _corner() -> HardCase:
         unit="mm",
         bound=5e-8,  # two roundings of 9e7
         beyond=named(NumericalError, lambda: plane_affine(plane, np.full(3, np.nan))),
-        defect=Defect("PixelSpacing taken as columns, rows", swapped),
     )
 
 
@@ -96,12 +86,6 @@ def _shuffled() -> HardCase:
     def columns(way: _Way) -> Any:
         found = way(planes, (512, 512))
         return [*found.affine_mm[:3, 2], *found.affine_mm[:3, 3]]
-
-    def as_they_come(planes: Any, size: Any) -> Any:
-        found = stack(planes, size)
-        affine = np.array(found.affine_mm)
-        affine[:3, 2] = np.subtract(planes[1].position_mm, planes[0].position_mm)
-        return replace(found, affine_mm=affine)
 
     def uneven() -> bool:
         moved = [*planes[:-1], _plane(np.array([10.0, -20.0, 30.0]) + 5.2 * step)]
@@ -117,7 +101,6 @@ def _shuffled() -> HardCase:
         unit="mm",
         bound=1e-14,
         beyond=answers("an uneven gap is named irregular", uneven),
-        defect=Defect("the step of the first two files", as_they_come),
     )
 
 
@@ -130,10 +113,6 @@ def _rounded_cosines() -> HardCase:
     def worst(way: _Way) -> Any:
         return max(way(planes, (512, 512)).off_mm.max() - TOLERANCE_MM, 0.0)
 
-    def from_the_first(planes: Any, size: Any) -> Any:
-        found = stack(planes, size)
-        return replace(found, off_mm=found.off_mm + 0.1)
-
     return HardCase(
         subsystem="DICOM geometry",
         case="positions rounded to 0.01 mm, cosines to six digits, 40 slices",
@@ -144,7 +123,6 @@ def _rounded_cosines() -> HardCase:
         unit="mm",
         bound=0.0,
         beyond=answers("the letters of a direction between two axes are both", _both_letters),
-        defect=Defect("positions beyond their tolerance", from_the_first),
     )
 
 
@@ -163,7 +141,6 @@ def _half_way() -> tuple[HardCase, ...]:
                 unit="pixels",
                 bound=1e-13,
                 beyond=named(NumericalError, _flat_volume),
-                defect=Defect("an axis taken for another at 45°", _turned_slicer),
             )
         )
     return tuple(found)
@@ -175,20 +152,6 @@ def _there_and_back(slicer: Any) -> list[float]:
         for view in View
         for value in slicer.from_lps_mm(view, slicer.to_lps_mm(view, 1, 2, 3))
     ]
-
-
-def _turned_slicer(volume: Volume) -> Any:
-    slicer = OrthogonalSlicer(volume)
-
-    class Turned:
-        def to_lps_mm(self, view: View, *place: float) -> FloatArray:
-            return slicer.to_lps_mm(view, *place)
-
-        def from_lps_mm(self, view: View, lps_mm: FloatArray) -> Any:
-            index, column, row = slicer.from_lps_mm(view, lps_mm)
-            return index, row, column
-
-    return Turned()
 
 
 def _flat_volume() -> Volume:
@@ -236,15 +199,9 @@ def _sliced() -> tuple[HardCase, ...]:
                 unit="HU",
                 bound=5e-6,  # of a single precision picture
                 beyond=answers("the value for outside, everywhere, far away", _far_away),
-                defect=Defect("half a pixel off", _half_a_pixel_off),
             )
         )
     return tuple(found)
-
-
-def _half_a_pixel_off(volume: Volume, plane: Plane) -> Any:
-    corner = plane.corner_mm + 0.5 * plane.across_mm
-    return oblique_image(volume, replace(plane, corner_mm=corner))
 
 
 def _far_away() -> bool:
@@ -267,18 +224,12 @@ def _thin() -> tuple[HardCase, ...]:
             unit="HU",
             bound=1e-14,
             beyond=answers("the value for outside, everywhere, far away", _far_away),
-            defect=Defect("zero beyond the edge", _zero_outside),
         )
         for way_name, right in (
             (Interpolation.NEAREST, (3.0, 7.0, 7.0)),
             (Interpolation.TRILINEAR, (4.0, 7.0, 7.0)),
         )
     )
-
-
-def _zero_outside(values: Any, ijk: FloatArray, way: Interpolation) -> Any:
-    inside = (np.abs(ijk) < 100.0).all(axis=1)
-    return np.where(inside, interpolate(values, ijk, way), 0.0)
 
 
 # --- metrics --------------------------------------------------------------------------------------
@@ -307,10 +258,6 @@ def _one_sample() -> HardCase:
         silent = [row for row in result.rows if row.value is None and not row.note]
         return [float(not np.isfinite(values).all()), float(len(silent))]
 
-    def silent_score(trajectory: Trajectory) -> Any:
-        result = score(trajectory)
-        return replace(result, rows=tuple(replace(row, note="", value=None) for row in result.rows))
-
     return HardCase(
         subsystem="metrics",
         case="an attempt of one sample has every value finite, or a reason",
@@ -321,7 +268,6 @@ def _one_sample() -> HardCase:
         unit="rows",
         bound=0.0,
         beyond=named(TrajectoryError, lambda: replace(_attempt(3), time=np.array([0.0, 1.0, 1.0]))),
-        defect=Defect("rows without their reason", silent_score),
     )
 
 
@@ -348,9 +294,6 @@ def _smoothness() -> tuple[HardCase, ...]:
             beyond=answers(
                 "0 for one sample, never NaN", lambda: spectral_arc_length(np.ones(1), 100.0) <= 0.0
             ),
-            defect=Defect(
-                "the mean taken off first", lambda v, r: spectral_arc_length(v - v.mean(), r)
-            ),
         ),
         HardCase(
             subsystem="metrics",
@@ -362,10 +305,6 @@ def _smoothness() -> tuple[HardCase, ...]:
             unit="1",
             bound=1e-9,  # second differences of 0.25, ε n²
             beyond=answers("finite for a kink of 1e-8 in a straight line", _barely_bent),
-            defect=Defect(
-                "T⁵ in place of T³",
-                lambda v, r: log_dimensionless_jerk(v, r) - 2.0 * log(len(v) / r),
-            ),
         ),
     )
 
@@ -396,7 +335,6 @@ def _lengths() -> tuple[HardCase, ...]:
             beyond=answers(
                 "0 for a single point", lambda: smooth_length(time[:1], half[:1]) == 0.0
             ),
-            defect=Defect("without the first and last point", _without_ends),
         ),
         HardCase(
             subsystem="metrics",
@@ -408,12 +346,6 @@ def _lengths() -> tuple[HardCase, ...]:
             unit="m",
             bound=0.0,
             beyond=answers("0 for no points", lambda: raw_length(np.zeros((0, 3))) == 0.0),
-            defect=Defect(
-                "differences of distances from the origin in single precision",
-                lambda p: float(
-                    np.abs(np.diff(np.linalg.norm(np.float32(p * np.pi), axis=1))).sum() + 1e-9
-                ),
-            ),
         ),
         HardCase(
             subsystem="metrics",
@@ -425,7 +357,6 @@ def _lengths() -> tuple[HardCase, ...]:
             unit="m",
             bound=1e-17,
             beyond=answers("of one point to itself 0", lambda: frechet(line[:1], line[:1]) == 0.0),
-            defect=Defect("distance of their ends' sum", lambda a, b: float(np.hypot(0.003, 1e-4))),
         ),
         HardCase(
             subsystem="metrics",
@@ -439,27 +370,14 @@ def _lengths() -> tuple[HardCase, ...]:
             beyond=answers(
                 "of one point to itself 0", lambda: time_warping(line[:1], line[:1]) == 0
             ),
-            defect=Defect("point by point", _point_by_point),
         ),
     )
-
-
-def _without_ends(time: FloatArray, points: FloatArray) -> float:
-    return smooth_length(time, points) - float(np.linalg.norm(points[20] - points[0]))
-
-
-def _point_by_point(a: FloatArray, b: FloatArray) -> float:
-    n = min(len(a), len(b))
-    return float(np.linalg.norm(a[:n] - b[:n], axis=1).mean())
 
 
 def _knots() -> HardCase:
     bands = Bands.model_validate({"expert": 1e-300, "good": 1.0, "pass": 1e300, "zero": 1.5e300})
     values = (0.0, -0.0, 5e-324, 1e-300, 1.0, 1e300, 1.5e300, 1e308)
     right = (1.0, 1.0, 1.0, 1.0, 0.8, 0.6, 0.0, 0.0)
-
-    def stepped(value: float, bands: Bands) -> float:
-        return 1.0 if abs(value) < bands.expert else tolerance(value, bands)
 
     return HardCase(
         subsystem="metrics",
@@ -471,10 +389,6 @@ def _knots() -> HardCase:
         unit="1",
         bound=1e-15,
         beyond=named(NumericalError, lambda: tolerance(np.nan, bands)),
-        defect=Defect(
-            "a limit belongs to the worse band",
-            lambda v, b: stepped(v, b) - (0.2 if abs(v) == b.good else 0.0),
-        ),
     )
 
 

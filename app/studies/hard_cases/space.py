@@ -2,14 +2,14 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import acos, pi
+from math import pi
 from typing import Any, Final
 
 import numpy as np
 
 from app.core.arrays import FloatArray, angle_between, unit
 from app.core.errors import NumericalError
-from app.core.rotation import closest_rotation, rotation_exp, rotation_log, skew
+from app.core.rotation import rotation_exp, rotation_log
 from app.core.transform import RigidTransform, rotation_between
 from app.mechanisms.pantograph.profile import load_pantograph
 from app.planning.errors import PlanError
@@ -23,15 +23,7 @@ from app.planning.plan import Plan
 from app.planning.reach import Obstacle, reach, smallest_turn
 from app.planning.registration.errors import DegenerateFiducialsError
 from app.planning.registration.rigid import rigid_fit
-from app.studies.hard_cases.case import (
-    Beyond,
-    Defect,
-    HardCase,
-    analytic,
-    answers,
-    digits,
-    named,
-)
+from app.studies.hard_cases.case import Beyond, HardCase, analytic, answers, digits, named
 from app.studies.hard_cases.volumes import volume_of
 
 DOWN: Final = np.array([0.0, 0.0, -1.0])
@@ -41,27 +33,9 @@ FULCRUM: Final = PROFILE.pantograph.fulcrum
 _Way = Callable[..., Any]
 
 
-def _angle_by_acos(a: Any, b: Any) -> float:
-    return acos(float(np.clip(unit(a) @ unit(b), -1.0, 1.0)))
-
-
-def _log_by_trace(r: Any) -> FloatArray:
-    """Angle by the trace, axis by the antisymmetric part: wrong near zero and half a turn."""
-    r = np.asarray(r)
-    angle = acos(float(np.clip((np.trace(r) - 1.0) / 2.0, -1.0, 1.0)))
-    aside = np.array([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]])
-    sine = 2.0 * np.sin(angle)
-    return np.asarray(angle / sine * aside if sine > 1e-12 else np.zeros(3))
-
-
 def _turned() -> HardCase:
     reference = digits("rotation by 1e-9 short of half a turn")
     vector = np.array(reference.given)
-
-    def half_forgotten(v: Any) -> FloatArray:
-        angle = float(np.linalg.norm(v))
-        k = skew(np.asarray(v) / angle)
-        return np.eye(3) + np.sin(angle) * k + 0.5 * (1.0 - np.cos(angle)) * (k @ k)
 
     return HardCase(
         subsystem="rotations",
@@ -73,7 +47,6 @@ def _turned() -> HardCase:
         unit="1",
         bound=1e-15,
         beyond=_identity(),
-        defect=Defect("half of 1 - cos forgotten", half_forgotten),
     )
 
 
@@ -96,7 +69,6 @@ def _barely_turned() -> tuple[HardCase, ...]:
                 bound=1e-15,
                 relative=True,
                 beyond=_identity(),
-                defect=Defect("no turn at all where cos is 1", lambda v: np.eye(3)),
             )
         )
     return tuple(found)
@@ -139,9 +111,6 @@ def _logs() -> tuple[HardCase, ...]:
                         < 1e-15
                     ),
                 ),
-                defect=Defect("angle by the trace, axis by the antisymmetric part", _log_by_trace)
-                if angle != 3.0
-                else Defect("half the angle", lambda r: 0.5 * rotation_log(r)),
             )
         )
     return tuple(found)
@@ -149,10 +118,6 @@ def _logs() -> tuple[HardCase, ...]:
 
 def _between() -> HardCase:
     end = unit([1e-9, 2e-9, 1.0])
-
-    def naive(u: Any, v: Any) -> FloatArray:
-        w = skew(np.cross(u, v))
-        return np.asarray(np.eye(3) + w + w @ w / max(1.0 + float(u @ v), 1e-300))
 
     return HardCase(
         subsystem="rotations",
@@ -164,7 +129,6 @@ def _between() -> HardCase:
         unit="1",
         bound=1e-15,
         beyond=named(NumericalError, lambda: rotation_between(DOWN, np.zeros(3))),
-        defect=Defect("1 + cos in the denominator", naive),
     )
 
 
@@ -190,10 +154,6 @@ def _twist() -> HardCase:
                 < 1e-10
             ),
         ),
-        defect=Defect(
-            "the shift as it is",
-            lambda xi: RigidTransform(rotation_exp(xi[3:]), xi[:3]),
-        ),
     )
 
 
@@ -209,10 +169,6 @@ def _screw_and_back() -> HardCase:
         unit="m, rad",
         bound=1e-14,
         beyond=named(NumericalError, lambda: RigidTransform(-np.eye(3), np.zeros(3))),
-        defect=Defect(
-            "rotation vector by the trace",
-            lambda t: np.concatenate([t.log()[:3], _log_by_trace(t.rotation)]),
-        ),
     )
 
 
@@ -236,7 +192,6 @@ def _angles() -> tuple[HardCase, ...]:
                 bound=bound,
                 relative=relative,
                 beyond=named(NumericalError, lambda: angle_between(np.zeros(3), DOWN)),
-                defect=Defect("acos of the dot product", _angle_by_acos),
             )
         )
     return tuple(found)
@@ -253,21 +208,12 @@ def _aside() -> HardCase:
     off = 1e-9
     tip = placed.p_target + off * np.array([1.0, 0.0, 0.0])
 
-    def by_pythagoras(p_tip: Any, axis: Any, placed: Any, p_target: Any) -> Any:
-        beyond = p_tip - placed.p_entry
-        along = beyond @ placed.axis
-        return np.sqrt(max(beyond @ beyond - along * along, 0.0))
-
-    def lateral(way: _Way) -> Any:
-        found = way(tip, placed.axis, placed, placed.p_target)
-        return found if np.isscalar(found) else found.lateral
-
     return HardCase(
         subsystem="distances",
         case="a tip 1 nm off a path of 80 mm, at its end",
         given="tip = target + (1e-9, 0, 0) m",
         way=offset,
-        found=lateral,
+        found=lambda way: way(tip, placed.axis, placed, placed.p_target).lateral,
         reference=analytic("what it was moved by", tip[0] - placed.p_target[0]),
         unit="m",
         bound=1e-17,
@@ -275,7 +221,6 @@ def _aside() -> HardCase:
             "exactly 0 on the path",
             lambda: offset(placed.p_target, placed.axis, placed, placed.p_target).lateral == 0.0,
         ),
-        defect=Defect("Pythagoras with the way along the path", by_pythagoras),
     )
 
 
@@ -293,7 +238,6 @@ def _needle_and_path() -> HardCase:
         bound=1e-15,
         relative=True,
         beyond=answers("π for opposite ones", lambda: float(angles(DOWN, -DOWN)) == pi),
-        defect=Defect("acos of the dot product", lambda a, b: _angle_by_acos(a, b)),
     )
 
 
@@ -301,14 +245,6 @@ def _drawn_angle() -> HardCase:
     volume = volume_of(np.eye(3))
     drawn = Angle((1.0, 0.0, 0.0), (0.0, 0.0, 0.0), (-1.0, 1e-9, 0.0))
     flat = Angle((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
-
-    def by_acos(item: Angle, _: Any) -> Any:
-        a, v, b = (np.array(p) for p in item.points)
-        return np.degrees(_angle_by_acos(a - v, b - v))
-
-    def value(way: _Way) -> Any:
-        found = way(drawn, volume)
-        return found.quantities[0].value if hasattr(found, "quantities") else found
 
     def untold() -> bool:
         return measured(flat, volume).quantities[0].value is None
@@ -318,12 +254,11 @@ def _drawn_angle() -> HardCase:
         case="an angle drawn 1e-9 rad short of a straight line",
         given="arms (1, 0, 0) and (-1, 1e-9, 0) mm",
         way=measured,
-        found=value,
+        found=lambda way: way(drawn, volume).quantities[0].value,
         reference=analytic("180° - 1e-9 rad", 180.0 - np.degrees(1e-9)),
         unit="°",
         bound=3e-14,
         beyond=answers("no number where an arm has no length", untold),
-        defect=Defect("acos of the dot product", by_acos),
     )
 
 
@@ -333,11 +268,6 @@ def _fitted() -> tuple[HardCase, ...]:
     far = RigidTransform(rotation_exp([0.3, -0.2, 0.1]), np.array([9.0, -9.0, 9.0]))
     line = np.outer([0.0, 1.0, 2.0, 5.0], [0.02, 0.01, -0.01])
     thin = line + np.outer([0.0, 1.0, 0.0, 0.0], [0.0, 0.002, 0.002])
-
-    def without_centroids(x: Any, y: Any) -> Any:
-        rotation, _ = closest_rotation(x.T @ y)
-        transform = RigidTransform(rotation, y.mean(axis=0) - rotation @ x.mean(axis=0))
-        return type("Fit", (), {"T_measured_reference": transform})()
 
     return tuple(
         HardCase(
@@ -350,7 +280,6 @@ def _fitted() -> tuple[HardCase, ...]:
             unit="m, 1",
             bound=bound,
             beyond=named(DegenerateFiducialsError, lambda: rigid_fit(line, line)),
-            defect=Defect("the centroids not taken off", without_centroids),
         )
         for words, points, pose, bound in (
             ("three points turned by half a turn", triangle, half, 1e-14),
@@ -368,9 +297,6 @@ def _plan(entry_mm: Any, target_mm: Any) -> Plan:
 def _opposite_turn() -> HardCase:
     end = unit([1e-7, 2e-7, 1.0])
 
-    def along_y(u: Any, v: Any) -> FloatArray:
-        return np.array([0.0, pi, 0.0])
-
     return HardCase(
         subsystem="planning",
         case="smallest turn of a path 2e-7 rad short of straight up",
@@ -384,7 +310,6 @@ def _opposite_turn() -> HardCase:
             "half a turn about the world's y between exact opposites",
             lambda: bool(np.allclose(smallest_turn(DOWN, -DOWN), [0.0, pi, 0.0], atol=1e-15)),
         ),
-        defect=Defect("always about the world's y", along_y),
     )
 
 
@@ -395,9 +320,6 @@ def _turned_over() -> HardCase:
     def angle(way: _Way) -> Any:
         remedy = way(plan, Placement(), PROFILE).remedy
         return remedy.angle
-
-    class _Half:
-        remedy = type("Half", (), {"angle": pi})()
 
     return HardCase(
         subsystem="planning",
@@ -412,7 +334,6 @@ def _turned_over() -> HardCase:
             "named UPWARD",
             lambda: reach(plan, Placement(), PROFILE).reasons[0].obstacle is Obstacle.UPWARD,
         ),
-        defect=Defect("half a turn, as the words would have it", lambda *_: _Half()),
     )
 
 
@@ -421,10 +342,6 @@ def _far_patient() -> HardCase:
     plan = _plan((far, -far, far), (far + 10.4, -far + 60.3, far - 20.2))
     placement = Placement(rotation_deg=(3.0, 20.0, -7.0))
     near = PlacedPlan.of(_plan((0.0, 0.0, 0.0), (10.4, 60.3, -20.2)), placement, FULCRUM)
-
-    def single(plan: Any, placement: Any, fulcrum: Any) -> Any:
-        rounded = _plan(np.float32(plan.entry_mm), np.float32(plan.target_mm))
-        return PlacedPlan.of(rounded, placement, fulcrum)
 
     return HardCase(
         subsystem="planning",
@@ -436,7 +353,6 @@ def _far_patient() -> HardCase:
         unit="m",
         bound=8e-12 * 2,  # 8 roundings of 10 km
         beyond=named(PlanError, lambda: _plan((1.0000001e7, 0.0, 0.0), (0.0, 0.0, 0.0))),
-        defect=Defect("points in single precision", single),
     )
 
 
@@ -452,18 +368,10 @@ def _short_path() -> HardCase:
         unit="1",
         bound=0.0,
         beyond=named(PlanError, lambda: _plan((0.0, 0.0, 0.0), (0.999, 0.0, 0.0))),
-        defect=Defect(
-            "difference of unit vectors from the origin",
-            lambda p: unit(unit(p.target_mm) - unit(p.entry_mm)),
-        ),
     )
 
 
 def _small_cone() -> HardCase:
-    def by_acos(axis: Any, angle: float) -> Any:
-        aside = np.sqrt(max(1.0 - np.cos(angle) ** 2, 0.0))
-        return [axis, np.array([aside, 0.0, -np.cos(angle)])]
-
     return HardCase(
         subsystem="planning",
         case="directions on a cone of 1e-9 rad about the vertical",
@@ -475,19 +383,11 @@ def _small_cone() -> HardCase:
         bound=1e-15,
         relative=True,
         beyond=answers("the axis itself at 0", lambda: tilt_of(cone(DOWN, 0.0)[1]) == 0.0),
-        defect=Defect("sine by √(1 - cos²)", by_acos),
     )
 
 
 def _planes_along_the_head() -> HardCase:
     axis = unit([1e-9, -2e-9, 1.0])
-
-    def by_superior(tip: Any, axis: Any) -> Any:
-        """Roll by the superior direction alone, which a needle along the body has none of."""
-        y = np.array([0.0, 0.0, 1.0]) - axis[2] * axis
-        length = max(float(np.linalg.norm(y)), 1e-6)
-        y = y / length
-        return type("Frame", (), {"axis": axis, "x": np.cross(axis, y), "y": y})()
 
     def square(way: _Way) -> Any:
         frame = way(np.zeros(3), axis)
@@ -504,7 +404,6 @@ def _planes_along_the_head() -> HardCase:
         unit="1",
         bound=1e-14,
         beyond=named(NumericalError, lambda: frame_of(np.zeros(3), np.zeros(3))),
-        defect=Defect("roll by the superior direction alone", by_superior),
     )
 
 

@@ -1,19 +1,12 @@
 """Hard cases of the tensegrity needle holder: stretched, folded, flat; cables without a lever."""
 
 from collections.abc import Callable
-from dataclasses import replace
-from math import acos, pi, sqrt
+from math import pi
 from typing import Any, Final
 
 import numpy as np
 
-from app.core.arrays import FloatArray
-from app.mechanisms.errors import (
-    DegenerateError,
-    NotFiniteError,
-    SingularError,
-    UnreachableError,
-)
+from app.mechanisms.errors import DegenerateError, NotFiniteError, SingularError, UnreachableError
 from app.mechanisms.tensegrity import (
     Cables,
     CableTensions,
@@ -35,57 +28,16 @@ from app.mechanisms.tensegrity import (
     nearest,
     tensions,
     torque_limits,
-    torques,
     trilaterate,
 )
 from app.mechanisms.tensegrity.dynamics import guide_dynamics
-from app.mechanisms.tensegrity.numerical import newton_kernel
-from app.studies.hard_cases.case import Defect, HardCase, analytic, answers, digits, named
+from app.studies.hard_cases.case import HardCase, analytic, answers, digits, named
 
 PAPER: Final = TensegrityGeometry()
 SCISSOR: Final = TensegrityGeometry(reading=JointReading.SCISSOR)
 CABLES: Final = Cables()
 
 _Way = Callable[..., Any]
-
-
-def _other(geometry: TensegrityGeometry) -> TensegrityGeometry:
-    return PAPER if geometry is SCISSOR else SCISSOR
-
-
-def _joints_by_acos(geometry: TensegrityGeometry, t: Any) -> FloatArray:
-    # Equations 1 and 2 as printed: acos of a dot product that is nearly one.
-    found, fold = [], 2.0 * geometry.rhombi
-    for base, gain in zip(geometry.bases, geometry.bars[:2], strict=True):
-        theta = acos(min(1.0, float(np.dot(base, t))))
-        found.append(2.0 * acos(min(1.0, float(np.tan(theta / fold)) / gain)))
-    return np.array(found)
-
-
-def _by_cancelled_discriminant(geometry: TensegrityGeometry, beta: Any) -> FloatArray:
-    (a1, a2), fold = geometry.bases, 2.0 * geometry.rhombi
-    k1, k2 = (
-        np.cos(fold * np.arctan(gain * np.cos(0.5 * b)))
-        for gain, b in zip(geometry.bars[:2], beta, strict=True)
-    )
-    g, normal = float(a1 @ a2), np.cross(a1, a2)
-    left = 1.0 - g * g - k1 * k1 - k2 * k2 + 2.0 * g * k1 * k2
-    foot = (k1 - g * k2) * a1 + (k2 - g * k1) * a2
-    with np.errstate(invalid="ignore"):
-        return np.asarray((foot + np.sqrt(left) * normal) / (1.0 - g * g))
-
-
-def _iterated(geometry: TensegrityGeometry, beta: Any) -> FloatArray:
-    # Newton's method to a residual that looks small.
-    start = forward(geometry, beta) + 1e-3 * np.cross(*geometry.bases)
-    return np.array(newton_kernel(*beta, *start, 1e-12, *geometry.bars)[1:4])
-
-
-def _jacobian_by_differences(geometry: TensegrityGeometry, beta: Any) -> FloatArray:
-    step = 1e-9 * np.eye(2)
-    return np.column_stack(
-        [(forward(geometry, beta + h) - forward(geometry, beta - h)) / 2e-9 for h in step]
-    )
 
 
 def _edge(geometry: TensegrityGeometry, short: str, bound: float) -> HardCase:
@@ -102,7 +54,6 @@ def _edge(geometry: TensegrityGeometry, short: str, bound: float) -> HardCase:
         unit="rad",
         bound=bound,  # one bit of θ over β
         beyond=named(UnreachableError, lambda: inverse(geometry, past)),
-        defect=Defect("the other reading of the joints", lambda g, t: inverse(_other(g), t)),
     )
 
 
@@ -122,7 +73,6 @@ def _beside(geometry: TensegrityGeometry, gap: str) -> HardCase:
             "exactly π with T on A1",
             lambda: bool(abs(inverse(geometry, geometry.bases[0])[0] - pi) < 1e-15),
         ),
-        defect=Defect("equations 1 and 2 by acos", _joints_by_acos),
     )
 
 
@@ -138,9 +88,6 @@ def _low(height: str, bound: float) -> HardCase:
         unit="1",
         bound=bound,  # a few bits of β over D
         beyond=named(UnreachableError, lambda: forward(PAPER, np.array(reference.given) + 1e-3)),
-        defect=Defect("Newton's method to a residual of 1e-12", _iterated)
-        if height == "1e-6"
-        else Defect("the mirror image", lambda g, b: forward(g, b, -1)),
     )
 
 
@@ -158,17 +105,12 @@ def _flat_jacobian(height: str) -> HardCase:
         bound=2e-16 / float(height) ** 2,  # D itself is known to a few bits over D
         relative=True,
         beyond=answers("named FLAT, its gain not given", lambda: "flat" in flat.kinds),
-        defect=Defect("central differences of 1e-9 rad", _jacobian_by_differences),
     )
 
 
 def _rate() -> HardCase:
     reference = digits("rate of the guide's jacobian, D = 1e-3")
     beta, rates = np.array(reference.given[:2]), np.array(reference.given[2:])
-
-    def by_differences(geometry: TensegrityGeometry, beta: Any, rates: Any) -> FloatArray:
-        step = 1e-7 * rates
-        return (jacobian(geometry, beta + step) - jacobian(geometry, beta - step)) / 2e-7
 
     return HardCase(
         subsystem="kinematics",
@@ -181,7 +123,6 @@ def _rate() -> HardCase:
         bound=1e-8,
         relative=True,
         beyond=named(NotFiniteError, lambda: jacobian_rate(PAPER, beta, (np.nan, 0.0))),
-        defect=Defect("central differences of the Jacobian", by_differences),
     )
 
 
@@ -197,16 +138,11 @@ def _folded() -> HardCase:
         unit="1",
         bound=2e-15,
         beyond=named(UnreachableError, lambda: forward(PAPER, (pi, 1.0))),
-        defect=Defect("the discriminant as a sum, which cancels", _by_cancelled_discriminant),
     )
 
 
 def _both_up() -> HardCase:
     reference = digits("direction where both roots look up")
-
-    def higher(geometry: TensegrityGeometry, beta: Any) -> FloatArray:
-        both = [forward(geometry, beta, side) for side in (-1, 1)]
-        return next(t for t in both if t[2] > 0.0)
 
     return HardCase(
         subsystem="kinematics",
@@ -218,7 +154,6 @@ def _both_up() -> HardCase:
         unit="1",
         bound=1e-15,
         beyond=named(NotFiniteError, lambda: forward(PAPER, (np.inf, 1.0))),
-        defect=Defect("the first root in the upper hemisphere", higher),
     )
 
 
@@ -235,17 +170,11 @@ def _touching(sign: str) -> HardCase:
         unit="1",
         bound=2e-8 if sign == "+" else 1e-14,  # a bit of β over √1e-15; in the plane
         beyond=named(UnreachableError, lambda: forward(PAPER, apart)),
-        defect=Defect("the mirror image", lambda g, b: forward(g, b, -1))
-        if sign == "+"
-        else Defect("the root of a negative number", _by_cancelled_discriminant),
     )
 
 
 def _stretched_rates() -> HardCase:
     reference = digits("rates of the joints, β1 = 1e-6")
-
-    def by_pseudoinverse(geometry: TensegrityGeometry, beta: Any) -> FloatArray:
-        return np.asarray(np.linalg.pinv(jacobian(geometry, beta), rcond=1e-5))
 
     return HardCase(
         subsystem="kinematics",
@@ -258,19 +187,11 @@ def _stretched_rates() -> HardCase:
         bound=2e-15,
         relative=True,
         beyond=named(SingularError, lambda: joint_rates(PAPER, (0.0, 1.9))),
-        defect=Defect("a pseudoinverse that drops what is below 1e-5", by_pseudoinverse),
     )
 
 
 def _joint() -> HardCase:
     reference = digits("joint B1, β1 = 1e-6")
-
-    def by_trilateration(geometry: TensegrityGeometry, t: Any) -> Any:
-        shown, radius = machine_points(geometry, t), geometry.first_radius
-        bar = 2.0 * radius * np.sin(0.5 * geometry.sides[0])
-        centres = [np.zeros(3), shown.points["A1"], shown.points["T1"]]
-        found = trilaterate(centres, [radius, bar, bar])
-        return replace(shown, points={"B1": found.point})
 
     return HardCase(
         subsystem="kinematics",
@@ -282,7 +203,6 @@ def _joint() -> HardCase:
         unit="m",
         bound=1e-9,  # √ε of the radius: of t, β = 1e-6 is known to 1e-10
         beyond=named(DegenerateError, lambda: machine_points(PAPER, PAPER.bases[1])),
-        defect=Defect("trilateration, whose spheres almost touch", by_trilateration),
     )
 
 
@@ -291,10 +211,6 @@ def _middle() -> HardCase:
     a, end, radius = shown.points["A1"], shown.points["T1"], PAPER.first_radius
     chord = float(np.linalg.norm(a - shown.points["C1"]))
     apart = [np.zeros(3), a, end]
-
-    def untouched(centres: Any, radii: Any) -> Any:
-        found = trilaterate(centres, radii)
-        return replace(found, point=found.point * sqrt(1.0 - 1e-12))
 
     return HardCase(
         subsystem="kinematics",
@@ -308,18 +224,12 @@ def _middle() -> HardCase:
         beyond=named(
             UnreachableError, lambda: trilaterate(apart, [radius, 0.99 * chord, 0.99 * chord])
         ),
-        defect=Defect("a height of √1e-12 where they miss each other", untouched),
     )
 
 
 def _offered() -> HardCase:
     corner = forward(PAPER, (0.0, 0.0))
     far = corner + 0.5 * np.cross(*PAPER.bases)  # seen over the corner of both rims
-
-    def by_first_rim(geometry: TensegrityGeometry, t: Any) -> FloatArray:
-        base, angle = geometry.bases[0], geometry.largest[0]
-        aside = t - (t @ base) * base
-        return np.asarray(np.cos(angle) * base + np.sin(angle) * aside / np.linalg.norm(aside))
 
     outwards = -(PAPER.bases[0] + PAPER.bases[1])
     return HardCase(
@@ -332,18 +242,12 @@ def _offered() -> HardCase:
         unit="1",
         bound=1e-15,
         beyond=named(DegenerateError, lambda: nearest(PAPER, (0.0, 0.0, 0.0))),
-        defect=Defect("the foot on the first cone", by_first_rim),
     )
 
 
 def _tensions(words: str, bound: float) -> HardCase:
     reference = digits(f"tensions, {words}")
     b1, b2, torque1, torque2, _ = reference.given
-
-    def least_squares(geometry: TensegrityGeometry, cables: Cables, beta: Any, load: Any) -> Any:
-        lever = -length_jacobian(geometry, beta).T
-        found = np.linalg.pinv(lever, rcond=1e-5) @ np.asarray(load)
-        return replace(tensions(geometry, cables, beta, load), tensions=found)
 
     flat = words.startswith("D")
     return HardCase(
@@ -364,7 +268,6 @@ def _tensions(words: str, bound: float) -> HardCase:
                 and abs(_at_zero().shortfall[0] - 0.5) < 0.3
             ),
         ),
-        defect=Defect("a pseudoinverse, which pushes with cables", least_squares),
     )
 
 
@@ -377,13 +280,6 @@ def _limit() -> HardCase:
     high = float(reference.value[1])
     beta = (1.5, 1.5)
     other = float(torque_limits(PAPER, CABLES, beta)[1, 1])
-
-    def clipped(geometry: TensegrityGeometry, cables: Cables, beta: Any, load: Any) -> Any:
-        lever = -length_jacobian(geometry, beta).T
-        free = np.linalg.pinv(lever) @ np.asarray(load)
-        found = np.clip(free, cables.least, cables.most)
-        short = np.asarray(load) - torques(geometry, beta, found)
-        return replace(tensions(geometry, cables, beta, load), tensions=found, shortfall=short)
 
     def numbers(way: _Way) -> Any:
         found = way(PAPER, CABLES, beta, (high, other + 1e-9))
@@ -402,16 +298,11 @@ def _limit() -> HardCase:
         unit="N or N·m",
         bound=2e-14,
         beyond=named(NotFiniteError, lambda: tensions(PAPER, CABLES, beta, (np.nan, 0.0))),
-        defect=Defect("the unlimited solution, clipped", clipped),
     )
 
 
 def _polytope() -> HardCase:
     reference = digits("largest torques, β1 = 1.5")
-
-    def without_least(geometry: TensegrityGeometry, cables: Cables, beta: Any) -> FloatArray:
-        lever = length_jacobian(geometry, beta)
-        return np.array([[-lever[0, 0] * cables.most, -lever[1, 0] * cables.most]])
 
     return HardCase(
         subsystem="statics",
@@ -428,19 +319,11 @@ def _polytope() -> HardCase:
                 tensions(PAPER, CABLES, (1.5, 1.5), (9.0, 0.0)).tensions.max() <= CABLES.most
             ),
         ),
-        defect=Defect("the other cable without its least tension", without_least),
     )
 
 
 def _curvature() -> HardCase:
     reference = digits("curvature of the cables, β = 1e-3 and π - 1e-3")
-
-    def by_differences(geometry: TensegrityGeometry, beta: Any) -> FloatArray:
-        h = 1e-4 * np.eye(2)
-        lever = [length_jacobian(geometry, beta + s * d) for d in h for s in (1.0, -1.0)]
-        return np.column_stack(
-            [(lever[0] - lever[1])[:, 0] / 2e-4, (lever[2] - lever[3])[:, 1] / 2e-4]
-        )
 
     def numbers(way: _Way) -> Any:
         found = way(PAPER, np.array(reference.given))
@@ -462,7 +345,6 @@ def _curvature() -> HardCase:
                 and length_curvature(PAPER, (0.0, pi)).max() <= 0.0
             ),
         ),
-        defect=Defect("differences of the lever", by_differences),
     )
 
 
@@ -470,9 +352,6 @@ def _slack() -> HardCase:
     beta, pulled = np.array([1.5, 1.9]), np.array([0.0, 12.0, -1.0, 0.0])
     lever, bend = length_jacobian(PAPER, beta), length_curvature(PAPER, beta)
     alone = CABLES.stiffness * lever[1, 0] ** 2 + 12.0 * bend[1, 0]
-
-    def all_taut(geometry: TensegrityGeometry, cables: Cables, beta: Any, t: Any) -> FloatArray:
-        return joint_stiffness(geometry, cables, beta, np.maximum(t, 1e-9))
 
     return HardCase(
         subsystem="statics",
@@ -487,15 +366,11 @@ def _slack() -> HardCase:
             SingularError,
             lambda: guide_stiffness(PAPER, CABLES, forward(PAPER, (0.0, 1.9)), np.full(4, 5.0)),
         ),
-        defect=Defect("a slack cable as stiff as a taut one", all_taut),
     )
 
 
 def _mass(words: str, bound: float) -> HardCase:
     reference = digits(f"mass matrix of the holder, {words}")
-
-    def without_bars(geometry: TensegrityGeometry, masses: GuideMasses, beta: Any) -> Any:
-        return guide_dynamics(geometry, replace(masses, density=0.0), beta)
 
     return HardCase(
         subsystem="dynamics",
@@ -511,7 +386,6 @@ def _mass(words: str, bound: float) -> HardCase:
             SingularError,
             lambda: guide_dynamics(PAPER, GuideMasses(), inverse(PAPER, PAPER.bases[0])),
         ),
-        defect=Defect("bars without mass", without_bars),
     )
 
 

@@ -15,7 +15,7 @@ from app.exchange.errors import ExchangeError, ExportError
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.pantograph import forward, inverse, jacobian, needle_at
 from app.mechanisms.pantograph.profile import PantographProfile
-from app.simulation.arm.mjcf import import_mujoco, line, text
+from app.simulation.mjcf import import_mujoco, line, text
 
 IMPEDANCE = 0.9999
 """Largest constraint impedance of MuJoCo: 1e-4 of an unconstrained acceleration passes."""

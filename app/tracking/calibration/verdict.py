@@ -24,7 +24,7 @@ WORST_SHARE: Final = 3e-3
 the second of no use: 0.3 and 0.9 mm at 30 cm."""
 
 USUAL_DISTANCE_MM: Final = 300.0
-"""Taken where an older file does not say how far away its boards were."""
+"""How far away a marker usually is: what an error of the rays comes to is told there."""
 
 GOOD_PX: Final = 0.6
 WORST_PX: Final = 1.5
@@ -161,7 +161,7 @@ def _of_fit(calibration: StereoCalibration) -> Judgement:
         text = f"residual of {rms:.2f} px, at most {WORST_PX * wide:.2g} px: {flat}"
         return Judgement(Grade.NOT_GOOD_ENOUGH, Why.RESIDUAL_BAD, text)
     if checked is not None:
-        away = checked.distance_mm or USUAL_DISTANCE_MM
+        away = checked.distance_mm
         share = checked.rms_mm / away
         held = f"pairs held back are wrong by {checked.rms_mm:.2f} mm RMS at {away:.0f} mm"
         if share > WORST_SHARE:

@@ -46,7 +46,7 @@ class CameraCalibration(Strict):
         rms_px: root mean square of the reprojection error, 2D.
         views: number of pictures used.
         ray_sd_px: standard deviation of its rays over the picture, rows of
-            `RAY_GRID` [px]; None in older and imported files.
+            `RAY_GRID` [px]; None in imported files.
         rolling_px: by how much the board moved while its pictures were read row by row, root mean
             square [px]; None if nothing speaks for a rolling shutter.
     """
@@ -175,7 +175,7 @@ class Validation(Strict):
         scale: mean measured length over true length of neighbouring corners; 1 is right.
         scale_sd: standard deviation of `scale`.
         epipolar_px: root mean square distance from the epipolar line.
-        distance_mm: mean distance of the boards from the cameras; None in older files.
+        distance_mm: mean distance of the boards from the cameras.
     """
 
     views: int
@@ -185,7 +185,7 @@ class Validation(Strict):
     scale: float
     scale_sd: float
     epipolar_px: float
-    distance_mm: Annotated[float, Field(gt=0.0)] | None = None
+    distance_mm: Annotated[float, Field(gt=0.0)]
 
 
 class FitTogether(Strict):
@@ -215,13 +215,13 @@ class StereoCalibration(Strict):
         pose: T_right_left: takes points of the left camera's frame to the right one's.
         rms_px: root mean square reprojection error over both pictures.
         misfit_px: what the lens models leave besides the corners' noise, standard deviation per
-            axis; None in older and imported files.
+            axis; None in imported files.
         world: T_world_left; None until a board at a known place was seen. Its covariance is that
             of the board's place and corners, were the cameras known exactly.
         world_by_cameras: change of the twist of `world` with what `covariance` is of, 6 rows: the
             same cameras saw that board, and their errors move it. None in files that do not say.
         validation: on views held back; None if there were none.
-        together: how well the pairs fit together; None in older and imported files.
+        together: how well the pairs fit together; None in imported files.
         joint_covariance: of both cameras' parameters and the twist of `pose`, estimated together,
             24 rows of 24 for two usual lenses; None where only each one's own is known (imported
             files). Lenses and pose make up for each other: taken as independent they promise less

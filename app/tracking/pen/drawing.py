@@ -1,7 +1,4 @@
-"""The webcam's picture with what was found in it: markers, axes, the tip and its error.
-
-What people look at: the webcam's newest picture with markers, axes and the tip's error.
-"""
+"""The webcam's picture with what was found in it: markers, axes, the tip and its error."""
 
 import cv2
 import numpy as np
@@ -9,42 +6,8 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.tracking.cameras.camera import Image
 from app.tracking.confidence import chi_square_quantile
-from app.tracking.inspection import InspectedPicture, Inspection
 from app.tracking.pen.pose import BoardPose, PoseStatus, projection_jacobians
 from app.tracking.pen.step import PenObservation
-from app.tracking.pen.tracker import PenTracker
-from app.tracking.tracked_picture import TrackedPicture
-
-
-class PenInspector:
-    """Looks at a pen's tracker; costs nothing while nobody asks.
-
-    Args:
-        tracker: that runs; only read.
-    """
-
-    def __init__(self, tracker: PenTracker) -> None:
-        self._tracker = tracker
-
-    def inspect(self, masks: bool = False, lines: bool = True) -> Inspection:
-        """Return the newest picture.
-
-        Args:
-            masks: without meaning here: there is no colour.
-            lines: whether to draw what was found into the picture.
-        """
-        stamped = self._tracker.latest.read()
-        fix = stamped.value if stamped else None
-        inspected = []
-        for one in self._tracker.pictures():
-            image = draw_observation(one.image, one.observation) if lines else one.image
-            picture = TrackedPicture(one.name, image, one.time, None)
-            seen = one.observation.fix
-            inspected.append(
-                InspectedPicture(picture, seen.reason, np.empty((0, 2)), None, None, seen.usable)
-            )
-        return Inspection(tuple(inspected), fix, cameras=1)
-
 
 _SEEN, _NUMBER, _RIM = (80, 200, 80), (255, 255, 255), (0, 0, 0)
 _AXES = ((60, 60, 230), (80, 200, 80), (230, 120, 60))  # x red, y green, z blue

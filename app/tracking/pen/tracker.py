@@ -18,10 +18,13 @@ from app.core.units import MILLIMETRE
 from app.tracking.cameras.camera import Camera, CameraFrame, Image
 from app.tracking.cameras.watch import CameraHealth, CameraReader, CameraState
 from app.tracking.fix import NeedleFix
+from app.tracking.inspection import InspectedPicture, Inspection
 from app.tracking.pen.body import PenProfile
+from app.tracking.pen.drawing import draw_observation
 from app.tracking.pen.step import PenObservation, PenStep
 from app.tracking.pen.webcam import Webcam
 from app.tracking.statistics import TrackerMeter, TrackerStatistics
+from app.tracking.tracked_picture import TrackedPicture
 
 OVER = 0.3
 """Time [s] over which a speed is taken."""
@@ -127,6 +130,11 @@ class PenTracker:
         """The lens that is used; None before the first picture if it has to be guessed."""
         return self._step.webcam
 
+    @property
+    def stereo(self) -> None:
+        """It has one webcam, and no coloured marker (`needle_tracker`)."""
+        return None
+
     def listen(self, on_fix: Callable[[NeedleFix], None]) -> None:
         """Call `on_fix` with every fix from now on."""
         self._on_fix = on_fix
@@ -188,6 +196,19 @@ class PenTracker:
     def pictures(self) -> tuple[PenPicture, ...]:
         """Newest picture with what was seen in it; empty before one came."""
         return () if self._picture is None else (self._picture,)
+
+    def inspect(self, masks: bool = False, lines: bool = True) -> Inspection:
+        """Return the newest picture (`needle_tracker`); there is no colour for `masks` to show."""
+        stamped = self.latest.read()
+        shown = []
+        for one in self.pictures():
+            image = draw_observation(one.image, one.observation) if lines else one.image
+            picture = TrackedPicture(one.name, image, one.time, None)
+            seen = one.observation.fix
+            shown.append(
+                InspectedPicture(picture, seen.reason, np.empty((0, 2)), None, None, seen.usable)
+            )
+        return Inspection(tuple(shown), stamped.value if stamped else None, cameras=1)
 
     def _health(self, now: float) -> CameraHealth:
         return self._reader.health(now)

@@ -48,6 +48,8 @@ class AccuracyFeature(Feature):
     """
 
     topic: ClassVar[str] = "accuracy"
+    place: ClassVar[int] = 160
+    help: ClassVar[str] = "user-guide.md#what-accuracy-costs"
     measured = Signal()
 
     def __init__(self, context: Context) -> None:

@@ -15,6 +15,7 @@ from app.core.configuration import FieldProblem, checked
 from app.core.errors import AcusError
 from app.exercises.schema import Exercise
 from app.exercises.writing import exercise_document, free_id, save, taken_ids
+from app.imaging.series import NO_REMEDY
 from app.imaging.structures.structure import StructureSet
 from app.imaging.volume import Volume
 from app.planning.draft import Edit
@@ -281,8 +282,8 @@ def ct_document(patient: Patient) -> Document:
     recipe, found = patient.volume.recipe, {"folder": str((patient.folder or Path()).absolute())}
     if patient.volume.series.slices:
         found["series"] = patient.volume.series.key
-    if recipe.remedy.value != "none":
-        found["remedy"] = recipe.remedy.value
+    if recipe.remedy != NO_REMEDY:
+        found["remedy"] = recipe.remedy
     return found
 
 

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
-import sys
 from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
@@ -32,7 +30,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-import app
+from app.core.child_process import environment, module_command
 from app.core.configuration import FieldProblem
 from app.core.errors import AcusError
 from app.core.progress import Progress
@@ -303,14 +301,14 @@ class SkillTrial(QObject):
 
     def _start(self, file: Path, seeds: tuple[int, ...]) -> None:
         process = self._process = QProcess(self)
-        surroundings = QProcessEnvironment.systemEnvironment()
-        known = surroundings.value("PYTHONPATH")
-        places = [str(Path(app.__file__).resolve().parents[1]), *([known] if known else [])]
-        surroundings.insert("PYTHONPATH", os.pathsep.join(places))
+        surroundings = QProcessEnvironment()
+        for name, value in environment().items():
+            surroundings.insert(name, value)
         process.setProcessEnvironment(surroundings)
         process.finished.connect(lambda *_: self._ended(file, seeds))
-        command = ["-m", "app", "exercise", "trial", str(file), "--seeds", str(seeds[0]), "--json"]
-        process.start(sys.executable, command)
+        words = ["exercise", "trial", str(file), "--seeds", str(seeds[0]), "--json"]
+        program, *arguments = module_command("app", *words)
+        process.start(program, arguments)
 
     def _ended(self, file: Path, seeds: tuple[int, ...]) -> None:
         process, self._process = self._process, None
@@ -334,6 +332,8 @@ class AuthorFeature(Feature):
     """Menu entries, the button on the plan's page, the form, files of exercises."""
 
     topic: ClassVar[str] = "author"
+    place: ClassVar[int] = 50
+    help: ClassVar[str] = "authoring.md"
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

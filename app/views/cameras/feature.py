@@ -175,6 +175,7 @@ class CamerasFeature(Feature):
     """Menu and dialogs of the cameras."""
 
     topic: ClassVar[str] = "cameras"
+    place: ClassVar[int] = 80
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

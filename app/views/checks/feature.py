@@ -78,6 +78,7 @@ class ChecksFeature(Feature):
     """Opens the pages; keeps the registration check that holds for the present cameras and CT."""
 
     topic: ClassVar[str] = "checks"
+    place: ClassVar[int] = 100
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
@@ -227,7 +228,7 @@ class ChecksFeature(Feature):
             return
         self._looked, volume, self._known = True, self.volume(), seen.uncertainty_known
         ct = volume.series if volume is not None else None
-        names = () if ct is None else (ct.pseudonym, ct.former, ct.frame)
+        names = () if ct is None else (ct.pseudonym, ct.frame)
         try:
             record = Registrations.own().newest(seen.calibration, seen.rig, not run.is_real, *names)
             if record is not None:

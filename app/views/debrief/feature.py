@@ -411,7 +411,7 @@ class AttemptCt(QObject):
             if recipe is None or recipe == volume.recipe or facts.pseudonym != own:
                 return None
             with ONE_AT_A_TIME:  # compiled parts: beside the window
-                from app.imaging.resampling import read_again
+                from app.imaging.reading import read_again
             again = read_again(volume.series, recipe, progress)
             return again if facts.is_of(again) else None
 
@@ -519,12 +519,12 @@ class ScanPictures(QObject):
 
         def make(progress: Progress) -> Volume:
             with ONE_AT_A_TIME:  # compiled parts: beside the window
-                from app.imaging.resampling import read_again
+                from app.imaging.reading import read_again
                 from app.imaging.scanned import scan_image
             ct = volume
             if recipe is not None and recipe != volume.recipe:  # the scan was of a mended one
                 ct = read_again(volume.series, recipe, progress)
-            return scan_image(ct, scan.order, scan.needle, bool(scan.streak), scan.shift_mm)
+            return scan_image(ct, scan.order, scan.needle, scan.streak, scan.shift_mm)
 
         run_in_background(
             self,
@@ -689,6 +689,7 @@ class DebriefFeature(Feature):
     """
 
     topic: ClassVar[str] = "debrief"
+    place: ClassVar[int] = 170
     begin_wanted = Signal(str)
 
     def __init__(self, context: Context) -> None:

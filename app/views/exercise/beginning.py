@@ -27,6 +27,7 @@ from app.session.index import Index
 from app.session.motion import ShownMotion
 from app.session.people import Person
 from app.views.exercise.briefing import AttemptsLeft, BriefingPage
+from app.views.exercise.offer import BriefingOffer
 from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
@@ -61,7 +62,7 @@ class BeginWish(Enum):
     LOOK = auto()
     ATTEMPT = auto()
     SHOW = auto()
-    ARM = auto()
+    WATCH = auto()
 
 
 class DemonstrationBar(QFrame):
@@ -146,6 +147,7 @@ class Beginning(QObject):
         self.exercise: Exercise | None = None
         self.bar = DemonstrationBar(context.shell.dialog_parent)
         self.wish = BeginWish.NOTHING
+        self._offer: BriefingOffer | None = None
         self._briefed: tuple[str, int] | None = None
         self._asked, self._waited, self._scans = 0, 0.0, 0
         self._untaken = self._arrived = self._was_working = self._recorded = False
@@ -269,9 +271,10 @@ class Beginning(QObject):
         """Let the exercise be shown."""
         self._go(BeginWish.SHOW)
 
-    def let_arm(self) -> None:
-        """Let the simulated arm do the exercise, along its plan."""
-        self._go(BeginWish.ARM)
+    def take_offer(self, offer: BriefingOffer) -> None:
+        """Let the exercise be shown as a feature offers it, along its plan."""
+        self._offer = offer
+        self._go(BeginWish.WATCH)
 
     def show_taken(self) -> None:
         """Let the scripted expert do the exercise that is prepared."""
@@ -389,7 +392,7 @@ class Beginning(QObject):
             BeginWish.LOOK: self._end_wish,
             BeginWish.ATTEMPT: self._start,
             BeginWish.SHOW: self._show,
-            BeginWish.ARM: self._let_arm,
+            BeginWish.WATCH: self._watch,
         }.get(self.wish)
         if step is not None:
             step()
@@ -409,9 +412,10 @@ class Beginning(QObject):
             start.click()
             self._guard.hold()
 
-    def _let_arm(self) -> None:
+    def _watch(self) -> None:
         self._end_wish()
-        self._conductor.arm_wanted.emit()
+        if self._offer is not None:
+            self._offer.watch()
 
     def _show(self) -> None:
         self._escape.setEnabled(True)
@@ -455,7 +459,7 @@ class Beginning(QObject):
         page.begin_wanted.connect(self.begin)
         page.show_wanted.connect(self.show_me)
         page.look_wanted.connect(self.look)
-        page.arm_wanted.connect(self.let_arm)
+        page.offer_wanted.connect(self.take_offer)
         page.back_wanted.connect(self.back)
         self.bar.stop.clicked.connect(self.stop)
         controller.intercepted = self._intercepted
@@ -463,6 +467,7 @@ class Beginning(QObject):
         controller.began.connect(lambda _: self._is_begun())
         controller.finished.connect(lambda _: self._forget_assessment())
         self._conductor.exercise_wanted.connect(self.brief)
+        self._conductor.offered.connect(page.add_offer)
         self._conductor.runs.failed.connect(lambda _: self.give_up())
         add_entries(
             self._shell.menu(tr("&Sessions")),
@@ -512,8 +517,7 @@ def attempts_left(
     index = Index(folder)
     index.refresh()
     people = People()
-    texts = [text for text, key in people.keys().items() if key == student.key]
-    own = not_void(index.attempts(texts), people.remarks())
+    own = not_void(index.attempts([student.key]), people.remarks())
     refusal = why_not(course, exercise.id, own, today, titles)
     return AttemptsLeft(item.attempts, len(attempts_used(own, item)), course.title, refusal)
 

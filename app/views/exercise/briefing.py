@@ -27,9 +27,10 @@ from app.exercises.portrait import Portrait
 from app.exercises.schema import Exercise
 from app.scoring.metrics import available
 from app.scoring.tolerance import Tolerance
+from app.views.exercise.offer import BriefingOffer
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel, button, label
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 from app.views.reading.lock_words import view_title
 from app.views.shell.shortcuts import disclaimer_label
 
@@ -255,16 +256,19 @@ WORDS_WIDTH = 500
 
 
 class BriefingPage(QWidget):
-    """What is to be done, before it begins. Enter begins, D shows, W lets the arm do it, L looks
-    around, Esc goes back.
+    """What is to be done, before it begins. Enter begins, D shows, L looks around, Esc goes back.
+
+    Attributes:
+        offers: other ways to watch it, by name, each with its button.
 
     Signals:
-        begin_wanted(), show_wanted(), arm_wanted(), look_wanted(), back_wanted().
+        begin_wanted(), show_wanted(), look_wanted(), back_wanted().
+        offer_wanted(BriefingOffer): another way to watch it.
     """
 
     begin_wanted = Signal()
     show_wanted = Signal()
-    arm_wanted = Signal()
+    offer_wanted = Signal(object)
     look_wanted = Signal()
     back_wanted = Signal()
 
@@ -276,16 +280,13 @@ class BriefingPage(QWidget):
         self.views = tuple(PortraitView(name, self) for name in ("axial", "coronal", "sagittal"))
         self.begin = _key_button(tr("Begin (Enter)"), "primary")
         self.show_me = _key_button(tr("Show me (D)"))
-        self.arm = _key_button(tr("Watch the arm (W)"))
+        self.offers: dict[str, tuple[BriefingOffer, QPushButton]] = {}
         self.look = _key_button(tr("Look around first (L)"))
         self.back = _key_button(tr("Back (Esc)"))
         self.skip = QCheckBox(tr("Do not show this again for this exercise"), self)
         self.why_not = label("", "dim")
         self.begin.setToolTip(tr("The attempt starts as soon as robot and cameras are there"))
         self.show_me.setToolTip(tr("An expert does the exercise; nothing is recorded"))
-        self.arm.setToolTip(
-            tr("A simulated arm carries out the plan; it counts for nobody, and drives no real arm")
-        )
         self.look.setToolTip(tr("Study the CT without the clock; F5 starts the attempt"))
         self._lay_out()
         self._connect()
@@ -306,9 +307,9 @@ class BriefingPage(QWidget):
         self.begin.setText(tr("Begin to plan (Enter)") if own else tr("Begin (Enter)"))
         self.look.setVisible(not own)
         self.show_me.setEnabled(not own)
-        self.arm.setEnabled(not own)
-        by_arm = exercise.purpose is Purpose.PRACTICE and exercise.touch is None
-        self.arm.setVisible(by_arm)
+        for offer, widget in self.offers.values():
+            widget.setEnabled(not own)
+            widget.setVisible(offer.suits(exercise))
         self.why_not.setText(
             tr("You choose the entry here, so there is nothing to show before you have.")
             if own
@@ -326,6 +327,17 @@ class BriefingPage(QWidget):
         """Say how many attempts there are."""
         self.attempts.setText(allowance.words())
         self.begin.setEnabled(not allowance.refusal)
+
+    def add_offer(self, offer: BriefingOffer) -> None:
+        """Add a button for another way to watch an exercise."""
+        widget = _key_button(offer.title)
+        widget.setToolTip(literal(offer.tip))
+        widget.clicked.connect(lambda: self.offer_wanted.emit(offer))
+        self._buttons.insertWidget(self._buttons.indexOf(self.look), widget)
+        before = [self.show_me, *(shown for _, shown in self.offers.values())]
+        QWidget.setTabOrder(before[-1], widget)
+        self._keys[offer.key] = widget
+        self.offers[offer.name] = offer, widget
 
     # --- inside -------------------------------------------------------------------------------
     def _lay_out(self) -> None:
@@ -365,12 +377,12 @@ class BriefingPage(QWidget):
         middle.setSpacing(2 * theme.MARGIN)
         middle.addLayout(pictures, 1)
         middle.addWidget(area)
-        buttons = QHBoxLayout()
+        self._buttons = buttons = QHBoxLayout()
         buttons.setSpacing(theme.SPACING)
         for widget in (self.back, self.skip):
             buttons.addWidget(widget)
         buttons.addStretch(1)
-        for widget in (self.show_me, self.arm, self.look, self.begin):
+        for widget in (self.show_me, self.look, self.begin):
             buttons.addWidget(widget)
         self.begin.setMinimumWidth(theme.px(170))
         page = QVBoxLayout(self)
@@ -390,13 +402,11 @@ class BriefingPage(QWidget):
             key.Key_Enter: self.begin,
             key.Key_F5: self.begin,
             key.Key_D: self.show_me,
-            key.Key_W: self.arm,
             key.Key_L: self.look,
             key.Key_Escape: self.back,
         }
         self.begin.clicked.connect(self.begin_wanted)
         self.show_me.clicked.connect(self.show_wanted)
-        self.arm.clicked.connect(self.arm_wanted)
         self.look.clicked.connect(self.look_wanted)
         self.back.clicked.connect(self.back_wanted)
 

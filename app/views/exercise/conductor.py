@@ -156,7 +156,7 @@ class Conductor(QObject):
         exercises_changed(): there are others to choose from.
         exercise_wanted(str): somebody wants to begin an exercise, by its identifier.
         start_wanted(): somebody wants to choose another exercise, on the start page.
-        arm_wanted(): somebody wants to watch the arm carry out the plan.
+        offered(BriefingOffer): a feature offers another way to watch an exercise.
 
     Attributes:
         controller: serves the attempt.
@@ -175,7 +175,7 @@ class Conductor(QObject):
     exercises_changed = Signal()
     exercise_wanted = Signal(str)
     start_wanted = Signal()
-    arm_wanted = Signal()
+    offered = Signal(object)
 
     def __init__(
         self,
@@ -374,14 +374,14 @@ class Conductor(QObject):
             self._show_plan()
 
     def lend(self, on: bool) -> None:
-        """Give the needle to the simulated arm, on a simulated robot, or take it back."""
+        """Give the needle to a feature, on a simulated robot, or take it back."""
         if on != self._lent:
             self._lent = on
             self._show_plan()
 
-    def show_arm(self, bar: QWidget | None) -> None:
-        """Let a bar say what the arm does, in place of the next step, and draw no robot; None ends
-        that.
+    def show_leader(self, bar: QWidget | None) -> None:
+        """Let a bar say what leads the needle, in place of the next step, and draw no robot; None
+        ends that.
         """
         self._bare = bar is not None
         self._needle.forget()
@@ -422,7 +422,7 @@ class Conductor(QObject):
         ct = exercise.ct
         if ct.phantom is not None:
             return patient.phantom_seed == ct.phantom.seed
-        same_way = patient.volume.recipe.remedy is ct.remedy
+        same_way = patient.volume.recipe.remedy == ct.remedy
         if ct.folder is None or patient.folder is None or not same_way:
             return False
         same_place = patient.folder.absolute() == ct.folder.absolute()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QSplitter
 
@@ -25,6 +27,8 @@ class ExerciseFeature(Feature):
         exercises: all there are, by identifier, easiest first.
         beginning: leads from the wish to begin one to its attempt.
     """
+
+    place: ClassVar[int] = 60
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

@@ -188,7 +188,7 @@ class ScanSource(QObject):
             return
         self._busy, self._waiting = True, False
         self._panel.set_busy(True)
-        volume, streak = patient.volume, bool(scan.streak)
+        volume, streak = patient.volume, scan.streak
 
         def make(_: Progress) -> Volume:
             from app.imaging.scanned import scan_image  # compiled parts: beside the window

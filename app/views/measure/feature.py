@@ -202,6 +202,7 @@ class MeasureFeature(Feature):
     """Tools in the panes, the list as a panel, its files."""
 
     topic: ClassVar[str] = "measure"
+    place: ClassVar[int] = 110
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

@@ -29,6 +29,8 @@ class PenFeature(Feature):
 
     changed = Signal()
     topic: ClassVar[str] = "pen"
+    place: ClassVar[int] = 90
+    help: ClassVar[str] = "pen.md#in-the-window"
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import ClassVar, TypeVar
 
 from PySide6.QtCore import QStandardPaths, Signal, SignalInstance
-from PySide6.QtWidgets import QDialog, QFileDialog, QInputDialog, QMessageBox
+from PySide6.QtWidgets import QDialog, QFileDialog, QMessageBox
 
 from app.core.errors import AcusError
 from app.core.progress import Progress
@@ -39,7 +39,7 @@ from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.parts import message_box
-from app.views.kit.text import literal, tr
+from app.views.kit.text import tr
 from app.views.people.pages import (
     GROUP_PDF,
     STUDENT_PDF,
@@ -85,6 +85,7 @@ class PeopleFeature(Feature):
     """
 
     topic: ClassVar[str] = "people"
+    place: ClassVar[int] = 180
     attempts_wanted = Signal(str, str, str)
     attempt_wanted = Signal(str)
 
@@ -208,8 +209,7 @@ class PeopleFeature(Feature):
                 return known
             index = Index(self._folder)
             index.refresh()
-            texts = [text for text, key in known.keys.items() if key == student.key]
-            own, today = not_void(index.attempts(texts), people.remarks()), _today()
+            own, today = not_void(index.attempts([student.key]), people.remarks()), _today()
             return replace(known, refused=refusals(courses()[0], student, own, today, titles))
 
         self._learning += 1
@@ -232,9 +232,8 @@ class PeopleFeature(Feature):
             board, attempts = board_of(
                 self._folder, people, course, group or "", None, progress, released=not names
             )
-            everybody, remarks, keys = people.everybody(names), people.remarks(), people.keys()
-            by_key = {one.key: one for one in everybody}
-            persons = {text: by_key[key] for text, key in keys.items()}
+            everybody, remarks = people.everybody(names), people.remarks()
+            persons = {one.key: one for one in everybody}
             waiting = {
                 one.id: waiting_for_release(one, attempts, persons, remarks) for one in known
             }
@@ -243,7 +242,7 @@ class PeopleFeature(Feature):
                 board = replace(board, students=tuple(everybody))
                 known = [one for one in known if student and one.takes(student)]
                 broken, waiting = [], {}
-            own = [one for one in attempts if student and keys.get(one.student) == student.key]
+            own = [one for one in attempts if student and one.student == student.key]
             own = not_void(own, remarks)
             standings = {
                 one.id: course_standings(one, exercises, student, own, remarks, _today())
@@ -368,31 +367,6 @@ class PeopleFeature(Feature):
             words = tr("Hand this out; it is kept nowhere.")
             self._tell(tr("PIN"), words, f"{person.pseudonym}  {pin}", once=True)
 
-    def assign(self) -> None:
-        """Ask which typed name of old records is the student's who is chosen."""
-        if not self._may():
-            return
-        person, look = self.page.students.chosen(), self._look
-        if person is None or look is None:
-            return
-        known = self._people.keys()
-        typed = sorted({one.student for one in look.attempts} - set(known) - {""})
-        if not typed:
-            self.failed.emit(tr("No attempt is left that nobody is assigned to."))
-            return
-        words = tr("Attempts that name this text are {name}'s:", name=person.pseudonym)
-        dialog = QInputDialog(self._shell.dialog_parent)
-        dialog.setWindowTitle(tr("Assign old attempts"))
-        dialog.setLabelText(literal(words))
-        dialog.setComboBoxItems(typed)
-
-        def take(text: str) -> None:
-            self._try(lambda: self._people.assign(text, person.pseudonym))
-            self._changed()
-
-        dialog.textValueSelected.connect(take)
-        self._open(dialog)
-
     def erase(self) -> None:
         """Ask whether, and how, the student who is chosen is erased for good."""
         if not self._may():
@@ -435,8 +409,6 @@ class PeopleFeature(Feature):
                 n=found.deleted,
                 m=found.anonymous,
             )
-            if found.typed:
-                text += tr(", kept with the name that was typed: {n}", n=found.typed)
             self.noted.emit(text)
 
         self._beside(work, done, tr("Erasing"))
@@ -517,17 +489,10 @@ class PeopleFeature(Feature):
         places = [board.course.currentText(), board.group.currentText()]
 
         def gather() -> Results:
-            people = {person.key: person for person in look.people}
-            known = {text: people[key] for text, key in self._people.keys().items()}
+            known = {person.key: person for person in look.people}
             wanted = {item.exercise for item in look.board.items}
             shown = {person.key for person in look.board.students}
-            some = [
-                one
-                for one in look.attempts
-                if one.exercise in wanted
-                and one.student in known
-                and known[one.student].key in shown
-            ]
+            some = [one for one in look.attempts if one.exercise in wanted and one.student in shown]
             return Results(look.board, some, known, self._people.remarks(), {})
 
         def work(progress: Progress) -> None:
@@ -580,7 +545,6 @@ class PeopleFeature(Feature):
         students.add.clicked.connect(lambda: self.add_student())
         students.roster.clicked.connect(lambda: self.choose_roster())
         students.pin.clicked.connect(lambda: self.new_pin())
-        students.assign.clicked.connect(lambda: self.assign())
         students.erase.clicked.connect(lambda: self.erase())
         tab.new.clicked.connect(lambda: self.edit_course(None))
         tab.begin_wanted.connect(self.begin_of_course)

@@ -279,11 +279,10 @@ class StudentsTab(QWidget):
         self.table = table((tr("Pseudonym"), tr("Groups"), tr("Name")), selectable=True)
         self.table.setAccessibleName(tr("Students"))
         self.add, self.roster = button(tr("Add…"), "primary"), button(tr("Roster from CSV…"))
-        self.pin, self.assign = button(tr("New PIN")), button(tr("Assign old attempts…"))
-        self.erase = button(tr("Erase…"))
+        self.pin, self.erase = button(tr("New PIN")), button(tr("Erase…"))
         self._hint = label("", "dim")
         row = QHBoxLayout()
-        for widget in (self.add, self.roster, self.pin, self.assign, self.erase):
+        for widget in (self.add, self.roster, self.pin, self.erase):
             row.addWidget(widget)
         row.addStretch(1)
         column = QVBoxLayout(self)
@@ -312,7 +311,7 @@ class StudentsTab(QWidget):
         return self.people[min(rows)] if rows else None
 
     def _enable(self) -> None:
-        for widget in (self.pin, self.assign, self.erase):
+        for widget in (self.pin, self.erase):
             widget.setEnabled(self.chosen() is not None)
 
 

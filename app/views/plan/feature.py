@@ -261,6 +261,7 @@ class PlanFeature(Feature):
     """Panel, menu entries and files of the plan."""
 
     topic: ClassVar[str] = "plan"
+    place: ClassVar[int] = 30
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

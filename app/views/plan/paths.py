@@ -194,6 +194,7 @@ class PathsFeature(Feature):
     """Connects the panel below the plan with target, structures, panes and 3D view."""
 
     topic: ClassVar[str] = "paths"
+    place: ClassVar[int] = 40
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

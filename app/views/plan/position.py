@@ -32,6 +32,7 @@ class PositionFeature(Feature):
     """Exports and imports the position; failures and notes are told as those of plans are."""
 
     topic: ClassVar[str] = "plan"
+    place: ClassVar[int] = 140
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

@@ -150,6 +150,7 @@ class RobotFeature(Feature):
 
     changed = Signal()
     topic: ClassVar[str] = "robot"
+    place: ClassVar[int] = 70
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

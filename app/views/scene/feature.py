@@ -29,6 +29,7 @@ class SceneFeature(Feature):
     """Brings the CT's slices and the cut along the needle into the 3D view, and its menu."""
 
     topic: ClassVar[str] = "scene"
+    place: ClassVar[int] = 130
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

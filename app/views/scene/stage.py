@@ -28,7 +28,6 @@ from app.views.kit import theme
 from app.views.kit.theme import Mark
 from app.views.plan.entry_map import COLOURS, SIZES_PX, EntryMap
 from app.views.scene.actors import Ball, Cloud, Ring, Rod, SurfaceActor
-from app.views.scene.arm import ArmPiece, ArmShape
 from app.views.scene.display import ORGAN_COLOURS, SEEN_INTO, Display, Section, rgb
 from app.views.scene.mesh import Mesh
 from app.views.scene.orbit import Orbit
@@ -39,6 +38,7 @@ from app.views.scene.sections import (
     SectionActor,
     VolumeActor,
 )
+from app.views.scene.shape import ScenePiece, SceneShape
 from app.views.scene.surfaces import Surfaces
 
 EYE_DISTANCE_MM = 2000.0
@@ -106,8 +106,7 @@ class Stage:
         self._links: list[Rod] = []
         self._cables: list[Rod] = []
         self._fulcrum = Ball(scene, theme.ROBOT, FULCRUM_RADIUS_MM)
-        self._arm: list[Rod | Ball] = []
-        self._trocar: list[Ring] = []
+        self._shapes: dict[tuple[object, ...], tuple[list[Rod | Ball], list[Ring]]] = {}
         self._needle = [self._new_piece()]
         self._tip = Ball(scene, theme.NEEDLE_TIP, 2 * NEEDLE_RADIUS_MM, 1.5 * NEEDLE_PX, over)
         self._error = Ball(scene, theme.NEEDLE_TIP, 1.0, opacity=0.35)
@@ -249,8 +248,7 @@ class Stage:
             *self._links,
             *self._cables,
             self._fulcrum,
-            *self._arm,
-            *self._trocar,
+            *(solid for solids, rings in self._shapes.values() for solid in (*solids, *rings)),
             *self._needle,
             self._tip,
             self._error,
@@ -351,32 +349,38 @@ class Stage:
         fulcrum = None if robot is None else (T_patient_world @ robot.fulcrum) / MILLIMETRE
         self._fulcrum.put(fulcrum)
 
-    def set_arm(self, arm: ArmShape | None) -> None:
-        """Show the simulated arm with hand, tool, rails and trocar, or none."""
-        if arm is None:
-            for solid in self._arm:
+    def set_shape(self, shape: SceneShape | None) -> None:
+        """Show what a feature puts into the picture, and nothing else of that sort; None: none."""
+        kind = None if shape is None else shape.kind
+        for other in self._shapes.keys() - {kind}:
+            for solid in (*self._shapes[other][0], *self._shapes[other][1]):
                 solid.place(None)
-            for ring in self._trocar:
-                ring.place(None)
+        if shape is None or kind is None:
             return
-        if not self._arm:
-            self._arm = [solid for piece in arm.pieces for solid in self._new_arm_piece(piece)]
-            self._trocar = [Ring(self._renderer, theme.ENTRY, RING_PX, self._over) for _ in "io"]
-            for new in (*self._arm, *self._trocar):
+        if kind not in self._shapes:
+            rods = [solid for piece in shape.pieces for solid in self._new_solids(piece)]
+            rings = [
+                Ring(self._renderer, hoop.mark, RING_PX, self._over)
+                for hoop in shape.hoops
+                for _ in hoop.radii_mm
+            ]
+            self._shapes[kind] = rods, rings
+            for new in (*rods, *rings):
                 new.show(self._display)
-        solids = iter(self._arm)
-        for piece in arm.pieces:
+        solids, hoops = iter(self._shapes[kind][0]), iter(self._shapes[kind][1])
+        for piece in shape.pieces:
             for solid in islice(solids, 3 if piece.round else 1):
                 if isinstance(solid, Rod):
                     solid.span(*piece.ends_mm)
                     balls = iter(piece.ends_mm)
                 else:
                     solid.put(next(balls))
-        for ring, radius in zip(self._trocar, arm.radii_mm, strict=True):
-            ring.surround(arm.trocar_mm, arm.normal, radius)
+        for hoop in shape.hoops:
+            for radius in hoop.radii_mm:
+                next(hoops).surround(hoop.centre_mm, hoop.normal, radius)
 
-    def _new_arm_piece(self, piece: ArmPiece) -> list[Rod | Ball]:
-        mark, radius = piece.part.value, piece.radius_mm
+    def _new_solids(self, piece: ScenePiece) -> list[Rod | Ball]:
+        mark, radius = piece.mark, piece.radius_mm
         balls = [Ball(self._renderer, mark, radius) for _ in piece.ends_mm] if piece.round else []
         return [Rod(self._renderer, mark, radius), *balls]
 

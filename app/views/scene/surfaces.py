@@ -32,7 +32,7 @@ SKIN_STEP_MM, BONE_STEP_MM, LUNG_STEP_MM, ORGAN_STEP_MM = 3.5, 2.4, 3.5, 3.0
 BONE_HU = 240.0
 """Above organs with contrast agent, below cancellous bone."""
 
-MOST_CELLS = 5_000_000
+MOST_CELLS = 3_500_000
 """Of a grid that a surface is taken from: a taller patient has larger cells, not more of them, for
 its surfaces have no more triangles either."""
 

@@ -40,11 +40,11 @@ from app.session.touching import TargetMarks
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.text import tr
-from app.views.scene.arm import ArmShape
 from app.views.scene.display import ORGAN_COLOURS, Display, Section, organ_title
 from app.views.scene.orbit import Orbit
 from app.views.scene.renderer import SceneFeed, SceneRenderer
 from app.views.scene.robot import RobotShape
+from app.views.scene.shape import SceneShape
 from app.views.scene.words import Entry, draw_compass, draw_targets, draw_words
 
 if TYPE_CHECKING:
@@ -307,9 +307,9 @@ class SceneView(QWidget):
             self._robot = points
             self._fit_home()
 
-    def set_arm(self, arm: ArmShape | None, often: bool = False) -> None:
-        """Show the simulated arm at a moment, or none; `often` at the cost of fineness."""
-        self._feed.change("arm", lambda stage: stage.set_arm(arm))
+    def set_shape(self, shape: SceneShape | None, often: bool = False) -> None:
+        """Show what a feature puts into the picture, or none; `often` at the cost of fineness."""
+        self._feed.change("shape", lambda stage: stage.set_shape(shape))
         if often:
             self._feed.stir()
 

@@ -25,7 +25,8 @@ from PySide6.QtWidgets import (
 from app.core.identifiers import HIDDEN
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
-from app.imaging.series import Listing, Remedy, Series
+from app.imaging.remedies import remedies
+from app.imaging.series import NO_REMEDY, Listing, Series
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.names import NAMES
@@ -40,7 +41,7 @@ class SeriesCard(QFrame):
     """Shows a series.
 
     Signals:
-        chosen(Series, Remedy): open it, as it is or in the way asked for.
+        chosen(Series, str): open it, as it is (`NO_REMEDY`) or by the remedy of that name.
     """
 
     chosen = Signal(object, object)
@@ -107,7 +108,7 @@ def verdict(series: Series) -> str:
     """Whether it can be used, in words, with a sign that tells it without colour."""
     if series.usable:
         return "✔  " + tr("can be used")
-    sign = "✖" if series.remedy is Remedy.NONE else "▲"
+    sign = "▲" if series.remedies else "✖"
     return f"{sign}  {series.reason}"
 
 
@@ -120,37 +121,21 @@ def facts(series: Series) -> str:
     return "  ·  ".join(part for part in parts if part)
 
 
-def remedy_words(remedy: Remedy) -> str:
-    """Name the way of opening on a button."""
-    return {
-        Remedy.RESAMPLE: tr("Open resampled"),
-        Remedy.STRAIGHTEN: tr("Open straightened"),
-        Remedy.HALVE: tr("Open at half size"),
-    }.get(remedy, tr("Open"))
-
-
-def _remedy_tip(remedy: Remedy) -> str:
-    return {
-        Remedy.RESAMPLE: tr(
-            "Interpolates between the slices onto an even grid; missing slices stay empty."
-        ),
-        Remedy.STRAIGHTEN: tr(
-            "Interpolates onto a right-angled grid. Opened as it is, the tilt is kept exactly."
-        ),
-        Remedy.HALVE: tr("Averages neighbouring voxels until the volume fits the memory."),
-    }.get(remedy, "")
-
-
-def _buttons(series: Series, parent: QWidget, taking: bool) -> list[tuple[QPushButton, Remedy]]:
-    ways = [Remedy.NONE] if series.usable else []
-    if series.remedy is not Remedy.NONE and not (taking and series.usable):
-        ways.append(series.remedy)
+def _buttons(series: Series, parent: QWidget, taking: bool) -> list[tuple[QPushButton, str]]:
+    """Offer the series as it is, and by each remedy that helps it."""
+    ways = [(NO_REMEDY, tr("Open"), "")] if series.usable else []
+    if not (taking and series.usable):
+        ways += [
+            (one.name, tr(one.title), tr(one.help))
+            for one in remedies()
+            if one.name in series.remedies
+        ]
     found = []
-    for remedy in ways:
-        button = QPushButton(tr("Import…") if taking else remedy_words(remedy), parent)
+    for remedy, title, tip in ways:
+        button = QPushButton(tr("Import…") if taking else title, parent)
         button.setMinimumWidth(_BUTTON_PX)
-        button.setToolTip(literal(_remedy_tip(remedy)))
-        if remedy is Remedy.NONE:
+        button.setToolTip(literal(tip))
+        if remedy == NO_REMEDY:
             button.setProperty("role", "primary")
         found.append((button, remedy))
     return found
@@ -175,7 +160,7 @@ def _line(text: str, role: str = "", wraps: bool = False) -> QLabel:
 def _colour(series: Series) -> str:
     if series.usable:
         return theme.GOOD
-    return theme.BAD if series.remedy is Remedy.NONE else theme.WARNING
+    return theme.WARNING if series.remedies else theme.BAD
 
 
 class Thumbnails(QObject):
@@ -238,7 +223,7 @@ class SeriesBrowser(QDialog):
     With `taking` the one chosen goes into the library: its own images, whatever opens them later.
 
     Signals:
-        chosen(Series, Remedy): open it, as it is or in the way asked for.
+        chosen(Series, str): open it, as it is (`NO_REMEDY`) or by the remedy of that name.
     """
 
     chosen = Signal(object, object)
@@ -318,14 +303,14 @@ class SeriesBrowser(QDialog):
             buttons[0].setDefault(True)
             buttons[0].setFocus()
 
-    def _take(self, series: Series, remedy: Remedy) -> None:
+    def _take(self, series: Series, remedy: str) -> None:
         self.accept()
         self.chosen.emit(series, remedy)
 
 
 def _rank(series: Series) -> tuple[int, int]:
     """Usable ones first, then those that can be mended; the larger before the smaller."""
-    kind = 0 if series.usable else 1 if series.remedy is not Remedy.NONE else 2
+    kind = 0 if series.usable else 1 if series.remedies else 2
     return kind, -series.size[2]
 
 

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.imaging.errors import ImagingError, TooLargeError
-from app.imaging.series import Listing, Remedy, Series
+from app.imaging.series import NO_REMEDY, Listing, Series
 from app.planning.patient import Patient, load_phantom, read_patient
 from app.views.kit.background import BackgroundTask, Indicator, run_in_background
 from app.views.kit.names import NAMES
@@ -32,8 +32,10 @@ class OpenCt(QObject):
         failed(object): the error that kept it from being opened.
         given_up(): nothing will be opened: refused, cancelled, or nothing was chosen.
         reading(bool): one is being looked for or read, or no more.
+        taking(Candidate): to be looked through, then taken into the library.
 
     Attributes:
+        ways_in: further ways into the library, for its menu: title, and what leads there.
         recents: those opened before.
         may_replace: asked before one is read, whether it may take the place of what is open.
     """
@@ -42,6 +44,7 @@ class OpenCt(QObject):
     failed = Signal(object)
     given_up = Signal()
     reading = Signal(bool)
+    taking = Signal(object)
 
     def __init__(self, recents: Recents, indicator: Indicator, window: QWidget) -> None:
         super().__init__(window)
@@ -49,6 +52,7 @@ class OpenCt(QObject):
         self._task: BackgroundTask | None = None
         self._listing: Listing | None = None
         self.may_replace: Callable[[], bool] = lambda: True
+        self.ways_in: list[tuple[str, Callable[[], object]]] = []
 
     @property
     def is_reading(self) -> bool:
@@ -71,9 +75,7 @@ class OpenCt(QObject):
         if name:
             self.open_folder(Path(name))
 
-    def open_folder(
-        self, path: Path, series: str | None = None, remedy: Remedy = Remedy.NONE
-    ) -> None:
+    def open_folder(self, path: Path, series: str | None = None, remedy: str = NO_REMEDY) -> None:
         """Open the CT in a folder, archive, DICOMDIR or NIfTI file (of another: in its folder).
 
         Args:
@@ -110,7 +112,7 @@ class OpenCt(QObject):
             self._finish,
         )
 
-    def open_series(self, listing: Listing, series: Series, remedy: Remedy = Remedy.NONE) -> None:
+    def open_series(self, listing: Listing, series: Series, remedy: str = NO_REMEDY) -> None:
         """Read this series, as it is or in the way asked for."""
         if not self._ask_to_replace():
             return
@@ -157,14 +159,12 @@ class OpenCt(QObject):
         )
         self._set_task(task)
 
-    def _choose(
-        self, listing: Listing, series: str | None = None, remedy: Remedy = Remedy.NONE
-    ) -> None:
+    def _choose(self, listing: Listing, series: str | None = None, remedy: str = NO_REMEDY) -> None:
         self._set_task(None)
         self._listing = listing
-        openable = [s for s in listing.series if s.usable or s.remedy is not Remedy.NONE]
+        openable = [s for s in listing.series if s.usable or s.remedies]
         unclear = len(openable) > 1 or not listing.usable
-        if series is None and remedy is Remedy.NONE and listing.series and unclear:
+        if series is None and remedy == NO_REMEDY and listing.series and unclear:
             self._browse(listing)
             return
         from app.imaging.reading import choose  # pydicom: loaded by the scan

@@ -10,10 +10,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from time import process_time
-from typing import Final
+from typing import Final, Protocol, TypeVar
 
 import numpy as np
-from PySide6.QtCore import QCoreApplication, QEvent, QObject, QTimer, Signal
+from PySide6.QtCore import QCoreApplication, QEvent, QObject, QTimer, Signal, SignalInstance
 from PySide6.QtGui import QPixmap
 from PySide6.QtWidgets import QWidget
 
@@ -27,16 +27,17 @@ from app.session.needle import DepthSource
 from app.session.result import AttemptResult
 from app.session.review import review_of_result
 from app.session.snapshot import Snapshot
-from app.views.arm.feature import ArmFeature
-from app.views.arm.play import PlayState
 from app.views.debrief.feature import DebriefFeature
 from app.views.debrief.report import write_report
 from app.views.exercise.beginning import TRAINEE_DONE
 from app.views.exercise.feature import ExerciseFeature
+from app.views.shell.feature import Feature
 from app.views.shell.window import MainWindow
 from app.views.slices.canvas import SliceCanvas
 from app.views.slices.slab import as_point
 from app.views.slices.viewing import Tool
+
+F = TypeVar("F", bound=Feature)
 
 
 class PictureError(AcusError, OSError):
@@ -99,16 +100,64 @@ The clock counts a quarter: beside other programs it says little of what this on
 SETTLE_S: Final = 1.5
 """Time for the first picture in 3D after everything stands [s]."""
 
-MIDDLE, LATEST, HOLD_PICTURE_S = 0.5, 0.9, 1.0
-"""Share of a phase of the arm at which it is pictured, and at which without a fix of the cameras
-too; after so long where it holds still [s]."""
-
 FRESH_S: Final = 0.1
 """Pictures on the way wait until the cameras' last fix is no older [s]: drawing disturbs them."""
 
 
 class DemonstrationError(AcusError):
     """An exercise cannot be shown by itself."""
+
+
+class Leader(Protocol):
+    """What leads the needle of a demonstration in place of the scripted trainee.
+
+    Attributes:
+        words: what it does first.
+        failed: emitted with why it cannot.
+    """
+
+    words: str
+
+    @property
+    def failed(self) -> SignalInstance:
+        """Emitted with why it cannot."""
+        ...
+
+    def begin(self) -> None:
+        """Begin, as soon as patient and robot are there."""
+        ...
+
+    def follow(
+        self,
+        waited: float,
+        snapshot: Snapshot | None,
+        pictures: StillPictures,
+        tell: Callable[[str], None],
+    ) -> bool:
+        """Go on until the attempt is over; called many times a second.
+
+        Args:
+            waited: since something happened [s].
+            snapshot: of the attempt.
+            pictures: takes pictures of what is to be seen.
+            tell: is told what goes on, a line.
+
+        Returns:
+            Whether something has happened: the patience begins anew.
+        """
+        ...
+
+
+MakesLeader = Callable[["FeatureOf"], Leader]
+"""Makes a leader from the function that returns the window's feature of a kind."""
+
+
+class FeatureOf(Protocol):
+    """Return the window's feature of a kind."""
+
+    def __call__(self, kind: type[F], /) -> F:
+        """Return it."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,14 +169,14 @@ class DemonstrationScript:
         ct: folder of another CT; None for the exercise's own patient.
         student: pseudonym.
         pictures: folder for pictures and report; None for none.
-        by_arm: whether the simulated arm carries out the plan, not a scripted trainee.
+        leader: makes what leads the needle in place of a scripted trainee; None for the trainee.
     """
 
     exercise: str = "first-insertion"
     ct: Path | None = None
     student: str = "demo"
     pictures: Path | None = None
-    by_arm: bool = False
+    leader: MakesLeader | None = None
 
 
 def has_fresh_fix(snapshot: Snapshot) -> bool:
@@ -163,8 +212,7 @@ class Demonstration(QObject):
         self._result: AttemptResult | None = None
         self._debrief = window.feature(DebriefFeature)
         self._drawn = False
-        self._arm = window.feature(ArmFeature)
-        self._phase = ""
+        self._leader = None if script.leader is None else script.leader(window.feature)
         self._debrief.page.curves.drawn.connect(self._note_drawn)
         window.conductor.controller.finished.connect(self._take_result)
         for failure in (
@@ -172,7 +220,7 @@ class Demonstration(QObject):
             window.conductor.failed,
             window.runs.failed,
             window.conductor.controller.failed,
-            self._arm.failed,
+            *(() if self._leader is None else (self._leader.failed,)),
         ):
             failure.connect(self._stop)
 
@@ -229,36 +277,18 @@ class Demonstration(QObject):
         self._pictures.take("1-plan")
         panel = self._window.workspace.exercise_panel
         panel.set_student(self._script.student)
-        if self._script.by_arm:
-            self._arm.watch()
-            return self._then("the arm works out its way", self._arm_is_done)
+        if self._leader is not None:
+            self._leader.begin()
+            return self._then(self._leader.words, self._leader_is_done)
         panel.start_requested.emit(self._script.student)
         return self._then("attempt", self._needle_is_in)
 
-    def _arm_is_done(self) -> bool:
-        """Take a picture in the middle of each phase; the arm ends its attempt itself."""
-        bar, play = self._arm.bar, self._arm.play
-        if bar.offer.isVisible():
-            self.told.emit(bar.words.text())
-            bar.offer.click()
-            self._go_on()
-            return False
-        if play is not None and play.state in (
-            PlayState.FETCHING,
-            PlayState.INSERTING,
-            PlayState.HOLDING,
+    def _leader_is_done(self) -> bool:
+        """Let the leader go on; it ends its attempt itself."""
+        leader = self._leader
+        if leader is not None and leader.follow(
+            self._waited, self._snapshot(), self._pictures, self.told.emit
         ):
-            phase = "hold" if play.state is PlayState.HOLDING else play.phase
-            if phase != self._phase:
-                self._phase = phase
-                self.told.emit(bar.words.text())
-            held = play.state is PlayState.HOLDING and self._waited >= HOLD_PICTURE_S
-            snapshot = self._snapshot()
-            fresh = snapshot is not None and snapshot.pose.measured and has_fresh_fix(snapshot)
-            clear = fresh or phase != "insert" or play.share >= LATEST
-            if held or (phase != "hold" and clear and play.share >= MIDDLE):
-                self._pictures.take(f"arm-{phase}")
-        if play is not None and play.state is not PlayState.HOLDING:
             self._go_on()
         if self._result is not None:
             return self._then("scoring", self._debrief_is_shown)

@@ -1,12 +1,13 @@
 """What a feature of the window is, and what it is made from.
 
 A feature is one object that brings everything of its own: menu entries, panel, page, messages, what
-it forgets at a change of patient, what it ends with the window. The list of them stands in
-`shell.features`; the window goes through it. How to add one is told in docs/extending.md.
+it forgets at a change of patient, what it ends with the window. `shell.features` finds
+them; the window goes through its list. How to add one is told in docs/extending.md.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
@@ -64,11 +65,15 @@ class Feature(QObject):
 
     Attributes:
         topic: name of its messages; one of a topic replaces the last one.
+        place: where its panel stands, and its entries in menus that several share.
+        help: page and heading about the widgets of its folder.
     """
 
     failed = Signal(object)
     noted = Signal(str)
     topic: ClassVar[str] = ""
+    place: ClassVar[int] = 1000
+    help: ClassVar[str] = ""
 
     def __init__(self, context: Context) -> None:
         super().__init__(context.shell.dialog_parent)
@@ -77,6 +82,10 @@ class Feature(QObject):
     def over(self) -> tuple[SignalInstance, ...]:
         """Return what ends a message of `failed`: the signals after which it is true no more."""
         return ()
+
+    def watching(self) -> Mapping[str, str]:
+        """Return keys by which an exercise is watched, and who shows it, for the sheet of keys."""
+        return {}
 
     def forget(self) -> None:
         """Empty everything that belongs to the patient: another one is coming."""

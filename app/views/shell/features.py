@@ -1,47 +1,32 @@
-"""The list of features: the order is that of panels, and of entries in menus that several share."""
+"""The features of the window: every class of `Feature` in a folder of `app.views`, and plug-ins'.
+
+The order is that of panels, and of entries in menus that several share: by `place`, and features of
+plug-ins where they say (`feature_plugins`).
+"""
 
 from __future__ import annotations
 
+import re
+from importlib import import_module
+from operator import attrgetter
+from pathlib import Path
 from typing import Final
 
-from app.views.accuracy.feature import AccuracyFeature
-from app.views.arm.feature import ArmFeature
-from app.views.author.feature import AuthorFeature
-from app.views.cameras.feature import CamerasFeature
-from app.views.checks.feature import ChecksFeature
-from app.views.debrief.feature import DebriefFeature
-from app.views.exercise.feature import ExerciseFeature
-from app.views.measure.feature import MeasureFeature
-from app.views.pen.feature import PenFeature
-from app.views.people.feature import PeopleFeature
-from app.views.plan.feature import PlanFeature
-from app.views.plan.paths import PathsFeature
-from app.views.plan.position import PositionFeature
-from app.views.robot.feature import RobotFeature
-from app.views.scene.feature import SceneFeature
-from app.views.series.feature import SeriesFeature
+from app import views
 from app.views.shell.feature import Feature
-from app.views.sounds.feature import SoundsFeature
-from app.views.structures.feature import StructuresFeature
+from app.views.shell.feature_plugins import with_plugins
 
-FEATURES: Final[tuple[type[Feature], ...]] = (
-    SeriesFeature,
-    PlanFeature,
-    PathsFeature,
-    AuthorFeature,
-    ExerciseFeature,
-    ArmFeature,
-    RobotFeature,
-    CamerasFeature,
-    PenFeature,
-    ChecksFeature,
-    MeasureFeature,
-    StructuresFeature,
-    SceneFeature,
-    PositionFeature,
-    SoundsFeature,
-    AccuracyFeature,
-    DebriefFeature,
-    PeopleFeature,
-)
+_CLASS: Final = re.compile(rb"^class (\w+)\(Feature\):$", re.MULTILINE)
+
+
+def _own() -> tuple[type[Feature], ...]:
+    classes: list[type[Feature]] = []
+    for path in sorted(Path(views.__file__).parent.glob("*/*.py")):
+        for name in _CLASS.findall(path.read_bytes()):
+            module = import_module(f"{views.__name__}.{path.parent.name}.{path.stem}")
+            classes.append(getattr(module, name.decode()))
+    return tuple(sorted(classes, key=attrgetter("place")))
+
+
+FEATURES: Final = with_plugins(_own())
 """A dropped file is offered to them from the last to the first."""

@@ -51,6 +51,8 @@ from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel, label, size_dialog
 from app.views.kit.text import disclaimer, literal, tr
 from app.views.shell.application import icon
+from app.views.shell.feature import Feature
+from app.views.shell.feature_plugins import page_of_plugin
 
 _PROGRAM: Final = "acus"
 _STATED: Final = {"vtk": "BSD-3-Clause", "python-gdcm": "BSD-3-Clause"}
@@ -292,16 +294,12 @@ _MARGIN_PX: Final = 40
 
 HOME: Final = "index.md"
 PAGES: Final = {
-    "accuracy": "user-guide.md#what-accuracy-costs",
-    "arm": "user-guide.md#watch-the-arm-do-your-plan",
-    "author": "authoring.md",
     "cameras": "cameras.md#in-the-trainer",
     "checks": "user-guide.md#every-day",
     "debrief": "user-guide.md#4-debrief",
     "exercise": "user-guide.md#the-students-path",
     "measure": "planning.md#measuring",
     "people": "people.md",
-    "pen": "pen.md#in-the-window",
     "sounds": "user-guide.md#what-is-heard",
     "plan": "planning.md",
     "reading": "reading.md",
@@ -311,17 +309,26 @@ PAGES: Final = {
     "slices": "reading.md#mouse-and-keys",
     "structures": "structures.md#in-the-window",
 }
-"""Page and heading about the widgets of each folder of `app.views`."""
+"""Page and heading about the widgets of folders of `app.views` whose feature names none."""
 
 
 def page_of(widget: QWidget | None) -> str:
     """Return the page about a widget: of the feature that it, or what holds it, belongs to."""
     while widget is not None:
+        if page := page_of_plugin(type(widget).__module__):
+            return page
         module = type(widget).__module__.split(".")
-        if module[:2] == ["app", "views"] and module[2] in PAGES:
-            return PAGES[module[2]]
+        if module[:2] == ["app", "views"] and (page := _page_of_folder(module[2])):
+            return page
         widget = widget.parentWidget()
     return HOME
+
+
+def _page_of_folder(name: str) -> str:
+    """Return the page of a folder of `app.views`; empty where there is none."""
+    package = f"app.views.{name}."
+    features = (one for one in Feature.__subclasses__() if one.__module__.startswith(package))
+    return next((one.help for one in features if one.help), PAGES.get(name, ""))
 
 
 def show_help(parent: QWidget, page: str = HOME) -> QDialog | None:

@@ -119,11 +119,11 @@ class Remembered:
         workspace, viewing = self._workspace, self._workspace.viewing
         viewing.level_reversed = bool(state["reversed"])
         viewing.set_scheme(SCHEMES[state["scheme"]])
-        viewing.set_shows_traces(bool(state.get("traces", True)))
+        viewing.set_shows_traces(bool(state["traces"]))
         workspace.set_left_handed(bool(state["left_handed"]))
-        workspace.bullseye.source.set_moves_hub(bool(state.get("moves_hub", False)))
-        workspace.bullseye.legend.setChecked(bool(state.get("legend", True)))
-        workspace.status.set_detailed(bool(state.get("detailed", False)))
+        workspace.bullseye.source.set_moves_hub(bool(state["moves_hub"]))
+        workspace.bullseye.legend.setChecked(bool(state["legend"]))
+        workspace.status.set_detailed(bool(state["detailed"]))
         for name, (width, level) in state["kept"].items():
             viewing.greys.keep(str(name), WindowLevel(float(width), float(level)))
         self._projector.set(light=bool(state["light"]), large=bool(state["large"]))
@@ -165,7 +165,7 @@ def set_reading(workspace: WorkspacePage, state: Mapping[str, Any]) -> None:
     greys.set_locked(False)
     greys.set_linked(bool(state["linked"]))
     viewing.set_window(window)
-    greys.set_locked(bool(state.get("locked", False)))  # states of earlier versions have none
+    greys.set_locked(bool(state["locked"]))
     greys.set_inverted(bool(state["inverted"]))
     for pane in PaneId:
         viewing.set_presentation(pane, presentations.get(pane, Presentation()))

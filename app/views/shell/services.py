@@ -22,7 +22,6 @@ from app.views.pen.port import PenPort
 
 if TYPE_CHECKING:
     from app.device.commissioning.bench import Bench
-    from app.simulation.arm.performance import ArmPerformance
     from app.tracking.pen.settings import PenSettings
 
 
@@ -224,24 +223,6 @@ class Services(Protocol):
 
         Raises:
             AcusError: if webcam, pen or lens cannot be used.
-        """
-        ...
-
-    def carry_out(
-        self, placed: PlacedPlan, seed: int, stands_deg: float, progress: Progress
-    ) -> ArmPerformance:
-        """Let the simulated arm carry out a plan; called beside the window, takes seconds.
-
-        Args:
-            placed: the plan.
-            seed: of where the tool lies and of the pictures' noise.
-            stands_deg: turn of the arm's place about the vertical through the entry [°].
-            progress: told what is being done; may cancel.
-
-        Raises:
-            AcusError: if it cannot; says why; its `could_stand_deg`, where it has one that is not
-                None, is a place from which the arm could. If a package is missing: names the extra.
-            Cancelled: if `progress` was cancelled.
         """
         ...
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import (
     QDialog,
@@ -25,8 +27,14 @@ _AROUND_PX = 40
 Group = tuple[str, list[tuple[str, str]]]
 
 
-def groups(scheme: Scheme) -> list[Group]:
-    """Headings with what to press and what it does."""
+def groups(scheme: Scheme, watching: Mapping[str, str] | None = None) -> list[Group]:
+    """Headings with what to press and what it does.
+
+    Args:
+        scheme: of mouse and keys in the slices.
+        watching: keys of features by which an exercise is watched, and who shows it.
+    """
+    watched = watching or {}
     return [
         (tr("Slices: mouse ({scheme})", scheme=scheme.title), mouse_rows(scheme)),
         (
@@ -63,8 +71,8 @@ def groups(scheme: Scheme) -> list[Group]:
             [
                 ("F5", tr("start the attempt; what is new is briefed first")),
                 (
-                    "Shift+F5, Ctrl+F5, Ctrl+Shift+F5",
-                    tr("briefing; an expert shows it; the arm does it"),
+                    ", ".join(("Shift+F5", "Ctrl+F5", *watched)),
+                    "; ".join((tr("briefing; an expert shows it"), *watched.values())),
                 ),
                 ("S", tr("control scan")),
                 (tr("Enter"), tr("end the attempt")),
@@ -92,12 +100,17 @@ def measure_keys(scheme: Scheme) -> str:
 class ShortcutSheet(QDialog):
     """All keys and buttons on one page."""
 
-    def __init__(self, scheme: Scheme, parent: QWidget | None = None) -> None:
+    def __init__(
+        self,
+        scheme: Scheme,
+        parent: QWidget | None = None,
+        watching: Mapping[str, str] | None = None,
+    ) -> None:
         super().__init__(parent)
         self.setWindowTitle(tr("Keys and mouse"))
         columns = QHBoxLayout()
         columns.setSpacing(4 * theme.SPACING)
-        mouse, keys, plan, scene, attempt = groups(scheme)
+        mouse, keys, plan, scene, attempt = groups(scheme, watching)
         for part in ((mouse, plan, scene), (keys, attempt)):
             column = QVBoxLayout()
             for group in part:

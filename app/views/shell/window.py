@@ -278,7 +278,8 @@ class MainWindow(QMainWindow):
 
     def show_shortcuts(self) -> None:
         """Open the sheet of keys."""
-        sheet = ShortcutSheet(self.workspace.viewing.scheme, self)
+        keys = {key: words for one in self.features for key, words in one.watching().items()}
+        sheet = ShortcutSheet(self.workspace.viewing.scheme, self, keys)
         sheet.finished.connect(sheet.deleteLater)
         sheet.open()
 

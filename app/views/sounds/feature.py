@@ -285,6 +285,7 @@ class SoundsFeature(Feature):
     """
 
     topic: ClassVar[str] = "sounds"
+    place: ClassVar[int] = 150
 
     make_speaker: ClassVar[Callable[[], Speaker]] = MixerSpeaker
     """Opens the sound card; may take a while."""

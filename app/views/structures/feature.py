@@ -174,6 +174,7 @@ class StructuresFeature(Feature):
     """Connects the structures with panel, panes, 3D view, plan, needle and files."""
 
     topic: ClassVar[str] = "structures"
+    place: ClassVar[int] = 120
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

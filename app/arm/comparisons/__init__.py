@@ -1,0 +1,1 @@
+"""The arm in the table of machines."""

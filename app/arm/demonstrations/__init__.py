@@ -1,0 +1,1 @@
+"""The arm as what shows an exercise."""

@@ -1,0 +1,1 @@
+"""What the arm adds to the window; a file is a feature."""

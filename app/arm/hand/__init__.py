@@ -1,0 +1,90 @@
+"""The hand of the laparoscopic manipulator: fingers, touches, force closure, a firm grasp.
+
+In simulation only: nothing here drives a real hand.
+"""
+
+from app.arm.hand.closure import (
+    EDGES,
+    Closure,
+    ClosureWay,
+    Contacts,
+    Wrenches,
+    force_closure,
+    hull_margin,
+    pair_closed,
+    pair_margin,
+    positively_spanned,
+    programme_margin,
+    shot,
+    wrenches,
+)
+from app.arm.hand.errors import GraspError
+from app.arm.hand.finger import (
+    Coupling,
+    FingerPose,
+    FingerSide,
+    HandFinger,
+    HandGeometry,
+    branches,
+    coupled,
+    driven,
+    forward,
+    inverse,
+    jacobian,
+)
+from app.arm.hand.firm import OVERSHOOT, FirmGrasp, Lever, Press, SoftContact, press, stable_gain
+from app.arm.hand.profile import HandProfile, hand_names, load_hand
+from app.arm.hand.touch import (
+    FingerLink,
+    FingerTouch,
+    Grasp,
+    ToolShaft,
+    approach,
+    close_hand,
+    heights,
+)
+
+__all__ = [
+    "EDGES",
+    "OVERSHOOT",
+    "Closure",
+    "ClosureWay",
+    "Contacts",
+    "Coupling",
+    "FingerLink",
+    "FingerPose",
+    "FingerSide",
+    "FingerTouch",
+    "FirmGrasp",
+    "Grasp",
+    "GraspError",
+    "HandFinger",
+    "HandGeometry",
+    "HandProfile",
+    "Lever",
+    "Press",
+    "SoftContact",
+    "ToolShaft",
+    "Wrenches",
+    "approach",
+    "branches",
+    "close_hand",
+    "coupled",
+    "driven",
+    "force_closure",
+    "forward",
+    "hand_names",
+    "heights",
+    "hull_margin",
+    "inverse",
+    "jacobian",
+    "load_hand",
+    "pair_closed",
+    "pair_margin",
+    "positively_spanned",
+    "press",
+    "programme_margin",
+    "shot",
+    "stable_gain",
+    "wrenches",
+]

@@ -1,0 +1,1 @@
+"""The arm's studies, one a file."""

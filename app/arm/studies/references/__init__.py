@@ -1,0 +1,1 @@
+"""What the arm's studies are measured against or compared with."""

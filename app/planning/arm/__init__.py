@@ -1,1 +1,0 @@
-"""Motion of the simulated arm: pivoting, Cartesian motion, timing, search, pick and place."""

@@ -1,1 +1,0 @@
-"""The tool and the trocar in two pictures, and the fulcrum."""
