@@ -34,19 +34,20 @@ def list_laws(
 
 
 def _rows(tried: bool) -> list[dict[str, Any]]:
-    from app.device.control import law_check
+    from app.core.trial import Trial
     from app.device.control import laws as room
-    from app.device.control.law import read_law
+    from app.device.control.law import KIND, read_law
 
     refused, rows = room.refused(), []
+    on_trial = KIND.trial or Trial("")
     for path in room.files():
         reason, title, trial = refused.get(path, ""), "", {}
         if not reason:
             law = read_law(path)
             title = law.title
             if not room.is_own(law):
-                trial = law_check.trial(path) if tried else law_check.known(path)
-                reason = trial.get("reason", "")
+                reason = KIND.fault(path) if tried else ""
+                trial = on_trial.known(path)
         rows.append(
             {
                 "law": path.stem,

@@ -31,6 +31,8 @@ _TOPMOST = frozenset(
 )
 """Subfolders of a folder of plug-ins whose constants no kernel but their own is built with."""
 _KEPT_BUILDS = 12
+_OWN = os.path.join(os.path.dirname(os.path.dirname(__file__)), "")
+"""Folder of the program, as the files in it name themselves."""
 
 
 def kernels_digest() -> str:
@@ -130,16 +132,23 @@ def njit(*args: Any, **options: Any) -> Any:
         "error_model": "numpy",
         "no_cfunc_wrapper": plain,
     } | options
-    if len(args) == 1 and plain:
-        with _cached_for(args[0]):
-            return numba.njit(args[0], **options)
-    compiling = numba.njit(*args, **options)
+    signature = () if plain else args
 
     def compiled(function: FunctionType) -> Any:
         with _cached_for(function):
-            return compiling(function)
+            return numba.njit(*signature, **options | _checks(function))(function)
 
-    return compiled
+    return compiled(args[0]) if plain and args else compiled
+
+
+def _checks(function: FunctionType) -> dict[str, bool]:
+    """Check every index of a function that is not the program's own, wherever it runs.
+
+    An index outside raises IndexError, which ends the loop at zero force, instead of writing into
+    memory of the program.
+    """
+    is_own = function.__code__.co_filename.startswith(_OWN)
+    return {} if is_own else {"boundscheck": True}
 
 
 @contextmanager
@@ -188,6 +197,11 @@ class _KernelCounter(event.Listener):
 
 
 event.register("numba:compile", _KernelCounter())
+
+
+def is_stage(function: Any) -> bool:
+    """Whether something has been compiled as a stage of the tick."""
+    return STAGE_SIGNATURE.args in getattr(function, "signatures", ())
 
 
 def stage(function: StageFunction) -> StageFunction:

@@ -40,7 +40,7 @@ CLOCK: Final = 120.0
 """Time on the clock that it may take [s]."""
 
 _CHILD: Final = """
-import importlib, importlib.util, json, os, sys, time
+import importlib, importlib.util, json, os, re, sys, time
 path, package, name, least, times, most = *sys.argv[1:4], *map(int, sys.argv[4:7])
 answer, said = os.fdopen(os.dup(1), "w"), ""
 os.dup2(2, 1)  # what it prints is not the answer
@@ -68,6 +68,7 @@ except SystemExit:
     said = "it ends the program (SystemExit)"
 except BaseException as error:
     said = f"{type(error).__name__}: {error}"
+said = " ".join(re.sub("\\x1b\\[[0-9;]*m", "", said).split())
 answer.write(json.dumps(said[:500]))
 answer.flush()
 os._exit(0)

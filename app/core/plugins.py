@@ -35,7 +35,8 @@ from app.core import paths, plugin_folders
 from app.core.errors import AcusError
 from app.core.files import read_at_most
 from app.core.plugin_trial import import_fault
-from app.core.state_vector import INDEX, VECTORS, slots_named
+from app.core.state_vector import INDEX, SCENE, SUMS, VECTORS, slots_named
+from app.core.trial import Trial
 
 ENERGIES: Final = ("potential", "dissipative", "active")
 """A stage stores energy and gives it back; only takes it; or can give out more than it took."""
@@ -145,6 +146,7 @@ class PluginKind(Generic[D]):
         functions: that a file must define at its top level.
         spared: key of a declaration that spares a file, where it is true, these functions.
         marks: a file of the program's folder counts only if one of these is in it; empty: all do.
+        trial: of files that are not the program's own and run in the loop or the tracker.
     """
 
     noun: str
@@ -156,6 +158,7 @@ class PluginKind(Generic[D]):
     functions: tuple[str, ...] = ()
     spared: str = ""
     marks: tuple[bytes, ...] = ()
+    trial: Trial | None = None
     optional: Mapping[str, Field] = field(default_factory=lambda: MappingProxyType({}))
 
     @property
@@ -231,7 +234,8 @@ class PluginKind(Generic[D]):
     def refused(self, check: Callable[[D], object] | None = None) -> dict[Path, str]:
         """Files of others that cannot be used, and why; they are left where they are.
 
-        Their text is read, and nothing is run.
+        Their text is read, and nothing is run: what a trial showed before is known, what it would
+        show is not.
 
         Args:
             check: looks further into a declared file; raises if it must not be used.
@@ -249,6 +253,10 @@ class PluginKind(Generic[D]):
                     check(declared)
             except AcusError as error:
                 found[path] = str(error)
+                continue
+            known = self.trial.known(path) if self.trial is not None else {}
+            if known.get("reason"):
+                found[path] = str(known["reason"])
         return found
 
     def taken(self, path: Path) -> str:
@@ -270,9 +278,14 @@ class PluginKind(Generic[D]):
         return f"{path}: {name!r} is a name of the program's own; rename the file"
 
     def fault(self, path: Path) -> str:
-        """Say why somebody else's file cannot be imported, as a process of its own found; or ""."""
-        found = "" if self.is_own(path) else import_fault(path, self.package)
-        return f"{self.word} file {path} cannot be imported: {found}" if found else ""
+        """Say why somebody else's file cannot be imported or fails its trial, as processes of their
+        own found; or "".
+        """
+        if self.is_own(path):
+            return ""
+        if found := import_fault(path, self.package):
+            return f"{self.word} file {path} cannot be imported: {found}"
+        return "" if self.trial is None else self.trial.fault(path)
 
     @contextmanager
     def blamed(self, path: Path, doing: str) -> Iterator[None]:
@@ -505,6 +518,13 @@ def _slots(value: Any) -> tuple[str, ...]:
     return tuple(dict.fromkeys(found))
 
 
+def _written(value: Any) -> tuple[str, ...]:
+    found = _slots(value)
+    if strange := [name for name in found if INDEX[name] not in SUMS + SCENE]:
+        raise _WrongPartError("", f"{', '.join(strange)} is the loop's own")
+    return found
+
+
 def _energy(value: Any) -> tuple[str, str]:
     kind, statement = value
     if kind not in ENERGIES or not isinstance(value, tuple | list):
@@ -550,6 +570,11 @@ TEXTS: Final = Field("a tuple of texts", _texts)
 CHOICES: Final = Field("{name: what it is, ...}, one at least", _choices)
 SLOTS: Final = Field(
     "a tuple of slots or vectors in lower case, such as ('depth', 'force', 'target_shift')", _slots
+)
+WRITES: Final = Field(
+    "a tuple of slots or vectors that a law or effect may write:"
+    f" {', '.join(name for name, slot in INDEX.items() if slot in SUMS + SCENE)}",
+    _written,
 )
 ENERGY: Final = Field(
     f"(kind, statement), the kind one of {', '.join(ENERGIES)}, the statement a text", _energy

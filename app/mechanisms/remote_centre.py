@@ -26,6 +26,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from app.core import state_vector as sv
 from app.core.arrays import FloatArray, cross, frozen, unit
 from app.core.parameters import Stage, StageFunction
 from app.mechanisms.errors import MechanismError
@@ -148,6 +149,25 @@ class MachineStages:
     plant_values: FloatArray
     watch: tuple[Stage, ...] = ()
     efforts: tuple[Stage, ...] = ()
+
+
+def _slots(*names: str) -> frozenset[int]:
+    return frozenset(sv.INDEX[slot] for name in names for slot in sv.slots_named(name))
+
+
+MACHINE_WRITES: Final = {
+    "pose": _slots("kinematics", "p3", "jacobian", "inertia"),
+    "watch": _slots("machine_fault"),
+    "dynamics": _slots("mass", "bias", "drift", "weight", "links_potential"),
+    "efforts": _slots(
+        *("torque", "felt", "felt_most", "guidance_limit", "guidance_limited_by", "force", "guide"),
+        *("shortfall", "tension", "reel_rate", "holding"),
+    ),
+    "plant": frozenset(sv.MACHINE)
+    | _slots("plant_q", "plant_qd", "plant_depth", "plant_depth_rate", "pull", "push", "grip")
+    | _slots("grip_depth"),
+}
+"""What each stage of a machine may write, by its name in `MachineStages`: slots."""
 
 
 class RemoteCentre(ABC):

@@ -87,10 +87,10 @@ def test_a_wrong_declaration_is_named(folder: Path, old: str, new: str, message:
 @pytest.mark.parametrize(
     ("added", "message"),
     [
-        ("    state[sv.ENABLED] = 1.0\n", "it writes enabled, which it does not declare"),
-        ("    while True:\n        pass\n", "a while loop may never end"),
-        ("    p[int(state[sv.TIME])] = 1.0\n", "neither a constant nor counted"),
-        ("    p[7] = 1.0\n", "uses 8 parameters, parameters.. gives 2"),
+        ("    state[sv.ENABLED] = 2.0\n", "line 49: step.. writes enabled, which it does not"),
+        ("    while state[sv.TIME] > 0.0:\n        pass\n", "in state 0 .* did not return within"),
+        ("    p[int(state[sv.TIME])] = 1.0\n", "line 49: step.. raises IndexError"),
+        ("    p[7] = 1.0\n", "index 7 is out of bounds for axis 0 with size 2; the state has"),
     ],
 )
 def test_an_effect_of_somebody_else_that_could_do_harm_is_refused(

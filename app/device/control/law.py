@@ -11,7 +11,17 @@ from pathlib import Path
 from typing import Final
 
 from app.core.errors import ConfigurationError
-from app.core.plugins import ENERGY, PARAMETERS, SLOTS, TEXT, PluginKind, StageDeclaration, complete
+from app.core.plugins import (
+    ENERGY,
+    PARAMETERS,
+    SLOTS,
+    TEXT,
+    WRITES,
+    PluginKind,
+    StageDeclaration,
+    complete,
+)
+from app.core.trial import Trial
 from app.device.errors import LawError
 from app.mechanisms.profile import DeviceProfile, load_profile, profile_names
 
@@ -51,7 +61,7 @@ KIND: Final[PluginKind[Law]] = PluginKind(
     fields={
         "title": TEXT,
         "reads": SLOTS,
-        "writes": SLOTS,
+        "writes": WRITES,
         "energy": ENERGY,
         "parameters": PARAMETERS,
     },
@@ -59,6 +69,7 @@ KIND: Final[PluginKind[Law]] = PluginKind(
     package="app.device.control.laws",
     folder="laws",
     functions=("parameters", "energy_bound", "step"),
+    trial=Trial("app.device.control.law_trial", bare=("app.device.control",)),
 )
 
 

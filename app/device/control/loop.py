@@ -17,7 +17,7 @@ from app.core.parameters import Stage
 from app.device.checkpoint import Checkpoint
 from app.device.control import kernel
 from app.device.control.checkpoints import CheckpointRequests
-from app.device.control.kernel import EXCHANGE, MISSED, STOP, ArrayList, StageList
+from app.device.control.kernel import EXCHANGE, MISSED, RUNNING, STOP, ArrayList, StageList
 from app.device.control.shared import Inbox, TickHistory
 from app.device.control.table import Table
 from app.device.control.timing import TickWatch, Timing, measure
@@ -144,7 +144,7 @@ class Loop(Lifetime):
         if self.link is not None:
             self.link.open()
         self._failure = None
-        self._history.counters[STOP] = self._history.counters[EXCHANGE] = 0
+        self._history.counters[[STOP, EXCHANGE, RUNNING]] = 0
         self.inbox.write(enabled=0.0)
         self._packed = _pack(self.table)
         self._packed_write = _pack(self.table.write)
@@ -364,7 +364,8 @@ class Loop(Lifetime):
         ):
             raise LoopError(endless)
         if self._failure is not None:
-            raise LoopError(f"the loop has ended: {self._failure}") from self._failure
+            why = self._watch.ended(self._failure)
+            raise LoopError(f"the loop has ended: {why}") from self._failure
 
 
 def _pack(stages: Iterable[Stage]) -> tuple[StageList, ArrayList]:

@@ -6,6 +6,9 @@ that they add to and what effects say of the scene is taken from what was kept. 
 FORCE_CAP, HOMED, HEARTBEAT), time, kinematics and the slots of governor, guard and safety are
 therefore the loop's own when the stages behind them look. What laws may write goes through all the
 limits behind them; a value there that is not finite holds the force at zero.
+
+Stages of a machine that is not the program's own stand between two such stages too, and write what
+`MachineStages` says of each. They cannot raise a torque that safety has let through.
 """
 
 from collections.abc import Collection, Iterable, Iterator
@@ -31,7 +34,8 @@ from app.device.errors import DeviceError
 from app.device.links.link import Link
 from app.mechanisms.lever import ForceLaw
 from app.mechanisms.profile import DeviceProfile
-from app.mechanisms.remote_centre import MachineStages
+from app.mechanisms.profile.device import is_own
+from app.mechanisms.remote_centre import MACHINE_WRITES, MachineStages
 
 _THEIRS: Final = sv.SUMS + sv.SCENE
 _SIZE: Final = sv.SLOTS + len(_THEIRS)
@@ -70,6 +74,22 @@ def give_back_stage(state: FloatArray, p: FloatArray) -> None:
         place += 1
 
 
+@stage
+def give_back_others_stage(state: FloatArray, p: FloatArray) -> None:
+    """Take the state back, but for the slots that p names; a torque may only have become less.
+
+    p holds the state, how many slots there are, and their numbers.
+    """
+    first = sv.SLOTS + 1
+    for place in range(first, first + int(p[sv.SLOTS])):
+        slot = int(p[place])
+        is_torque = slot == sv.TORQUE_LEFT or slot == sv.TORQUE_RIGHT
+        if not is_torque or abs(state[slot]) <= abs(p[slot]):
+            p[slot] = state[slot]
+    for slot in range(sv.SLOTS):
+        state[slot] = p[slot]
+
+
 def protected(stages: Iterable[Stage]) -> list[Stage]:
     """Return laws and effects between the two stages, which share one array; none stay none."""
     inner = list(stages)
@@ -79,6 +99,17 @@ def protected(stages: Iterable[Stage]) -> list[Stage]:
         for name, function in zip(SCRATCH, (keep_stage, give_back_stage), strict=True)
     )
     return [keep, *inner, back] if inner else []
+
+
+def _guarded(part: str, stages: Iterable[Stage], profile: DeviceProfile) -> list[Stage]:
+    """Return stages of a machine; somebody else's between two that keep what is not theirs."""
+    inner = list(stages)
+    if not inner or is_own(profile.kind):
+        return inner
+    theirs = sorted(MACHINE_WRITES[part])
+    memory = np.concatenate([np.zeros(sv.SLOTS), [len(theirs)], theirs])
+    keep = Stage(f"keep for {part}", keep_stage, memory)
+    return [keep, *inner, Stage(f"give back after {part}", give_back_others_stage, memory)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -215,16 +246,16 @@ def machine_stages(
             *judged(link, profile, corrections),
             velocity_stage(profile, velocity),
             DepthInterval.of(profile).stage(),
-            machine.pose,
-            *machine.watch,
+            *_guarded("pose", [machine.pose], profile),
+            *_guarded("watch", machine.watch, profile),
             Kinematics.of(profile).stage(),
-            *_dynamics(machine, laws, profile.name),
+            *_guarded("dynamics", _dynamics(machine, laws, profile.name), profile),
             *protected([*laws, *effects]),
             Transmission.of(profile, force_law).stage(),
             SpeedGovernor.of(profile).stage(),
             *guard,
             Safety.of(profile).stage(),
-            *machine.efforts,
+            *_guarded("efforts", machine.efforts, profile),
         ],
         link.write,
     )

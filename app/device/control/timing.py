@@ -109,16 +109,26 @@ class TickWatch:
             _let_others_run(thread)
         return self.reason
 
+    def ended(self, error: BaseException) -> str:
+        """Say which stage raised what ended the loop; just what, if it was none."""
+        running = int(self._counters[RUNNING])
+        if running == 0:
+            return str(error)
+        text = f"{type(error).__name__}: {error}".rstrip(": ")
+        return f"{self._named(running)} raises {text}; mend or remove it, and start again"
+
     def _words(self, running: int) -> str:
+        return (
+            f"{self._named(running)} does not return: there is no force any more; end the program,"
+            " mend or remove it, and start again"
+        )
+
+    def _named(self, running: int) -> str:
         name = self._names[running - 1]
         law = "keep" in self._names and (
             self._names.index("keep") < running - 1 < self._names.index("give back")
         )
-        what = f"the force law or effect {name!r}" if law else f"the stage {name!r} of the loop"
-        return (
-            f"{what} does not return: there is no force any more; end the program, mend or remove"
-            " it, and start again"
-        )
+        return f"the force law or effect {name!r}" if law else f"the stage {name!r} of the loop"
 
 
 def _used(thread: threading.Thread) -> tuple[float, float]:

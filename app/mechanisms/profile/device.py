@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from importlib import import_module
 from math import radians
 from pathlib import Path
@@ -17,6 +18,7 @@ from app.core.arrays import FloatArray, frozen
 from app.core.configuration import Strict, parse, parse_yaml, read_text
 from app.core.errors import ConfigurationError
 from app.core.plugin_trial import import_fault
+from app.core.trial import Trial
 from app.mechanisms.profile.control import (
     DEFAULT_VELOCITY,
     LET_GO_UNSTATED,
@@ -92,10 +94,14 @@ class DeviceProfile(Strict):
         """What the robot is, to be asked about poses, forces and stages; loads compiled code.
 
         Raises:
-            ConfigurationError: if a file of the user's own cannot be used; names it.
+            ConfigurationError: if a file of the user's own cannot be used, or fails its trial;
+                names it.
         """
-        found: RemoteCentre = _part(self.kind, "machine", f"device {self.name}").machine(self)
-        return found
+        if fault := trial_fault(self):
+            raise ConfigurationError(
+                f"device {self.name}: machine {self.kind!r} cannot be used: {fault}"
+            )
+        return untried_machine(self)
 
     @property
     def fulcrum(self) -> FloatArray:
@@ -282,14 +288,59 @@ def machine_fault(kind: str, name: str) -> str:
         kind: folder of the machine.
         name: `profile` or `machine`.
     """
-    folder, package, is_own = _home(kind)
-    path = folder / kind / f"{name}.py"
-    if is_own or not path.is_file():
+    path = _foreign(kind, name)
+    if path is None:
         return ""
+    folder, package, _ = _home(kind)
     fault = import_fault(path, package, folder)
     return f"{path}: {fault}" if fault else ""
 
 
+def _foreign(kind: str, name: str) -> Path | None:
+    """Return a file of a machine that is not the program's own; None if it is, or is not there."""
+    folder, _, own = _home(kind)
+    path = folder / kind / f"{name}.py"
+    return None if own or not path.is_file() else path
+
+
+def is_own(kind: str) -> bool:
+    """Whether a machine is one of the program's own."""
+    return _home(kind)[2]
+
+
+TRIAL: Final = Trial("app.mechanisms.machine_trial")
+_passed: set[tuple[Path, str]] = set()
+
+
+def trial_fault(profile: DeviceProfile) -> str:
+    """Say why a machine that is not the program's own fails its trial; nothing if it passes.
+
+    The trial is of the machine with the numbers of its profile, whatever needle and joint are
+    mounted, and remembered.
+    """
+    path = _foreign(profile.kind, "machine")
+    if path is None:
+        return ""
+    usual = profile.with_joint(min(profile.workspace.tilt_limit_deg))
+    with suppress(ConfigurationError):
+        usual = usual.with_needle(_USUAL_NEEDLE)
+    argument = usual.model_dump_json()
+    if (path, argument) in _passed:
+        return ""
+    fault = machine_fault(profile.kind, "machine") or TRIAL.fault(path, argument)
+    if not fault:
+        _passed.add((path, argument))
+    return fault
+
+
+def untried_machine(profile: DeviceProfile) -> RemoteCentre:
+    """Return the machine of a profile, see `DeviceProfile.machine`, without its trial."""
+    module = _part(profile.kind, "machine", f"device {profile.name}")
+    found: RemoteCentre = module.machine(profile)
+    return found
+
+
+_USUAL_NEEDLE: Final = 0.2  # [m]
 _OWN: Final = Path(mechanisms.__file__ or "").parent
 
 

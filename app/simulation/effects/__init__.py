@@ -1,11 +1,10 @@
 """Effects, one file each. See 'How to add an effect' in docs/extending.md.
 
 Nothing here imports them: their declarations are read as text (`core.plugins`), and only what a
-plan keeps is imported. The compiled code of one that is not the program's own is checked before.
+plan keeps is imported. One that is not the program's own is tried before (`effect_trial`).
 """
 
 from collections.abc import Mapping
-from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
@@ -23,12 +22,12 @@ from app.core.plugins import (
     SLOTS,
     TEXT,
     TEXTS,
+    WRITES,
     PluginKind,
     StageDeclaration,
     complete,
-    read_statements,
 )
-from app.core.stage_check import RefusedStageError, check_stage
+from app.core.trial import Trial
 from app.simulation.errors import SimulationError
 from app.simulation.scene import Binding
 
@@ -116,17 +115,20 @@ def parameters_of(name: str, values: Mapping[str, float], binding: Binding) -> F
 
 def array_of(declared: Effect, values: Mapping[str, float], binding: Binding) -> FloatArray:
     """Return a fresh array of parameters of a declared effect, see `parameters_of`."""
-    name = declared.name
     if declared.pictures:
         model = list(declared.models).index(declared.model(binding.model))
         return np.array([model, *(values[key] for key in declared.parameters)], dtype=float)
     module = load(declared)
-    own = nullcontext() if KIND.is_own(declared.path) else KIND.blamed(declared.path, _PARAMETERS)
-    with own:
-        array: FloatArray = module.parameters(values, binding)
-    if (needed := _needed(declared)) > len(array):
+    if KIND.is_own(declared.path):
+        own: FloatArray = module.parameters(values, binding)
+        return own
+    with KIND.blamed(declared.path, _PARAMETERS):
+        array = np.ascontiguousarray(module.parameters(values, binding), dtype=np.float64)
+    if array.ndim != 1 or array.size < (least := _shortest(declared)):
         raise SimulationError(
-            f"effect {name}: step() uses {needed} parameters, parameters() gives {len(array)}"
+            f"{declared.path}: parameters() gives an array of the shape {array.shape} for this"
+            f" scene and these values; give one of the shape (n,), and of {least} numbers at least,"
+            " as it was tried"
         )
     return array
 
@@ -135,34 +137,48 @@ def implementation(name: str) -> ModuleType:
     """Import an effect. Only for effects that the plan keeps.
 
     Raises:
-        SimulationError: for one that is not the program's own if its compiled code could do harm
-            (`core.stage_check`); says where and why.
+        SimulationError: for one that is not the program's own if it fails its trial; says where and
+            why.
     """
     return load(declaration(name))
 
 
 def load(declared: Effect) -> ModuleType:
     """Import a declared effect, see `implementation`."""
-    return KIND.load(declared, before=_needed)
+    return KIND.load(declared, _check_pictures, lambda module: check_step(module, declared))
 
 
 def refused() -> dict[Path, str]:
     """Files of effects that cannot be used, and why; they are left where they are."""
-    return KIND.refused(_needed)
+    return KIND.refused(_check_pictures)
 
 
-def _needed(effect: Effect) -> int:
-    """Parameters that an effect's stage uses at least; 0 for the program's own."""
+def check_step(module: ModuleType, effect: Effect) -> None:
+    """Check that the step of an effect that is not the program's own is compiled.
+
+    Raises:
+        SimulationError: if it is not.
+    """
     if KIND.is_own(effect.path):
-        return 0
-    if effect.pictures:
+        return
+    from app.core.compiled import is_stage  # numba: who only reads declarations does without
+
+    if not is_stage(module.step):
+        raise SimulationError(
+            f"{effect.path}: step is not compiled; put @stage of core.compiled before it"
+        )
+
+
+def _check_pictures(effect: Effect) -> None:
+    if effect.pictures and not KIND.is_own(effect.path):
         raise SimulationError(
             f"{effect.path}: pictures is True; only the program's own effects act on pictures"
         )
-    try:
-        return check_stage(effect.path, read_statements(effect.path), effect.writes).parameters
-    except RefusedStageError as refusal:
-        raise SimulationError(str(refusal)) from refusal
+
+
+def _shortest(effect: Effect) -> int:
+    """Length of the shortest array that an effect of somebody else's was tried with."""
+    return 0 if KIND.trial is None else int(KIND.trial.verdict(effect.path).get("shortest", 0))
 
 
 KIND: Final[PluginKind[Effect]] = PluginKind(
@@ -171,7 +187,7 @@ KIND: Final[PluginKind[Effect]] = PluginKind(
     fields={
         "title": TEXT,
         "reads": SLOTS,
-        "writes": SLOTS,
+        "writes": WRITES,
         "consumers": TEXTS,
         "needs": TEXTS,
         "models": CHOICES,
@@ -185,4 +201,5 @@ KIND: Final[PluginKind[Effect]] = PluginKind(
     folder="effects",
     functions=("step", "parameters"),
     spared="pictures",
+    trial=Trial("app.simulation.effect_trial"),
 )

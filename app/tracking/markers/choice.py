@@ -4,6 +4,7 @@ Each is one file, the program's own here, the user's in the folder `extractors`;
 chooses. See 'How to add a marker extractor' in docs/extending.md.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Final
@@ -11,6 +12,7 @@ from typing import Final
 import numpy as np
 
 from app.core.plugins import TEXT, Declaration, PluginKind
+from app.core.trial import Trial
 from app.core.units import MILLIMETRE
 from app.tracking.errors import TrackingError
 from app.tracking.markers.colour import RED, ColourModel
@@ -55,6 +57,7 @@ KIND: Final[PluginKind[DeclaredExtractor]] = PluginKind(
     folder="extractors",
     functions=("extractor",),
     marks=(b"\nDECLARATION",),
+    trial=Trial("app.tracking.markers.extractor_trial"),
 )
 
 
@@ -74,19 +77,26 @@ def extractors(
     declared = KIND.find(name or rig.extractor)
     build = KIND.load(declared).extractor
     with KIND.blamed(declared.path, "extractor() does not work"):
-        first, second = (
-            build(
-                ExtractorSetup(
-                    model,
-                    rig.needle.shape,
-                    _areas(model, rig.needle.shape, _distances(rig, model)),
-                    rig.noise_grey,
-                    rig.blur_px,
-                    colour,
-                )
+        return pair_by(build, rig, colour)
+
+
+def pair_by(
+    build: Callable[[ExtractorSetup], Extractor], rig: RigProfile, colour: ColourModel = RED
+) -> tuple[Extractor, Extractor]:
+    """Build one extractor for each camera of a rig by a file's `extractor`."""
+    first, second = (
+        build(
+            ExtractorSetup(
+                model,
+                rig.needle.shape,
+                _areas(model, rig.needle.shape, _distances(rig, model)),
+                rig.noise_grey,
+                rig.blur_px,
+                colour,
             )
-            for model in rig.models
         )
+        for model in rig.models
+    )
     return first, second
 
 

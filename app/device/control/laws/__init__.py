@@ -1,7 +1,7 @@
 """Force laws, one file each. See 'How to add a force law' in docs/extending.md.
 
 Only the laws that are asked for are imported (`core.plugins`). A law that is not the program's own
-is checked before (`control.law_check`).
+is tried before (`control.law_trial`).
 
 A request names a law and the parameters that differ from its defaults: `{"fixture": {}}`.
 """
@@ -15,9 +15,8 @@ from types import ModuleType
 
 import numpy as np
 
-from app.core.compiled import STAGE_SIGNATURE
+from app.core.compiled import is_stage
 from app.core.parameters import Stage
-from app.device.control import law_check
 from app.device.control.law import KIND, Law
 from app.device.errors import LawError
 from app.mechanisms.profile import DeviceProfile
@@ -78,10 +77,11 @@ def _stage(name: str, given: Mapping[str, float], profile: DeviceProfile) -> Sta
     values, module = law.checked(given, profile), _implementation(law)
     with KIND.blamed(law.path, "parameters() does not work"):
         array = np.ascontiguousarray(module.parameters(values, profile), dtype=np.float64)
-    if (needed := _needed(law)) > array.size or array.ndim != 1:
+    if array.ndim != 1 or array.size < _shortest(law):
         raise LawError(
-            f"{law.path}: step() uses {needed} parameters, and parameters() gives an array of the"
-            f" shape {array.shape}"
+            f"{law.path}: parameters() gives an array of the shape {array.shape} for these values;"
+            f" give one of the shape (n,), and of {_shortest(law)} numbers at least, as it was"
+            " tried"
         )
     return Stage(name, module.step, array)
 
@@ -102,30 +102,27 @@ def is_own(law: Law) -> bool:
 
 
 def refused() -> dict[Path, str]:
-    """Files of force laws that cannot be used, and why; they are left where they are.
+    """Files of force laws that cannot be used, and why; they are left where they are."""
+    return KIND.refused()
 
-    Only read, not tried: what a trial found before is known, what it would find is not.
+
+def check_step(module: ModuleType, law: Law) -> None:
+    """Check that a law's step is compiled.
+
+    Raises:
+        LawError: if it is not.
     """
-    return KIND.refused(_check_as_known)
+    if not is_stage(module.step):
+        raise LawError(f"{law.path}: step is not compiled; put @stage of core.compiled before it")
 
 
-def _check_as_known(law: Law) -> None:
-    law_check.check_text(law)
-    if reason := law_check.known(law.path).get("reason"):
-        raise LawError(str(reason))
-
-
-def _needed(law: Law) -> int:
-    """Parameters that a law's step uses at least; of the program's own laws tests know it."""
-    return 0 if is_own(law) else law_check.check_text(law).parameters
+def _shortest(law: Law) -> int:
+    """Length of the shortest array that a law was tried with; 0 for the program's own."""
+    if is_own(law) or KIND.trial is None:
+        return 0
+    return int(KIND.trial.verdict(law.path).get("shortest", 0))
 
 
 def _implementation(law: Law) -> ModuleType:
-    """Import a law's file, once; one that is not the program's own is checked first."""
-    check = None if is_own(law) else law_check.check
-    return KIND.load(law, check, lambda module: _check_step(module, law))
-
-
-def _check_step(module: ModuleType, law: Law) -> None:
-    if STAGE_SIGNATURE.args not in getattr(module.step, "signatures", ()):
-        raise LawError(f"{law.path}: step is not compiled; put @stage of core.compiled before it")
+    """Import a law's file, once; one that is not the program's own is tried first."""
+    return KIND.load(law, after=lambda module: check_step(module, law))
