@@ -194,7 +194,7 @@ def remove(name: Annotated[str, typer.Argument(metavar="NAME", help="Which CT.")
 
 
 def imported_answer(imported: "Imported") -> Answer:
-    """Return what `acus ct import`, `acus pacs get` and `acus pacs move` have taken in."""
+    """Return what a command has taken into the library."""
     return Answer(_imported(imported), _imported_lines(imported))
 
 

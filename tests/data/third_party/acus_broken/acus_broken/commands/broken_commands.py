@@ -1,0 +1,6 @@
+"""Broken."""
+
+raise RuntimeError("broken on purpose")
+
+
+def register(root): ...

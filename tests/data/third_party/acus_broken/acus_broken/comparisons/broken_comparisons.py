@@ -1,0 +1,6 @@
+"""Broken."""
+
+raise RuntimeError("broken on purpose")
+
+
+COMPARISON = None

@@ -1,0 +1,5 @@
+"""Broken."""
+
+DECLARATION = {"title": "Broken"}
+
+raise RuntimeError("broken on purpose")

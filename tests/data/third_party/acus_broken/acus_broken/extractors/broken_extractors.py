@@ -1,0 +1,8 @@
+"""Broken."""
+
+DECLARATION = {"title": "Broken"}
+
+raise RuntimeError("broken on purpose")
+
+
+def extractor(setup): ...

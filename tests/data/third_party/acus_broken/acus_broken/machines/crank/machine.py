@@ -1,0 +1,4 @@
+raise RuntimeError("broken on purpose")
+
+
+def machine(profile): ...

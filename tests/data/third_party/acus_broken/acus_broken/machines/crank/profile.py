@@ -1,0 +1,3 @@
+raise RuntimeError("broken on purpose")
+
+PROFILE = None

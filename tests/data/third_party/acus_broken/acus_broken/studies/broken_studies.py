@@ -1,0 +1,8 @@
+"""Broken."""
+
+DECLARATION = {"title": "Broken", "question": "Why?", "reference": "none"}
+
+raise RuntimeError("broken on purpose")
+
+
+STUDY = None

@@ -1,0 +1,1 @@
+"""All that a gimbal needs in Acus."""

@@ -1,0 +1,258 @@
+"""Show that the program goes on without one of its parts: `python -m tools.without NAME`.
+
+Copies the checkout into the cache folder, leaves out the files of that part (the table below), and
+asks of the copy, in processes of its own, that
+
+- every module of `app` can be imported,
+- `acus explain` answers for first-insertion and every other exercise that is left, and
+  `acus exercise list` lists them,
+- no file of `app` or `acus` names what is gone: a module, a folder, a file.
+
+`--tests [PATH ...]` runs the tests, or those of some paths, that do not concern that part either.
+Ends with code 3 where something is named or does not work. The copy stays, so that its kernels are
+compiled once.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from app.core import paths
+from app.core.exits import Exit
+
+ROOT: Final = Path(__file__).resolve().parents[1]
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """What belongs to a part of the program.
+
+    Attributes:
+        files: folders and files, as patterns below the checkout.
+        words: names that only this part has, beside those of its modules and files.
+        tests: that concern it without naming it.
+    """
+
+    files: tuple[str, ...]
+    words: tuple[str, ...] = ()
+    tests: tuple[str, ...] = ()
+
+
+PARTS: Final[Mapping[str, Part]] = {
+    "arm": Part(("app/arm", "docs/arm.md", "tests/arm", "tools/eyes_pictures.py")),
+    "tensegrity": Part(
+        (
+            *("app/mechanisms/tensegrity", "app/studies/tensegrity.py"),
+            *("app/studies/hard_cases/tensegrity.py", "app/studies/hard_cases/holder.py"),
+            *("app/studies/comparisons/tensegrity.py", "resources/devices/tensegrity.yaml"),
+            *("resources/exercises/tensegrity-liver.yaml", "tools/exact/tensegrity.py"),
+            *("tools/holder_pictures.py", "tests/tensegrity_rig.py", "tests/**/*tensegrity*.py"),
+            *("tests/hard/test_hard_holder.py", "tests/bench/bench_holder.py"),
+        ),
+        words=("tensegrity",),
+        tests=("tests/hard/test_hard_references.py",),
+    ),
+    "pen": Part(
+        (
+            *("app/tracking/pen", "app/tracking/simulated/pen.py"),
+            *("app/tracking/simulated/pen_scene.py", "app/views/pen", "app/commands/pen.py"),
+            *("app/compose/pen.py", "app/compose/live_pen.py", "app/studies/pen.py"),
+            *("app/studies/hard_cases/pen.py", "resources/pens", "docs/pen.md"),
+            *("tests/**/*_pen.py", "tests/**/test_*_pen_*.py", "tools/pen_pictures.py"),
+        ),
+        words=(r"Pen(?:Tracker|Settings|Profile|Tip|Port|Observation|Step|Scene)", "LivePen"),
+    ),
+    "studies": Part(
+        (
+            *("app/studies", "app/*/studies", "app/*/hard_cases", "app/*/comparisons"),
+            *("app/commands/study.py", "app/views/accuracy", "tests/studies", "tests/hard"),
+            *("docs/studies.md", "docs/accuracy", "tools/hard_*.py", "tools/exact"),
+            *("tools/accuracy_pages.py", "tests/views/test_views_accuracy.py"),
+        ),
+        words=("AccuracyFeature",),
+    ),
+    "pacs": Part(
+        (
+            *("app/imaging/pacs", "app/views/pacs", "app/commands/pacs.py", "docs/pacs.md"),
+            *("tests/**/*pacs*.py", "tests/imaging/*orthanc*.py", "tools/dialog_pictures.py"),
+        ),
+        words=("pacs", "pynetdicom"),
+    ),
+    "author": Part(
+        ("app/views/author", "docs/authoring.md", "tests/views/test_views_author.py"),
+        words=("AuthorFeature", r"authoring\.md"),
+    ),
+}
+
+_COPIED: Final = ("app", "acus", "resources", "tools", "tests", "docs", "README.md", "CHANGELOG.md")
+_COPIED_TOO: Final = ("pyproject.toml", "mkdocs.yml", "Makefile", "LICENSE", "NOTICE")
+_TEXTS: Final = (".py", ".yaml", ".json", ".qss", ".txt", ".csv")
+
+OF_THE_WHOLE: Final = tuple(
+    f"tests/{name}.py"
+    for name in (
+        *("test_docs", "test_promises", "test_structure", "test_changed_tests", "test_long_tests"),
+        *("test_install_system", "test_unchanged", "test_extending", "test_without"),
+    )
+)
+"""Tests of the checkout as a whole: its pages, its figures, what git knows."""
+
+IMPORTS: Final = """
+import importlib, pkgutil, sys
+import app
+failed = 0
+for found in (m for m in pkgutil.walk_packages(app.__path__, "app.") if "__main__" not in m.name):
+    try:
+        importlib.import_module(found.name)
+    except ModuleNotFoundError as error:
+        if (error.name or "").split(".")[0] in ("app", "acus"):
+            failed += 1
+            print(f"{found.name}: {error}")
+    except Exception as error:
+        failed += 1
+        print(f"{found.name}: {type(error).__name__}: {error}")
+sys.exit(3 if failed else 0)
+"""
+"""A library that is not installed belongs to an extra, and is no failure."""
+
+ANSWERS: Final = """
+import contextlib, io, sys
+from app.commands import build
+from app.exercises.library import library
+known, failed = library(), 0
+for broken in known.broken:
+    failed += 1
+    print(f"{broken.path}: {broken.reason}")
+commands = build()
+for words in (["exercise", "list"], *(["explain", name] for name in known.ids())):
+    try:
+        with contextlib.redirect_stdout(io.StringIO()):
+            code = commands(words, standalone_mode=False)
+    except Exception as error:
+        code = f"{type(error).__name__}: {error}"
+    failed += bool(code)
+    print(f"acus {' '.join(words)}: {code or 'answered'}")
+sys.exit(3 if failed else 0)
+"""
+
+
+def copied(part: Part, folder: Path) -> list[str]:
+    """Copy the checkout without a part; return what was left out, as paths below the checkout."""
+    shutil.rmtree(folder, ignore_errors=True)
+    left_out = sorted(path for pattern in part.files for path in ROOT.glob(pattern))
+
+    def ignored(place: str, names: list[str]) -> list[str]:
+        return [n for n in names if n == "__pycache__" or Path(place, n) in left_out]
+
+    for name in (*_COPIED, *_COPIED_TOO):
+        if (ROOT / name).is_dir():
+            shutil.copytree(ROOT / name, folder / name, ignore=ignored)
+        elif (ROOT / name).is_file():
+            shutil.copy2(ROOT / name, folder / name)
+    return [path.relative_to(ROOT).as_posix() for path in left_out]
+
+
+def pattern_of(part: Part, left_out: list[str]) -> re.Pattern[str]:
+    """Return what finds a name of something that was left out in a text."""
+    names = [rf"(?i:\b{word}\b)" if word.islower() else rf"\b{word}\b" for word in part.words]
+    for path in left_out:
+        top, stem = path.split("/")[0], Path(path).stem
+        if top == "app":
+            dotted = path.removesuffix(".py").split("/")
+            package, last = ".".join(dotted[:-1]), dotted[-1]
+            names.append(rf"\b{re.escape('.'.join(dotted))}\b")
+            names.append(rf"\bfrom {re.escape(package)} import .*\b{last}\b")
+            names.append(re.escape(path))
+        elif top == "resources" and "." in path:
+            names.append(rf"[\"'/ ]{re.escape(stem)}(?:\.\w+)?[\"']")
+    return re.compile("|".join(names))
+
+
+def naming(folder: Path, pattern: re.Pattern[str], rooms: tuple[str, ...]) -> Iterator[str]:
+    """Yield `file:line: text` of every line of some folders that a pattern is in."""
+    for path in sorted(path for room in rooms for path in (folder / room).rglob("*")):
+        if path.suffix in _TEXTS and path.is_file():
+            lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+            for number, line in enumerate(lines, 1):
+                if pattern.search(line):
+                    where = path.relative_to(folder).as_posix()
+                    yield f"{where}:{number}: {line.strip()[:120]}"
+
+
+def tests_left(folder: Path, part: Part, pattern: re.Pattern[str], asked: list[str]) -> list[str]:
+    """Return the test files of a copy that concern neither a part nor the checkout as a whole."""
+    texts = {
+        path.relative_to(folder).as_posix(): path.read_text(encoding="utf-8")
+        for path in sorted((folder / "tests").rglob("*.py"))
+    }
+    concerned = {name for name, text in texts.items() if pattern.search(text)}
+    concerned = {name for name in concerned if not name.endswith("conftest.py")}
+    while more := {
+        name
+        for name, text in texts.items()
+        if name not in concerned
+        and any(
+            re.search(rf"^(?:from|import) (?:[\w.]+\.)?{Path(other).stem}\b", text, re.MULTILINE)
+            for other in concerned
+        )
+    }:
+        concerned |= more
+    excluded = {*concerned, *part.tests, *OF_THE_WHOLE}
+    return [
+        name
+        for name in texts
+        if Path(name).name.startswith("test_")
+        and name not in excluded
+        and (not asked or any(name == one or name.startswith(f"{one}/") for one in asked))
+    ]
+
+
+def _run(folder: Path, *arguments: str) -> int:
+    """Run Python in a copy, with data, settings and cache of its own; return how it ended."""
+    own = {f"ACUS_{name.upper()}": str(folder.parent / name) for name in ("data", "settings")}
+    environment = (
+        os.environ
+        | own
+        | {
+            "ACUS_CACHE": str(folder.parent / "cache"),
+            "PYTHONPATH": str(folder),
+            "QT_QPA_PLATFORM": "offscreen",
+        }
+    )
+    environment.pop("NUMBA_CACHE_DIR", None)
+    command = [sys.executable, *arguments]
+    return subprocess.run(command, cwd=folder, env=environment, check=False).returncode
+
+
+def main() -> int:
+    """Copy, ask, look, and say what is wrong."""
+    parser = argparse.ArgumentParser(prog="python -m tools.without", description=__doc__)
+    parser.add_argument("name", choices=tuple(PARTS))
+    parser.add_argument("--tests", nargs="*", metavar="PATH", help="run tests of the copy too")
+    given = parser.parse_args()
+    part, folder = PARTS[given.name], paths.cache() / "without" / given.name / "acus"
+    left_out = copied(part, folder)
+    print(f"{folder}: without {', '.join(left_out)}", flush=True)
+    pattern = pattern_of(part, left_out)
+    named = list(naming(folder, pattern, ("app", "acus", "resources")))
+    print("\n".join(named) or "nothing names what is gone", flush=True)
+    ended = [_run(folder, "-P", "-c", IMPORTS), _run(folder, "-P", "-c", ANSWERS)]
+    if given.tests is not None:
+        tests = tests_left(folder, part, pattern, given.tests)
+        print(f"{len(tests)} files of tests", flush=True)
+        options = ("-q", "-m", "not bench and not display and not long", "-p", "no:xdist")
+        ended.append(_run(folder, "-m", "pytest", *options, *tests))
+    return Exit.NO if named or any(ended) else Exit.DONE
+
+
+if __name__ == "__main__":
+    sys.exit(main())
