@@ -26,7 +26,7 @@ def main() -> None:
         read, refused = (_rows(Path(folder, f"dicom-{name}.csv")) for name in ("read", "refused"))
         tables = [
             _table([[row[0], *row[2:]] for row in counted(read)]),
-            _table([row[:3] for row in refused]),
+            _table([[row[0], row[2]] for row in refused]),
         ]
     text = "\n\n".join([*tables, *document["lines"]])
     before, rest = PAGE.read_text().split(BEGIN)
