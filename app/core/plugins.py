@@ -271,7 +271,9 @@ class PluginKind(Generic[D]):
 
     def fault(self, path: Path) -> str:
         """Say why somebody else's file cannot be imported, as a process of its own found; or ""."""
-        found = "" if self.is_own(path) else import_fault(path, self.package)
+        # By the name that it will have: compiled code is kept with it.
+        package = self._module_name(path).rpartition(".")[0]
+        found = "" if self.is_own(path) else import_fault(path, package)
         return f"{self.word} file {path} cannot be imported: {found}" if found else ""
 
     @contextmanager
@@ -315,9 +317,7 @@ class PluginKind(Generic[D]):
             AcusError: made by `error`, naming the file and what went wrong in it.
         """
         shared = plugin_folders.folder_of(declared.path)
-        name = f"{self.package}.{declared.name}"
-        if shared is not None:
-            name = shared.module_name(declared.path)
+        name = self._module_name(declared.path)
         with _IMPORTING:
             known = sys.modules.get(name)
             if known is not None and known.__file__ == str(declared.path):
@@ -341,6 +341,10 @@ class PluginKind(Generic[D]):
             if shared is None:
                 setattr(sys.modules[self.package], declared.name, module)
         return module
+
+    def _module_name(self, path: Path) -> str:
+        shared = plugin_folders.folder_of(path)
+        return f"{self.package}.{path.stem}" if shared is None else shared.module_name(path)
 
     def _counts(self, path: Path) -> bool:
         if not self.marks:
