@@ -67,7 +67,7 @@ result = trainer.result or trainer.end()
 loop.close()
 print(Path(result.record).stem)
 for row in result.score.rows:
-    print(row.metric, row.value)
+    print(row.name, row.value)
 """
 """An attempt of the scripted expert in virtual time, with its record: its id, and its score."""
 

@@ -283,7 +283,9 @@ class PluginKind(Generic[D]):
         """
         if self.is_own(path):
             return ""
-        if found := import_fault(path, self.package):
+        # By the name that it will have: compiled code is kept with it.
+        package = self._module_name(path).rpartition(".")[0]
+        if found := import_fault(path, package):
             return f"{self.word} file {path} cannot be imported: {found}"
         return "" if self.trial is None else self.trial.fault(path)
 
@@ -328,9 +330,7 @@ class PluginKind(Generic[D]):
             AcusError: made by `error`, naming the file and what went wrong in it.
         """
         shared = plugin_folders.folder_of(declared.path)
-        name = f"{self.package}.{declared.name}"
-        if shared is not None:
-            name = shared.module_name(declared.path)
+        name = self._module_name(declared.path)
         with _IMPORTING:
             known = sys.modules.get(name)
             if known is not None and known.__file__ == str(declared.path):
@@ -354,6 +354,10 @@ class PluginKind(Generic[D]):
             if shared is None:
                 setattr(sys.modules[self.package], declared.name, module)
         return module
+
+    def _module_name(self, path: Path) -> str:
+        shared = plugin_folders.folder_of(path)
+        return f"{self.package}.{path.stem}" if shared is None else shared.module_name(path)
 
     def _counts(self, path: Path) -> bool:
         if not self.marks:
