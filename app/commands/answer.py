@@ -13,6 +13,7 @@ from typing import Annotated, Any, TypeVar
 import typer
 from typer.core import TyperCommand
 
+from app.commands.shown import Shown, lines
 from app.core.exits import Exit
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -29,15 +30,17 @@ class Answer:
 
     Args:
         facts: the keys of its JSON, as docs/json.md lists them.
-        lines: the same for people, a line each; or a function that prints them.
+        lines: for people, where they say something else; or a function that prints them.
         yes: the answer where the command asks a question; False ends it with exit code 3.
         crashed: something broke that the command went on after; ends it with exit code 1.
+        shown: the facts for people, as templates of lines; they come before `lines`.
     """
 
     facts: Mapping[str, Any]
     lines: Sequence[str] | Callable[[], object] = ()
     yes: bool | None = None
     crashed: bool = False
+    shown: Shown = ()
 
 
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object (docs/json.md).")]
@@ -59,7 +62,7 @@ class AnsweringCommand(TyperCommand):
         elif callable(found.lines):
             found.lines()
         else:
-            for line in found.lines:
+            for line in (*lines(found.shown, found.facts), *found.lines):
                 typer.echo(line)
         if found.crashed:
             raise SystemExit(Exit.CRASHED)

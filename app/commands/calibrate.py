@@ -23,6 +23,7 @@ from app.commands.calibrate_parts import (
     with_progress,
 )
 from app.commands.calibrate_parts import Images as Folder
+from app.commands.shown import Each
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -101,10 +102,23 @@ def world(
     if keep:
         history.keep(placed)
     refused = [view for view in looked if isinstance(view, Rejection)]
-    last = f"in use from now on: {placed.id}" if keep else "not kept: add --keep to use it"
+    agree = "places        agree within {disagreement_mm:.2f} mm"
     return Answer(
         world_document(placed, frame, refused) | {"kept": keep},
-        [*world_lines(placed, frame, refused), last],
+        shown=(
+            Each(
+                "camera_centres_mm",
+                "{key:13} stands at {value.0:8.1f} {value.1:8.1f} {value.2:8.1f} mm",
+            ),
+            "residual      {rms_px:.3f} px in {pictures:#} pictures",
+            "{scale:?scale         {scale:.5f} ± {scale_sd:.5f} of the board's size}",
+            "{fulcrum_sd_mm:?fulcrum       sure to ± {fulcrum_sd_mm:.2f} mm "
+            "(standard deviation per axis)}",
+            agree if frame.disagreement_mm > 0.0 else "",
+            Each("remarks", "look at       {}"),
+            Each("refused", "not used      {name}: {text}"),
+            "{kept:?in use from now on: {id}|not kept: add --keep to use it}",
+        ),
     )
 
 
@@ -153,27 +167,6 @@ def world_document(
         "fulcrum_sd_mm": frame.watched_sd_mm,
         "remarks": list(frame.remarks),
     }
-
-
-def world_lines(
-    placed: "StereoCalibration", frame: "WorldFrame", refused: "Sequence[Rejection]"
-) -> list[str]:
-    """Return the result for people."""
-    lines = [
-        f"{camera.name:13} stands at {x:8.1f} {y:8.1f} {z:8.1f} mm"
-        for camera, (x, y, z) in zip(placed.cameras, frame.centres * 1e3, strict=True)
-    ]
-    lines.append(f"{'residual':13} {frame.rms_px:.3f} px in {len(frame.by_picture)} pictures")
-    if frame.scale is not None:
-        lines.append(f"{'scale':13} {frame.scale:.5f} ± {frame.scale_sd:.5f} of the board's size")
-    if frame.watched_sd_mm is not None:
-        lines.append(
-            f"{'fulcrum':13} sure to ± {frame.watched_sd_mm:.2f} mm (standard deviation per axis)"
-        )
-    if frame.disagreement_mm > 0.0:
-        lines.append(f"{'places':13} agree within {frame.disagreement_mm:.2f} mm")
-    lines += [f"{'look at':13} {remark}" for remark in frame.remarks]
-    return lines + [f"{'not used':13} {view.name}: {view.text}" for view in refused]
 
 
 def _calibration(history: Any, calibration_id: str | None) -> "StereoCalibration":

@@ -7,6 +7,7 @@ import typer
 
 from app.commands.answer import Answer
 from app.commands.calibrate_parts import app, lens_named
+from app.commands.shown import Each
 from app.core.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -24,12 +25,15 @@ def list_() -> Answer:
     """List all calibrations. Newest first, and which one is in use."""
     history = _history()
     documents = [entry_document(history, entry) for entry in reversed(history.entries())]
-    lines = [
-        f"{'*' if document['in_use'] else ' '} {document['id']:28} {_line(document)}"
-        for document in documents
-    ]
+    row = (
+        "{in_use:?*| } {id:28} {problem:?{problem}|"
+        "{cameras.0.image_size.0}x{cameras.0.image_size.1}, "
+        "{cameras.1.image_size.0}x{cameras.1.image_size.1}  {rms_px:.2f} px  "
+        "{validation_rms_mm:?{validation_rms_mm:.3f} mm held back|not checked on views held back}"
+        "  {world:?world|no world}{found_bad:?  FOUND BAD: {found_bad}}}"
+    )
     facts = {"folder": str(history.folder), "calibrations": documents}
-    return Answer(facts, lines or [f"no calibrations in {history.folder}"])
+    return Answer(facts, shown=Each("calibrations", row, none="no calibrations in {folder}"))
 
 
 @app.command("show")
@@ -104,10 +108,7 @@ def export(
     else:
         raise ConfigurationError(f"--format {kind}: only yaml and ros can be written")
     written = [str(path) for path in files]
-    return Answer(
-        {"id": calibration.id, "files": written},
-        [f"{calibration.id} written to {', '.join(written)}"],
-    )
+    return Answer({"id": calibration.id, "files": written}, shown="{id} written to {files}")
 
 
 @app.command("import")
@@ -166,23 +167,21 @@ def board_(
         raise ConfigurationError(f"--out {out}: only .pdf can be written")
     known = parse_board(board)
     sheet = write_board(out, known, paper_named(paper))
-    width, height = sheet.pattern_mm
     facts = {
         "file": str(out),
         "board": known.spec,
         "paper": sheet.paper.name,
         "landscape": sheet.landscape,
-        "pattern_mm": [width, height],
+        "pattern_mm": list(sheet.pattern_mm),
         "ambiguous": known.ambiguous,
     }
-    lines = [f"{known.spec}, {width:g} x {height:g} mm on {sheet.paper.name}: {out}"]
-    if known.ambiguous:
-        lines.append(
-            "note: this board looks the same after half a turn; a ChArUco board, or one with an "
-            "odd and an even count of corners, does not"
-        )
-    lines.append("print at 100 %, not fitted to the page, and measure the line of 100 mm")
-    return Answer(facts, lines)
+    shown = (
+        "{board}, {pattern_mm.0:g} x {pattern_mm.1:g} mm on {paper}: {file}",
+        "{ambiguous:?note: this board looks the same after half a turn; a ChArUco board, or one "
+        "with an odd and an even count of corners, does not}",
+        "print at 100 %, not fitted to the page, and measure the line of 100 mm",
+    )
+    return Answer(facts, shown=shown)
 
 
 def entry_document(history: "CalibrationHistory", entry: "KeptCalibration") -> dict[str, Any]:
@@ -250,22 +249,6 @@ def calibration_lines(calibration: "StereoCalibration") -> list[str]:
     return lines + [f"note          {note}" for note in calibration.notes]
 
 
-def _line(document: dict[str, Any]) -> str:
-    if document["problem"]:
-        return document["problem"]
-    sizes = ", ".join("{}x{}".format(*camera["image_size"]) for camera in document["cameras"])
-    checked = document["validation_rms_mm"]
-    parts = [
-        sizes,
-        f"{document['rms_px']:.2f} px",
-        f"{checked:.3f} mm held back" if checked is not None else "not checked on views held back",
-        "world" if document["world"] else "no world",
-    ]
-    if document["found_bad"]:
-        parts.append(f"FOUND BAD: {document['found_bad']}")
-    return "  ".join(parts)
-
-
 def _history() -> "CalibrationHistory":
     from app.tracking.calibration.history import CalibrationHistory
 
@@ -274,6 +257,5 @@ def _history() -> "CalibrationHistory":
 
 def _in_use(history: "CalibrationHistory") -> Answer:
     active = history.active()
-    if active is None:
-        return Answer({"in_use": None}, ["no calibration is in use"])
-    return Answer({"in_use": active.id}, [f"in use: {active.id}"])
+    facts = {"in_use": None if active is None else active.id}
+    return Answer(facts, shown="{in_use:?in use: {in_use}|no calibration is in use}")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from app.commands.answer import Answer, Commands
+from app.commands.shown import Each
 
 if TYPE_CHECKING:
     from app.tracking.cameras.settings import CameraSettings
@@ -39,11 +40,6 @@ def list_cameras() -> Answer:
     from app.tracking.cameras.settings import load_settings
 
     ports, settings = camera_ports(), load_settings()
-    lines = [f"usb:{port.port:<12} {port.title}  {port.node}" for port in ports]
-    if not ports:
-        lines.append("no camera is plugged in")
-    for side, camera in (("left", settings.left), ("right", settings.right)):
-        lines.append(f"{side:<6} {camera.source}")
     plugged_in = [
         {
             "source": f"usb:{port.port}",
@@ -53,7 +49,14 @@ def list_cameras() -> Answer:
         }
         for port in ports
     ]
-    return Answer({"plugged_in": plugged_in, "chosen": settings.model_dump(mode="json")}, lines)
+    return Answer(
+        {"plugged_in": plugged_in, "chosen": settings.model_dump(mode="json")},
+        shown=(
+            Each("plugged_in", "{source:<16} {title}  {node}", none="no camera is plugged in"),
+            "left   {chosen.left.source}",
+            "right  {chosen.right.source}",
+        ),
+    )
 
 
 def use(
@@ -108,7 +111,10 @@ def use(
             typer.echo(f"warning: {warnings[-1]}", err=True)
     return Answer(
         {"chosen": settings.model_dump(mode="json"), "file": file, "warnings": warnings},
-        [f"left {settings.left.source}, right {settings.right.source}", f"saved in {file}"],
+        shown=(
+            "left {chosen.left.source}, right {chosen.right.source}",
+            "saved in {file}",
+        ),
     )
 
 
@@ -173,8 +179,8 @@ def aim(
         "losses": list(cone.losses()),
         "basis": found.basis,
     }
-    seen = f"both cameras see {100.0 * cone.share:.0f} % of the needle's cone ({found.basis})"
-    return Answer(facts, [seen, *cone.losses()])
+    seen = "both cameras see {share:.0%} of the needle's cone ({basis})"
+    return Answer(facts, shown=(seen, Each("losses")))
 
 
 def latency(

@@ -107,12 +107,12 @@ def point(
         lps_mm, hu = _pixel(
             folder, sop, _integers(pixel, 2, "--pixel", "COL,ROW"), (frame or 1) - 1
         )
-    x, y, z = lps_mm
-    value = "no HU: padding, nothing was measured there" if hu is None else f"{hu:g} HU"
-    lines = [f"LPS {x:.3f} {y:.3f} {z:.3f} mm, {value}"]
-    if source["sop_uid"] and voxel is not None:
-        lines.append(f"SOPInstanceUID {source['sop_uid']}, frame {source['frame']}")
-    return Answer({"lps_mm": lps_mm, "hu": hu, **source}, lines)
+    shown = (
+        "LPS {lps_mm.0:.3f} {lps_mm.1:.3f} {lps_mm.2:.3f} mm, "
+        "{hu:?{hu:g} HU|no HU: padding, nothing was measured there}",
+        "{sop_uid:?SOPInstanceUID {sop_uid}, frame {frame}}" if voxel is not None else "",
+    )
+    return Answer({"lps_mm": lps_mm, "hu": hu, **source}, shown=shown)
 
 
 @app.command()

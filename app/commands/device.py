@@ -15,6 +15,7 @@ import typer
 
 from app.commands import completion
 from app.commands.answer import Answer, Commands, wants_json
+from app.commands.shown import Each
 
 if TYPE_CHECKING:
     from app.commands.answers import Answers
@@ -45,14 +46,10 @@ def list_ports() -> Answer:
     from app.device.links.port import ports
     from app.mechanisms.profile import load_profile, profile_names
 
-    found = ports()
     rows = [
         {"port": port.path, "description": port.description, "hardware": port.hardware}
-        for port in found
+        for port in ports()
     ]
-    lines = [f"{port.path:<16} {port.description}  {port.hardware}" for port in found]
-    if not found:
-        lines.append("no serial ports; plug the robot in, or try `acus device emulate`")
     profiles = []
     for name in profile_names():
         profile = load_profile(name)
@@ -63,9 +60,13 @@ def list_ports() -> Answer:
                 "description": profile.description,
             }
         )
-    lines.append("profiles:")
-    lines += [f"  {p['name']:<12} {p['protocol']}, {p['description']}" for p in profiles]
-    return Answer({"ports": rows, "profiles": profiles}, lines)
+    none = "no serial ports; plug the robot in, or try `acus device emulate`"
+    shown = (
+        Each("ports", "{port:<16} {description}  {hardware}", none),
+        "profiles:",
+        Each("profiles", "  {name:<12} {protocol}, {description}"),
+    )
+    return Answer({"ports": rows, "profiles": profiles}, shown=shown)
 
 
 def show(port: Port, profile: Profile = "icube") -> Answer:

@@ -9,6 +9,7 @@ import typer
 from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
+from app.commands.shown import Each
 
 if TYPE_CHECKING:
     from app.compose.trial import SkillOutcome
@@ -55,13 +56,12 @@ def list_exercises() -> Answer:
             }
         )
     broken = [{"file": str(file.path), "reason": file.reason} for file in known.broken]
-    lines = [
-        f"{row['level']}  {row['id']}  version {row['version']}  {row['title']}"
-        + ("" if row["shipped"] else "  (your own)")
-        for row in rows
-    ]
-    lines += [f"✖ cannot be used: {file['reason']}" for file in broken]
-    return Answer({"exercises": rows, "broken": broken, "folder": str(folders()[1])}, lines)
+    shown = (
+        Each("exercises", "{level}  {id}  version {version}  {title}{shipped:?|  (your own)}"),
+        Each("broken", "✖ cannot be used: {reason}"),
+    )
+    facts = {"exercises": rows, "broken": broken, "folder": str(folders()[1])}
+    return Answer(facts, shown=shown)
 
 
 @app.command()
@@ -122,7 +122,7 @@ def new(
     else:
         write_exercise(out, exercise)
     facts = {"id": exercise.id, "version": exercise.version, "file": str(out)}
-    return Answer(facts, [f"{exercise.id}: {out}"])
+    return Answer(facts, shown="{id}: {file}")
 
 
 @app.command()
@@ -153,12 +153,9 @@ def validate(
         wrong = quick_explanation(found)[1]
         row |= {"id": found.id, "version": found.version}
         row["problems"] = [f"{name}: {field}: {why}{_line(name, field)}" for field, why in wrong]
-    lines = []
-    for row in rows:
-        lines += [f"✖ {problem}" for problem in row["problems"]] or [
-            f"✔ {row['exercise']}: {row['id']}, version {row['version']}"
-        ]
-    return Answer({"exercises": rows}, lines, yes=not any(row["problems"] for row in rows))
+    problems = Each("problems", "✖ {}", none="✔ {exercise}: {id}, version {version}")
+    fine = not any(row["problems"] for row in rows)
+    return Answer({"exercises": rows}, yes=fine, shown=Each("exercises", problems))
 
 
 @app.command()
@@ -175,7 +172,7 @@ def schema(
     from app.core.files import write_atomically
 
     write_atomically(out, schema_text())
-    return Answer({"schema": schema_document(), "files": [str(out)]}, [str(out)])
+    return Answer({"schema": schema_document(), "files": [str(out)]}, shown="{files}")
 
 
 @app.command()
@@ -205,14 +202,12 @@ def pack(
 
     manifest = with_progress(work)
     facts = {"file": str(target), "manifest": manifest.model_dump(mode="json")}
-    return Answer(
-        facts,
-        [
-            f"{target}: {chosen.id}, version {chosen.version}",
-            f"  CT {manifest.ct.digest[:12]}…"
-            + (" is in the file" if with_ct else " is not in the file"),
-        ],
+    place = "in the file" if with_ct else "not in the file"
+    shown = (
+        "{file}: {manifest.id}, version {manifest.exercise_version}",
+        "  CT {manifest.ct.digest:.12}… is " + place,
     )
+    return Answer(facts, shown=shown)
 
 
 @app.command()
@@ -246,8 +241,7 @@ def unpack(
         "ct": None if found.ct is None else str(found.ct),
         "structures": [str(path) for path in found.structures],
     }
-    there = " was there already" if found.known else " taken in"
-    return Answer(facts, [f"{found.exercise.id}, version {found.exercise.version}{there}"])
+    return Answer(facts, shown="{id}, version {version} {known:?was there already|taken in}")
 
 
 @app.command()
@@ -269,7 +263,6 @@ def trial(
 
     outcomes = with_progress(work)
     rows: list[dict[str, Any]] = []
-    lines = [f"{'skill':<12} {'median':>6}  {'quartiles':>11}  {'passed':>6}  {'time':>5}"]
     for one in outcomes:
         low, middle, high = one.quartiles or (None, None, None)
         rows.append(
@@ -284,17 +277,20 @@ def trial(
                 "scores": [total if isfinite(total) else None for total in one.totals],
             }
         )
-        score = "     –            –" if middle is None else f"{middle:6.1f}  {low:5.1f}{high:6.1f}"
-        lines.append(
-            f"{one.skill:<12} {score}  {100.0 * one.share_passed:4.0f} %  {one.duration:3.0f} s"
-            + (f"  {one.void} without a score" if one.void else "")
-        )
-    seeds_right, ordered = ordered_seeds(outcomes), ordered_share(outcomes)
-    lines.append(f"all skills in their order: {100.0 * seeds_right:.0f} % of the seeds")
-    lines.append(f"neighbouring skills ordered right, any seed with any: {100.0 * ordered:.0f} %")
-    facts = {"id": chosen.id, "version": chosen.version, "seeds": seeds}
-    facts |= {"skills": rows, "ordered_seeds": seeds_right, "ordered_share": ordered}
-    return Answer(facts, lines)
+    facts = {"id": chosen.id, "version": chosen.version, "seeds": seeds, "skills": rows}
+    facts |= {"ordered_seeds": ordered_seeds(outcomes), "ordered_share": ordered_share(outcomes)}
+    row = (
+        "{skill:<12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|"
+        "     –            –}  {share_passed:4.0%}  {duration_s:3.0f} s"
+        "{without_score:#  # without a score|  # without a score|}"
+    )
+    shown = (
+        "skill        median    quartiles  passed   time",
+        Each("skills", row),
+        "all skills in their order: {ordered_seeds:.0%} of the seeds",
+        "neighbouring skills ordered right, any seed with any: {ordered_share:.0%}",
+    )
+    return Answer(facts, shown=shown)
 
 
 def _line(name: str, field: str) -> str:

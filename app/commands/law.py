@@ -5,6 +5,7 @@ from typing import Annotated, Any
 import typer
 
 from app.commands.answer import Answer, Commands
+from app.commands.shown import Each
 
 app = Commands(help="The force laws, the program's and your own.")
 
@@ -25,9 +26,12 @@ def list_laws(
     Ends with code 3 if one is refused. Nothing is deleted.
     """
     rows = _rows(tried)
-    lines = [f"{'✖' if row['refused'] else '✔'} {row['law']}: {_words(row)}" for row in rows]
+    shown = (
+        "{refused:?✖|✔} {law}: {refused:?refused: {refused}|{title}"
+        "{trial_states:? (tried with {trial_states} states in {trial_s} s)}}"
+    )
     fine = not any(row["refused"] for row in rows)
-    return Answer({"laws": rows}, lines, yes=fine)
+    return Answer({"laws": rows}, yes=fine, shown=Each("laws", shown))
 
 
 def _rows(tried: bool) -> list[dict[str, Any]]:
@@ -55,11 +59,3 @@ def _rows(tried: bool) -> list[dict[str, Any]]:
             }
         )
     return rows
-
-
-def _words(row: dict[str, Any]) -> str:
-    if row["refused"]:
-        return f"refused: {row['refused']}"
-    if row["trial_states"]:
-        return f"{row['title']} (tried with {row['trial_states']} states in {row['trial_s']} s)"
-    return str(row["title"])

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from app.commands.answer import Answer, Commands
+from app.commands.shown import Each
 
 if TYPE_CHECKING:
     from app.tracking.pen.body import PenProfile
@@ -35,8 +36,7 @@ def list_pens() -> Answer:
     for name in shipped_pens():
         pen = PenSettings(pen=name).profile()
         rows.append({"name": name, "description": pen.description, "tip": _tip(pen)})
-    lines = [f"{row['name']:8} {row['description']}; {row['tip']}" for row in rows]
-    return Answer({"pens": rows}, lines)
+    return Answer({"pens": rows}, shown=Each("pens", "{name:8} {description}; {tip}"))
 
 
 @app.command("print")
@@ -54,7 +54,7 @@ def print_pen(
     profile = load_pen(pen) if edge is None else load_pen(pen).resized(edge)
     write_pen(out, profile, paper_named(paper))
     words = "print it at 100 %, check the line of 100 mm, cut, fold, glue (docs/pen.md)"
-    return Answer({"files": [out]}, [f"wrote {out}: {words}"])
+    return Answer({"files": [out]}, shown="wrote {files}: " + words)
 
 
 def _tip(pen: PenProfile) -> str:

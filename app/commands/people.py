@@ -8,7 +8,7 @@ import typer
 from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor, secret
-from app.core.words import counted
+from app.commands.shown import Each
 
 Pseudonym = Annotated[
     str,
@@ -55,11 +55,9 @@ def list_(
         ],
         "instructor": people.has_instructor(),
     }
-    lines = [
-        f"{p.pseudonym:24} {', '.join(p.groups) or '-':24} {p.name if names else p.key}"
-        for p in found
-    ]
-    return Answer(facts, lines or ["no students yet: `acus people add` or `acus people roster`"])
+    row = "{pseudonym:24} {groups:24} " + ("{name}" if names else "{key}")
+    none = "no students yet: `acus people add` or `acus people roster`"
+    return Answer(facts, shown=Each("students", row, none))
 
 
 def add(
@@ -76,7 +74,7 @@ def add(
     instructor(people)
     person, pin = people.add(RosterLine(pseudonym, name, pin_, tuple(group or ())))
     facts = {"pseudonym": person.pseudonym, "key": person.key, "pin": pin}
-    return Answer(facts, [f"{person.pseudonym} was added; PIN {pin}"])
+    return Answer(facts, shown="{pseudonym} was added; PIN {pin}")
 
 
 def roster(
@@ -99,7 +97,7 @@ def roster(
     lines, errors = roster_in(file)
     if errors and not partly:
         facts = {"added": [], "updated": [], "pins": {}, "errors": errors}
-        return Answer(facts, [*errors, "nothing was taken"], yes=False)
+        return Answer(facts, yes=False, shown=(Each("errors"), "nothing was taken"))
     done = people.take_roster(lines, partly)
     every = [*errors, *done.errors]
     facts = {
@@ -108,11 +106,9 @@ def roster(
         "pins": dict(done.pins),
         "errors": every,
     }
-    added = len(done.added)
-    students = counted(added, "1 student", f"{added} students")
-    said = [*every, f"{students} added, {len(done.updated)} updated"]
-    said += [f"{name:24} PIN {pin}" for name, pin in done.pins.items()]
-    return Answer(facts, said, yes=not every)
+    many = "{added:#1 student|# students} added, {updated:#} updated"
+    shown = (Each("errors"), many, Each("pins", "{key:24} PIN {value}"))
+    return Answer(facts, yes=not every, shown=shown)
 
 
 def pin(
@@ -125,7 +121,7 @@ def pin(
     people = People()
     instructor(people)
     people.set_pin(pseudonym, new)
-    return Answer({"pseudonym": pseudonym}, [f"{pseudonym} has a new PIN"])
+    return Answer({"pseudonym": pseudonym}, shown="{pseudonym} has a new PIN")
 
 
 def erase(
@@ -147,12 +143,9 @@ def erase(
     people = People()
     instructor(people)
     found = erase_person(pseudonym, records_folder(folder), records, people)
-    lines = [
-        f"{pseudonym} was erased; records deleted: {found.deleted}, kept as nobody's: "
-        f"{found.anonymous}"
-    ]
     facts = {"pseudonym": pseudonym, "records": found.deleted, "anonymous": found.anonymous}
-    return Answer(facts, lines)
+    shown = "{pseudonym} was erased; records deleted: {records}, kept as nobody's: {anonymous}"
+    return Answer(facts, shown=shown)
 
 
 def set_instructor(
@@ -231,7 +224,7 @@ def remark(
         "released": bool(now and now.released),
         "admitted": admitted.why if (admitted := admissions(people).get(name)) else "",
     }
-    return Answer(facts, [f"{key:9} {value or '-'}" for key, value in facts.items()])
+    return Answer(facts, shown=Each("", "{key:9} {value:?{value}|-}"))
 
 
 def list_courses() -> Answer:
@@ -248,9 +241,9 @@ def list_courses() -> Answer:
         "courses": [course.document() for course in found],
         "broken": broken,
     }
-    lines = [f"{c.id:24} {c.title}: {len(c.items)} exercises" for c in found]
-    lines += [f"✖ {line}" for line in broken]
-    return Answer(facts, lines or [f"no courses in {courses_folder()}"], yes=not broken)
+    listed = Each("courses", "{id:24} {title}: {items:?{items:#}|0} exercises")
+    shown = (listed, Each("broken", "✖ {}")) if found or broken else "no courses in {folder}"
+    return Answer(facts, yes=not broken, shown=shown)
 
 
 def show_course(name: CourseId) -> Answer:

@@ -3,6 +3,7 @@
 import typer
 
 from app.commands.answer import Answer, Commands
+from app.commands.shown import Each
 
 app = Commands(
     help="Your own laws, effects, metrics, studies, machines. They run with all your rights: take "
@@ -37,15 +38,12 @@ def list_plugins() -> Answer:
         }
         for f in with_progress(lambda progress: plugin_files(tried=True, progress=progress))
     ]
-    lines = [
-        f"{'✖' if row['refused'] else '✔'} {row['kind']} {row['name']}: "
-        + (f"refused: {row['refused']}" if row["refused"] else row["title"])
-        for row in rows
-    ]
     fine = not any(row["refused"] for row in rows)
     folders = {kind: str(folder) for kind, folder in plugin_folders().items()}
-    if not rows:
-        lines = ["no files of your own yet; save them in these folders (make what is missing):"]
-        lines += [f"  {kind}: {folder}" for kind, folder in folders.items()]
-    lines.append(RIGHTS)
-    return Answer({"plugins": rows, "folders": folders}, lines, yes=fine)
+    none = (
+        "no files of your own yet; save them in these folders (make what is missing):",
+        Each("folders", "  {key}: {value}"),
+    )
+    row = "{refused:?✖|✔} {kind} {name}: {refused:?refused: {refused}|{title}}"
+    facts = {"plugins": rows, "folders": folders}
+    return Answer(facts, [RIGHTS], yes=fine, shown=Each("plugins", row, none))

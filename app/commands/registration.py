@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from app.commands.answer import Answer, Commands
+from app.commands.shown import Each
 
 if TYPE_CHECKING:
     from app.core.arrays import FloatArray
@@ -61,10 +62,9 @@ def list_plates() -> Answer:
     """List the plates that come with the program."""
     from app.planning.registration.plate import load_plate, plate_names
 
-    found = [load_plate(name) for name in plate_names()]
-    rows = [plate.model_dump(mode="json") for plate in found]
-    lines = [f"{one.name}  {len(one.fiducials)} fiducials  {one.description}" for one in found]
-    return Answer({"plates": rows}, lines)
+    rows = [load_plate(name).model_dump(mode="json") for name in plate_names()]
+    shown = Each("plates", "{name}  {fiducials:#} fiducials  {description}")
+    return Answer({"plates": rows}, shown=shown)
 
 
 @app.command("list")
@@ -86,13 +86,9 @@ def list_checks() -> Answer:
         }
         for record in Registrations.own().records()
     ]
-    lines = [
-        f"{row['id']}  {row['plate']}  {row['touched']} touched, {row['picked']} picked  "
-        f"{row['rig']}  {'good' if row['trusted'] else 'does not fit'}"
-        for row in rows
-    ]
-    none = f"no registration checks in {Registrations.own().folder}"
-    return Answer({"checks": rows}, lines or [none])
+    row = "{id}  {plate}  {touched} touched, {picked} picked  {rig}  {trusted:?good|does not fit}"
+    none = [] if rows else [f"no registration checks in {Registrations.own().folder}"]
+    return Answer({"checks": rows}, none, shown=Each("checks", row))
 
 
 def _target(text: str | None) -> "FloatArray":

@@ -9,6 +9,7 @@ from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
 from app.commands.people import Pseudonym
+from app.commands.shown import Each
 
 if TYPE_CHECKING:
     from app.exchange.results import Results
@@ -93,10 +94,9 @@ def curve(
             for p in points
         ],
     }
-    lines = [
-        f"{p.started}  {p.total:5.1f}  best {p.best:5.1f}  median {p.median:5.1f}" for p in points
-    ]
-    return Answer(facts, lines or [f"{pseudonym} has no attempt at {exercise} that counts"])
+    row = "{started}  {total:5.1f}  best {best:5.1f}  median {median:5.1f}"
+    none = [] if points else [f"{pseudonym} has no attempt at {exercise} that counts"]
+    return Answer(facts, none, shown=Each("points", row))
 
 
 def export(
@@ -148,9 +148,7 @@ def export(
         )
         write_results(out, text)
     facts = {"files": [out], "attempts": len(attempts), "students": len(found.students)}
-    return Answer(
-        facts, [f"{len(attempts)} attempts of {len(found.students)} students written to {out}"]
-    )
+    return Answer(facts, shown="{attempts} attempts of {students} students written to {files}")
 
 
 def _write_report(results: "Results", out: Path, student: str, course: str, group: str) -> None:

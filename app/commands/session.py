@@ -205,10 +205,8 @@ def delete(session_id: Id, folder: FolderOption = None) -> Answer:
 
     instructor()
     path = store.delete(_folder(folder), session_id)
-    return Answer(
-        {"id": path.stem, "file": path},
-        [f"{path.stem} deleted: `acus session restore {path.stem}` brings it back"],
-    )
+    shown = "{id} deleted: `acus session restore {id}` brings it back"
+    return Answer({"id": path.stem, "file": path}, shown=shown)
 
 
 def restore(
@@ -220,7 +218,7 @@ def restore(
 
     instructor()
     path = store.restore(_folder(folder), session_id)
-    return Answer({"id": path.stem, "file": path}, [f"{path.stem} is back"])
+    return Answer({"id": path.stem, "file": path}, shown="{id} is back")
 
 
 def recover(
@@ -246,9 +244,9 @@ def recover(
         cut = interrupted.is_cut_off(find(place, session_id))
         path = interrupted.recover(place, session_id)
         facts = {"id": path.stem, "file": path, "interrupted": []}
-        closed = f"{path.stem} was closed as it stands: listed as unfinished"
-        whole = f"{path.stem} has its end: there was nothing to recover, and nothing was changed"
-        return Answer(facts, [closed if cut else whole])
+        closed = "{id} was closed as it stands: listed as unfinished"
+        whole = "{id} has its end: there was nothing to recover, and nothing was changed"
+        return Answer(facts, shown=closed if cut else whole)
     here = visitor()
     found = [
         one if here.may_see(one.student) else replace(one, student="a student")
@@ -277,19 +275,17 @@ def gather() -> Answer:
     folder = paths.sessions()
     found = elsewhere(folder)
     if found is None:
-        return Answer({"folder": folder, "from": None, "gathered": 0, "left": 0}, ["nothing to do"])
+        facts = {"folder": folder, "from": None, "gathered": 0, "left": 0}
+        return Answer(facts, shown="nothing to do")
     count = bring(found, folder, People())
     left = len(found.records) - count
-    brought = counted(count, "1 attempt", f"{count} attempts")
-    lines = [f"{brought} brought from {found.folder} to {folder}"]
-    if left:
-        stay = counted(left, "1 stays", f"{left} stay")
-        lines.append(
-            f"{stay} there, not signed by this station: "
-            f"`acus session list --folder {found.folder}` lists them"
-        )
     facts = {"folder": folder, "from": found.folder, "gathered": count, "left": left}
-    return Answer(facts, lines)
+    stay = (
+        "{left:#1 stays|# stay} there, not signed by this station: "
+        "`acus session list --folder {from}` lists them"
+    )
+    brought = "{gathered:#1 attempt|# attempts} brought from {from} to {folder}"
+    return Answer(facts, shown=(brought, stay if left else ""))
 
 
 def export(
@@ -312,7 +308,7 @@ def export(
     if out.suffix.lower() != ".csv":
         raise typer.BadParameter(f"--out {out}: only .csv can be written")
     write_csv(out, text)
-    return Answer({"files": [out], "rows": rows}, [f"{rows} rows written to {out}"])
+    return Answer({"files": [out], "rows": rows}, shown="{rows} rows written to {files}")
 
 
 def _folder(folder: Path | None) -> Path:

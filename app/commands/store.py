@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from app.commands.answer import Answer, Commands
-from app.core.words import counted
+from app.commands.shown import Each
 
 FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
@@ -50,13 +50,15 @@ def status(folder: FolderOption = None) -> Answer:
         "states": dict(sorted(states.items())),
         "deleted": len(records(place / TRASH)),
     }
+    shown = (
+        "{attempts} attempts in {folder}, {deleted} deleted",
+        "index: {index:?{index}|in memory, the folder can only be read}",
+    )
     lines = [
-        f"{len(found)} attempts in {place}, {facts['deleted']} deleted",
-        f"index: {index.path or 'in memory, the folder can only be read'}",
         "signatures: " + ", ".join(f"{verdicts[v.value]} {v.value}" for v in words),
         "states: " + (", ".join(f"{n} {state}" for state, n in sorted(states.items())) or "none"),
     ]
-    return Answer(facts, lines)
+    return Answer(facts, lines, shown=shown)
 
 
 def rebuild(folder: FolderOption = None) -> Answer:
@@ -68,7 +70,7 @@ def rebuild(folder: FolderOption = None) -> Answer:
     index = Index(records_folder(folder))
     done = with_progress(index.rebuild)
     facts = {"folder": index.folder, "index": index.path, "attempts": done.total, "gone": done.gone}
-    return Answer(facts, [f"{done.total} attempts indexed, {done.gone} of the old index are gone"])
+    return Answer(facts, shown="{attempts} attempts indexed, {gone} of the old index are gone")
 
 
 def backup(
@@ -92,9 +94,7 @@ def backup(
     count = with_progress(lambda progress: archive.backup(out, place, people, progress))
     wrapped = people.wrapped_key()
     key = bool(wrapped) and opens(wrapped)
-    lines = [f"{counted(count, '1 record', f'{count} records')} written to {out}"]
-    left = archive.left_out()
-    lines += [f"not in it: {line}" for line in left]
+    lines = []
     if wrapped and not key:
         lines.append(
             "the station's key in it was sealed by an earlier build, and nothing opens it any "
@@ -106,7 +106,9 @@ def backup(
             "without the station's key: set a password first (`acus people instructor`) if its "
             "records are to be verified on another computer"
         )
-    return Answer({"files": [out], "records": count, "key": key, "left_out": left}, lines)
+    facts = {"files": [out], "records": count, "key": key, "left_out": archive.left_out()}
+    written = "{records:#1 record|# records} written to {files}"
+    return Answer(facts, lines, shown=(written, Each("left_out", "not in it: {}")))
 
 
 def restore(
@@ -147,15 +149,14 @@ def restore(
         "key": done.key,
         "not_taken": list(done.not_taken),
     }
-    lines = [
-        f"{done.records} records restored, {done.kept} were here already",
-        f"people: {done.people}; station's key: {done.key}",
-        *(f"✖ {name} is another record here: the one here was kept" for name in done.different),
-    ]
-    if done.erased:
-        lines.append(f"{done.erased} records left out: their person was erased")
-    lines += [f"✖ not taken: {line}" for line in done.not_taken]
-    return Answer(facts, lines, yes=not done.different and not done.not_taken)
+    shown = (
+        "{records} records restored, {kept} were here already",
+        "people: {people}; station's key: {key}",
+        Each("different", "✖ {} is another record here: the one here was kept"),
+        "{erased} records left out: their person was erased" if done.erased else "",
+        Each("not_taken", "✖ not taken: {}"),
+    )
+    return Answer(facts, yes=not done.different and not done.not_taken, shown=shown)
 
 
 def empty(
@@ -169,5 +170,4 @@ def empty(
 
     instructor()
     gone = empty_trash(records_folder(folder), days)
-    attempts = counted(len(gone), "1 attempt", f"{len(gone)} attempts")
-    return Answer({"deleted": gone}, [f"{attempts} deleted for good"])
+    return Answer({"deleted": gone}, shown="{deleted:#1 attempt|# attempts} deleted for good")

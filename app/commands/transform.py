@@ -45,7 +45,7 @@ def export(
     placement = Placement(PatientOrientation(orientation), (x, y, z))
     fulcrum = load_profile(device).fulcrum
     write_tfm(out, placement.T_world_patient(read_plan(plan), fulcrum).inverse())
-    return Answer({"files": [out]}, [f"{out}: from world (robot) to patient (LPS)"])
+    return Answer({"files": [out]}, shown="{files}: from world (robot) to patient (LPS)")
 
 
 @app.command()
