@@ -40,7 +40,7 @@ from app.scoring import metrics
 from app.scoring.defaults import PUBLISHED_TOLERANCES
 from app.simulation import effects
 from app.simulation.needles import OUTER_DIAMETER
-from app.views.author.editing import DRAWN, ExerciseEditor, Where, bone_words
+from app.views.author.editing import DRAWN, ExerciseEditor, Where, bone_words, limits
 from app.views.kit import theme
 from app.views.kit.coordinates import lps_words
 from app.views.kit.field_words import place_words, problem_words
@@ -148,10 +148,15 @@ class Form(QWidget):
         return box
 
     def number(
-        self, *where: str, name: str, low: float, high: float, default: float, unit: str = ""
+        self,
+        *where: str,
+        name: str,
+        unit: str = "",
+        within: tuple[float, float, float] | None = None,
     ) -> QDoubleSpinBox:
-        """Add a number with two digits behind the point."""
+        """Add a number with two digits behind the point; its limits are those of an exercise."""
         box = QDoubleSpinBox(self)
+        low, high, default = within or limits(*where)
         box.setRange(low, high)
         box.setDecimals(2)
         box.setSingleStep(0.1 if high - low <= 4.0 else 1.0)
@@ -167,9 +172,10 @@ class Form(QWidget):
         self.add(where, name, box, load)
         return box
 
-    def count(self, *where: str, name: str, low: int, high: int, default: int) -> QSpinBox:
-        """Add a whole number."""
+    def count(self, *where: str, name: str) -> QSpinBox:
+        """Add a whole number; its limits are those of an exercise."""
         box = QSpinBox(self)
+        low, high, default = limits(*where)
         box.setRange(low, high)
         box.setKeyboardTracking(False)
         box.valueChanged.connect(lambda value: self.editor.put(*where, value=int(value)))
@@ -302,7 +308,7 @@ class TaskPage(Form):
         self.kind = self.choice(
             "kind", name=tr("Type"), among=kinds(), read=self._kind, write=self.kind_wanted.emit
         )
-        self.level = self.count("level", name=tr("Level (1 easiest)"), low=1, high=9, default=1)
+        self.level = self.count("level", name=tr("Level (1 easiest)"))
         self.briefing = self.lines("description", name=tr("Briefing"))
         practice, test = tr("Practice"), tr("Assessment: all controls are locked")
         self.choice(
@@ -385,9 +391,7 @@ class PatientPage(Form):
             "needle",
             "length_mm",
             name=tr("Length of the needle, 0 for the device's own"),
-            low=0.0,
-            high=400.0,
-            default=0.0,
+            within=(0.0, 400.0, 0.0),
             unit="mm",
         ).valueChanged.connect(self._no_zero)
         devices = [(name, name) for name in profile_names("device")]
@@ -396,7 +400,7 @@ class PatientPage(Form):
         self.text("joint", name=tr("Ball joint, empty for the robot's own"))
         self.choice("rig", name=tr("Cameras"), among=rigs)
         self.text("target_organ", name=tr("Organ of the target"), hint=tr("such as liver"))
-        self.count("seed", name=tr("Seed of everything random"), low=0, high=2**31 - 1, default=1)
+        self.count("seed", name=tr("Seed of everything random"))
         self.rows.addStretch(1)
 
     def _no_zero(self, value: float) -> None:
@@ -494,9 +498,6 @@ class HelpPage(Form):
         self.number(
             "assistance",
             name=tr("Dial at the start: 1 guides, 0 nothing, −1 repels"),
-            low=-1.0,
-            high=1.0,
-            default=0.7,
         )
         ways = (
             (None, tr("Fixed: the same at every attempt")),
@@ -515,22 +516,13 @@ class HelpPage(Form):
         self.dials.textEdited.disconnect()
         self.dials.textEdited.connect(self._set_dials)
         self._loads[-1] = self._show_dials
-        self.number(
-            "fading", "least", name=tr("Dial never falls below"), low=-1.0, high=1.0, default=0.0
-        )
-        self.number("fading", "step", name=tr("Step of the dial"), low=0.01, high=1.0, default=0.2)
-        self.number(
-            "fading", "good", name=tr("Good from a total of"), low=0.0, high=100.0, default=80.0
-        )
-        self.number(
-            "fading", "poor", name=tr("Poor below a total of"), low=0.0, high=100.0, default=60.0
-        )
+        self.number("fading", "least", name=tr("Dial never falls below"))
+        self.number("fading", "step", name=tr("Step of the dial"))
+        self.number("fading", "good", name=tr("Good from a total of"))
+        self.number("fading", "poor", name=tr("Poor below a total of"))
         self.probes = self.count(
             "fading",
             "probe_every",
-            low=0,
-            high=100,
-            default=0,
             name=tr("Every so many attempts a probe without help; 0: none"),
         )
         self.note(("fading",))
@@ -631,9 +623,6 @@ class SightPage(Form):
             "slab",
             "thickness_mm",
             name=tr("Thickness of the slab"),
-            low=0.0,
-            high=100.0,
-            default=0.0,
             unit="mm",
         )
         self.take = button(tr("Take window and slab from the axial pane"))
@@ -642,24 +631,17 @@ class SightPage(Form):
         self.check("reading", "locked", name=tr("Window, slab and layout stay as given here"))
         self.note(("reading",))
         self.note(("touch",))
-        self.count(
-            "guidance", "slices", name=tr("Slices of a control scan"), low=3, high=5, default=3
-        )
+        self.count("guidance", "slices", name=tr("Slices of a control scan"))
         self.number(
             "guidance",
             "slice_mm",
             name=tr("Thickness of a slice"),
-            low=0.5,
-            high=10.0,
-            default=5.0,
             unit="mm",
         )
         self.number(
-            *("guidance", "dose_per_slice"),
+            "guidance",
+            "dose_per_slice",
             name=tr("Dose of a slice, a teaching estimate"),
-            low=0.0,
-            high=1000.0,
-            default=3.85,
             unit="mGy·cm",
         )
         self.check("guidance", "streak", name=tr("Metal leaves a streak in control scans"))
@@ -1101,23 +1083,18 @@ class ScorePage(Form):
         self.rows.addWidget(self.skills)
         self.tried = label("", "dim")
         self.rows.addWidget(self.tried)
+        self.number("rules", "pass_mark", name=tr("Total needed to pass"))
         self.number(
-            "rules", "pass_mark", name=tr("Total needed to pass"), low=0.0, high=100.0, default=60.0
-        )
-        self.number(
-            *("rules", "minimum_tracking"),
+            "rules",
+            "minimum_tracking",
             name=tr("Void below this share of the insertion with a measured depth"),
-            low=0.0,
-            high=100.0,
-            default=70.0,
             unit="%",
         )
         self.number(
-            *("rules", "maximum_pause"),
+            "rules",
+            "maximum_pause",
             name=tr("Void beyond this time of waiting for the cameras"),
-            low=0.0,
-            high=3600.0,
-            default=20.0,
+            within=(0.0, 3600.0, 20.0),
             unit="s",
         )
         self.note(("rules",))
