@@ -23,7 +23,7 @@ from app.commands.calibrate_parts import (
     with_progress,
 )
 from app.commands.calibrate_parts import Images as Folder
-from app.commands.shown import Rows
+from app.commands.shown import Each
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -106,7 +106,7 @@ def world(
     return Answer(
         world_document(placed, frame, refused) | {"kept": keep},
         shown=(
-            Rows(
+            Each(
                 "camera_centres_mm",
                 "{key:13} stands at {value.0:8.1f} {value.1:8.1f} {value.2:8.1f} mm",
             ),
@@ -115,8 +115,8 @@ def world(
             "{fulcrum_sd_mm:?fulcrum       sure to ± {fulcrum_sd_mm:.2f} mm "
             "(standard deviation per axis)}",
             agree if frame.disagreement_mm > 0.0 else "",
-            Rows("remarks", "look at       {}"),
-            Rows("refused", "not used      {name}: {text}"),
+            Each("remarks", "look at       {}"),
+            Each("refused", "not used      {name}: {text}"),
             "{kept:?in use from now on: {id}|not kept: add --keep to use it}",
         ),
     )

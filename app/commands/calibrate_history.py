@@ -7,7 +7,7 @@ import typer
 
 from app.commands.answer import Answer
 from app.commands.calibrate_parts import app, lens_named
-from app.commands.shown import Rows
+from app.commands.shown import Each
 from app.core.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ def list_() -> Answer:
         "  {world:?world|no world}{found_bad:?  FOUND BAD: {found_bad}}}"
     )
     facts = {"folder": str(history.folder), "calibrations": documents}
-    return Answer(facts, shown=Rows("calibrations", row, none="no calibrations in {folder}"))
+    return Answer(facts, shown=Each("calibrations", row, none="no calibrations in {folder}"))
 
 
 @app.command("show")

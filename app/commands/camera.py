@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from app.commands.answer import Answer, Commands
-from app.commands.shown import Rows
+from app.commands.shown import Each
 
 if TYPE_CHECKING:
     from app.tracking.cameras.settings import CameraSettings
@@ -55,7 +55,7 @@ def list_cameras() -> Answer:
     return Answer(
         {"plugged_in": plugged_in, "chosen": settings.model_dump(mode="json")},
         shown=(
-            Rows("plugged_in", "{source:<16} {title}  {node}", none="no camera is plugged in"),
+            Each("plugged_in", "{source:<16} {title}  {node}", none="no camera is plugged in"),
             "left   {chosen.left.source}",
             "right  {chosen.right.source}",
         ),
@@ -183,7 +183,7 @@ def aim(
         "basis": found.basis,
     }
     seen = "both cameras see {share:.0%} of the needle's cone ({basis})"
-    return Answer(facts, shown=(seen, Rows("losses")))
+    return Answer(facts, shown=(seen, Each("losses")))
 
 
 def latency(

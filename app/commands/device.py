@@ -15,7 +15,7 @@ import typer
 
 from app.commands import completion
 from app.commands.answer import Answer, Commands, wants_json
-from app.commands.shown import Rows
+from app.commands.shown import Each
 
 if TYPE_CHECKING:
     from app.commands.answers import Answers
@@ -65,9 +65,9 @@ def list_ports() -> Answer:
         )
     none = "no serial ports; plug the robot in, or try `acus device emulate`"
     shown = (
-        Rows("ports", "{port:<16} {description}  {hardware}", none),
+        Each("ports", "{port:<16} {description}  {hardware}", none),
         "profiles:",
-        Rows("profiles", "  {name:<12} {protocol}, {description}"),
+        Each("profiles", "  {name:<12} {protocol}, {description}"),
     )
     return Answer({"ports": rows, "profiles": profiles}, shown=shown)
 

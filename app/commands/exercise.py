@@ -9,7 +9,7 @@ import typer
 from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
-from app.commands.shown import Rows
+from app.commands.shown import Each
 
 if TYPE_CHECKING:
     from app.compose.trial import SkillOutcome
@@ -60,8 +60,8 @@ def list_exercises() -> Answer:
         )
     broken = [{"file": str(file.path), "reason": file.reason} for file in known.broken]
     shown = (
-        Rows("exercises", "{level}  {id}  version {version}  {title}{shipped:?|  (your own)}"),
-        Rows("broken", "✖ cannot be used: {reason}"),
+        Each("exercises", "{level}  {id}  version {version}  {title}{shipped:?|  (your own)}"),
+        Each("broken", "✖ cannot be used: {reason}"),
     )
     facts = {"exercises": rows, "broken": broken, "folder": str(folders()[1])}
     return Answer(facts, shown=shown)
@@ -156,9 +156,9 @@ def validate(
         wrong = quick_explanation(found)[1]
         row |= {"id": found.id, "version": found.version}
         row["problems"] = [f"{name}: {field}: {why}{_line(name, field)}" for field, why in wrong]
-    problems = Rows("problems", "✖ {}", none="✔ {exercise}: {id}, version {version}")
+    problems = Each("problems", "✖ {}", none="✔ {exercise}: {id}, version {version}")
     fine = not any(row["problems"] for row in rows)
-    return Answer({"exercises": rows}, yes=fine, shown=Rows("exercises", problems))
+    return Answer({"exercises": rows}, yes=fine, shown=Each("exercises", problems))
 
 
 @app.command()
@@ -289,7 +289,7 @@ def trial(
     )
     shown = (
         "skill        median    quartiles  passed   time",
-        Rows("skills", row),
+        Each("skills", row),
         "all skills in their order: {ordered_seeds:.0%} of the seeds",
         "neighbouring skills ordered right, any seed with any: {ordered_share:.0%}",
     )

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 import typer
 
 from app.commands.answer import Answer, Commands
-from app.commands.shown import Rows
+from app.commands.shown import Each
 
 app = Commands(help="The force laws, the program's and your own.")
 
@@ -34,7 +34,7 @@ def list_laws(
         "{trial_states:? (tried with {trial_states} states in {trial_s} s)}}"
     )
     fine = not any(row["refused"] for row in rows)
-    return Answer({"laws": rows}, yes=fine, shown=Rows("laws", shown))
+    return Answer({"laws": rows}, yes=fine, shown=Each("laws", shown))
 
 
 def _rows(tried: bool) -> list[dict[str, Any]]:

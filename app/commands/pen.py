@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from app.commands.answer import Answer, Commands
-from app.commands.shown import Rows
+from app.commands.shown import Each
 
 if TYPE_CHECKING:
     from app.tracking.pen.body import PenProfile
@@ -39,7 +39,7 @@ def list_pens() -> Answer:
     for name in shipped_pens():
         pen = PenSettings(pen=name).profile()
         rows.append({"name": name, "description": pen.description, "tip": _tip(pen)})
-    return Answer({"pens": rows}, shown=Rows("pens", "{name:8} {description}; {tip}"))
+    return Answer({"pens": rows}, shown=Each("pens", "{name:8} {description}; {tip}"))
 
 
 @app.command("print")

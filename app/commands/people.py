@@ -8,7 +8,7 @@ import typer
 from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor, secret
-from app.commands.shown import Rows
+from app.commands.shown import Each
 
 Pseudonym = Annotated[
     str,
@@ -60,7 +60,7 @@ def list_(
     }
     row = "{pseudonym:24} {groups:24} " + ("{name}" if names else "{key}")
     none = "no students yet: `acus people add` or `acus people roster`"
-    return Answer(facts, shown=Rows("students", row, none))
+    return Answer(facts, shown=Each("students", row, none))
 
 
 def add(
@@ -100,7 +100,7 @@ def roster(
     lines, errors = roster_in(file)
     if errors and not partly:
         facts = {"added": [], "updated": [], "pins": {}, "errors": errors}
-        return Answer(facts, yes=False, shown=(Rows("errors"), "nothing was taken"))
+        return Answer(facts, yes=False, shown=(Each("errors"), "nothing was taken"))
     done = people.take_roster(lines, partly)
     every = [*errors, *done.errors]
     facts = {
@@ -110,7 +110,7 @@ def roster(
         "errors": every,
     }
     many = "{added:#1 student|# students} added, {updated:#} updated"
-    shown = (Rows("errors"), many, Rows("pins", "{key:24} PIN {value}"))
+    shown = (Each("errors"), many, Each("pins", "{key:24} PIN {value}"))
     return Answer(facts, yes=not every, shown=shown)
 
 
@@ -227,7 +227,7 @@ def remark(
         "released": bool(now and now.released),
         "admitted": admitted.why if (admitted := admissions(people).get(name)) else "",
     }
-    return Answer(facts, shown=Rows("", "{key:9} {value:?{value}|-}"))
+    return Answer(facts, shown=Each("", "{key:9} {value:?{value}|-}"))
 
 
 def list_courses() -> Answer:
@@ -244,8 +244,8 @@ def list_courses() -> Answer:
         "courses": [course.document() for course in found],
         "broken": broken,
     }
-    listed = Rows("courses", "{id:24} {title}: {items:?{items:#}|0} exercises")
-    shown = (listed, Rows("broken", "✖ {}")) if found or broken else "no courses in {folder}"
+    listed = Each("courses", "{id:24} {title}: {items:?{items:#}|0} exercises")
+    shown = (listed, Each("broken", "✖ {}")) if found or broken else "no courses in {folder}"
     return Answer(facts, yes=not broken, shown=shown)
 
 

@@ -5,7 +5,7 @@ import os
 import typer
 
 from app.commands.answer import Answer, Commands
-from app.commands.shown import Rows
+from app.commands.shown import Each
 
 app = Commands(
     help="Your own laws, effects, metrics, studies, machines. They run with all your rights: take "
@@ -47,8 +47,8 @@ def list_plugins() -> Answer:
     folders = {k: os.pathsep.join(map(str, places)) for k, places in plugin_folders().items()}
     none = (
         "no files of your own yet; save them in these folders (make what is missing):",
-        Rows("folders", "  {key}: {value}"),
+        Each("folders", "  {key}: {value}"),
     )
     row = "{refused:?✖|✔} {kind} {name}: {refused:?refused: {refused}|{title}}"
     facts = {"plugins": rows, "folders": folders}
-    return Answer(facts, [RIGHTS], yes=fine, shown=Rows("plugins", row, none))
+    return Answer(facts, [RIGHTS], yes=fine, shown=Each("plugins", row, none))

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from app.commands.answer import Answer, Commands
-from app.commands.shown import Rows
+from app.commands.shown import Each
 
 if TYPE_CHECKING:
     from app.core.arrays import FloatArray
@@ -66,7 +66,7 @@ def list_plates() -> Answer:
     from app.planning.registration.plate import load_plate, plate_names
 
     rows = [load_plate(name).model_dump(mode="json") for name in plate_names()]
-    shown = Rows("plates", "{name}  {fiducials:#} fiducials  {description}")
+    shown = Each("plates", "{name}  {fiducials:#} fiducials  {description}")
     return Answer({"plates": rows}, shown=shown)
 
 
@@ -91,7 +91,7 @@ def list_checks() -> Answer:
     ]
     row = "{id}  {plate}  {touched} touched, {picked} picked  {rig}  {trusted:?good|does not fit}"
     none = [] if rows else [f"no registration checks in {Registrations.own().folder}"]
-    return Answer({"checks": rows}, none, shown=Rows("checks", row))
+    return Answer({"checks": rows}, none, shown=Each("checks", row))
 
 
 def _target(text: str | None) -> "FloatArray":

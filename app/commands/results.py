@@ -9,7 +9,7 @@ from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
 from app.commands.people import Pseudonym
-from app.commands.shown import Rows
+from app.commands.shown import Each
 
 if TYPE_CHECKING:
     from app.exchange.results import Results
@@ -99,7 +99,7 @@ def curve(
     }
     row = "{started}  {total:5.1f}  best {best:5.1f}  median {median:5.1f}"
     none = [] if points else [f"{pseudonym} has no attempt at {exercise} that counts"]
-    return Answer(facts, none, shown=Rows("points", row))
+    return Answer(facts, none, shown=Each("points", row))
 
 
 def export(

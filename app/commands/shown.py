@@ -17,13 +17,13 @@ from dataclasses import dataclass
 from string import Formatter
 from typing import Any, TypeAlias
 
-Shown: TypeAlias = "str | Rows | Sequence[str | Rows]"
+Shown: TypeAlias = "str | Each | Sequence[str | Each]"
 """A template of a line, rows, or several of them."""
 Facts: TypeAlias = Mapping[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
-class Rows:
+class Each:
     """Lines for each entry of a list or a mapping among the facts.
 
     Args:
@@ -47,7 +47,7 @@ def lines(shown: Shown, facts: Facts) -> Iterator[str]:
     if isinstance(shown, str):
         if line := _text(shown, facts):
             yield line
-    elif isinstance(shown, Rows):
+    elif isinstance(shown, Each):
         entries = _entries(_value(shown.key, facts))
         for entry in entries:
             yield from lines(shown.shown, entry)

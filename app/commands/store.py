@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from app.commands.answer import Answer, Commands
-from app.commands.shown import Rows
+from app.commands.shown import Each
 
 FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
@@ -111,7 +111,7 @@ def backup(
         )
     facts = {"files": [out], "records": count, "key": key, "left_out": archive.left_out()}
     written = "{records:#1 record|# records} written to {files}"
-    return Answer(facts, lines, shown=(written, Rows("left_out", "not in it: {}")))
+    return Answer(facts, lines, shown=(written, Each("left_out", "not in it: {}")))
 
 
 def restore(
@@ -155,9 +155,9 @@ def restore(
     shown = (
         "{records} records restored, {kept} were here already",
         "people: {people}; station's key: {key}",
-        Rows("different", "✖ {} is another record here: the one here was kept"),
+        Each("different", "✖ {} is another record here: the one here was kept"),
         "{erased} records left out: their person was erased" if done.erased else "",
-        Rows("not_taken", "✖ not taken: {}"),
+        Each("not_taken", "✖ not taken: {}"),
     )
     return Answer(facts, yes=not done.different and not done.not_taken, shown=shown)
 

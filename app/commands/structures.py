@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from app.commands.answer import Answer, Commands
-from app.commands.shown import Rows
+from app.commands.shown import Each
 
 if TYPE_CHECKING:
     from app.imaging.structures.structure import StructureSet
@@ -58,7 +58,7 @@ def export(
     structures, volume = _read(files, ct, series)
     write_structures(out, structures, volume)
     facts = {"files": [out], "structures": len(structures), "notes": list(structures.notes)}
-    return Answer(facts, shown=("{files}: {structures} structures", Rows("notes", "note  {}")))
+    return Answer(facts, shown=("{files}: {structures} structures", Each("notes", "note  {}")))
 
 
 @app.command()

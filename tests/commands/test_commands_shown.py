@@ -8,7 +8,7 @@ import typer
 from typer.testing import CliRunner
 
 from app.commands.answer import Answer, Commands
-from app.commands.shown import Rows, lines
+from app.commands.shown import Each, lines
 
 
 @pytest.mark.parametrize(
@@ -49,15 +49,15 @@ def test_rows_are_of_lists_and_mappings_and_within_each_other():
         "empty": [],
         "folder": "here",
     }
-    notes = Rows("notes", "  {}", none="  {id} has none")
-    assert list(lines(Rows("rows", ("{id}", notes)), facts)) == [
+    notes = Each("notes", "  {}", none="  {id} has none")
+    assert list(lines(Each("rows", ("{id}", notes)), facts)) == [
         *("1", "  x", "  y"),
         *("2", "  2 has none"),
     ]
-    assert list(lines(Rows("pins", "{key:4} {value}"), facts)) == ["Ada  1843"]
-    assert list(lines(Rows("sides", "{key} ± {value.sd}"), facts)) == ["left ± 0.5"]
-    assert list(lines(Rows("empty", none="nothing in {folder}"), facts)) == ["nothing in here"]
-    assert list(lines(Rows("", "{key}={value}"), {"a": 1, "b": "c"})) == ["a=1", "b=c"]
+    assert list(lines(Each("pins", "{key:4} {value}"), facts)) == ["Ada  1843"]
+    assert list(lines(Each("sides", "{key} ± {value.sd}"), facts)) == ["left ± 0.5"]
+    assert list(lines(Each("empty", none="nothing in {folder}"), facts)) == ["nothing in here"]
+    assert list(lines(Each("", "{key}={value}"), {"a": 1, "b": "c"})) == ["a=1", "b=c"]
 
 
 def test_a_key_that_the_facts_lack_is_a_mistake():

@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Callable, Collection, Mapping
 from copy import deepcopy
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, get_args
 
 from PySide6.QtCore import QObject, Signal
 
@@ -33,6 +33,30 @@ DRAWN: Final = "as-drawn-in-the-window.seg.nrrd"
 
 Check = Callable[[Exercise], tuple[Mapping[str, str], tuple[tuple[str, str], ...]]]
 """Why each effect is simulated or not, and what cannot be used: (field, why)."""
+
+
+def limits(*where: str) -> tuple[Any, Any, Any]:
+    """Return smallest and largest value and default of a number, as the schema has them.
+
+    Where the schema has no largest one it is that of a box of whole numbers; what must be more than
+    a limit is a hundredth above it.
+
+    Args:
+        where: names of fields, from the outside to the inside.
+
+    Raises:
+        KeyError: if there is no such field.
+    """
+    model: Any = Exercise
+    low, high = None, 2**31 - 1
+    for name in where:
+        field = model.model_fields[name]
+        kinds = field.annotation, *get_args(field.annotation)
+        model = next((kind for kind in kinds if hasattr(kind, "model_fields")), None)
+    for rule in field.metadata:
+        low = rule.gt + 0.01 if hasattr(rule, "gt") else getattr(rule, "ge", low)
+        high = getattr(rule, "le", high)
+    return low, high, field.default
 
 
 class ExerciseEditor(QObject):

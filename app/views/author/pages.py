@@ -41,11 +41,10 @@ from app.scoring import metrics
 from app.scoring.defaults import PUBLISHED_TOLERANCES
 from app.simulation import effects
 from app.simulation.needles import OUTER_DIAMETER
-from app.views.author.editing import DRAWN, ExerciseEditor, Where, bone_words
+from app.views.author.editing import DRAWN, ExerciseEditor, Where, bone_words, limits
 from app.views.kit import theme
 from app.views.kit.coordinates import lps_words
 from app.views.kit.field_words import place_words, problem_words
-from app.views.kit.limits import limits
 from app.views.kit.parts import PlainLabel, add_row, button, column, label, table
 from app.views.kit.text import literal, tr
 from app.views.kit.wheel import wheel_scrolls
@@ -158,7 +157,7 @@ class Form(QWidget):
     ) -> QDoubleSpinBox:
         """Add a number with two digits behind the point; its limits are those of an exercise."""
         box = QDoubleSpinBox(self)
-        low, high, default = within or limits(Exercise, *where, step=0.01)
+        low, high, default = within or limits(*where)
         box.setRange(low, high)
         box.setDecimals(2)
         box.setSingleStep(0.1 if high - low <= 4.0 else 1.0)
@@ -177,7 +176,7 @@ class Form(QWidget):
     def count(self, *where: str, name: str) -> QSpinBox:
         """Add a whole number; its limits are those of an exercise."""
         box = QSpinBox(self)
-        low, high, default = limits(Exercise, *where)
+        low, high, default = limits(*where)
         box.setRange(low, high)
         box.setKeyboardTracking(False)
         box.valueChanged.connect(lambda value: self.editor.put(*where, value=int(value)))
@@ -641,7 +640,8 @@ class SightPage(Form):
             unit="mm",
         )
         self.number(
-            *("guidance", "dose_per_slice"),
+            "guidance",
+            "dose_per_slice",
             name=tr("Dose of a slice, a teaching estimate"),
             unit="mGy·cm",
         )
@@ -1086,12 +1086,14 @@ class ScorePage(Form):
         self.rows.addWidget(self.tried)
         self.number("rules", "pass_mark", name=tr("Total needed to pass"))
         self.number(
-            *("rules", "minimum_tracking"),
+            "rules",
+            "minimum_tracking",
             name=tr("Void below this share of the insertion with a measured depth"),
             unit="%",
         )
         self.number(
-            *("rules", "maximum_pause"),
+            "rules",
+            "maximum_pause",
             name=tr("Void beyond this time of waiting for the cameras"),
             within=(0.0, 3600.0, 20.0),
             unit="s",

@@ -2,18 +2,17 @@
 
 import pytest
 
-from app.exercises.schema import Exercise
-from app.views.kit.limits import LARGEST, limits
+from app.views.author.editing import limits
 
 
 @pytest.mark.parametrize(
     ("where", "expected"),
     [
         ("level", (1, 9, 1)),
-        ("seed", (0, LARGEST, 1)),
+        ("seed", (0, 2**31 - 1, 1)),
         ("assistance", (-1.0, 1.0, 0.7)),
         ("fading.least", (-1.0, 1.0, 0.0)),
-        ("fading.step", (0.01, 1.0, 0.2)),  # more than 0: a step of the box above it
+        ("fading.step", (0.01, 1.0, 0.2)),  # more than 0: a hundredth above it
         ("fading.probe_every", (0, 100, 0)),
         ("reading.slab.thickness_mm", (0.0, 100.0, 0.0)),
         ("guidance.slices", (3, 5, 3)),
@@ -22,13 +21,11 @@ from app.views.kit.limits import LARGEST, limits
     ],
 )
 def test_limits_and_defaults_are_the_models(where, expected):
-    parts = where.split(".")
-    step = 1 if isinstance(expected[2], int) else 0.01
-    found = limits(Exercise, *parts, step=step)
+    found = limits(*where.split("."))
     assert found == expected
     assert [type(value) for value in found] == [type(value) for value in expected]
 
 
 def test_what_the_model_does_not_have_is_a_mistake():
     with pytest.raises(KeyError, match="stature"):
-        limits(Exercise, "needle", "stature")
+        limits("needle", "stature")
