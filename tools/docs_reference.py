@@ -86,11 +86,11 @@ def page(room: str, modules: Mapping[str, set[str]], whole: bool) -> str:
     return "\n".join(lines)
 
 
-def index(found: Crossing) -> str:
+def index(result: Crossing) -> str:
     """Markdown of the list of rooms."""
     rows = [
-        f"| [{room}]({room}.md) | {len(found[room])} | {sum(map(len, found[room].values()))} |"
-        for room in found
+        f"| [{room}]({room}.md) | {len(result[room])} | {sum(map(len, result[room].values()))} |"
+        for room in result
     ]
     head = [
         f"{_OUT_OF_SEARCH}# Reference",

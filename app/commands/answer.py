@@ -93,7 +93,9 @@ class Commands(typer.Typer):
 
 
 def wants_json() -> bool:
-    """Whether the command that is running was asked for JSON: then it says nothing on the way."""
+    """Return whether the command that is running was asked for JSON: then it says nothing on the
+    way.
+    """
     return _wanted.get()
 
 
@@ -113,7 +115,7 @@ def _with_json(function: Callable[..., Answer]) -> Callable[..., Answer]:
     return call
 
 
-def _text(found: Answer, name: str) -> str:
+def _text(result: Answer, name: str) -> str:
     from app import __version__
     from app.core.json_values import finite
 
@@ -121,7 +123,7 @@ def _text(found: Answer, name: str) -> str:
         "acus": __version__,
         "form": FORM,
         "command": name,
-        "answer": found.yes,
-        "facts": found.facts,
+        "answer": result.yes,
+        "facts": result.facts,
     }
     return json.dumps(finite(document), indent=1, ensure_ascii=False, allow_nan=False)

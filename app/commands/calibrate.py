@@ -408,26 +408,26 @@ def _names(text: str) -> tuple[str, str]:
 
 
 def _checks(
-    found: "StereoSet", baseline_mm: float | None, second: "tuple[Sequence[Pair], Board] | None"
+    outcome: "StereoSet", baseline_mm: float | None, second: "tuple[Sequence[Pair], Board] | None"
 ) -> "list[Check]":
     from app.tracking.calibration.checks import check_baseline, check_second_board
     from app.tracking.calibration.sets import seen_by_both
 
     checks = []
     if baseline_mm is not None:
-        checks.append(check_baseline(found.calibration, baseline_mm))
+        checks.append(check_baseline(outcome.calibration, baseline_mm))
     if second is not None:
-        pairs = seen_by_both(*second, found.result.estimate)
-        checks.append(check_second_board(found.calibration, pairs))
+        pairs = seen_by_both(*second, outcome.result.estimate)
+        checks.append(check_second_board(outcome.calibration, pairs))
     return checks
 
 
-def _write(found: "StereoSet", out: Path | None, keep: bool) -> None:
+def _write(result: "StereoSet", out: Path | None, keep: bool) -> None:
     from app.tracking.calibration.formats.own import save_calibration
     from app.tracking.calibration.history import CalibrationHistory
 
     if out is not None:
-        save_calibration(out, found.calibration)
+        save_calibration(out, result.calibration)
         typer.echo(f"wrote {out}", err=True)
     if keep:
-        typer.echo(f"kept {CalibrationHistory().keep(found.calibration)}", err=True)
+        typer.echo(f"kept {CalibrationHistory().keep(result.calibration)}", err=True)

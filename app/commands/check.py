@@ -95,12 +95,12 @@ def _made(
     return found
 
 
-def _lines(found: "DayCheck") -> list[str]:
+def _lines(result: "DayCheck") -> list[str]:
     from datetime import datetime
 
     lines = []
-    for step in found.steps:
+    for step in result.steps:
         lines.append(f"{_MARKS[step.verdict.value]} {step.name:10} {step.found}")
         if step.todo:
             lines.append(f"  {'':10} → {step.todo}")
-    return [*lines, found.words(datetime.now().astimezone())]
+    return [*lines, result.words(datetime.now().astimezone())]

@@ -45,7 +45,7 @@ def profiles(incomplete: str) -> list[str]:
 
 
 def _guarded() -> bool:
-    """Whether an instructor's password is set."""
+    """Return whether an instructor's password is set."""
     from app.session.people import People
 
     return People().has_instructor()

@@ -47,7 +47,7 @@ def explain(
 
 
 def _is_first_time() -> bool:
-    """Whether the cache of compiled kernels lacks what the costs are measured with."""
+    """Return whether the cache of compiled kernels lacks what the costs are measured with."""
     import os
     from pathlib import Path
 

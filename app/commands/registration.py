@@ -111,38 +111,38 @@ def _target(text: str | None) -> "FloatArray":
     return np.array(values) * MILLIMETRE
 
 
-def _lines(found: "RegistrationCheck", point: "FloatArray") -> list[str]:
+def _lines(result: "RegistrationCheck", point: "FloatArray") -> list[str]:
     from app.planning.registration import words
 
-    lines = [*words.troubles(found), *words.technician_lines(found)]
-    for part in (found.world, found.patient):
+    lines = [*words.troubles(result), *words.technician_lines(result)]
+    for part in (result.world, result.patient):
         for name, residual in zip(part.names, _lengths_mm(part), strict=True) if part else ():
             lines.append(f"  {name}  residual {residual:.2f} mm")
-    agreement = words.agreement_or_reason(found, point)
+    agreement = words.agreement_or_reason(result, point)
     told = agreement if isinstance(agreement, str) else words.student_line(agreement)
-    return [*lines, words.target_line(found, point), told, *words.MEANING]
+    return [*lines, words.target_line(result, point), told, *words.MEANING]
 
 
-def _document(found: "RegistrationCheck", point: "FloatArray") -> dict[str, Any]:
+def _document(result: "RegistrationCheck", point: "FloatArray") -> dict[str, Any]:
     import numpy as np
 
     from app.core.confidence import covariance_radius
     from app.core.units import MILLIMETRE
     from app.planning.registration import words
 
-    agreement = words.agreement_or_reason(found, point)
+    agreement = words.agreement_or_reason(result, point)
     said = isinstance(agreement, str)
-    spread = found.spread(point)
+    spread = result.spread(point)
     return {
-        "plate": found.plate.name,
-        "trusted": found.trusted,
-        "troubles": list(words.troubles(found)),
-        "touched": _part(found.world),
-        "picked": _part(found.patient) if found.patient else None,
+        "plate": result.plate.name,
+        "trusted": result.trusted,
+        "troubles": list(words.troubles(result)),
+        "touched": _part(result.world),
+        "picked": _part(result.patient) if result.patient else None,
         "target_world_mm": (point / MILLIMETRE).tolist(),
-        "tre_rms_mm": float(np.sqrt(np.trace(found.expected(point)))) / MILLIMETRE,
+        "tre_rms_mm": float(np.sqrt(np.trace(result.expected(point)))) / MILLIMETRE,
         "tre_95_mm": covariance_radius(spread) / MILLIMETRE,
-        "tre_condition": found.world.condition,
+        "tre_condition": result.world.condition,
         "tre_covariance_mm2": (spread / MILLIMETRE**2).tolist(),
         "agreement_95_mm": None if isinstance(agreement, str) else agreement.radius / MILLIMETRE,
         "agreement_reason": agreement if said else "",

@@ -76,7 +76,7 @@ class DailyCheck:
 
     @property
     def simulated(self) -> bool:
-        """Whether the robot is."""
+        """Return whether the robot is."""
         return self._running.robot is None
 
     @property

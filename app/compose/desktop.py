@@ -269,7 +269,9 @@ class DesktopRun:
 
     @property
     def run(self) -> ExerciseRun:
-        """What its views need, as the robot's board says it now: it may have come back anew."""
+        """Return what its views need, as the robot's board says it now: it may have come back
+        anew.
+        """
         from app.session.pad.view import (  # Qt only for who has a window
             depth_tolerance_of,
             rings_of,

@@ -80,14 +80,14 @@ def plugin_files(tried: bool = False, progress: Progress | None = None) -> tuple
     return _with_refused(found)
 
 
-def _with_refused(found: list[PluginFile]) -> tuple[PluginFile, ...]:
+def _with_refused(result: list[PluginFile]) -> tuple[PluginFile, ...]:
     """Return files with what whoever wanted to use them has refused since the program began."""
     reasons = dict(sorted(folders.refused.items()))
     files = [
         replace(file, title="", refused=file.refused or reasons[file.path])
         if file.path in reasons
         else file
-        for file in found
+        for file in result
     ]
     listed = {file.path for file in files}
     files += [

@@ -231,7 +231,7 @@ class Rig:
 
     @property
     def stereo(self) -> StereoAbilities:
-        """What the tracker can do with two cameras.
+        """Return what the tracker can do with two cameras.
 
         Raises:
             TrackingError: if a pen and its webcam are in place of robot and cameras.

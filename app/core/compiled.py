@@ -200,7 +200,7 @@ event.register("numba:compile", _KernelCounter())
 
 
 def is_stage(function: Any) -> bool:
-    """Whether something has been compiled as a stage of the tick."""
+    """Return whether something has been compiled as a stage of the tick."""
     return STAGE_SIGNATURE.args in getattr(function, "signatures", ())
 
 

@@ -14,7 +14,7 @@ def resources() -> Path:
 
 
 def in_checkout() -> bool:
-    """Whether the program runs from a source tree."""
+    """Return whether the program runs from a source tree."""
     return (_PACKAGE.parent / "pyproject.toml").is_file()
 
 

@@ -65,7 +65,7 @@ class PluginFolder:
 
     @property
     def is_own(self) -> bool:
-        """Whether it comes with the program."""
+        """Return whether it comes with the program."""
         return self.path.is_relative_to(APP)
 
     def files(self, kind: str, name: str = "*") -> list[Path]:

@@ -306,7 +306,7 @@ class PluginKind(Generic[D]):
             raise self.error(f"{path}: {doing}: {text}") from reason
 
     def is_own(self, path: Path) -> bool:
-        """Whether a file is one of the program's own."""
+        """Return whether a file is one of the program's own."""
         shared = plugin_folders.folder_of(path)
         if shared is not None or not self.package:
             return shared is not None and shared.is_own

@@ -110,7 +110,7 @@ def digest_of(path: Path) -> str:
 
 
 def _same(files: Any) -> bool:
-    """Whether files, path -> digest, are as they were."""
+    """Return whether files, path -> digest, are as they were."""
     return isinstance(files, dict) and all(
         digest_of(Path(path)) == digest for path, digest in files.items()
     )

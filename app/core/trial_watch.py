@@ -61,7 +61,7 @@ class Watch:
         _wind(EACH, CLOCK)
 
     def late(self) -> bool:
-        """Whether those calls have taken too long together."""
+        """Return whether those calls have taken too long together."""
         return time.process_time() - self._began > SECONDS
 
     def rest(self) -> None:

@@ -272,10 +272,10 @@ def _identity(exercise: Exercise, volume: Volume) -> CtIdentity:
     )
 
 
-def _require_same(found: str, wanted: str | None, what: str) -> None:
-    if wanted is not None and found != wanted:
+def _require_same(result: str, wanted: str | None, what: str) -> None:
+    if wanted is not None and result != wanted:
         raise CtMissingError(
-            f"{what} is another one than the exercise was made on: its digest is {found[:12]}…, "
+            f"{what} is another one than the exercise was made on: its digest is {result[:12]}…, "
             f"{wanted[:12]}… is needed (acus ct digest tells it)"
         )
 
@@ -398,7 +398,7 @@ def _manifest(archive: zipfile.ZipFile, path: Path) -> PackageManifest:
 
 
 def _refused(member: zipfile.ZipInfo) -> str:
-    """Why a member is not taken; empty if it is."""
+    """Return why a member is not taken; empty if it is."""
     if not _NAME.fullmatch(member.filename):
         return "is no part of an exercise"
     if stat.S_ISLNK(member.external_attr >> 16):

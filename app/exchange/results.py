@@ -226,5 +226,5 @@ def _student(person: Person, results: Results) -> dict[str, Any]:
     return found | ({"name": results.names.get(person.key, "")} if results.names else {})
 
 
-def _passed(one: Indexed) -> str:
-    return "" if one.passed is None else ("passed" if one.passed else "not passed")
+def _passed(item: Indexed) -> str:
+    return "" if item.passed is None else ("passed" if item.passed else "not passed")

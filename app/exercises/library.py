@@ -54,7 +54,7 @@ class Library:
 
 
 def folders() -> tuple[Path, Path]:
-    """Where exercises lie: the shipped folder and the user's."""
+    """Return where exercises lie: the shipped folder and the user's."""
     return paths.resources() / "exercises", paths.data() / "exercises"
 
 

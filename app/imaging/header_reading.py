@@ -124,7 +124,9 @@ def _read(path: Path, stream: BinaryIO, without_pydicom: bool) -> tuple[SliceHea
 
 
 def starts_like_dicom(head: bytes) -> bool:
-    """Whether bytes without a preamble start like a data set: a low group, a VR or a length."""
+    """Return whether bytes without a preamble start like a data set: a low group, a VR or a
+    length.
+    """
     if len(head) < 16:
         return False
     for order in "<>":
@@ -201,7 +203,9 @@ def _slice_header(path: Path, stream: BinaryIO, header: Elements) -> SliceHeader
 
 
 def _obstacle(header: Elements, identity: Identity) -> str:
-    """Why the values of a CT image are no Hounsfield units, whatever its rescale makes of them."""
+    """Return why the values of a CT image are no Hounsfield units, whatever its rescale makes of
+    them.
+    """
     if (identity.modality, identity.sop_class) != ("CT", CT_IMAGE):
         return ""
     kind = elements.text(header, TAGS["RescaleType"])
@@ -209,12 +213,12 @@ def _obstacle(header: Elements, identity: Identity) -> str:
 
 
 def is_multi_energy(header: Elements) -> bool:
-    """Whether the image was made of more than one X-ray spectrum (PS3.3 C.8.2.1)."""
+    """Return whether the image was made of more than one X-ray spectrum (PS3.3 C.8.2.1)."""
     return elements.text(header, TAGS["MultienergyCTAcquisition"]).upper() == "YES"
 
 
 def _identity(header: Elements) -> Identity:
-    """Which object a file holds; patient and study only inside the pseudonym."""
+    """Return which object a file holds; patient and study only inside the pseudonym."""
 
     def get(name: str) -> str:
         return elements.text(header, TAGS[name])

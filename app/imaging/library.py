@@ -122,7 +122,7 @@ def _why(error: OSError) -> str:
 
 
 def _abandoned(folder: Path) -> bool:
-    """Whether nobody holds the lock of a folder any more; a kill lets go of it too."""
+    """Return whether nobody holds the lock of a folder any more; a kill lets go of it too."""
     try:
         lock = os.open(folder / LOCK, os.O_RDWR)
     except FileNotFoundError:  # just being made, or just being deleted
@@ -184,7 +184,7 @@ class Imported:
 
     @property
     def words(self) -> str:
-        """What became of it, for people."""
+        """Return what became of it, for people."""
         if self.again and self.given < self.before:
             return (
                 f"all {self.before} images of this series are in the library already; the "

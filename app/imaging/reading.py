@@ -83,7 +83,7 @@ def pixel_lps_mm(
     progress: Progress | None = None,
     frame: int = 0,
 ) -> tuple[FloatArray, float | None]:
-    """Where one pixel of one file lies, by that file's own position and orientation.
+    """Return where one pixel of one file lies, by that file's own position and orientation.
 
     Works for files of refused series too (tilted, gapped, single).
 
@@ -129,7 +129,7 @@ def pixel_lps_mm(
 
 
 def is_padding(volume: Volume, ijk: tuple[int, int, int]) -> bool:
-    """Whether nothing was measured at a voxel of a volume that was read as it is.
+    """Return whether nothing was measured at a voxel of a volume that was read as it is.
 
     Raises:
         FileDamagedError: if its file has changed since.
@@ -244,7 +244,7 @@ def _named(listing: Listing, series_uid: str, remedy: str) -> Series:
 
 
 def _refusal(series: Series) -> str:
-    """Why a series is not read as it is, and what could be asked for instead."""
+    """Return why a series is not read as it is, and what could be asked for instead."""
     return f"series {series.key} cannot be used: {series.reason}{offer(series)}"
 
 

@@ -52,7 +52,7 @@ class Suitability:
 
 
 def judge(group: Group, root: Path) -> Suitability:
-    """Whether these images make a volume.
+    """Return whether these images make a volume.
 
     Args:
         group: images of one series.
@@ -99,7 +99,7 @@ def display_name(header: SliceHeader, root: Path) -> str:
 
 
 def is_mr(headers: Headers) -> bool:
-    """Whether all images are MR."""
+    """Return whether all images are MR."""
     return all(header.identity.modality == "MR" for header in headers)
 
 

@@ -251,7 +251,7 @@ class RemoteCentre(ABC):
         )
 
     def holds(self, axis: ArrayLike) -> bool:
-        """Whether the machine can point the needle there."""
+        """Return whether the machine can point the needle there."""
         return any(branch.mounted for branch in self.joints(axis))
 
     def joint_torques(self, q: ArrayLike, moment: ArrayLike) -> FloatArray:
@@ -290,7 +290,7 @@ class RemoteCentre(ABC):
 
 
 def tool_point(centre: FloatArray, axis: ArrayLike) -> tuple[float, float]:
-    """Where a needle along `axis` through the remote centre crosses z = 0 [m].
+    """Return where a needle along `axis` through the remote centre crosses z = 0 [m].
 
     Raises:
         MechanismError: if it does not point down.

@@ -59,7 +59,7 @@ class Score:
 
     @property
     def unseen(self) -> bool:
-        """Whether it is void for want of pictures, not for what the hand did."""
+        """Return whether it is void for want of pictures, not for what the hand did."""
         return bool(self.void_reason) and (not self.attempt_void or "cameras" in self.attempt_void)
 
     @property

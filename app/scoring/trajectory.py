@@ -134,12 +134,12 @@ class Trajectory:
 
     @property
     def waited(self) -> float:
-        """How long it waited for the cameras [s]."""
+        """Return how long it waited for the cameras [s]."""
         return max(0.0, self.duration(self.paused) - self.excused)
 
     @property
     def was_aborted(self) -> bool:
-        """Whether the attempt was broken off."""
+        """Return whether the attempt was broken off."""
         return bool(self.aborted) or bool((self.phase == Phase.ABORTED).any())
 
     def forces(self) -> FloatArray:
@@ -263,13 +263,15 @@ class Trajectory:
         return body
 
     def target(self, index: int) -> FloatArray:
-        """Where the target is at a sample [m], shape (3,): at rest plus its displacement."""
+        """Return where the target is at a sample [m], shape (3,): at rest plus its displacement."""
         if self.target_shift is None:
             return self.placed.p_target
         return self.placed.p_target + self.target_shift[index]
 
     def offset(self, index: int) -> Offset:
-        """How far the needle of a sample is from the target and off the path, as they were then."""
+        """Return how far the needle of a sample is from the target and off the path, as they were
+        then.
+        """
         return offset(self.tip[index], self.axis[index], self.placed, self.target(index))
 
     def duration(self, mask: NDArray[np.bool_]) -> float:

@@ -57,7 +57,7 @@ class Visitor:
 
     @property
     def may_manage(self) -> bool:
-        """Whether people, courses, all results, exercises, deleting and exports are open."""
+        """Return whether people, courses, all results, exercises, deleting and exports are open."""
         return self.instructor or (not self.known.guarded and self.student is None)
 
     def owner(self, recorded: str) -> str:
@@ -65,7 +65,7 @@ class Visitor:
         return recorded if recorded in self.known.pseudonyms else ""
 
     def may_see(self, recorded: str) -> bool:
-        """Whether attempts of whom a record names are open."""
+        """Return whether attempts of whom a record names are open."""
         if self.may_manage:
             return True
         owner = self.owner(recorded)

@@ -290,21 +290,21 @@ def standings(
     return found
 
 
-def _why_not_counted(one: Indexed, item: CourseItem, said: Remarks | None) -> str:
-    if one.verdict == Signed.ALTERED:
+def _why_not_counted(entry: Indexed, item: CourseItem, answer: Remarks | None) -> str:
+    if entry.verdict == Signed.ALTERED:
         return "altered after it was signed"
-    if said is not None and said.void:
+    if answer is not None and answer.void:
         return "declared void by the instructor"
-    if not one.stands:
+    if not entry.stands:
         return "not sealed by this station"
-    if not one.counts:
-        known = one.conditions
+    if not entry.counts:
+        known = entry.conditions
         if not known.by_person:
             return "carried out by the arm" if known.hand == "arm" else "scripted"
         return "emulated robot" if known.kind == "emulated" else "not scored or void"
-    if one.version != item.version:
-        return f"version {one.version} of the exercise"
-    if item.content and one.conditions.content != item.content:
+    if entry.version != item.version:
+        return f"version {entry.version} of the exercise"
+    if item.content and entry.conditions.content != item.content:
         return "the exercise said something else"
     return ""
 

@@ -57,7 +57,7 @@ class ControlScan:
 
     @property
     def seen(self) -> Seen:
-        """How much of the needle the slices show."""
+        """Return how much of the needle the slices show."""
         return seen(self.order, self.needle)
 
     def data(self) -> dict[str, object]:

@@ -88,7 +88,7 @@ class Course(Strict):
         return self
 
     def takes(self, person: Person) -> bool:
-        """Whether a student takes the course."""
+        """Return whether a student takes the course."""
         return not self.groups or bool(set(self.groups) & set(person.groups))
 
     def document(self) -> dict[str, Any]:
@@ -370,10 +370,10 @@ def not_void(attempts: Iterable[Indexed], remarks: Mapping[str, Remarks]) -> lis
     return [one for one in attempts if one.id not in remarks or not remarks[one.id].void]
 
 
-def _is_held(course: Course, person: Person, one: Indexed, remarks: Mapping[str, Remarks]) -> bool:
-    said = remarks.get(one.id)
+def _is_held(course: Course, person: Person, item: Indexed, remarks: Mapping[str, Remarks]) -> bool:
+    said = remarks.get(item.id)
     released = said is not None and said.released
-    return holding([course], person, one.exercise, one.version, released) is not None
+    return holding([course], person, item.exercise, item.version, released) is not None
 
 
 def holding(

@@ -49,7 +49,8 @@ class CtFacts:
         )
 
     def is_of(self, volume: Volume) -> bool:
-        """Whether it is this CT, read in this way: by its digest, which takes a second a gigabyte.
+        """Return whether it is this CT, read in this way: by its digest, which takes a second a
+        gigabyte.
 
         A record that does not say its digest is told by patient, study and frame of reference.
         """

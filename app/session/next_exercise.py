@@ -92,13 +92,13 @@ def propose(
     in_course = [item.exercise for item in course.items] if course is not None else []
     title = course.title if course is not None else ""
 
-    def proposal(one: Exercise, why: ProposalReason, tries: int = 0) -> Proposal:
-        return Proposal(one.id, one.title, why, label, points, title, one.level, tries)
+    def proposal(item: Exercise, reason: ProposalReason, tries: int = 0) -> Proposal:
+        return Proposal(item.id, item.title, reason, label, points, title, item.level, tries)
 
-    def again(why: ProposalReason, tries: int = 0) -> Proposal:
+    def again(reason: ProposalReason, tries: int = 0) -> Proposal:
         if same is None or refused(done):
             return Proposal("", "", ProposalReason.CLOSED, label, points, title)
-        return proposal(same, why, tries)
+        return proposal(same, reason, tries)
 
     if held:
         if course is not None and not course.ordered and done in in_course:
@@ -171,8 +171,8 @@ def comes_next(
     return next((one.id for one in still_open(exercises, course, passed, refused)), "")
 
 
-def _fits(one: Exercise, in_course: Sequence[str]) -> bool:
-    return not in_course or one.id in in_course
+def _fits(item: Exercise, in_course: Sequence[str]) -> bool:
+    return not in_course or item.id in in_course
 
 
 def _passed(before: Sequence[Indexed]) -> set[str]:
@@ -183,7 +183,7 @@ def _passed(before: Sequence[Indexed]) -> set[str]:
 
 
 def _in_a_row(exercise: str, before: Sequence[Indexed]) -> int:
-    """How many of the newest attempts at an exercise did not pass, one after the other."""
+    """Return how many of the newest attempts at an exercise did not pass, one after the other."""
     count = 0
     for one in reversed([one for one in before if one.exercise == exercise]):
         if one.passed:
@@ -247,15 +247,15 @@ def around(
     def same(student: str) -> bool:
         return student == shown.student
 
-    def is_open(one: Indexed) -> bool:
+    def is_open(item: Indexed) -> bool:
         if manages:
             return True
-        if not may_see(one.student):
+        if not may_see(item.student):
             return False
-        said = remarks.get(one.id)
+        said = remarks.get(item.id)
         released = said is not None and said.released
-        owner = person if same(one.student) else None
-        return holding(courses_here, owner, one.exercise, one.version, released) is None
+        owner = person if same(item.student) else None
+        return holding(courses_here, owner, item.exercise, item.version, released) is None
 
     under = shown.conditions
     own = [one for one in attempts if same(one.student) and one.stands and one.conditions.by_person]

@@ -78,7 +78,7 @@ class Observation:
 
     @property
     def device_fault(self) -> str:
-        """Why the device holds its force at zero; empty if it does not."""
+        """Return why the device holds its force at zero; empty if it does not."""
         if self.device is None or int(self.device.fault) == 0:
             return ""
         code = self.device.fault
@@ -86,7 +86,8 @@ class Observation:
 
     @property
     def swings(self) -> bool:
-        """Whether the force was cut as if nobody held the needle, while the state says otherwise.
+        """Return whether the force was cut as if nobody held the needle, while the state says
+        otherwise.
 
         Only a simulated hand is known to the state.
         """
@@ -97,14 +98,16 @@ class Observation:
 
     @staticmethod
     def _can_be_armed_again(device: DeviceState) -> bool:
-        """Whether the fault is one that ends by letting go of the switch and holding it again."""
+        """Return whether the fault is one that ends by letting go of the switch and holding it
+        again.
+        """
         silence = device.time - float(device.row[slots.Q_TIME])
         return int(device.fault) == Fault.LET_GO or (
             int(device.fault) == Fault.LINK_LOST and silence <= SILENCE
         )
 
     def fatal(self, began: float, held_arming: bool = False, simulated: bool = False) -> str:
-        """Why an attempt that began at `began` [s] cannot go on; empty if it can.
+        """Return why an attempt that began at `began` [s] cannot go on; empty if it can.
 
         With `held_arming` a fault that ends when the person arms again is no reason; with a
         `simulated` hand a needle that swings in it is none either, the attempt pauses for it.
@@ -169,7 +172,7 @@ def observe(
 
 
 def _target(placed: PlacedPlan, device: DeviceState | None) -> FloatArray:
-    """Where a plan's target is with the motion that the loop gives it [m], shape (3,)."""
+    """Return where a plan's target is with the motion that the loop gives it [m], shape (3,)."""
     if device is None or not np.isfinite(shift := device.row[slots.TARGET_SHIFT]).all():
         return placed.p_target
     return read_only(placed.p_target + shift)

@@ -127,7 +127,7 @@ class People:
 
     # --- the instructor ---------------------------------------------------------------------------
     def has_instructor(self) -> bool:
-        """Whether a password is set: without one everybody may do everything, as before."""
+        """Return whether a password is set: without one everybody may do everything, as before."""
         return (self.folder / PEOPLE).exists() and bool(self._setting("password"))
 
     def set_instructor(self, password: str) -> str:
@@ -372,20 +372,20 @@ class People:
             found = connection.execute(select(_tables().tables["remarks"]))
             return {row.attempt: Remarks(row.comment, row.void, row.released) for row in found}
 
-    def remark(self, attempt: str, **said: str | bool) -> None:
+    def remark(self, attempt: str, **message: str | bool) -> None:
         """Say something of an attempt: `comment`, `void` (with a reason) or `released`."""
-        self.remark_all([attempt], **said)
+        self.remark_all([attempt], **message)
 
-    def remark_all(self, attempts: Sequence[str], **said: str | bool) -> None:
+    def remark_all(self, attempts: Sequence[str], **message: str | bool) -> None:
         """Say the same of several attempts, of all or of none."""
         from sqlalchemy.dialects.sqlite import insert
 
         table = _tables().tables["remarks"]
-        new = {"comment": "", "void": "", "released": False} | said
+        new = {"comment": "", "void": "", "released": False} | message
         with self.database.write() as connection:
             for attempt in attempts:
                 put = insert(table).values(attempt=attempt, **new)
-                connection.execute(put.on_conflict_do_update(["attempt"], set_=said))
+                connection.execute(put.on_conflict_do_update(["attempt"], set_=message))
 
     def admitted(self) -> list[tuple[str, str, str, str, str]]:
         """Return what was admitted (`admission`): attempt, record, reason, time and seal."""

@@ -206,5 +206,5 @@ def _check_persons(persons: Sequence[tuple[str, str]], whose: str) -> None:
         raise ArchiveError(_no_people(whose, "persons.pseudonym holds one twice"))
 
 
-def _no_people(whose: str, why: str) -> str:
-    return f"the people of {whose} cannot be restored: {why}; nothing was changed"
+def _no_people(whose: str, reason: str) -> str:
+    return f"the people of {whose} cannot be restored: {reason}; nothing was changed"

@@ -249,7 +249,9 @@ def _documents(content: FileContents, topic: str, problems: list[str]) -> list[d
 
 
 def _has_short_words(document: dict[str, Any]) -> bool:
-    """Whether what becomes a column of texts is short: a column is as wide as its longest."""
+    """Return whether what becomes a column of texts is short: a column is as wide as its
+    longest.
+    """
     return all(len(str(document.get(name, ""))) <= LONGEST_WORD for name in WORDS)
 
 

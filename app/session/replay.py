@@ -201,12 +201,12 @@ class ReplayReport:
 
     @property
     def same_build(self) -> bool:
-        """Whether the record was made by this very build on this kind of processor."""
+        """Return whether the record was made by this very build on this kind of processor."""
         return not self.changes
 
     @property
     def identical(self) -> bool:
-        """Whether nothing differs."""
+        """Return whether nothing differs."""
         return self.first_difference is None
 
     def sentences(self) -> list[str]:
@@ -283,7 +283,7 @@ _CHUNK: Final = 4096
 
 
 def is_simulated(recording: Recording) -> bool:
-    """Whether the record's robot is simulated, so that its encoders can be recomputed."""
+    """Return whether the record's robot is simulated, so that its encoders can be recomputed."""
     return recording.metadata.get("device", {}).get("simulated") == "yes"
 
 

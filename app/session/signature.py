@@ -77,23 +77,23 @@ def signed(
     return json.dumps(document | {"hmac": key.seal(document)}, indent=1) + "\n"
 
 
-def judge(path: Path, kept: Cached, key: StationKey | None) -> SignatureCheck:
+def judge(path: Path, stored: Cached, key: StationKey | None) -> SignatureCheck:
     """Say for a list what the signature of a record says, from what is kept beside it.
 
-    The record is not read: its digest is that of `kept`, which lists trust as long as the record's
-    size and time are what they were. `judge_whole` reads it.
+    The record is not read: its digest is that of `stored`, which lists trust as long as the
+    record's size and time are what they were. `judge_whole` reads it.
     """
     found = _read(path, key)
     if isinstance(found, SignatureCheck):
         return found
     with suppress(OSError):
-        if not kept.is_of(path):  # signed after it was read, and looked at next time
+        if not stored.is_of(path):  # signed after it was read, and looked at next time
             return SignatureCheck(Signed.UNSIGNED, "the record was written while it was read")
-    if found["record"] != kept.sha256:
+    if found["record"] != stored.sha256:
         return SignatureCheck(Signed.ALTERED, "the record is not the one that was signed")
-    shown = _shown(kept.summary)
+    shown = _shown(stored.summary)
     other = [name for name, value in found["shown"].items() if shown.get(name) != value]
-    if _rules(kept.summary) != found["rules"] and file_digest(path) == found["record"]:
+    if _rules(stored.summary) != found["rules"] and file_digest(path) == found["record"]:
         # What the record gives by today's rules, if it is that, is the record's own word.
         fresh = _shown(derive(open_recording(path)))
         other = [name for name in other if fresh.get(name) != shown.get(name)]
@@ -122,12 +122,12 @@ def judge_whole(path: Path, key: StationKey | None) -> SignatureCheck:
     return SignatureCheck(Signed.ALTERED, "the record is not the one that was signed")
 
 
-def judged(path: Path, kept: Cached, key: StationKey | None) -> Summary:
+def judged(path: Path, stored: Cached, key: StationKey | None) -> Summary:
     """Return the summary of a record with the verdict of its signature.
 
     One that was altered has no score: nobody earned what it says now.
     """
-    judgement, summary = judge(path, kept, key), kept.summary
+    judgement, summary = judge(path, stored, key), stored.summary
     if judgement.verdict is Signed.ALTERED:
         problems = (*summary.problems, f"altered after it was signed: {judgement.why}")
         summary = replace(summary, score=None, problems=problems)

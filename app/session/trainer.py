@@ -298,7 +298,7 @@ class Trainer:
         effect: str,
         model: str,
         change: Callable[[Loop], int],
-        said: Callable[[RunContext], RunContext],
+        answer: Callable[[RunContext], RunContext],
     ) -> None:
         """Compute an effect by another of its models from the next tick on.
 
@@ -307,7 +307,7 @@ class Trainer:
             effect: its name.
             model: one of its models.
             change: changes the loop; returns the first tick that computes so.
-            said: puts that exercise into the heads of the records that follow.
+            answer: puts that exercise into the heads of the records that follow.
 
         Raises:
             ControlLockedError: if the exercise keeps its models; nothing has changed then.
@@ -320,7 +320,7 @@ class Trainer:
             )
         with self._lock:
             choice = ModelChoice(change(self._loop), effect, model)
-            self._exercise, self._context = exercise, said(self._context)
+            self._exercise, self._context = exercise, answer(self._context)
             self._running.say(KIND, choice.words(), self._clock.now(), choice.data())
 
     def hold_breath(self, held: bool) -> None:
@@ -338,7 +338,7 @@ class Trainer:
 
     @property
     def held_arming(self) -> bool:
-        """Whether the forces are on only while `arm` holds them on."""
+        """Return whether the forces are on only while `arm` holds them on."""
         return self._arming.held
 
     def arm(self) -> None:
@@ -498,7 +498,7 @@ class Trainer:
         return snapshot
 
     def _stood_still(self, now: float) -> str:
-        """Why the attempt ends if the whole program slept; empty if it did not."""
+        """Return why the attempt ends if the whole program slept; empty if it did not."""
         try:
             slept = self._standstill.before(now, int(self._loop.latest().tick))
         except AcusError:  # the loop has ended: whoever looks next says so

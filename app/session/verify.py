@@ -76,12 +76,14 @@ class Verification:
 
     @property
     def same_rules(self) -> bool:
-        """Whether the score was written under today's scoring version; without one it was."""
+        """Return whether the score was written under today's scoring version; without one it
+        was.
+        """
         return self.written is None or self.written.version == SCORING_VERSION
 
     @property
     def confirmed(self) -> bool:
-        """Whether what was written is what the record gives, by the rules that it states."""
+        """Return whether what was written is what the record gives, by the rules that it states."""
         return self.same_rules and not self.changes and not self.cut
 
     @property
@@ -250,7 +252,7 @@ def _same(a: Any, b: Any) -> bool:
 
 
 def _alike(a: float, b: float | None) -> bool:
-    """Whether two standard deviations are the same; they are products of longer sums."""
+    """Return whether two standard deviations are the same; they are products of longer sums."""
     return b is not None and math.isclose(a, b, rel_tol=1e-6, abs_tol=RELATIVE)
 
 

@@ -141,9 +141,9 @@ def measured(repeats: int) -> dict[str, str | int]:
     return {"date": date.today().isoformat(), "version": __version__, "repeats": repeats}
 
 
-def was_of(found: Kept, study: Study) -> tuple[str, ...]:
+def was_of(outcome: Kept, study: Study) -> tuple[str, ...]:
     """Name what differs between a kept table's study and one as it is now; nothing if it is it."""
-    was = found.result.study
+    was = outcome.result.study
     texts = ("title", "question", "reference", "error_label", "default", "because", "exception")
     apart = [name for name in (*texts, "deadline", "perception") if _differ(was, study, name)]
     for kind in ("ways", "settings"):

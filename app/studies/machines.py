@@ -270,7 +270,7 @@ def by_tilt() -> Sheet:
 
 
 def reach() -> Sheet:
-    """How far each machine tilts all round, what its numbers rest on, what a tick costs."""
+    """Return how far each machine tilts all round, what its numbers rest on, what a tick costs."""
     times = seconds(*(machine.tick() for machine in machines()))
     rows: list[tuple[Cell, ...]] = []
     for machine, taken in zip(machines(), times, strict=True):
@@ -302,7 +302,7 @@ def reach() -> Sheet:
 
 
 def holds(machine: ComparedMachine, d: FloatArray) -> bool:
-    """Whether a machine can point the needle in a direction, shape (3,)."""
+    """Return whether a machine can point the needle in a direction, shape (3,)."""
     try:
         machine.tip(d)
     except MechanismError:

@@ -133,7 +133,7 @@ def _tensions_often(beta: FloatArray, load: FloatArray, wanted: float, numbers: 
 
 
 def workspace() -> Sheet:
-    """How much of the required cone is reached, in both readings of cone and joints."""
+    """Return how much of the required cone is reached, in both readings of cone and joints."""
     rows: list[tuple[Cell, ...]] = []
     for name, geometry in (
         ("one rhombus", PAPER),

@@ -38,7 +38,7 @@ class InspectedPicture:
 
     @property
     def found(self) -> bool:
-        """Whether what was looked for is in the picture."""
+        """Return whether what was looked for is in the picture."""
         return self.drawn or self.picture.pixel is not None
 
 

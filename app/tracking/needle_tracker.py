@@ -43,11 +43,11 @@ class NeedleTracker(Protocol):
 
     @property
     def events(self) -> EventQueue:
-        """What people must know: `camera`, `pen` and `fault`."""
+        """Return what people must know: `camera`, `pen` and `fault`."""
 
     @property
     def stereo(self) -> StereoAbilities | None:
-        """What two cameras can do beyond this; None where there is one."""
+        """Return what two cameras can do beyond this; None where there is one."""
 
     def open(self) -> None:
         """Open the cameras and start; idempotent.

@@ -69,7 +69,7 @@ class Worker:
 
     @property
     def is_open(self) -> bool:
-        """Whether the thread was started and not stopped."""
+        """Return whether the thread was started and not stopped."""
         return self._thread is not None
 
     def open(self) -> None:

@@ -122,7 +122,7 @@ class Loop(Lifetime):
 
     @property
     def is_open(self) -> bool:
-        """Whether `open` has been called and `close` has not."""
+        """Return whether `open` has been called and `close` has not."""
         return self._is_open
 
     @property

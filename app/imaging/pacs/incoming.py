@@ -109,11 +109,11 @@ class Incoming:
         self._listed = frozenset(listed)
 
     def has(self, sop_uid: str) -> bool:
-        """Whether an instance has come, now or at an earlier try."""
+        """Return whether an instance has come, now or at an earlier try."""
         return self._path(sop_uid).exists()
 
     def count(self) -> int:
-        """How many instances have come."""
+        """Return how many instances have come."""
         return sum(1 for _ in self.folder.glob("*.dcm"))
 
     def take(self, sop_class: str, sop_uid: str, file: Path) -> int:
@@ -190,17 +190,17 @@ class Incoming:
         allowed = for_file(size_of(path), least=PACKAGE_SECONDS)
         return shared_worker().call(_IDENTIFY, (path.absolute(),), allowed, Progress())
 
-    def _mistaken(self, sop_class: str, sop_uid: str, said: Identity) -> str:
+    def _mistaken(self, sop_class: str, sop_uid: str, answer: Identity) -> str:
         """Say what of a picture's identity is not what was asked for; empty where all is."""
-        if said[:2] != (sop_class, sop_uid):
+        if answer[:2] != (sop_class, sop_uid):
             return "it sent a picture under another one's name"
-        if said[2] != self.series_uid:
+        if answer[2] != self.series_uid:
             return "it sent a picture of another series"
-        if self.study_uid and said[3] != self.study_uid:
+        if self.study_uid and answer[3] != self.study_uid:
             return "it sent a picture of another study"
-        if self._patient not in (None, said[4]):
+        if self._patient not in (None, answer[4]):
             return "it sent pictures of several patients"
-        self._patient = said[4]
+        self._patient = answer[4]
         return ""
 
     def _path(self, sop_uid: str) -> Path:

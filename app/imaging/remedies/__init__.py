@@ -79,7 +79,7 @@ def words() -> tuple[str, ...]:
 
 
 def is_word(text: object) -> bool:
-    """Whether a text is one of `words`; quicker than to look through them."""
+    """Return whether a text is one of `words`; quicker than to look through them."""
     return text == NO_REMEDY or text in KIND.names()
 
 

@@ -21,7 +21,7 @@ DECLARATION: dict[str, Any] = {
 
 
 def offers(series: Series) -> bool:
-    """Whether nothing but the memory keeps a series from being read."""
+    """Return whether nothing but the memory keeps a series from being read."""
     return series.refusal is Refusal.TOO_LARGE
 
 

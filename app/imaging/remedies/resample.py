@@ -15,7 +15,7 @@ DECLARATION: dict[str, Any] = {
 
 
 def offers(series: Series) -> bool:
-    """Whether nothing but the places of its slices keeps a series from being read."""
+    """Return whether nothing but the places of its slices keeps a series from being read."""
     return series.refusal is Refusal.UNEVEN
 
 

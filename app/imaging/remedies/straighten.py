@@ -15,7 +15,7 @@ DECLARATION: dict[str, Any] = {
 
 
 def offers(series: Series) -> bool:
-    """Whether a series can be read as it is, and its gantry was tilted."""
+    """Return whether a series can be read as it is, and its gantry was tilted."""
     return series.usable and series.tilt_deg > 0.0
 
 

@@ -76,7 +76,7 @@ class Child:
 
     @property
     def alive(self) -> bool:
-        """Whether the process runs."""
+        """Return whether the process runs."""
         return self._process.poll() is None
 
     def fileno(self) -> int:
@@ -211,7 +211,7 @@ class Child:
 
 
 def _is_progress(message: Any) -> bool:
-    """Whether a message tells how far a task is: a fraction and a few words."""
+    """Return whether a message tells how far a task is: a fraction and a few words."""
     if not isinstance(message, list) or [type(part) for part in message] != [str, float, str]:
         return False
     return bool(message[0] == PROGRESS and 0.0 <= message[1] <= 1.0)

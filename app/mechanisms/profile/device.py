@@ -91,7 +91,8 @@ class DeviceProfile(Strict):
 
     @property
     def machine(self) -> RemoteCentre:
-        """What the robot is, to be asked about poses, forces and stages; loads compiled code.
+        """Return what the robot is, to be asked about poses, forces and stages; loads compiled
+        code.
 
         Raises:
             ConfigurationError: if a file of the user's own cannot be used, or fails its trial;
@@ -125,7 +126,7 @@ class DeviceProfile(Strict):
 
     @property
     def holds_direction(self) -> bool:
-        """Whether the robot can hold a direction by itself, beyond the forces of laws."""
+        """Return whether the robot can hold a direction by itself, beyond the forces of laws."""
         return False
 
     @property
@@ -304,7 +305,7 @@ def _foreign(kind: str, name: str) -> Path | None:
 
 
 def is_own(kind: str) -> bool:
-    """Whether a machine is one of the program's own."""
+    """Return whether a machine is one of the program's own."""
     return _home(kind)[2]
 
 

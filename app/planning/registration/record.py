@@ -93,12 +93,13 @@ class RegistrationRecord(Strict):
         return RegistrationCheck.of(self.plate, points_of(self.touched), picked)
 
 
-def points_of(found: tuple[FoundPoint, ...]) -> NamedPoints:
+def points_of(result: tuple[FoundPoint, ...]) -> NamedPoints:
     """Return them in metres."""
     return NamedPoints(
-        tuple(point.name for point in found),
-        np.array([point.point_mm for point in found], dtype=np.float64).reshape(-1, 3) * MILLIMETRE,
-        _metres2([point.covariance_mm2 for point in found]),
+        tuple(point.name for point in result),
+        np.array([point.point_mm for point in result], dtype=np.float64).reshape(-1, 3)
+        * MILLIMETRE,
+        _metres2([point.covariance_mm2 for point in result]),
     )
 
 

@@ -45,12 +45,12 @@ class Metric(Declaration):
 
     @property
     def definition(self) -> str:
-        """What is measured, in words: the text at the top of its file."""
+        """Return what is measured, in words: the text at the top of its file."""
         return ast.get_docstring(ast.Module(read_statements(self.path), [])) or ""
 
     @property
     def is_own(self) -> bool:
-        """Whether it is one of the program's own."""
+        """Return whether it is one of the program's own."""
         return KIND.is_own(self.path)
 
     def measured(self, trajectory: Trajectory) -> MetricOutcome:

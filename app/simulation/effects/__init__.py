@@ -53,7 +53,7 @@ class Effect(StageDeclaration):
 
     @property
     def gives(self) -> tuple[str, ...]:
-        """What consumers read of it: its slots, or `PICTURES`."""
+        """Return what consumers read of it: its slots, or `PICTURES`."""
         return (*self.writes, PICTURES) if self.pictures else self.writes
 
     def checked(self, given: Mapping[str, float]) -> dict[str, float]:

@@ -252,7 +252,7 @@ class HardCase:
             return float(off)
 
     def missing(self) -> str:
-        """Why the case cannot be tried here; empty if it can."""
+        """Return why the case cannot be tried here; empty if it can."""
         lacking = [package for package in self.needs if find_spec(package) is None]
         return ", ".join(f"needs {p}: {install_command(EXTRAS[p])}" for p in lacking)
 

@@ -172,12 +172,12 @@ def _needle(world: ET.Element, profile: PantographProfile, how: MjcfSettings) ->
     ET.SubElement(carriage, "site", name="carriage")
 
 
-def _connect(equality: ET.Element, how: MjcfSettings, one: str, other: str) -> None:
+def _connect(equality: ET.Element, how: MjcfSettings, item: str, other: str) -> None:
     ET.SubElement(
         equality,
         "connect",
-        name=f"{one}_{other}",
-        site1=one,
+        name=f"{item}_{other}",
+        site1=item,
         site2=other,
         solref=text(-how.stiffness, -2.0 * sqrt(how.stiffness)),
         solimp=text(IMPEDANCE, IMPEDANCE, 1e-3, 0.5, 1.0),

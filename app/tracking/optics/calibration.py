@@ -260,7 +260,7 @@ class StereoCalibration(Strict):
 
     @property
     def _sizes(self) -> tuple[int, int, int]:
-        """Where the left camera's parameters, the right one's and the pose's twist end."""
+        """Return where the left camera's parameters, the right one's and the pose's twist end."""
         left, right = (len(camera.lens.parameters) for camera in self.cameras)
         return left, left + right, left + right + 6
 
@@ -290,7 +290,8 @@ class StereoCalibration(Strict):
 
     @property
     def uncertainty_known(self) -> bool:
-        """Whether it says how sure lenses and relative pose are; files of other programs do not.
+        """Return whether it says how sure lenses and relative pose are; files of other programs do
+        not.
 
         Where it does not, the covariance stands as zero: what is made of it leaves out the
         calibration's own error, and must say so.

@@ -183,7 +183,7 @@ class PenTracker:
         return fix
 
     def health(self) -> CameraHealth:
-        """How the webcam does now."""
+        """Return how the webcam does now."""
         return self._health(self._clock.now())
 
     def statistics(self) -> TrackerStatistics:

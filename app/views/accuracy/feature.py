@@ -193,7 +193,7 @@ class AccuracyFeature(Feature):
         task.finished.connect(self.measured)
 
     def _may_work(self) -> bool:
-        """Whether a measurement may begin now; says why not."""
+        """Return whether a measurement may begin now; says why not."""
         run = self._runs.run
         if run is not None and run.trainer.snapshot().state in RUNNING:
             self.failed.emit(tr("End the attempt first: measuring takes processor time from it"))

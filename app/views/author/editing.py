@@ -95,17 +95,17 @@ class ExerciseEditor(QObject):
 
     @property
     def dirty(self) -> bool:
-        """Whether something was changed since it was begun or kept."""
+        """Return whether something was changed since it was begun or kept."""
         return self.document != self._kept
 
     @property
     def can_undo(self) -> bool:
-        """Whether there is a step to take back."""
+        """Return whether there is a step to take back."""
         return self._history.can_undo
 
     @property
     def can_redo(self) -> bool:
-        """Whether there is a step to take again."""
+        """Return whether there is a step to take again."""
         return self._history.can_redo
 
     def get(self, *where: str, default: Any = None) -> Any:
@@ -328,7 +328,7 @@ def plan_document(edit: Edit, own: bool = False) -> Document | None:
 
 
 def is_own(document: Document) -> bool:
-    """Whether the student plans."""
+    """Return whether the student plans."""
     plan = document.get("plan")
     return isinstance(plan, Mapping) and "own" in plan
 

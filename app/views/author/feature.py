@@ -266,7 +266,7 @@ class SkillTrial(QObject):
 
     @property
     def running(self) -> bool:
-        """Whether something is being tried."""
+        """Return whether something is being tried."""
         return self._process is not None
 
     def begin(self, exercise: Exercise) -> None:
@@ -375,7 +375,7 @@ class AuthorFeature(Feature):
             action.setEnabled(ACCESS.may_manage)
 
     def _may(self) -> bool:
-        """Whether who is here may make exercises, whatever asks; else it is said."""
+        """Return whether who is here may make exercises, whatever asks; else it is said."""
         why = ACCESS.why_not_manage
         if why:
             self.failed.emit(why)
@@ -758,10 +758,10 @@ class AuthorFeature(Feature):
         else:
             self.failed.emit(error)
 
-    def _taken_in(self, found: UnpackedExercise) -> None:
+    def _taken_in(self, result: UnpackedExercise) -> None:
         self._conductor.exercises_changed.emit()
-        title = found.exercise.title
-        if found.known:
+        title = result.exercise.title
+        if result.known:
             self.noted.emit(tr("The exercise “{title}” was there already.", title=title))
         else:
             self.noted.emit(tr("The exercise “{title}” is in the list now.", title=title))
@@ -823,10 +823,10 @@ class AuthorFeature(Feature):
             return
         dialog.effects.show_cost(None)
 
-        def done(found: Any) -> None:
+        def done(result: Any) -> None:
             self._measuring = None
-            if self.dialog is not None and not isinstance(found, Exception):
-                self.dialog.effects.show_cost(found)
+            if self.dialog is not None and not isinstance(result, Exception):
+                self.dialog.effects.show_cost(result)
 
         services = self.context.services
         self._measuring = run_in_background(
@@ -857,9 +857,9 @@ class AuthorFeature(Feature):
             said += "; " + tr("more are on their way …")
         dialog.score.tried.setText(said)
 
-    def _no_skills(self, why: str) -> None:
+    def _no_skills(self, reason: str) -> None:
         if self.dialog is not None:
-            self.dialog.score.tried.setText(tr("It cannot be tried: {why}", why=why))
+            self.dialog.score.tried.setText(tr("It cannot be tried: {why}", why=reason))
 
     def _take_digest(self, digest: str) -> None:
         if self.dialog is not None and self.editor.get("ct", "folder") is not None:

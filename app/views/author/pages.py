@@ -34,7 +34,6 @@ from app.exercises.library import profile_names
 from app.exercises.locks import Lock
 from app.exercises.parts import TELLING, LayerPart, OwnPlan, ViewName
 from app.exercises.scene import plan_of
-from app.exercises.schema import Exercise
 from app.imaging.structures.structure import StructureSet
 from app.imaging.window import PRESETS
 from app.scoring import metrics
@@ -80,7 +79,7 @@ class Form(QWidget):
 
     @property
     def problems(self) -> list[FieldProblem]:
-        """What is wrong with the fields of this page."""
+        """Return what is wrong with the fields of this page."""
         return [one for one in self.editor.problems if one.field and one.field[0] in self.covers]
 
     def _sentence(self, problem: FieldProblem, where: Where) -> str:
@@ -258,10 +257,10 @@ class Form(QWidget):
         return box
 
 
-def _hold(box: QCheckBox, on: bool | None, why: str) -> None:
+def _hold(box: QCheckBox, on: bool | None, reason: str) -> None:
     """Let a box stand on or off, whatever was chosen, and say why; None sets it free."""
     box.setEnabled(on is None)
-    box.setToolTip(literal("" if on is None else why))
+    box.setToolTip(literal("" if on is None else reason))
     if on is not None:
         with QSignalBlocker(box):
             box.setChecked(on)
@@ -702,14 +701,14 @@ class EffectsPage(Form):
         self._loads.append(self.parts.load)
         self.rows.addStretch(1)
 
-    def show_cost(self, found: Mapping[str, Any] | None) -> None:
+    def show_cost(self, result: Mapping[str, Any] | None) -> None:
         """Write what a tick costs; None while it is measured."""
-        if found is None:
+        if result is None:
             self.cost.setText(tr("measuring what it costs …"))
             return
-        ticking = [one for one in found["simulated"] if one["picture_ns"] is None]
+        ticking = [one for one in result["simulated"] if one["picture_ns"] is None]
         costs = {one["effect"]: one["cost_ns"] for one in ticking}
-        costs |= {one["law"]: one["cost_ns"] for one in found["laws"]}
+        costs |= {one["law"]: one["cost_ns"] for one in result["laws"]}
         lines = [
             tr("{name}: {ns:.0f} ns of each tick", name=name, ns=ns) for name, ns in costs.items()
         ]
@@ -721,7 +720,7 @@ class EffectsPage(Form):
                 name=one["effect"],
                 ms=one["picture_ns"] / 1e6,
             )
-            for one in found["simulated"]
+            for one in result["simulated"]
             if one["picture_ns"] is not None
         ]
         self.cost.setText("\n".join(lines))

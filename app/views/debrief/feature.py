@@ -271,12 +271,12 @@ class DebriefController(QObject):
         def look(_: Progress) -> Around:
             return around(self._folder, shown, held, exercises, manages, may_see, refusal)
 
-        def take(found: Around) -> None:
+        def take(result: Around) -> None:
             if asked != self._asked:
                 return  # another attempt by now
-            self._page.show_proposal(found.proposal)
+            self._page.show_proposal(result.proposal)
             if not held:
-                self._page.offer_ghosts(ghost_words(found.rivals, shown))
+                self._page.offer_ghosts(ghost_words(result.rivals, shown))
 
         run_in_background(self, look, take, self._fail)
 
@@ -323,14 +323,14 @@ def _for(manages: bool, held: str) -> tuple[str, str]:
     return ("", held) if manages else (held, "")
 
 
-def with_remarks(found: Review) -> Review:
+def with_remarks(result: Review) -> Review:
     """Return an attempt with what the instructor says of it; called beside the window.
 
     Raises:
         SessionError: if the list of people cannot be read.
     """
-    said = People().remarks().get(found.id, found.said)
-    return found if said == found.said else replace(found, said=said)
+    said = People().remarks().get(result.id, result.said)
+    return result if said == result.said else replace(result, said=said)
 
 
 def ask_path_in_dialog(parent: QWidget, title: str, start: str, kind: str) -> str:
@@ -342,13 +342,13 @@ IDEAL: Final = "ideal"
 """Key of the ideal path among what may stand beside an attempt."""
 
 
-def ghost_words(found: Sequence[tuple[Indexed, bool]], shown: Review) -> list[tuple[object, str]]:
+def ghost_words(result: Sequence[tuple[Indexed, bool]], shown: Review) -> list[tuple[object, str]]:
     """Name what may stand beside an attempt: the ideal path, the own best, the others."""
     choices: list[tuple[object, str]] = []
     if shown.motion is not None:
         choices.append((IDEAL, tr("the ideal path")))
     best = True
-    for one, own in found:
+    for one, own in result:
         total, date = f"{one.total or 0.0:.0f}", date_text(one.started)
         if not one.conditions.by_person:
             who = hand_word(one.conditions)
@@ -610,21 +610,21 @@ class Interruptions(QObject):
             QTimer.singleShot(LOOK_AGAIN_MS, self, self._look)
         self._offer([one for one in found if one.id not in self._offered])
 
-    def _who(self, one: Summary) -> str:
+    def _who(self, item: Summary) -> str:
         """Name who did an attempt, as far as who is here may know it, and it is known by now."""
-        known = ACCESS.shown(one.student)
-        if not ACCESS.may_see(one.student) or looks_like_a_key(known):
+        known = ACCESS.shown(item.student)
+        if not ACCESS.may_see(item.student) or looks_like_a_key(known):
             return tr("a student")
         return NAMES.shown(known)
 
-    def _offer(self, found: list[Summary]) -> None:
+    def _offer(self, result: list[Summary]) -> None:
         """Ask what becomes of attempts; later, while somebody does one or is asked something."""
-        if not found or self._looks == 9:
+        if not result or self._looks == 9:
             return
         if self._busy() or self.box is not None:
-            QTimer.singleShot(LOOK_AGAIN_MS, self, lambda: self._offer(found))
+            QTimer.singleShot(LOOK_AGAIN_MS, self, lambda: self._offer(result))
             return
-        self._offered |= {one.id for one in found}
+        self._offered |= {one.id for one in result}
         lines = [
             "  ·  ".join(
                 (
@@ -634,14 +634,14 @@ class Interruptions(QObject):
                     clock_text(one.duration),
                 )
             )
-            for one in found[:_NAMED]
+            for one in result[:_NAMED]
         ]
-        if len(found) > _NAMED:
-            lines.append(tr("and {n} more", n=len(found) - _NAMED))
+        if len(result) > _NAMED:
+            lines.append(tr("and {n} more", n=len(result) - _NAMED))
         ended_in = (
             tr("The program ended in the middle of an attempt:")
-            if len(found) == 1
-            else tr("The program ended in the middle of {n} attempts:", n=len(found))
+            if len(result) == 1
+            else tr("The program ended in the middle of {n} attempts:", n=len(result))
         )
         keeps = tr(
             "Recover keeps what was recorded: it stays in the list as unfinished, without a score. "
@@ -657,7 +657,7 @@ class Interruptions(QObject):
         discards.setVisible(ACCESS.may_manage)
         box.setEscapeButton(box.addButton(tr("Later"), roles.RejectRole))
         box.setDefaultButton(recovers)
-        ids = [one.id for one in found]
+        ids = [one.id for one in result]
 
         def answered(clicked: object) -> None:
             if clicked is recovers:
@@ -836,8 +836,8 @@ class DebriefFeature(Feature):
             back: where *Back* leads.
         """
 
-        def only(one: Summary) -> bool:
-            return ACCESS.owner(one.student) == key and exercise in ("", one.exercise_id)
+        def only(item: Summary) -> bool:
+            return ACCESS.owner(item.student) == key and exercise in ("", item.exercise_id)
 
         self._back = back
         self.sessions.show_only(only, words)

@@ -163,7 +163,7 @@ class Beginning(QObject):
 
     @property
     def is_showing(self) -> bool:
-        """Whether a demonstration is on its way or under way."""
+        """Return whether a demonstration is on its way or under way."""
         return self.wish is BeginWish.SHOW
 
     # --- briefing -----------------------------------------------------------------------------
@@ -240,13 +240,13 @@ class Beginning(QObject):
             )
 
     def _is_known(self, exercise: Exercise) -> bool:
-        """Whether the student wants no briefing; an assessment always has one."""
+        """Return whether the student wants no briefing; an assessment always has one."""
         if exercise.purpose is Purpose.ASSESSMENT:
             return False
         return str(self._shell.settings.value(_skip(exercise), "")) == "true"
 
     def _intercepted(self) -> bool:
-        """Whether the briefing comes before the attempt that somebody wants to begin now."""
+        """Return whether the briefing comes before the attempt that somebody wants to begin now."""
         taken, patient = self._conductor.exercise, self._conductor.patient
         if taken is None or patient is None or not self._conductor.fits(patient):
             return False  # a CT of one's own: the exercise lends its device and tolerances only

@@ -439,5 +439,5 @@ def _key_button(text: str, role: str = "") -> QPushButton:
     return made
 
 
-def _lines(said: Sequence[str]) -> str:
-    return "\n".join(f"•  {line}" for line in said) if len(said) > 1 else "".join(said)
+def _lines(message: Sequence[str]) -> str:
+    return "\n".join(f"•  {line}" for line in message) if len(message) > 1 else "".join(message)

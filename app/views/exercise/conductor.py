@@ -130,15 +130,17 @@ def _pulls(run: ExerciseRun, snapshot: Snapshot) -> FloatArray:
 
 
 def _otherwise(before: FloatArray, now: FloatArray) -> bool:
-    """Whether cables pull differently enough for another picture: by a tenth, or one went slack."""
+    """Return whether cables pull differently enough for another picture: by a tenth, or one went
+    slack.
+    """
     if before.shape != now.shape:
         return True
     return bool((np.abs(now - before) > 0.1 * np.abs(before) + 0.5).any())
 
 
-def _apart(one: FloatArray, other: FloatArray) -> bool:
-    """Whether two drawn shafts differ enough for another picture."""
-    return one.shape != other.shape or bool(np.abs(one - other).max() > SCENE_DEAD_BAND_MM)
+def _apart(item: FloatArray, other: FloatArray) -> bool:
+    """Return whether two drawn shafts differ enough for another picture."""
+    return item.shape != other.shape or bool(np.abs(item - other).max() > SCENE_DEAD_BAND_MM)
 
 
 RAY_MM = 2000.0
@@ -232,7 +234,7 @@ class Conductor(QObject):
 
     @property
     def settled(self) -> bool:
-        """Whether everything stands: surfaces extracted, robot and cameras on."""
+        """Return whether everything stands: surfaces extracted, robot and cameras on."""
         return not self._surfaces.is_running and self.controller.run is not None
 
     # --- patient and exercise -----------------------------------------------------------------
@@ -319,7 +321,7 @@ class Conductor(QObject):
     # --- views --------------------------------------------------------------------------------
     @property
     def shown(self) -> Shown:
-        """What the exercise shows: the one gate of every view."""
+        """Return what the exercise shows: the one gate of every view."""
         run, exercise = self.controller.run, self.exercise
         if run is not None:
             return run.shown
@@ -415,7 +417,7 @@ class Conductor(QObject):
         device_of(exercise)
 
     def fits(self, patient: Patient, exercise: Exercise | None = None) -> bool:
-        """Whether an exercise, by default the present one, is made for this patient."""
+        """Return whether an exercise, by default the present one, is made for this patient."""
         exercise = exercise or self.exercise
         if exercise is None:
             return False

@@ -39,7 +39,7 @@ class ScanRange:
 
     @property
     def lines(self) -> tuple[tuple[QPointF, QPointF], ...]:
-        """What is drawn, in plane millimetres."""
+        """Return what is drawn, in plane millimetres."""
         return self._item.lines
 
     def place(self, plane: SlicePlane, index: float, scale: float) -> None:
@@ -142,7 +142,7 @@ class ScanSource(QObject):
 
     @property
     def is_busy(self) -> bool:
-        """Whether a picture is being made."""
+        """Return whether a picture is being made."""
         return self._busy
 
     def _attached(self) -> None:

@@ -48,7 +48,7 @@ class PenFeature(Feature):
 
     @property
     def used(self) -> bool:
-        """Whether a pen stands in for the robot."""
+        """Return whether a pen stands in for the robot."""
         return bool(self._equipment.pen)
 
     @property

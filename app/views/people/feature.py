@@ -401,13 +401,13 @@ class PeopleFeature(Feature):
         def work(_: Progress) -> Erased:
             return erase_person(pseudonym, self._folder, with_records, self._people)
 
-        def done(found: Erased) -> None:
+        def done(result: Erased) -> None:
             self._changed()
             text = tr(
                 "{name} was erased; records deleted: {n}, kept as nobody's: {m}",
                 name=pseudonym,
-                n=found.deleted,
-                m=found.anonymous,
+                n=result.deleted,
+                m=result.anonymous,
             )
             self.noted.emit(text)
 
@@ -587,7 +587,9 @@ class PeopleFeature(Feature):
         self.refresh()
 
     def _may(self) -> bool:
-        """Whether who is here may change people and courses, whatever asks; else it is said."""
+        """Return whether who is here may change people and courses, whatever asks; else it is
+        said.
+        """
         if not ACCESS.may_manage:
             self.failed.emit(ACCESS.why_not_manage)
         return ACCESS.may_manage

@@ -598,13 +598,13 @@ class EntryDialog(SettingsDialog):
             wrong.selectAll()
             raise
 
-    def _wrong(self, said: str) -> QLineEdit:
+    def _wrong(self, message: str) -> QLineEdit:
         """Return the line that a message names, secrets first, else the first secret, or line."""
         ordered = sorted(
             zip(self.names, self.lines, strict=True),
             key=lambda one: one[1].echoMode() is not QLineEdit.EchoMode.Password,
         )
-        named = (line for name, line in ordered if name.casefold() in said.casefold())
+        named = (line for name, line in ordered if name.casefold() in message.casefold())
         return next(named, ordered[0][1])
 
 

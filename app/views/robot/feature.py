@@ -175,7 +175,7 @@ class RobotFeature(Feature):
 
     @property
     def settings(self) -> RobotSettings:
-        """What is remembered of robot and hand."""
+        """Return what is remembered of robot and hand."""
         return self._equipment.remembered
 
     # --- which robot ------------------------------------------------------------------------------

@@ -121,9 +121,9 @@ class SceneFeature(Feature):
         return frame_of(draft.target_mm, way) if np.linalg.norm(way) > 1.0 else None
 
 
-def _alike(one: tuple[Section, ...], other: tuple[Section, ...]) -> bool:
-    pairs = zip(one, other, strict=False)
-    return len(one) == len(other) and all(a.shows_the_same(b) for a, b in pairs)
+def _alike(item: tuple[Section, ...], other: tuple[Section, ...]) -> bool:
+    pairs = zip(item, other, strict=False)
+    return len(item) == len(other) and all(a.shows_the_same(b) for a, b in pairs)
 
 
 class SceneMenu:

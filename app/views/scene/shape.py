@@ -68,13 +68,15 @@ class SceneShape:
         return points[np.linalg.norm(points - place_mm, axis=1) <= reach_mm]
 
     def moved_mm(self, other: SceneShape | None) -> float:
-        """How far a point of it is at most from where it was; infinite where there was none."""
+        """Return how far a point of it is at most from where it was; infinite where there was
+        none.
+        """
         if other is None:
             return float("inf")
         return float(np.abs(self.points_mm - other.points_mm).max())
 
     @property
     def kind(self) -> tuple[object, ...]:
-        """What its parts are: shapes of one kind are drawn by the same solids."""
+        """Return what its parts are: shapes of one kind are drawn by the same solids."""
         pieces = ((piece.mark, piece.round) for piece in self.pieces)
         return (*pieces, *((hoop.mark, len(hoop.radii_mm)) for hoop in self.hoops))

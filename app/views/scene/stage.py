@@ -146,13 +146,13 @@ class Stage:
 
     @property
     def has_card(self) -> bool:
-        """Whether a graphics card draws, not a program in its place."""
+        """Return whether a graphics card draws, not a program in its place."""
         return not any(name in self.driver.lower() for name in SOFTWARE)
 
     @property
     def has_volume(self) -> bool:
-        """Whether volumes can be rendered in good time; `ACUS_VOLUME=1` says yes for every driver,
-        `ACUS_VOLUME=0` no.
+        """Return whether volumes can be rendered in good time; `ACUS_VOLUME=1` says yes for every
+        driver, `ACUS_VOLUME=0` no.
         """
         forced = os.environ.get("ACUS_VOLUME", "")
         return forced == "1" or (self.has_card and forced != "0")

@@ -171,7 +171,7 @@ class SceneView(QWidget):
 
     @property
     def is_settled(self) -> bool:
-        """Whether the picture is the fine one of what there is to be seen."""
+        """Return whether the picture is the fine one of what there is to be seen."""
         return self._feed.is_settled
 
     # --- what is shown ------------------------------------------------------------------------
@@ -341,7 +341,9 @@ class SceneView(QWidget):
 
     @property
     def is_home(self) -> bool:
-        """Whether one sees the whole patient as at first; that view goes with what there is."""
+        """Return whether one sees the whole patient as at first; that view goes with what there
+        is.
+        """
         return self.orbit is self._home
 
     def view_home(self) -> None:
@@ -507,7 +509,7 @@ class SurfaceExtraction(QObject):
 
     @property
     def is_running(self) -> bool:
-        """Whether surfaces are still to come."""
+        """Return whether surfaces are still to come."""
         return self._task is not None
 
     def start(self, patient: Patient) -> None:

@@ -105,7 +105,7 @@ class SeriesCard(QFrame):
 
 
 def verdict(series: Series) -> str:
-    """Whether it can be used, in words, with a sign that tells it without colour."""
+    """Return whether it can be used, in words, with a sign that tells it without colour."""
     if series.usable:
         return "✔  " + tr("can be used")
     sign = "▲" if series.remedies else "✖"
@@ -179,7 +179,7 @@ class Thumbnails(QObject):
 
     @property
     def is_busy(self) -> bool:
-        """Whether pictures are still to come."""
+        """Return whether pictures are still to come."""
         return self._task is not None
 
     def open(self) -> None:

@@ -56,7 +56,7 @@ class OpenCt(QObject):
 
     @property
     def is_reading(self) -> bool:
-        """Whether a patient is being looked for or read."""
+        """Return whether a patient is being looked for or read."""
         return self._task is not None
 
     def ask(self) -> None:
@@ -204,6 +204,6 @@ def _scan(folder: Path, progress: Progress) -> Listing:
 
 
 def _is_source(path: Path) -> bool:
-    """Whether a file is opened for itself; any other stands for the folder it is in."""
+    """Return whether a file is opened for itself; any other stands for the folder it is in."""
     name = path.name.lower()
     return name in ("dicomdir", "dirfile") or name.endswith((".zip", ".nii", ".nii.gz"))

@@ -180,7 +180,7 @@ class DemonstrationScript:
 
 
 def has_fresh_fix(snapshot: Snapshot) -> bool:
-    """Whether the cameras' newest fix is no older than `FRESH_S`; not before the first."""
+    """Return whether the cameras' newest fix is no older than `FRESH_S`; not before the first."""
     age = snapshot.tracker.age if snapshot.tracker is not None else None
     return age is not None and age <= FRESH_S
 

@@ -130,7 +130,7 @@ class Remembered:
 
 
 def reading(workspace: WorkspacePage) -> dict[str, Any]:
-    """How the slices are read now, as JSON can hold it."""
+    """Return how the slices are read now, as JSON can hold it."""
     viewing, greys = workspace.viewing, workspace.viewing.greys
     presentations = {}
     for pane in PaneId:

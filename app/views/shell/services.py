@@ -78,7 +78,7 @@ class RunSetup:
     demonstrates: bool = False
 
     def same_run(self, other: RunSetup) -> bool:
-        """Whether a run of the other setup only has to take this plan."""
+        """Return whether a run of the other setup only has to take this plan."""
         return self._fixed() == other._fixed()
 
     def _fixed(self) -> tuple[object, ...]:
@@ -93,7 +93,7 @@ class OpenRun(Protocol):
 
     @property
     def run(self) -> ExerciseRun:
-        """What its views need."""
+        """Return what its views need."""
         ...
 
     def compute_by(self, effect: str, model: str) -> Exercise:

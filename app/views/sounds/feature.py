@@ -331,7 +331,7 @@ class SoundsFeature(Feature):
 
     @property
     def silence(self) -> str:
-        """Why nothing can be heard; empty while it can, or nobody has tried."""
+        """Return why nothing can be heard; empty while it can, or nobody has tried."""
         return self._why
 
     def items(self, _: Snapshot) -> tuple[StatusItem, ...]:

@@ -72,10 +72,10 @@ class StructureFiles(QObject):
         if volume is None or not wanted:
             return
 
-        def take(found: StructureSet) -> None:
+        def take(result: StructureSet) -> None:
             if self._book.volume is volume and self._wanted is wanted:
-                self._book.begin(found)
-                self._panel.set_note("\n".join(found.notes))
+                self._book.begin(result)
+                self._panel.set_note("\n".join(result.notes))
 
         run_in_background(
             self,
@@ -104,11 +104,11 @@ class StructureFiles(QObject):
                 from app.imaging.structures.files import read_structures
             return read_structures(path, volume, progress)
 
-        def take(found: StructureSet) -> None:
+        def take(result: StructureSet) -> None:
             if self._book.volume is volume:
-                self._book.add(StructureSet(found.structures))
-                said = tr("{name}: {count} structures", name=path.name, count=len(found))
-                self._panel.set_note("\n".join((said, *found.notes)))
+                self._book.add(StructureSet(result.structures))
+                said = tr("{name}: {count} structures", name=path.name, count=len(result))
+                self._panel.set_note("\n".join((said, *result.notes)))
 
         run_in_background(
             self,
@@ -273,9 +273,9 @@ class StructuresFeature(Feature):
     def _warn(self, clearance: PathClearance | None) -> None:
         self.panel.show_needle(clearance, "" if clearance is None else words(clearance))
 
-    def _refused(self, why: object) -> None:
-        self.panel.set_note(str(why))
-        self.failed.emit(why)
+    def _refused(self, reason: object) -> None:
+        self.panel.set_note(str(reason))
+        self.failed.emit(reason)
 
     # --- distances and surfaces, beside the window -----------------------------------------------
     def _measure(self) -> None:
@@ -319,7 +319,7 @@ class StructuresFeature(Feature):
 
     @property
     def is_settled(self) -> bool:
-        """Whether all distances and surfaces are there."""
+        """Return whether all distances and surfaces are there."""
         return self._task is None and not self.book.unmeasured
 
     # --- marking ------------------------------------------------------------------------------
@@ -342,9 +342,9 @@ class StructuresFeature(Feature):
             progress.report(0.5, tr("threshold"))
             return threshold(patient.volume, settings.low, settings.high, within)
 
-        def take(found: tuple[Mask, Index]) -> None:
+        def take(result: tuple[Mask, Index]) -> None:
             if self.book.volume is patient.volume:
-                self.book.put(name, *found)
+                self.book.put(name, *result)
 
         run_in_background(
             self, work, take, self._refused, title=tr("Threshold"), indicator=self._progress

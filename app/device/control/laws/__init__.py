@@ -97,7 +97,7 @@ def _bound(name: str, given: Mapping[str, float], profile: DeviceProfile) -> flo
 
 
 def is_own(law: Law) -> bool:
-    """Whether a law is one of the program's own."""
+    """Return whether a law is one of the program's own."""
     return KIND.is_own(law.path)
 
 
