@@ -73,9 +73,10 @@ def tests_for(changed: Iterable[str]) -> list[str]:
 
 
 def _paths() -> list[str]:
-    """Return the files of tests, and of tools, which some of them import."""
+    """Return the files of tests, without their data, and of tools, which some of them import."""
     found = (path for top in ("tests", "tools") for path in (ROOT / top).rglob("*.py"))
-    return sorted(path.relative_to(ROOT).as_posix() for path in found)
+    below = (path.relative_to(ROOT).as_posix() for path in found)
+    return sorted(path for path in below if not path.startswith("tests/data/"))
 
 
 def reached_modules(changed: Set[str]) -> set[str]:

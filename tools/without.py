@@ -85,7 +85,7 @@ PARTS: Final[Mapping[str, Part]] = {
             *("app/imaging/pacs", "app/views/pacs", "app/commands/pacs.py", "docs/pacs.md"),
             *("tests/**/*pacs*.py", "tests/imaging/*orthanc*.py", "tools/dialog_pictures.py"),
         ),
-        words=("pacs", "pynetdicom"),
+        words=("pacs",),
     ),
     "author": Part(
         ("app/views/author", "docs/authoring.md", "tests/views/test_views_author.py"),

@@ -1,4 +1,4 @@
-"""A panel is added in just the way that docs/extending.md says: one file, one line in the list."""
+"""A panel is added in just the way that docs/extending.md says: one file."""
 
 import importlib.util
 import re
@@ -30,7 +30,7 @@ def feature(tmp_path):
 
 @pytest.fixture
 def longer(application, services, destroy, feature):
-    """A window whose list of features has one line more."""
+    """A window that has one feature more."""
     window = MainWindow(services, (*FEATURES, feature))
     destroy(window)
     window.show()

@@ -1,0 +1,61 @@
+"""The table of parts names files that are there, and what names a part that is gone is seen."""
+
+import pytest
+
+from tools import without
+from tools.without import PARTS, ROOT, Part, naming, pattern_of
+
+DONE = ("arm", "tensegrity", "studies", "pacs", "author")
+"""Parts that nothing else names."""
+
+
+def left_out(part):
+    return sorted(
+        path.relative_to(ROOT).as_posix() for pattern in part.files for path in ROOT.glob(pattern)
+    )
+
+
+@pytest.mark.parametrize("name", PARTS)
+def test_every_pattern_of_the_table_is_of_some_file(name):
+    assert [one for one in PARTS[name].files if not list(ROOT.glob(one))] == []
+
+
+@pytest.mark.parametrize("name", DONE)
+def test_nothing_else_in_the_program_names_a_part(name):
+    gone = left_out(PARTS[name])
+    pattern = pattern_of(PARTS[name], gone)
+    named = [
+        line
+        for line in naming(ROOT, pattern, ("app", "acus", "resources"))
+        if not any(line.startswith((f"{one}:", f"{one}/")) for one in gone)
+    ]
+    assert named == []
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "from app.claw.grip import hold",
+        "from app import claw",
+        'import_module("app.claw.grip")',
+        "see app/claw/grip.py",
+        'load("rusty-claw")',
+    ],
+)
+def test_a_line_that_names_what_is_gone_is_seen_with_its_file_and_number(tmp_path, line):
+    (tmp_path / "app").mkdir()
+    (tmp_path / "app" / "rest.py").write_text(f"x = 1\n{line}\n")
+    pattern = pattern_of(Part(()), ["app/claw", "resources/devices/rusty-claw.yaml"])
+    assert list(naming(tmp_path, pattern, ("app",))) == [f"app/rest.py:2: {line}"]
+
+
+def test_a_test_that_concerns_a_part_or_rests_on_one_that_does_is_left_out(tmp_path):
+    folder = tmp_path / "tests"
+    folder.mkdir()
+    (folder / "rig.py").write_text("from app.claw import grip\n")
+    (folder / "test_rig.py").write_text("from rig import grip\n")
+    (folder / "test_claw.py").write_text("import app.claw\n")
+    (folder / "test_rest.py").write_text("import app.core\n")
+    part = Part(())
+    left = without.tests_left(tmp_path, part, pattern_of(part, ["app/claw"]), [])
+    assert left == ["tests/test_rest.py"]
