@@ -1,4 +1,4 @@
-"""Write the tables of `acus study dicom DIR…` into docs/studies.md, agreeing rows as counts.
+"""Write what `acus study dicom DIR…` finds into docs/studies.md: differences and refusals.
 
 python -m tools.dicom_tables DIR…
 """
@@ -8,6 +8,7 @@ import json
 import subprocess
 import sys
 import tempfile
+import textwrap
 from pathlib import Path
 
 from app.studies.dicom_cases.comparison import SAME_MM
@@ -24,11 +25,10 @@ def main() -> None:
         subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
         document = json.loads(Path(folder, "dicom.json").read_text())
         read, refused = (_rows(Path(folder, f"dicom-{name}.csv")) for name in ("read", "refused"))
-        tables = [
-            _table([[row[0], *row[2:]] for row in counted(read)]),
-            _table([[row[0], row[2]] for row in refused]),
-        ]
-    text = "\n\n".join([*tables, *document["lines"]])
+    explained = _table([[row[0], *row[2:]] for row in counted(read) if row[7]])
+    reasons = "; ".join(f"{row[0]} ({row[2]})" for row in refused[1:])
+    lines = [f"Refused files and series, by reason: {reasons}.", *document["lines"]]
+    text = "\n\n".join([explained, *(textwrap.fill(line, 118) for line in lines)])
     before, rest = PAGE.read_text().split(BEGIN)
     PAGE.write_text(f"{before}{BEGIN}\n{text}\n{END}{rest.split(END)[1]}")
 
