@@ -36,6 +36,7 @@ MEAN_TWO_THINGS = {
     "Ring": "a circle: an actor of VTK here, the outline of the brush there",
     "Section": "a part of a device's mechanics, and a cut through the 3D view: the words of either",
     "Stage": "a step of the loop, and what a theatre and a renderer call a stage",
+    "Trial": "an attempt of a script in virtual time, and how somebody else's file is tried",
     "Way": "one of several that are compared: in a study, and of triangulating",
 }
 """Class names that more than one module defines, each with its reason."""
