@@ -9,7 +9,7 @@ from app.commands.answer import Answer, Commands
 app = Commands(help="The force laws, the program's and your own.")
 
 
-PLACE = 200
+RANK = 200
 
 
 def register(root: typer.Typer) -> None:

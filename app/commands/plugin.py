@@ -12,7 +12,7 @@ app = Commands(
 )
 
 
-PLACE = 210
+RANK = 210
 
 
 def register(root: typer.Typer) -> None:

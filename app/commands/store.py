@@ -11,7 +11,7 @@ from app.core.words import counted
 FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
 
-PLACE = 90
+RANK = 90
 
 
 def register(app: typer.Typer) -> None:
