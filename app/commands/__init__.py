@@ -1,7 +1,7 @@
 """The command line: one file per noun; each parses, calls one room and returns an `Answer`.
 
 Every file here that defines `register(root)`, and every file in `commands/` of a folder of
-plug-ins, adds its commands by it; `PLACE` says where the noun stands among those of the program in
+plug-ins, adds its commands by it; `RANK` says where the noun stands among those of the program in
 `acus --help`. Rooms are imported inside the commands, so that `acus --help` is instant.
 """
 
@@ -39,7 +39,7 @@ def _nouns() -> list[ModuleType]:
     """Import the program's own files of commands, in the order of `acus --help`."""
     files = (path for path in Path(__file__).parent.glob("*.py") if _MARK in path.read_bytes())
     modules = [import_module(f"{__name__}.{path.stem}") for path in files]
-    return sorted(modules, key=attrgetter("PLACE"))
+    return sorted(modules, key=attrgetter("RANK"))
 
 
 def _register(added: ModuleType, root: typer.Typer) -> None:

@@ -199,7 +199,7 @@ Window = Annotated[
 Out = Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Write the YAML here.")]
 
 
-PLACE = 140
+RANK = 140
 
 
 def register(root: typer.Typer) -> None:

@@ -23,7 +23,7 @@ Cameras = Annotated[
 ]
 
 
-PLACE = 130
+RANK = 130
 
 
 def register(app: typer.Typer) -> None:

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 _MARKS = {"good": "✔", "warning": "▲", "bad": "✖", "waiting": "–"}
 
 
-PLACE = 30
+RANK = 30
 
 
 def register(app: typer.Typer) -> None:

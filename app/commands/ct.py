@@ -49,7 +49,7 @@ Folder = Annotated[
 ]
 
 
-PLACE = 40
+RANK = 40
 
 
 def register(root: typer.Typer) -> None:

@@ -73,7 +73,7 @@ _DEVICE: Final = DemoDevice(_OWN)
 _HELP: Final = " ".join(f"{name}: {said.get('help', '')}" for name, said in _OTHERS.items())
 
 
-PLACE = 20
+RANK = 20
 
 
 def register(app: typer.Typer) -> None:

@@ -30,7 +30,7 @@ Profile = Annotated[
 ]
 
 
-PLACE = 120
+RANK = 120
 
 
 def register(app: typer.Typer) -> None:

@@ -29,7 +29,7 @@ Name = Annotated[
 Uid = Annotated[str | None, typer.Option(help="SeriesInstanceUID, where several fit.")]
 
 
-PLACE = 190
+RANK = 190
 
 
 def register(root: typer.Typer) -> None:

@@ -10,7 +10,7 @@ from app.commands.answer import Answer
 _TICK_NS = 1e9 / 1000.0
 
 
-PLACE = 180
+RANK = 180
 
 
 def register(app: typer.Typer) -> None:

@@ -10,7 +10,7 @@ from app.commands.shown import Each
 app = Commands(help="The force laws, the program's and your own.")
 
 
-PLACE = 200
+RANK = 200
 
 
 def register(root: typer.Typer) -> None:

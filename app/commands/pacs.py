@@ -26,7 +26,7 @@ Mask = Annotated[
 SeriesUid = Annotated[str, typer.Argument(metavar="SERIES", help="SeriesInstanceUID, of `find`.")]
 
 
-PLACE = 50
+RANK = 50
 
 
 def register(root: typer.Typer) -> None:

@@ -21,7 +21,7 @@ Edge = Annotated[
 app = Commands(help="A pen with printed markers before a webcam.")
 
 
-PLACE = 160
+RANK = 160
 
 
 def register(root: typer.Typer) -> None:

@@ -20,7 +20,7 @@ CourseId = Annotated[
 FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
 
-PLACE = 100
+RANK = 100
 
 
 def register(app: typer.Typer) -> None:

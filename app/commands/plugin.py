@@ -13,7 +13,7 @@ app = Commands(
 )
 
 
-PLACE = 210
+RANK = 210
 
 
 def register(root: typer.Typer) -> None:

@@ -27,7 +27,7 @@ DEFAULT_TARGET_MM = (0.0, 160.56, 30.0)
 """60 mm below the fulcrum: the middle of the needle's range."""
 
 
-PLACE = 150
+RANK = 150
 
 
 def register(root: typer.Typer) -> None:

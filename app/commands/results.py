@@ -32,7 +32,7 @@ PDF = "pdf"
 FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
 
-PLACE = 110
+RANK = 110
 
 
 def register(app: typer.Typer) -> None:

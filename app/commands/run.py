@@ -9,7 +9,7 @@ import typer
 
 from app.commands import completion
 
-PLACE = 10
+RANK = 10
 
 
 def register(app: typer.Typer) -> None:

@@ -23,7 +23,7 @@ FolderOption = Annotated[
 ]
 
 
-PLACE = 80
+RANK = 80
 
 
 def register(app: typer.Typer) -> None:

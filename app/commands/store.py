@@ -11,7 +11,7 @@ from app.commands.shown import Each
 FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
 
 
-PLACE = 90
+RANK = 90
 
 
 def register(app: typer.Typer) -> None:

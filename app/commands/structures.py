@@ -21,7 +21,7 @@ Folder = Annotated[Path, typer.Option("--ct", metavar="DIR", help="Folder of the
 Uid = Annotated[str | None, typer.Option("--series", help="SeriesInstanceUID, if several fit.")]
 
 
-PLACE = 60
+RANK = 60
 
 
 def register(root: typer.Typer) -> None:

@@ -18,7 +18,7 @@ PIPE_WIDTH = 160
 """Columns of a table that is not read on a terminal."""
 
 
-PLACE = 220
+RANK = 220
 
 
 def register(app: typer.Typer) -> None:

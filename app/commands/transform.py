@@ -11,7 +11,7 @@ from app.core.errors import ConfigurationError
 app = Commands(help="Rigid transforms as .tfm files of ITK and 3D Slicer.")
 
 
-PLACE = 70
+RANK = 70
 
 
 def register(root: typer.Typer) -> None:

@@ -10,7 +10,7 @@ from app.commands.answer import Answer, Commands
 app = Commands(help="Device profiles to and from URDF.")
 
 
-PLACE = 170
+RANK = 170
 
 
 def register(root: typer.Typer) -> None:
