@@ -49,15 +49,15 @@ def test_a_kept_record_is_recomputed_to_the_last_bit_and_forces_acted(name: str)
 
 
 @pytest.mark.long("journey")
-def test_kept_records_are_listed_debriefed_reported_and_exported(stored: Path) -> None:
+def test_kept_records_are_listed_debriefed_reported_and_exported(kept: Path) -> None:
     application = QApplication.instance() or QApplication([])
     assert application is not None
-    found = {summary.id: summary for summary in list_sessions(stored)}
+    found = {summary.id: summary for summary in list_sessions(kept)}
     assert {name: one.exercise_id for name, one in found.items()} == RECORDS
     assert {one.state for one in found.values()} == {"ended"}
     table = score_table(list(found.values())).splitlines()
     assert len(table) == 1 + len(RECORDS)
-    for path in sorted(stored.glob("*.mcap")):
+    for path in sorted(kept.glob("*.mcap")):
         recording = read_recording(path)
         shown = review(recording)
         assert shown.score is not None

@@ -308,9 +308,9 @@ def test_a_ct_has_its_places_and_a_plane_its_values(ct):
         ({"centre_mm": [np.nan, 0.0, 0.0]}, "finite"),
     ],
 )
-def test_a_plane_that_is_none_is_refused(ct, wrong, answer):
+def test_a_plane_that_is_none_is_refused(ct, wrong, said):
     plane = {"centre_mm": [0.0, 0.0, 0.0], "right": [1.0, 0.0, 0.0], "down": [0.0, 1.0, 0.0]}
-    with pytest.raises(acus.AcusError, match=answer):
+    with pytest.raises(acus.AcusError, match=said):
         acus.slice_plane(ct, **plane | wrong)
 
 

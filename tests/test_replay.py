@@ -324,9 +324,9 @@ def test_ticks_missing_at_the_beginning_cannot_be_replayed(virtual: Recording) -
     ],
 )
 def test_what_the_table_cannot_be_built_from_is_named(
-    virtual: Recording, change: Callable[[Recording], Recording], message: str
+    virtual: Recording, change: Callable[[Recording], Recording], said: str
 ) -> None:
-    with pytest.raises(ReplayError, match=message):
+    with pytest.raises(ReplayError, match=said):
         replay_recording(change(virtual))
 
 

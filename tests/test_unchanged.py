@@ -40,10 +40,10 @@ def test_two_equal_descriptions_are_equal(before, tmp_path, capsys):
     ],
     ids=["changed line", "other line ends", "additional file"],
 )
-def test_a_difference_is_named_and_ends_with_its_code(before, tmp_path, capsys, change, answer):
+def test_a_difference_is_named_and_ends_with_its_code(before, tmp_path, capsys, change, told):
     code, words = compared(before, described(tmp_path / "after", FILES | change), capsys)
     assert code == DIFFERENT == 3
-    assert all(line in words for line in answer)
+    assert all(line in words for line in told)
     assert words.count("≠") == 1
 
 

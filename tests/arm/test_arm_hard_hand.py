@@ -146,9 +146,9 @@ def pair(turn_one: float, turn_two: float, mu: float, radius: float = 1.0) -> Co
 
 @RELAXED
 @given(numbers, numbers, st.floats(1e-8, 2.0), st.floats(1e-6, 1e3))
-def test_hull_and_closed_form_agree_on_every_pair_however_slight_or_small(item, two, mu, radius):
-    contacts = pair(item, two, mu, radius)
-    edge = min(abs(abs(turn) - np.arctan(mu)) for turn in (item, two))
+def test_hull_and_closed_form_agree_on_every_pair_however_slight_or_small(one, two, mu, radius):
+    contacts = pair(one, two, mu, radius)
+    edge = min(abs(abs(turn) - np.arctan(mu)) for turn in (one, two))
     hull = force_closure(contacts)
     closed = force_closure(contacts, way=ClosureWay.PAIR)
     assert hull.margin == pytest.approx(closed.margin, rel=1e-6, abs=1e-15)

@@ -24,9 +24,9 @@ GOAL = solve(ARM, ARM.wrist_pose(RigidTransform(DOWN, [0.5, 0.35, 0.3])), near=S
 FREE = Collisions(lambda q: True)
 
 
-def fine(result):
+def fine(found):
     return np.concatenate(
-        [path.at(np.linspace(path.s[0], path.s[-1], 999)) for path in result.paths]
+        [path.at(np.linspace(path.s[0], path.s[-1], 999)) for path in found.paths]
     )
 
 

@@ -161,9 +161,9 @@ class CarelessUser(threading.Thread):
         while time.monotonic() < end:
             yield draw(self._rng, self._asked.of(self._screen))
 
-    def _fail(self, result: list[Failure]) -> None:
-        self.failed += result
-        for one in result:
+    def _fail(self, found: list[Failure]) -> None:
+        self.failed += found
+        for one in found:
             print(json.dumps({"failed": one.check, "words": one.words}), file=self._log)
         picture = self._options.folder / f"failed-{len(self.failed)}.png"
         with_suppressed(

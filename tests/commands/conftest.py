@@ -10,8 +10,8 @@ from app.commands.shown import lines
 def rendered(monkeypatch: pytest.MonkeyPatch) -> None:
     as_json = answer._text
 
-    def text(result: answer.Answer, name: str) -> str:
-        list(lines(result.shown, result.facts))
-        return as_json(result, name)
+    def text(found: answer.Answer, name: str) -> str:
+        list(lines(found.shown, found.facts))
+        return as_json(found, name)
 
     monkeypatch.setattr(answer, "_text", text)

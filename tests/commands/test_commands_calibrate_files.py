@@ -36,7 +36,7 @@ def kept() -> CalibrationHistory:
     return history
 
 
-def test_the_list_says_which_is_in_use_and_which_was_found_bad(acus, stored) -> None:
+def test_the_list_says_which_is_in_use_and_which_was_found_bad(acus, kept) -> None:
     assert acus("list") == (0, acus("list")[1])
     assert "* cal-two" in acus("list")[1]
     assert acus("reject", "cal-two", "--why", "camera bumped")[1].strip() == "in use: cal-one"
@@ -59,7 +59,7 @@ def test_an_empty_list_says_so(acus) -> None:
     assert "no calibrations" in text
 
 
-def test_undo_redo_and_use_move_what_is_in_use(acus, stored) -> None:
+def test_undo_redo_and_use_move_what_is_in_use(acus, kept) -> None:
     assert json.loads(acus("undo", "--json")[1])["facts"] == {"in_use": "cal-one"}
     assert acus("undo")[1].strip() == "no calibration is in use"
     assert acus("redo")[1].strip() == "in use: cal-one"
@@ -69,7 +69,7 @@ def test_undo_redo_and_use_move_what_is_in_use(acus, stored) -> None:
     assert "there are cal-one, cal-two" in text
 
 
-def test_show_tells_cameras_validation_and_notes(acus, stored) -> None:
+def test_show_tells_cameras_validation_and_notes(acus, kept) -> None:
     text = acus("show", "cal-one")[1]
     for words in ("640x480", "0.050 mm RMS", "k3 dropped", "cal-one.yaml"):
         assert words in text
@@ -77,15 +77,15 @@ def test_show_tells_cameras_validation_and_notes(acus, stored) -> None:
     assert document["calibration"]["id"] == "cal-one"
 
 
-def test_a_damaged_file_is_listed_with_its_reason(acus, stored) -> None:
-    (stored.folder / "cal-one.yaml").write_text("id: 3\n")
+def test_a_damaged_file_is_listed_with_its_reason(acus, kept) -> None:
+    (kept.folder / "cal-one.yaml").write_text("id: 3\n")
     code, text = acus("list")
     assert code == 0
     assert "cal-one.yaml" in text
     assert acus("show", "cal-one")[0] == 2
 
 
-def test_what_is_exported_is_imported_again(acus, stored, tmp_path: Path) -> None:
+def test_what_is_exported_is_imported_again(acus, kept, tmp_path: Path) -> None:
     assert acus("export", "cal-one", "--format", "ros", "--out", str(tmp_path / "ros"))[0] == 0
     pair = [str(tmp_path / "ros" / f"{name}.yaml") for name in ("left", "right")]
     code, text = acus("import", *pair)
@@ -95,7 +95,7 @@ def test_what_is_exported_is_imported_again(acus, stored, tmp_path: Path) -> Non
     assert "own uncertainty" not in acus("show", "cal-one")[1]
     path = tmp_path / "own.yaml"
     assert acus("export", "cal-one", "--out", str(path), "--json")[0] == 0
-    assert path.read_text() == (stored.folder / "cal-one.yaml").read_text()
+    assert path.read_text() == (kept.folder / "cal-one.yaml").read_text()
     assert len(json.loads(acus("list", "--json")[1])["facts"]["calibrations"]) == 3
     code, text = acus("export", "cal-one", "--format", "xml", "--out", str(path))
     assert code == 2
@@ -110,12 +110,12 @@ def test_what_is_exported_is_imported_again(acus, stored, tmp_path: Path) -> Non
         ((), "no YAML file"),
     ],
 )
-def test_a_wrong_option_of_import_is_named(acus, tmp_path: Path, options, message: str) -> None:
+def test_a_wrong_option_of_import_is_named(acus, tmp_path: Path, options, said: str) -> None:
     for name in ("a.txt", "b.txt"):
         (tmp_path / name).write_text("")
     code, text = acus("import", str(tmp_path / "a.txt"), str(tmp_path / "b.txt"), *options)
     assert code == 2
-    assert message in text
+    assert said in text
 
 
 def test_a_board_is_written_as_pdf_and_an_ambiguous_one_is_said_to_be_so(

@@ -139,12 +139,12 @@ def test_bad_input_is_one_line_on_stderr_and_exit_code_2(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
     arguments: tuple[str, ...],
-    message: str,
+    said: str,
 ) -> None:
     assert run(monkeypatch, *arguments) == 2
     captured = capsys.readouterr()
     assert captured.err.count("\n") == 1
-    assert message in captured.err
+    assert said in captured.err
     assert captured.out == ""
 
 

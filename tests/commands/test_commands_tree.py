@@ -174,7 +174,7 @@ def test_the_version_is_printed(monkeypatch, capsys):
         ("acus device test x --profile icu", {"icube"}),
     ],
 )
-def test_the_shell_completes_commands_and_names(words, result, monkeypatch, capsys, tmp_path):
+def test_the_shell_completes_commands_and_names(words, found, monkeypatch, capsys, tmp_path):
     (tmp_path / "sessions").mkdir()
     for name in ("20260101-one", "20260102-two"):
         (tmp_path / "sessions" / f"{name}.mcap").touch()
@@ -182,7 +182,7 @@ def test_the_shell_completes_commands_and_names(words, result, monkeypatch, caps
     monkeypatch.setenv("COMP_WORDS", words)
     monkeypatch.setenv("COMP_CWORD", str(len(words.split()) - 1))
     code, out, _ = acus(monkeypatch, capsys)
-    assert (code, set(out.split())) == (0, result)
+    assert (code, set(out.split())) == (0, found)
 
 
 def test_the_exit_codes_are_those_of_their_page():

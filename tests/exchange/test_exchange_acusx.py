@@ -236,14 +236,14 @@ def info(name, mode=0):
 )
 @pytest.mark.filterwarnings("ignore:Duplicate name")
 def test_members_that_none_has_are_refused_before_anything_is_written(
-    name, mode, answer, file, ct, elsewhere, tmp_path
+    name, mode, told, file, ct, elsewhere, tmp_path
 ):
     rewritten(file, add=[(info(name, mode), b"x")])
     before = left_of(tmp_path)
     for _ in range(2):
-        with pytest.raises(PackageError, match=answer):
+        with pytest.raises(PackageError, match=told):
             unpack(file, ct=ct)
-    with pytest.raises(PackageError, match=answer):
+    with pytest.raises(PackageError, match=told):
         read_manifest(file)
     assert left_of(tmp_path) == before
 
@@ -288,11 +288,11 @@ def test_what_was_altered_on_the_way_is_said(file, ct, elsewhere):
         (b"seed: 1", b"seed: 1\nstructures: [{file: ../x}]", "which the file does not hold"),
     ],
 )
-def test_an_exercise_that_points_elsewhere_is_refused(old, new, answer, file, ct, elsewhere):
+def test_an_exercise_that_points_elsewhere_is_refused(old, new, told, file, ct, elsewhere):
     text = zipfile.ZipFile(file).read("exercise.yaml")
     assert old in text
     rewritten(file, {"exercise.yaml": text.replace(old, new)})
-    with pytest.raises(Exception, match=answer):
+    with pytest.raises(Exception, match=told):
         unpack(file, ct=ct)
     assert not (elsewhere / "exercises" / "mine.yaml").exists()
 

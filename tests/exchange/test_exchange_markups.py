@@ -176,12 +176,12 @@ def test_the_first_line_is_taken_before_any_list_of_points() -> None:
     ],
 )
 def test_a_file_without_a_usable_plan_is_refused_with_file_field_and_value(
-    changes: dict[str, Any], message: str
+    changes: dict[str, Any], said: str
 ) -> None:
     with pytest.raises(MarkupsError) as caught:
         parse_plan(spoilt(**changes), "plan.mrk.json")
     assert str(caught.value).startswith("plan.mrk.json: ")
-    assert message in str(caught.value)
+    assert said in str(caught.value)
 
 
 @pytest.mark.parametrize(

@@ -21,15 +21,15 @@ from app.session.people import Remarks
 from app.session.summary import Summary
 
 
-def full(item: Any) -> Any:
+def full(one: Any) -> Any:
     """An attempt with the summary that the index would hold."""
     rows = [{"name": "lateral", "label": "", "unit": "mm", "value": 1.5, "note": "",
              "tolerance": None, "utility": 1.0, "band": "expert"}]  # fmt: skip
-    score = {"total": item.total, "void_reason": "", "rows": rows}
-    summary = Summary(item.id, item.started, item.student, item.exercise, score=score,
-                      conditions=item.conditions)  # fmt: skip
-    item.__dict__["summary"] = summary
-    return item
+    score = {"total": one.total, "void_reason": "", "rows": rows}
+    summary = Summary(one.id, one.started, one.student, one.exercise, score=score,
+                      conditions=one.conditions)  # fmt: skip
+    one.__dict__["summary"] = summary
+    return one
 
 
 @pytest.fixture

@@ -62,10 +62,8 @@ def test_structures_lie_beside_the_exercise_or_among_the_users(
         ("structures: [{risks: {x: 1}}]", "file"),
     ],
 )
-def test_structures_that_cannot_be_meant_are_refused(
-    tmp_path: Path, text: str, reason: str
-) -> None:
-    with pytest.raises(ConfigurationError, match=reason):
+def test_structures_that_cannot_be_meant_are_refused(tmp_path: Path, text: str, why: str) -> None:
+    with pytest.raises(ConfigurationError, match=why):
         read(tmp_path, text + "\n")
 
 

@@ -223,10 +223,10 @@ def test_an_id_is_made_of_any_title() -> None:
         ("id: x\ntitle: X\nfading: {kind: schedule}\n", r"fading.*dials.*\(line 3\)"),
     ],
 )  # fmt: skip
-def test_a_mistake_names_field_and_line(text: str, message: str, tmp_path: Path) -> None:
+def test_a_mistake_names_field_and_line(text: str, told: str, tmp_path: Path) -> None:
     path = tmp_path / "x.yaml"
     path.write_text(text)
-    with pytest.raises(ConfigurationError, match=message) as raised:
+    with pytest.raises(ConfigurationError, match=told) as raised:
         read_exercise(path)
     assert "\n" not in str(raised.value)
 

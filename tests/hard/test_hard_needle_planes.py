@@ -37,9 +37,9 @@ def check(frame):
         assert abs(np.linalg.norm(view.normal) - 1.0) < 1e-12
 
 
-def rotation_angle(item, other):
+def rotation_angle(one, other):
     """Angle by which the whole frame turned [rad]."""
-    first, second = (np.stack([f.axis, f.x, f.y]) for f in (item, other))
+    first, second = (np.stack([f.axis, f.x, f.y]) for f in (one, other))
     cosine = (np.trace(second.T @ first) - 1.0) / 2.0
     sine = np.linalg.norm(second.T @ first - first.T @ second) / np.sqrt(8.0)
     return float(np.arctan2(sine, cosine))

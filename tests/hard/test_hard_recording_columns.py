@@ -83,14 +83,6 @@ def test_a_number_that_is_none_in_the_encoders_stays_one_in_the_record() -> None
     assert np.isnan(values[:, blocks.COLUMNS.index("q_left")]).tolist() == [0, 0, 1, 0, 0]
 
 
-def test_a_block_of_version_1_still_reads() -> None:
-    values = np.arange(12.0).reshape(4, 3)
-    head = blocks._HEADER.pack(b"ACUB", 1, 3, 4, 2, 17)
-    block = blocks.unpack(head + np.ascontiguousarray(values.T).tobytes(), budget())
-    np.testing.assert_array_equal(block.values, values)
-    assert (block.first_tick, block.lost, len(block.digests), len(block.states)) == (17, 2, 0, 0)
-
-
 @pytest.mark.parametrize(
     "data",
     [

@@ -78,21 +78,21 @@ def test_compressed_pixels_under_a_native_label_are_refused(tmp_path, syntax):
 
 @pytest.mark.parametrize("syntax", LITTLE)
 @pytest.mark.parametrize("said", [RLELossless, JPEGLSLossless, JPEG2000Lossless])
-def test_native_pixels_under_a_compressed_label_are_refused(tmp_path, syntax, answer):
-    Archived(syntax=syntax).write(tmp_path, lambda whole: archive.relabelled(whole, answer))
+def test_native_pixels_under_a_compressed_label_are_refused(tmp_path, syntax, said):
+    Archived(syntax=syntax).write(tmp_path, lambda whole: archive.relabelled(whole, said))
     assert "960 bytes of pixels are not compressed" in reason(tmp_path)
 
 
 @pytest.mark.parametrize("said", [RLELossless, JPEGLSLossless, JPEG2000Lossless])
 @pytest.mark.parametrize("written", [RLELossless, JPEGLSLossless, JPEG2000Lossless])
-def test_one_compression_under_the_label_of_another_is_refused(tmp_path, written, answer):
+def test_one_compression_under_the_label_of_another_is_refused(tmp_path, written, said):
     series = Archived(shape=(40, 56))
     for path in series.write(tmp_path):
         file = pydicom.dcmread(path)
         file.compress(written, generate_instance_uid=False)
         file.save_as(path)
-        path.write_bytes(archive.relabelled(path.read_bytes(), answer))
-    if written == answer:
+        path.write_bytes(archive.relabelled(path.read_bytes(), said))
+    if written == said:
         np.testing.assert_array_equal(load_ct(tmp_path).hu, series.hu())
     elif written == RLELossless:
         assert "its compressed pixels are damaged (no frame header)" in reason(tmp_path)
@@ -103,10 +103,10 @@ def test_one_compression_under_the_label_of_another_is_refused(tmp_path, written
 @pytest.mark.parametrize("shape", [(20, 24), (3, 5), (40, 56)])
 @pytest.mark.parametrize(("written", "said"), [LITTLE, LITTLE[::-1]])
 def test_explicit_and_implicit_taken_for_each_other_are_read_rightly(
-    tmp_path, written, answer, shape
+    tmp_path, written, said, shape
 ):
     series = Archived(syntax=written, shape=shape)
-    series.write(tmp_path, lambda whole: archive.relabelled(whole, answer))
+    series.write(tmp_path, lambda whole: archive.relabelled(whole, said))
     np.testing.assert_array_equal(load_ct(tmp_path).hu, series.hu())
 
 
@@ -128,9 +128,9 @@ def test_a_mislabelled_series_is_right_in_the_library_too(tmp_path):
         (ImplicitVRLittleEndian, ExplicitVRBigEndian),
     ],
 )
-def test_the_other_byte_order_than_the_label_says_is_named(tmp_path, written, answer):
-    Archived(syntax=written).write(tmp_path, lambda whole: archive.relabelled(whole, answer))
-    little = answer != ExplicitVRBigEndian
+def test_the_other_byte_order_than_the_label_says_is_named(tmp_path, written, said):
+    Archived(syntax=written).write(tmp_path, lambda whole: archive.relabelled(whole, said))
+    little = said != ExplicitVRBigEndian
     words = ("little", "big") if little else ("big", "little")
     assert f"says {words[0]} endian, and its header is {words[1]} endian" in reason(tmp_path)
 

@@ -44,13 +44,13 @@ def both(data):
         return quick, said(read_by_pydicom(other, TAG_LIST, False), other)
 
 
-def said(result, stream):
+def said(found, stream):
     values = {
         int(tag): (element.VR, element.value or b"")
-        for tag, element in result.values.items()
+        for tag, element in found.values.items()
         if tag in TAG_LIST
     }
-    return values, result.syntax, result.start, (result.inflated or stream).tell()
+    return values, found.syntax, found.start, (found.inflated or stream).tell()
 
 
 def test_a_sound_header_is_read_as_pydicom_reads_it():

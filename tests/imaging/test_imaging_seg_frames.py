@@ -134,8 +134,8 @@ def read(path: Path, volume: Volume) -> PlacedStructures:
     return parse_structures(path, volume.size, numbers, frame, uids, settings, Progress())
 
 
-def full(result: PlacedStructures, volume: Volume, name="A") -> np.ndarray:
-    (one,) = [s for s in result.structures if s.name == name]
+def full(found: PlacedStructures, volume: Volume, name="A") -> np.ndarray:
+    (one,) = [s for s in found.structures if s.name == name]
     mask = np.zeros(volume.hu.shape, bool)
     i, j, k = one.corner
     depth, height, width = one.mask.shape

@@ -52,9 +52,9 @@ def two(volume: Volume) -> StructureSet:
     ))  # fmt: skip
 
 
-def same(item: StructureSet, other: StructureSet) -> None:
-    assert [s.name for s in item] == [s.name for s in other]
-    for a, b in zip(item, other, strict=True):
+def same(one: StructureSet, other: StructureSet) -> None:
+    assert [s.name for s in one] == [s.name for s in other]
+    for a, b in zip(one, other, strict=True):
         assert a.kind is b.kind
         assert a.corner == b.corner
         assert np.array_equal(a.mask, b.mask)

@@ -76,9 +76,9 @@ def found() -> tuple[Trajectory, dict[str, list[float]]]:
     ],
 )
 def test_a_deviation_is_that_of_repeated_measurements(
-    name: str, result: tuple[Trajectory, dict[str, list[float]]]
+    name: str, found: tuple[Trajectory, dict[str, list[float]]]
 ) -> None:
-    true, values = result
+    true, values = found
     rng = np.random.default_rng(9)
     told = [available()[name].deviation(measured_again(true, rng)) for _ in range(20)]
     said = float(np.median(np.array(told, dtype=float)))
@@ -87,10 +87,10 @@ def test_a_deviation_is_that_of_repeated_measurements(
 
 
 def test_the_deviation_of_the_raw_path_is_an_upper_bound(
-    result: tuple[Trajectory, dict[str, list[float]]],
+    found: tuple[Trajectory, dict[str, list[float]]],
 ) -> None:
     """Noise of a step's own size bends the polyline: its length varies less than to first order."""
-    true, values = result
+    true, values = found
     again = measured_again(true, np.random.default_rng(9))
     said, seen = available()["path_length_raw"].deviation(again), np.std(values["path_length_raw"])
     assert said is not None
@@ -118,9 +118,9 @@ def test_the_deviation_of_an_angle_is_that_of_repeated_directions(name: str) -> 
 
 @pytest.mark.parametrize("name", BOUNDED)
 def test_the_deviation_of_a_distance_between_paths_is_an_upper_bound(
-    name: str, result: tuple[Trajectory, dict[str, list[float]]]
+    name: str, found: tuple[Trajectory, dict[str, list[float]]]
 ) -> None:
-    true, values = result
+    true, values = found
     said = available()[name].deviation(true)
     assert said is not None
     assert 0.0 < float(np.std(values[name])) <= said

@@ -89,11 +89,11 @@ def test_a_cell_has_best_last_trend_and_time_since() -> None:
         ({"dial": 0.9}, "made under other conditions than most"),
     ],
 )
-def test_what_cannot_be_compared_is_counted_apart_with_its_reason(other: Any, reason: str) -> None:
+def test_what_cannot_be_compared_is_counted_apart_with_its_reason(other: Any, why: str) -> None:
     some = [attempt("a1", "p-a", 50, 1), attempt("a2", "p-a", 55, 2)]
     cell = board([*some, attempt("x", "p-a", 99, 3, **other)]).cells["p-a", "lung"]
     assert (cell.attempts, cell.best, cell.others) == (2, 55, 1)
-    assert cell.why == ((reason, 1),)
+    assert cell.why == ((why, 1),)
 
 
 def test_void_attempts_and_those_without_a_score_do_not_count() -> None:
@@ -180,11 +180,11 @@ def test_a_course_is_one_file_that_reads_back_equal(tmp_path: Path) -> None:
         ("id: a\ntitle: T\nitems:\n- {exercise: x, opens: soon}\n", "opens"),
     ],
 )  # fmt: skip
-def test_a_wrong_course_names_file_and_field(tmp_path: Path, text: str, message: str) -> None:
+def test_a_wrong_course_names_file_and_field(tmp_path: Path, text: str, said: str) -> None:
     path = courses_folder(tmp_path) / "a.yaml"
     path.parent.mkdir(parents=True)
     path.write_text(text)
-    with pytest.raises(ConfigurationError, match=message):
+    with pytest.raises(ConfigurationError, match=said):
         read_course(path)
     assert str(path) in courses(tmp_path)[1][0]
 

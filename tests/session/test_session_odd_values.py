@@ -106,11 +106,11 @@ def works(file: str) -> list[Callable[[], object]]:
         (INDEX, False, "no UTF-8"),
     ],
 )
-def test_no_value_of_a_database_ends_the_program(stored, tmp_path, monkeypatch, file, kind, sealed):
+def test_no_value_of_a_database_ends_the_program(kept, tmp_path, monkeypatch, file, kind, sealed):
     folder, odd = "data/people" if file == PEOPLE else "sessions", []
-    for table, column in columns(stored / folder / file):
+    for table, column in columns(kept / folder / file):
         here = tmp_path / f"{table}-{column}"
-        shutil.copytree(stored, here)
+        shutil.copytree(kept, here)
         monkeypatch.setenv("ACUS_DATA", str(here / "data"))
         monkeypatch.setenv("ACUS_SESSIONS", str(here / "sessions"))
         if not sealed:

@@ -306,10 +306,10 @@ def test_a_roster_brings_students_groups_and_names(people: People) -> None:
         (b"\xff\xfex", "the roster is not UTF-8"),
     ],
 )
-def test_each_fault_of_a_roster_is_one_line(data: bytes, message: str) -> None:
+def test_each_fault_of_a_roster_is_one_line(data: bytes, said: str) -> None:
     _, errors = read_roster(data)
     assert len(errors) == 1
-    assert message in errors[0]
+    assert said in errors[0]
     assert "\n" not in errors[0]
 
 

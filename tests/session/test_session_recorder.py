@@ -143,9 +143,9 @@ def test_a_block_holds_every_input_and_the_encoders() -> None:
         (lambda b: b + b"\x00", "bytes"),
     ],
 )
-def test_a_spoilt_block_is_refused(spoil: Callable[[bytes], bytes], message: str) -> None:
+def test_a_spoilt_block_is_refused(spoil: Callable[[bytes], bytes], said: str) -> None:
     good = blocks.pack(np.zeros((3, sv.SLOTS)), 0)
-    with pytest.raises(BrokenRecordingError, match=message):
+    with pytest.raises(BrokenRecordingError, match=said):
         blocks.unpack(spoil(good), budget())
 
 
@@ -267,8 +267,8 @@ def test_new_ids_differ_within_one_second() -> None:
     ("given", "kept"),
     [("", "anonymous"), ("  ", "anonymous"), ("a\nb\x00", "a b"), ("é" * 99, "é" * 64)],
 )
-def test_a_pseudonym_is_one_short_line(given: str, stored: str) -> None:
-    assert pseudonym(given) == stored
+def test_a_pseudonym_is_one_short_line(given: str, kept: str) -> None:
+    assert pseudonym(given) == kept
 
 
 def test_quaternions_turn_vectors_as_their_matrices_do() -> None:

@@ -114,22 +114,22 @@ def kept(place: Place) -> tuple[object, ...]:
 
 
 @pytest.mark.parametrize("kind", BAD)
-def test_people_that_cannot_be_taken_change_nothing(item: Place, tmp_path: Path, kind: str) -> None:
-    backup(tmp_path / "b", item.folder)
+def test_people_that_cannot_be_taken_change_nothing(one: Place, tmp_path: Path, kind: str) -> None:
+    backup(tmp_path / "b", one.folder)
     bad = with_people(tmp_path / "b", tmp_path / "bad", BAD[kind])
-    records(item.folder)[0].unlink()  # it would come back
-    before = kept(item)
+    records(one.folder)[0].unlink()  # it would come back
+    before = kept(one)
     with pytest.raises(ArchiveError, match=WORDS.get(kind, "cannot be rest")):
-        restore_backup(bad, item.folder, replace_people=True)
-    assert kept(item) == before
+        restore_backup(bad, one.folder, replace_people=True)
+    assert kept(one) == before
     People().check_instructor("correct horse")
 
 
 @pytest.mark.promise("docs/people.md: a password is never taken away")
 def test_triggers_and_settings_of_a_foreign_list_are_not_taken_over(
-    item: Place, tmp_path: Path
+    one: Place, tmp_path: Path
 ) -> None:
-    backup(tmp_path / "b", item.folder)
+    backup(tmp_path / "b", one.folder)
     bad = with_people(
         tmp_path / "b",
         tmp_path / "bad",
@@ -140,8 +140,8 @@ def test_triggers_and_settings_of_a_foreign_list_are_not_taken_over(
             "INSERT INTO settings VALUES ('stamp:x', 'y')",
         ),
     )
-    assert restore_backup(bad, item.folder, replace_people=True).people == "restored"
-    with closing(sqlite3.connect(item.people.folder / PEOPLE)) as connection:
+    assert restore_backup(bad, one.folder, replace_people=True).people == "restored"
+    with closing(sqlite3.connect(one.people.folder / PEOPLE)) as connection:
         names = {row[0] for row in connection.execute("SELECT name FROM sqlite_master")}
         settings = {row[0] for row in connection.execute("SELECT name FROM settings")}
     assert not names & {"open", "more"}
@@ -159,22 +159,22 @@ def test_triggers_and_settings_of_a_foreign_list_are_not_taken_over(
     ],
 )
 def test_a_backup_brings_no_student_whom_a_roster_could_not(
-    item: Place, tmp_path: Path, line: str, words: str
+    one: Place, tmp_path: Path, line: str, words: str
 ) -> None:
-    backup(tmp_path / "b", item.folder)
+    backup(tmp_path / "b", one.folder)
     bad = with_people(tmp_path / "b", tmp_path / "bad", does(line))
     with pytest.raises(ArchiveError, match=f"{words}.*nothing was changed"):
-        restore_backup(bad, item.folder, replace_people=True)
+        restore_backup(bad, one.folder, replace_people=True)
     assert [person.pseudonym for person in People().everybody()] == ["Ada"]
 
 
 def test_a_backup_of_another_station_says_exactly_what_is_not_taken(
-    item: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    one: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    first, second = (path.stem for path in records(item.folder))
-    item.people.remark_all([first, second], comment="good")
-    item.people.remark(first, void="camera fell")
-    backup(tmp_path / "b", item.folder)
+    first, second = (path.stem for path in records(one.folder))
+    one.people.remark_all([first, second], comment="good")
+    one.people.remark(first, void="camera fell")
+    backup(tmp_path / "b", one.folder)
     two = Place(tmp_path / "two", monkeypatch)
     two.people.add(RosterLine("Eve", pin="1234"))
     elsewhere(two, "Eve")
@@ -190,43 +190,43 @@ def test_a_backup_of_another_station_says_exactly_what_is_not_taken(
         "the signatures of 2 attempts restored: another station",
     ):
         assert words in told
-    assert [item.stands for item in Index(two.folder).attempts()] == []
+    assert [one.stands for one in Index(two.folder).attempts()] == []
     index = Index(two.folder)
     index.refresh()
-    assert sorted(item.stands for item in index.attempts()) == [False, False, True]
+    assert sorted(one.stands for one in index.attempts()) == [False, False, True]
     again = restore_backup(tmp_path / "b", two.folder, replace_people=True)
     assert "1 student that were here (Eve)" in "\n".join(again.not_taken)
 
 
 def test_a_backup_of_this_station_that_is_restored_at_once_lacks_nothing(
-    item: Place, tmp_path: Path
+    one: Place, tmp_path: Path
 ) -> None:
-    backup(tmp_path / "b", item.folder)
-    done = restore_backup(tmp_path / "b", item.folder)
+    backup(tmp_path / "b", one.folder)
+    done = restore_backup(tmp_path / "b", one.folder)
     assert (done.kept, done.not_taken, done.different) == (2, (), ())
 
 
 def test_an_erased_person_comes_back_through_no_stations_backup(
-    item: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    one: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    backup(tmp_path / "b", item.folder)
+    backup(tmp_path / "b", one.folder)
     two = Place(tmp_path / "two", monkeypatch)
     restore_backup(tmp_path / "b", two.folder)
     elsewhere(two, "Ada")  # the first station does not know of this one
     backup(tmp_path / "c", two.folder)
-    item.here()
-    erase_person("Ada", item.folder, delete_records=True)
+    one.here()
+    erase_person("Ada", one.folder, delete_records=True)
     for with_them in (False, True):
-        done = restore_backup(tmp_path / "c", item.folder, replace_people=with_them)
+        done = restore_backup(tmp_path / "c", one.folder, replace_people=with_them)
         assert (done.records, done.erased) == (0, 3)
         assert [person.pseudonym for person in People().everybody(names=True)] == []
-        assert records(item.folder) == []
-    text = b"".join(path.read_bytes() for path in item.data.rglob("*") if path.is_file())
+        assert records(one.folder) == []
+    text = b"".join(path.read_bytes() for path in one.data.rglob("*") if path.is_file())
     assert b"Lovelace" not in text
 
 
 def test_structures_profiles_and_earlier_versions_travel_and_cts_are_named(
-    item: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    one: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from app.session.archive import left_out
 
@@ -238,31 +238,31 @@ def test_structures_profiles_and_earlier_versions_travel_and_cts_are_named(
         "structures/mine/0a1b2c3d.seg.nrrd": "NRRD0004\n",
     }
     for name, content in own.items():
-        (item.data / name).parent.mkdir(parents=True, exist_ok=True)
-        (item.data / name).write_text(content)
-    digest, mine = "ab" * 32, item.data / "exercises/mine.yaml"
+        (one.data / name).parent.mkdir(parents=True, exist_ok=True)
+        (one.data / name).write_text(content)
+    digest, mine = "ab" * 32, one.data / "exercises/mine.yaml"
     text = mine.read_text()
     mine.write_text(text.replace("{phantom: {seed: 1}}", f"{{folder: ../ct, digest: {digest}}}"))
-    backup(tmp_path / "b", item.folder)
+    backup(tmp_path / "b", one.folder)
     assert any(digest in line and "mine" in line for line in left_out())
     two = Place(tmp_path / "two", monkeypatch)
     restore_backup(tmp_path / "b", two.folder)
     for name in own:
-        assert (two.data / name).read_bytes() == (item.data / name).read_bytes()
+        assert (two.data / name).read_bytes() == (one.data / name).read_bytes()
 
 
 def test_a_backup_needs_no_temporary_folder_and_a_full_disk_is_one_line(
-    item: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    one: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("tempfile.tempdir", "/dev/full")
-    assert backup(tmp_path / "b", item.folder) == 2
+    assert backup(tmp_path / "b", one.folder) == 2
 
     def full(*_: object) -> None:
         raise sqlite3.OperationalError("database or disk is full")
 
     monkeypatch.setattr("app.session.archive._copied", full)
     with pytest.raises(NoBackupError, match="disk is full"):
-        backup(tmp_path / "out" / "c", item.folder)
+        backup(tmp_path / "out" / "c", one.folder)
     assert list((tmp_path / "out").iterdir()) == []
 
 
@@ -318,20 +318,20 @@ def test_a_plan_that_cannot_be_carried_out_stays_for_later(tmp_path: Path) -> No
 
 
 def test_names_and_persons_change_together_or_not_at_all(
-    item: Place, monkeypatch: pytest.MonkeyPatch
+    one: Place, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def stop(what: str, path: Path) -> None:
         if what == "commit":
             raise KeyboardInterrupt
 
-    before = (item.people.everybody(names=True), (item.people.folder / NAMES_FILE).read_text())
+    before = (one.people.everybody(names=True), (one.people.folder / NAMES_FILE).read_text())
     with watched(stop), pytest.raises(KeyboardInterrupt):
-        item.people.take_roster([RosterLine("Cleo", "Clairaut")])
-    assert (People().everybody(names=True), (item.people.folder / NAMES_FILE).read_text()) == before
+        one.people.take_roster([RosterLine("Cleo", "Clairaut")])
+    assert (People().everybody(names=True), (one.people.folder / NAMES_FILE).read_text()) == before
     with watched(stop), pytest.raises(KeyboardInterrupt):
-        erase_person("Ada", item.folder, delete_records=True)
-    assert (People().everybody(names=True), (item.people.folder / NAMES_FILE).read_text()) == before
-    assert {summary.signature for summary in list_sessions(item.folder)} == {"verified"}
+        erase_person("Ada", one.folder, delete_records=True)
+    assert (People().everybody(names=True), (one.people.folder / NAMES_FILE).read_text()) == before
+    assert {summary.signature for summary in list_sessions(one.folder)} == {"verified"}
 
 
 @pytest.mark.long("journey")

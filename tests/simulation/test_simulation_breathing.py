@@ -88,10 +88,10 @@ def test_a_hold_ends_by_itself_and_has_to_be_asked_for_anew() -> None:
 
 
 @pytest.mark.parametrize("told", [0.0, 1.9, 3.99])
-def test_the_target_never_jumps_whenever_it_is_told(answer: float) -> None:
-    times = answer + 0.31 * np.arange(60)
+def test_the_target_never_jumps_whenever_it_is_told(told: float) -> None:
+    times = told + 0.31 * np.arange(60)
     moved = commanded([(float(t), k % 2 == 0) for k, t in enumerate(times)], 20.0)
-    moved = np.vstack([moved, commanded([(answer, True), (answer + 9.0, False)], 20.0)[1:] * 1.0])
+    moved = np.vstack([moved, commanded([(told, True), (told + 9.0, False)], 20.0)[1:] * 1.0])
     for part in (moved[:10_000], moved[10_000:]):
         assert np.linalg.norm(np.diff(part, axis=0), axis=1).max() < 0.002 * 0.035
 

@@ -13,16 +13,16 @@ def found() -> Found:
 
 @pytest.mark.long("machine")
 @pytest.mark.promise("CONTRIBUTING.md: nothing broken, no force beyond 5 N, no memory grown")
-def test_nothing_is_ever_no_number_and_no_force_is_beyond_five_newton(result):
-    assert result.broken == 0
-    assert 1.0 < result.most_force <= 5.0 + 1e-9
-    assert result.under_force > 0.2, "the hand did feel something"
+def test_nothing_is_ever_no_number_and_no_force_is_beyond_five_newton(found):
+    assert found.broken == 0
+    assert 1.0 < found.most_force <= 5.0 + 1e-9
+    assert found.under_force > 0.2, "the hand did feel something"
 
 
-def test_every_effect_that_ships_was_played(result):
-    assert {name.split()[0] for name in result.effects} == set(effect_names())
+def test_every_effect_that_ships_was_played(found):
+    assert {name.split()[0] for name in found.effects} == set(effect_names())
 
 
-def test_no_memory_grows_and_rest_leaves_no_subnormal_numbers(result):
-    assert result.grown < 16 << 20
-    assert result.subnormal == 0
+def test_no_memory_grows_and_rest_leaves_no_subnormal_numbers(found):
+    assert found.grown < 16 << 20
+    assert found.subnormal == 0

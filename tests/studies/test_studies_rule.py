@@ -194,12 +194,7 @@ def test_a_table_that_is_not_kept_is_refused_with_the_names_of_those_that_are():
 
 def test_a_default_that_is_no_way_is_refused_with_the_ways():
     with pytest.raises(StudyError, match=r"'z' is no way; there are x, y"):
-        result(("x", "a", 0.1, 0.1), ("y", "a", 0.1, 0.1), chosen="z: the last letter")
-
-
-def test_the_form_before_has_name_and_reason_in_one():
-    found = result(("x", "a", 0.1, 0.1), chosen="x: the first").study
-    assert (found.default, found.because) == ("x", "the first")
+        result(("x", "a", 0.1, 0.1), ("y", "a", 0.1, 0.1), chosen="z")
 
 
 def outer():

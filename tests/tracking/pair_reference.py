@@ -93,9 +93,9 @@ def located_reference(models, needle, pixels, spreads, outlines, axis):
     return found
 
 
-def off_line_reference(result, covariance, fulcrum, axis, line_variance):
+def off_line_reference(found, covariance, fulcrum, axis, line_variance):
     """Squared distance from the robot's line in variances, and the way there [m]."""
-    offset = result.p_world - fulcrum
+    offset = found.p_world - fulcrum
     beside = offset - (offset @ axis) * axis
     across = np.eye(3) - np.outer(axis, axis)
     spread = across @ covariance @ across + line_variance * np.eye(3)

@@ -177,11 +177,11 @@ def test_a_picture_of_a_large_camera_is_read(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("data", "said"), [(b"", "no picture"), (b"GIF89a" + bytes(99), "no pic")])
 def test_what_is_no_picture_of_a_known_format_is_refused(
-    tmp_path: Path, data: bytes, message: str
+    tmp_path: Path, data: bytes, said: str
 ) -> None:
     path = tmp_path / "other.png"
     path.write_bytes(data)
-    with pytest.raises(CameraError, match=message):
+    with pytest.raises(CameraError, match=said):
         read_picture(path)
 
 

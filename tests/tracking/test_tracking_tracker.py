@@ -360,11 +360,11 @@ def _until(condition, seconds=30.0):
         real_time.sleep(0.01)
 
 
-def _faults(tracker, text, result):
-    result.extend(
+def _faults(tracker, text, found):
+    found.extend(
         event.message for event in tracker.events.drain() if event.kind in ("camera", "fault")
     )
-    return any(text in message for message in result)
+    return any(text in message for message in found)
 
 
 def test_the_thread_publishes_fixes_pictures_and_figures_and_closes_twice(running):

@@ -120,8 +120,8 @@ def state(pane):
     return items, texts, where, None if picture is None else picture.image.copy()
 
 
-def alike(item, other):
-    for a, b in zip(item, other, strict=True):
+def alike(one, other):
+    for a, b in zip(one, other, strict=True):
         assert a == b
 
 

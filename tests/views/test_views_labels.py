@@ -16,8 +16,8 @@ def label(x, y, width=70.0, optional=False, last=0):
     return Wanted(x, y, width, 14.0, 7.0, last, optional)
 
 
-def overlap(item, other):
-    x, y, w, h = item
+def overlap(one, other):
+    x, y, w, h = one
     u, v, a, b = other
     return x < u + a and u < x + w and y < v + b and v < y + h
 

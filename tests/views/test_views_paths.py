@@ -94,8 +94,8 @@ def test_a_second_map_forgets_what_was_chosen_in_the_first(panel):
 
 
 @pytest.mark.parametrize("found", [scores([]), scores([50.0, 60.0], blocked=(0, 1))])
-def test_a_result_without_any_path_says_what_to_do(panel, result):
-    panel.show_scores(result, best(result))
+def test_a_result_without_any_path_says_what_to_do(panel, found):
+    panel.show_scores(found, best(found))
     assert panel.table.rowCount() == 0
     assert not panel.take.isEnabled()
     assert "turn the patient" in panel.note.text()

@@ -27,7 +27,7 @@ def told(placed):
     return notes, errors
 
 
-def test_what_is_exported_comes_back_and_can_be_undone(placed, answer, tmp_path, monkeypatch):
+def test_what_is_exported_comes_back_and_can_be_undone(placed, told, tmp_path, monkeypatch):
     path = tmp_path / "placed.tfm"
     monkeypatch.setattr(
         QFileDialog, "getSaveFileName", staticmethod(lambda *_: (str(path.with_suffix("")), ""))
@@ -42,15 +42,15 @@ def test_what_is_exported_comes_back_and_can_be_undone(placed, answer, tmp_path,
     np.testing.assert_allclose(after.rotation, before.rotation, atol=1e-12)
     placed.undo.undo()
     assert placed.editor.edit.placement == Placement()
-    notes, errors = answer
+    notes, errors = told
     assert [note.split()[0] for note in notes] == ["Exported", "Position"]
     assert not errors
 
 
 def test_the_other_direction_is_refused_and_a_shift_that_cannot_be_kept_is_said(
-    placed, answer, tmp_path
+    placed, told, tmp_path
 ):
-    notes, errors = answer
+    notes, errors = told
     path = tmp_path / "placed.tfm"
     placed.feature(PositionFeature).export(path)
     T_patient_world = read_tfm(path)

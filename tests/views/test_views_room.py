@@ -62,8 +62,8 @@ def test_words_stand_out_from_what_they_stand_on(shown):
     assert contrast(shown.on_accent, shown.accent) >= 4.5
 
 
-def contrast(item, other):
-    light, dark = sorted((luminance(item), luminance(other)), reverse=True)
+def contrast(one, other):
+    light, dark = sorted((luminance(one), luminance(other)), reverse=True)
     return (light + 0.05) / (dark + 0.05)
 
 
@@ -428,13 +428,13 @@ def lab(rgb):
     return np.array([116.0 * f[1] - 16.0, 500.0 * (f[0] - f[1]), 200.0 * (f[1] - f[2])])
 
 
-def difference(item, other, blindness):
+def difference(one, other, blindness):
     matrix = np.array(BLINDNESS[blindness]) if blindness else np.eye(3)
-    return float(np.linalg.norm(lab(matrix @ linear(item)) - lab(matrix @ linear(other))))
+    return float(np.linalg.norm(lab(matrix @ linear(one)) - lab(matrix @ linear(other))))
 
 
-def drawn_alike(item, other):
-    return item.dash == other.dash and item.symbol is other.symbol and item.width == other.width
+def drawn_alike(one, other):
+    return one.dash == other.dash and one.symbol is other.symbol and one.width == other.width
 
 
 MARKS = {name: mark for name, mark in vars(theme).items() if isinstance(mark, theme.Mark)}

@@ -338,8 +338,8 @@ def test_a_radius_without_the_calibrations_error_says_so(qt):
     ("residual", "said"),
     [(None, "–"), (0.0, "< 0.01 px"), (0.004, "< 0.01 px"), (0.01, "0.01 px"), (1.234, "1.23 px")],
 )
-def test_no_measurement_is_said_to_be_nothing(residual, answer):
-    assert residual_text(residual) == answer
+def test_no_measurement_is_said_to_be_nothing(residual, said):
+    assert residual_text(residual) == said
 
 
 def test_without_a_robot_there_is_neither_dial_nor_force(panel):

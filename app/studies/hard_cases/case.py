@@ -36,6 +36,7 @@ _OWN: Final = (
     "force laws",
     "governor",
     "guard",
+    "cables and encoders",
     "effects",
     "integrators",
     "velocity",

@@ -13,11 +13,6 @@ from app.mechanisms.tensegrity.efforts import watch_stage
 from app.mechanisms.tensegrity.profile import TensegrityProfile
 from app.studies.hard_cases.case import HardCase, analytic, answers
 
-DECLARATION: Final[dict[str, Any]] = {
-    "title": "Cables and encoders of the needle holder",
-    "subsystems": {"cables and encoders": "guard"},
-}
-
 PROFILE: Final = cast(TensegrityProfile, load_profile("tensegrity"))
 _STARTED: Final = 150  # ticks after which all cables have been taut for long enough
 _LATEST: Final = 20
