@@ -223,7 +223,8 @@ def test_a_score_is_the_written_one_and_another_by_other_rules():
 
 def test_records_are_listed_and_verified_and_what_is_none_is_refused(tmp_path):
     assert acus.records(FOLDER) == tuple(sorted(FOLDER.glob("*.mcap")))
-    assert acus.verify(RECORD).confirmed
+    kept = FOLDER.parent / "records" / "20261120-080001-a001.mcap"
+    assert acus.verify(kept).confirmed
     with pytest.raises(acus.AcusError, match="not a folder"):
         acus.records(tmp_path / "none")
     with pytest.raises(acus.AcusError, match="cannot read"):

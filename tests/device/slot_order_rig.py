@@ -95,7 +95,7 @@ def _ticks(sv):
     from app.simulation.scene import EffectRequest, Scene
     from app.simulation.trainee import trainee_stage
 
-    laws._check_step = lambda module, law: None  # nothing is compiled here
+    laws.check_step = lambda module, law: None  # nothing is compiled here
     profile, axis = load_profile("icube"), (0.25, -0.15, -0.9)
     effects = tuple(EffectRequest(n) for n in ("lateral_tissue", "shaft_friction", "breathing"))
     port = DevicePort(profile.name, frozenset(a.value for a in profile.renders), simulated=True)
