@@ -198,7 +198,7 @@ def test_everything_else_goes_on_beside_a_broken_wheel(broken):
     assert len(facts["refused"]) > 5
     assert "velocity" in broken.acus("study", "list")
     assert "kinematics" in broken.run(
-        "-c", "from app.studies.hard_cases.register import cases; print(cases()[0].subsystem)"
+        "-c", "from app.studies.hard import cases; print(cases()[0].subsystem)"
     )
     ask = "from app.views.shell.features import FEATURES; print(*(f.__name__ for f in FEATURES))"
     assert "PeopleFeature" in broken.run("-c", ask)
