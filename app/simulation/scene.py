@@ -1,7 +1,8 @@
 """The scene: what stands in the simulated world, as frozen values; all that the compiler reads."""
 
+import dataclasses
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Final
 
@@ -28,7 +29,7 @@ class EffectRequest:
     """
 
     name: str
-    parameters: Mapping[str, float] = field(default_factory=dict)
+    parameters: Mapping[str, float] = dataclasses.field(default_factory=dict)
     model: str = ""
     organ: str = ""
 
@@ -228,14 +229,19 @@ class Scene:
         R_world_patient: columns are the patient's L, P and S directions in world, shape (3, 3).
         target_organ: organ in which the target lies; empty if not known.
         joint: name of the ball joint that is mounted on the device; empty if not known.
+        tissues: values of the field's tissues by code, their thickness unused; row 0 is what nobody
+            labelled. Empty without a field.
+        field: the bound field, which only what binds it looks into; None: tissue is in layers.
     """
 
     effects: tuple[EffectRequest, ...] = ()
     layers: tuple[TissueLayer, ...] = DEFAULT_LAYERS
-    needle: Needle = field(default_factory=Needle)
-    R_world_patient: FloatArray = field(default_factory=lambda: np.eye(3))
+    needle: Needle = dataclasses.field(default_factory=Needle)
+    R_world_patient: FloatArray = dataclasses.field(default_factory=lambda: np.eye(3))
     target_organ: str = ""
     joint: str = ""
+    tissues: tuple[TissueLayer, ...] = ()
+    field: object | None = None
 
     def __post_init__(self) -> None:
         rotation = frozen(self.R_world_patient, (3, 3), "R_world_patient")
@@ -243,6 +249,11 @@ class Scene:
             raise SimulationError(f"R_world_patient {rotation.tolist()} is not a rotation")
         object.__setattr__(self, "R_world_patient", rotation)
         check_order(self.layers)
+        if self.has_field and not self.tissues:
+            raise SimulationError(
+                "the scene has a field of tissue and no values for it; give one row of `tissues` per"
+                " code of the field, the first for what nobody labelled"
+            )
         names = [request.name for request in self.effects]
         twice = sorted({name for name in names if names.count(name) > 1})
         if twice:
@@ -268,14 +279,24 @@ class Scene:
         )
 
     @property
+    def has_field(self) -> bool:
+        """Return whether tissue is looked up where the needle is, instead of by depth."""
+        return self.field is not None
+
+    @property
+    def met(self) -> tuple[TissueLayer, ...]:
+        """Return what the needle can meet: the field's tissues by code, or the layers in their order."""
+        return self.tissues if self.has_field else self.layers
+
+    @property
     def membranes(self) -> tuple[TissueLayer, ...]:
-        """Layers that begin with a membrane."""
-        return tuple(layer for layer in self.layers if layer.puncture_force > 0.0)
+        """Return the tissues that begin with a membrane."""
+        return tuple(tissue for tissue in self.met if tissue.puncture_force > 0.0)
 
     @property
     def bones(self) -> tuple[TissueLayer, ...]:
-        """Layers that the needle cannot enter; one at most, the last."""
-        return tuple(layer for layer in self.layers if layer.rigid)
+        """Return the tissues that the needle cannot enter; of layers one at most, the last."""
+        return tuple(tissue for tissue in self.met if tissue.rigid)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
