@@ -45,7 +45,7 @@ from app.simulation.scene import SETTLING, Binding
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Breathing moves the target",
     "reads": ("time", "dt", "hold_breath"),
-    "writes": ("target_shift",),
+    "writes": ("target_shift", "breath"),
     "consumers": ("view target_motion", "score of tip to target"),
     "needs": (),
     "models": {
@@ -277,9 +277,8 @@ def _varying(state: FloatArray, p: FloatArray, since: float) -> None:
         )
 
 
-@stage
-def step(state: FloatArray, parameters: FloatArray) -> None:
-    """Add the displacement of the target to TARGET_SHIFT_*."""
+@njit
+def _displace(state: FloatArray, parameters: FloatArray) -> None:
     if len(parameters) == _DRAWS + _PLACES:
         _on_command(state, parameters)
         return
@@ -300,3 +299,12 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
             in_phase * parameters[_AT.in_phase_x + axis]
             + lagging * parameters[_AT.lagging_x + axis]
         )
+
+
+@stage
+def step(state: FloatArray, parameters: FloatArray) -> None:
+    """Add the displacement of the target to TARGET_SHIFT_*, and say it in BREATH_*."""
+    before = (state[sv.TARGET_SHIFT_X], state[sv.TARGET_SHIFT_Y], state[sv.TARGET_SHIFT_Z])
+    _displace(state, parameters)
+    for axis in range(3):
+        state[sv.BREATH_X + axis] = state[sv.TARGET_SHIFT_X + axis] - before[axis]
