@@ -251,8 +251,8 @@ class Scene:
         check_order(self.layers)
         if self.has_field and not self.tissues:
             raise SimulationError(
-                "the scene has a field of tissue and no values for it; give one row of `tissues` per"
-                " code of the field, the first for what nobody labelled"
+                "the scene has a field of tissue and no values for it; give a row of `tissues` for"
+                " each of its codes, the first for what nobody labelled"
             )
         names = [request.name for request in self.effects]
         twice = sorted({name for name in names if names.count(name) > 1})
@@ -285,7 +285,7 @@ class Scene:
 
     @property
     def met(self) -> tuple[TissueLayer, ...]:
-        """Return what the needle can meet: the field's tissues by code, or the layers in their order."""
+        """Return what the needle can meet: the field's tissues by code, or layers in order."""
         return self.tissues if self.has_field else self.layers
 
     @property
