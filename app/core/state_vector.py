@@ -301,6 +301,9 @@ BREATH_X: Final = _scene()  # [m] displacement by breathing of what goes along w
 BREATH_Y: Final = _scene()
 BREATH_Z: Final = _scene()
 BONE_CROSSED: Final = _scene()  # [m] way along the needle beyond the bone's surface; 0 outside
+BONE_PUSH_X: Final = _scene()  # [N] of bone on the tip across the needle, along its surface
+BONE_PUSH_Y: Final = _scene()
+BONE_PUSH_Z: Final = _scene()
 
 SLOTS: Final = next(_next)
 """Length of the state vector."""
@@ -339,6 +342,7 @@ ROOT_CURVATURE: Final = _vector(ROOT_CURVATURE_X, ROOT_CURVATURE_Y, ROOT_CURVATU
 WALL_NORMAL: Final = _vector(WALL_X, WALL_Y, WALL_Z)
 CARRIED: Final = _vector(CARRIED_X, CARRIED_Y, CARRIED_Z)
 BREATH: Final = _vector(BREATH_X, BREATH_Y, BREATH_Z)
+BONE_PUSH: Final = _vector(BONE_PUSH_X, BONE_PUSH_Y, BONE_PUSH_Z)
 TARGET_SHIFT: Final = _vector(TARGET_SHIFT_X, TARGET_SHIFT_Y, TARGET_SHIFT_Z)
 PLANT_Q: Final = _vector(PLANT_Q_LEFT, PLANT_Q_RIGHT)
 PLANT_QD: Final = _vector(PLANT_QD_LEFT, PLANT_QD_RIGHT)

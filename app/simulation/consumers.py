@@ -28,6 +28,7 @@ IN_WORDS: Final[dict[str, str]] = {
     "punctures": "what the tip has punctured",
     "bone_contact": "whether the tip stands on bone",
     "bone_crossed": "how far the tip is beyond a bone's surface",
+    "bone_push": "how bone pushes the tip aside",
     "tissue": "the tissue at the tip",
     "tissue_ahead": "the tissue beyond the wall in front of the tip",
     "wall": "the wall in front of the tip",
