@@ -5,17 +5,19 @@ A recorded attempt's trainer is built again from what its record has attached, t
 
 from __future__ import annotations
 
+import dataclasses
 import hashlib
 import json
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from app.compose import effect_models
 from app.compose.cameras import AttachedCameras, real_cameras, simulated_on
 from app.compose.declared_views import declared_views
+from app.compose.exercise_field import recorded_field, with_field
 from app.compose.needle import UPRIGHT, felt_force, measured_axis, needle_scene
 from app.compose.pen import Pen, pen_table
 from app.compose.robot import Robot, connect
@@ -32,7 +34,7 @@ from app.device.links.link import Link
 from app.device.links.simulated import simulated_link
 from app.exchange.markups import plan_document
 from app.exercises.errors import ExerciseError
-from app.exercises.parts import LayersFrom
+from app.exercises.parts import LayersFrom, TissueSource
 from app.exercises.scene import compile_exercise, device_of, law_requests
 from app.exercises.schema import Exercise
 from app.exercises.touching import check_touch
@@ -61,6 +63,10 @@ from app.tracking.needle_tracker import NeedleTracker, StereoAbilities
 from app.tracking.optics.rig import load_rig
 from app.tracking.pen.settings import PenSettings
 from app.tracking.tracker import Tracker
+
+if TYPE_CHECKING:
+    from app.imaging.field import TissueField
+    from app.simulation.bound_field import BoundField
 
 
 def run_context(
@@ -182,6 +188,8 @@ class TrainerSetup:
         skill: `novice` or `expert` lets a scripted trainee insert the needle; None leaves it to
             the mouse.
         script: what the scripted trainee does, in place of what his skill would; None for that.
+        field: the patient's tissue, of an exercise that has it looked up there
+            (`compose.exercise_field`).
         seed: of everything random in the run.
         sessions: folder of the records.
         clock: monotonic clock; a virtual one for runs faster than real time.
@@ -198,14 +206,32 @@ class TrainerSetup:
     ct: CtFacts = UNKNOWN_CT
     skill: str | None = None
     seed: int = 0
-    sessions: Path = field(default_factory=paths.sessions)
-    clock: Clock = field(default_factory=SystemClock)
+    sessions: Path = dataclasses.field(default_factory=paths.sessions)
+    clock: Clock = dataclasses.field(default_factory=SystemClock)
     held_arming: bool = False
     port: str | None = None
     cameras: CameraSettings | None = None
     pen: PenSettings | None = None
     risks: tuple[Risk, ...] = ()
     script: TraineeScript | None = None
+    field: TissueField | None = None
+
+    def bound_field(self) -> BoundField | None:
+        """Return the field in the robot's frame; None of an exercise whose tissue lies in layers.
+
+        Raises:
+            ExerciseError: if the exercise looks into a field, and there is none.
+        """
+        if self.exercise.tissue is TissueSource.LAYERS:
+            return None
+        if self.field is None:
+            raise ExerciseError(
+                f"exercise {self.exercise.id} has tissue: {self.exercise.tissue.value}, and its"
+                " field has not been made: make it first, or set tissue: layers"
+            )
+        from app.simulation.bound_field import BoundField
+
+        return BoundField(self.field, self.placed.T_world_patient, self.placed.p_target)
 
 
 def build_trainer(setup: TrainerSetup) -> Trainer:
@@ -444,7 +470,10 @@ def loop_table(
         before = [trainee, *before]
     requests = law_requests(exercise)
     # Of pictures nothing is computed in a tick: a replay needs no rig.
-    plan = compile_exercise(exercise, profile, declared_views(), simulated, pictures=False)
+    tissue = setup.bound_field()
+    plan = compile_exercise(
+        exercise, profile, declared_views(), simulated, pictures=False, bound=tissue
+    )
     bound = laws.energy_bound(requests, profile) + plan.energy_bound()
     forces = laws.stages_of(requests, profile)
     return machine_stages(
@@ -472,7 +501,10 @@ def _context(
     documents = {"device": profile, "cameras": cameras.rig}
     calibration, rig = cameras.metadata.get("calibration", ""), cameras.rig.name
     agreement = agreement_of(calibration, rig, robot is None, setup.ct)
-    return run_context(setup.exercise, setup.sessions, setup.seed, metadata, documents, agreement)
+    context = run_context(
+        setup.exercise, setup.sessions, setup.seed, metadata, documents, agreement
+    )
+    return context if setup.field is None else with_field(context, setup.field)
 
 
 def replay_recording(recording: Recording) -> ReplayReport:
@@ -507,6 +539,7 @@ def replay_table(recording: Recording, choices: Sequence[ModelChoice] = ()) -> T
         recording.placed_plan(),
         skill=recording.metadata.get("trainee", {}).get("scripted") or None,
         seed=_seed(recording),
+        field=recorded_field(recording),
     )
     pen = recording.metadata.get("device", {}).get("pen")
     if pen:

@@ -254,6 +254,17 @@ class LayersFrom(StrEnum):
     """From the CT along the path, when the attempt begins."""
 
 
+class TissueSource(StrEnum):
+    """How the simulation knows the tissue that the needle meets."""
+
+    AUTO = "auto"
+    """Layers where every needle within reach would meet the same, else the field."""
+    LAYERS = "layers"
+    """In layers along the planned path, wherever the needle goes."""
+    FIELD = "field"
+    """Where the needle is, in the patient in three dimensions."""
+
+
 class LayerPart(Strict):
     """A slab of tissue along the path, counted from the skin.
 

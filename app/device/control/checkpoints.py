@@ -17,7 +17,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, IntArray
 from app.core.parameters import Stage
-from app.device.checkpoint import Checkpoint
+from app.device.checkpoint import ADDRESSED, Checkpoint
 from app.device.control import kernel
 from app.device.control.earlier import as_now
 from app.device.control.kernel import (
@@ -124,6 +124,7 @@ class Rerun:
     """
 
     def __init__(self, table: Table, checkpoint: Checkpoint, slots: Sequence[str]) -> None:
+        self._given = [table]  # keeps what arrays say the address of
         self._slots = np.array([_slot(name) for name in slots], dtype=np.int64)
         self._state = np.array(checkpoint.state, dtype=np.float64)
         if self._state.shape != (sv.SLOTS,):
@@ -139,6 +140,7 @@ class Rerun:
     def exchange(self, table: Table, carry: Callable[[], None]) -> None:
         """Go on with another table, as `Loop.exchange` does."""
         carry()
+        self._given.append(table)
         self.table = table
         self._pack()
 
@@ -194,5 +196,6 @@ def _memories(table: Table, checkpoint: Checkpoint) -> list[tuple[Stage, FloatAr
                 f"stage {stage.name!r} has {len(values)} numbers in the record and "
                 f"{len(stage.parameters)} in this program: another version recorded it"
             )
+        values[: ADDRESSED.get(stage.name, 0)] = stage.parameters[: ADDRESSED.get(stage.name, 0)]
         pairs.append((stage, shared.setdefault(id(stage.parameters), values)))
     return pairs
