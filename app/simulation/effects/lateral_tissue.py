@@ -570,7 +570,8 @@ def carry(old: FloatArray, new: FloatArray) -> None:
         f0, f1, f2 = _tissue(old, j, 0.0, end)
         if _in_field(new):
             new[_kept(new, 0, j)] = f0 / end if end > 0.0 else 0.0
-            new[_drag(new, j) + _DRAG.share] = old[_drag(old, j) + _DRAG.share] if moves(old) else 0.0
+            share = old[_drag(old, j) + _DRAG.share] if moves(old) else 0.0
+            new[_drag(new, j) + _DRAG.share] = share
         det = f0 * f2 - f1 * f1
         for axis in range(3):
             q0 = old[AT.q0 + axis] if j == tip else old[e + _EDGE.q0 + axis]
@@ -623,10 +624,7 @@ __all__ = [
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Side stiffness of layered tissue about the fulcrum",
-    "reads": (
-        *("axis", "depth", "depth_source", "l_out", "kinematics", "target_shift"),
-        *("plant_depth", "tissue", "carried_share", "breath"),
-    ),
+    "reads": ("axis", "depth", "depth_source", "l_out", "kinematics", "target_shift"),
     "writes": (
         "force",
         "potential",
@@ -643,6 +641,7 @@ DECLARATION: Final[dict[str, Any]] = {
         "winkler": "rigid needle, closed form per layer; far too stiff beyond some 40 mm",
         "field": "as beam, each millimetre in the tissue of the patient's field that it was cut in",
     },
+    "model_reads": {"field": ("plant_depth", "tissue", "carried_share", "breath")},
     "energy": (
         "potential",
         "stored energy is never negative; advancing adds none, retreating loses it, and what"
