@@ -130,15 +130,18 @@ def go(
         axis: of the needle, where its tip does not say it.
         dt: of a tick.
         state: to go on with.
-        before: called before each tick, with its number and the state.
+        before: called with a tick's number and the state once the effects' slots are cleared.
     """
     state = sv.empty_state() if state is None else state
     points, centre = np.asarray(tips, np.float64), np.asarray(fulcrum, np.float64)
     rows = np.empty((len(points), sv.SLOTS))
     for k, tip in enumerate(points):
         way = tip - centre
-        depth = float(np.linalg.norm(way))
-        direction = np.asarray(axis, np.float64) if axis is not None else way / max(depth, 1e-12)
+        direction = np.array([0.0, 0.0, -1.0])
+        if axis is not None:
+            direction = np.asarray(axis, np.float64)
+        elif np.linalg.norm(way) > 1e-9:
+            direction = way / np.linalg.norm(way) * (-1.0 if way[2] > 0.0 else 1.0)
         depth = float(way @ direction)
         state[sv.SUMS,] = 0.0
         state[sv.AXIS], state[sv.TIP] = direction, tip
@@ -146,9 +149,10 @@ def go(
         state[sv.DEPTH_SOURCE], state[sv.L_OUT] = 1.0, 0.2 - depth
         state[sv.DT], state[sv.TIME] = dt, state[sv.TIME] + dt
         state[sv.TARGET_Z] = -0.05
-        before(k, state)
-        for _, function, parameters in stages:
+        for name, function, parameters in stages:
             function(state, parameters)
+            if name == "clear_effects":
+                before(k, state)
         rows[k] = state
     return rows
 
