@@ -158,8 +158,9 @@ def compile(
             effects that need each other's results in a circle.
     """
     consumers = (*device.consumers(), *views, *scoring)
-    declared = {request.name: declaration(request.name) for request in scene.effects}
-    checked = {r.name: _checked(r, declared[r.name]) for r in scene.effects}
+    read = {request.name: declaration(request.name) for request in scene.effects}
+    checked = {r.name: _checked(r, read[r.name]) for r in scene.effects}
+    declared = {name: one.by(checked[name][0]) for name, one in read.items()}
     dropped = {
         request.name: why
         for request in scene.effects
