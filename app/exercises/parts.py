@@ -281,6 +281,7 @@ class LayerPart(Strict):
         toughness: fracture toughness [J/m²]; cutting costs it times the outer diameter.
         indentation_stiffness: of the membrane pushed in by the tip, linear part [N/m].
         indentation_hardening: quadratic part of it [N/m²].
+        pressing: of an 18 G tip on what it goes into, beside cutting [N].
         relaxation_share: of a quick indentation's resistance that relaxes.
         relaxation_time: time constant of that [s].
         rigid: bone; the last layer, where the needle stops.
@@ -300,6 +301,7 @@ class LayerPart(Strict):
     relaxation_share: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.0
     relaxation_time: Annotated[float, Field(gt=0.0)] = 0.5
     rigid: bool = False
+    pressing: NotNegative = 0.0
 
     @property
     def thickness(self) -> float:

@@ -55,6 +55,8 @@ class TissueLayer:
         toughness: fracture toughness J [J/m²]; cutting costs J times the outer diameter.
         indentation_stiffness: linear part [N/m].
         indentation_hardening: quadratic part [N/m²].
+        pressing: of an 18 G tip on what it goes into, beside cutting [N]; grows with the outer
+            diameter.
         relaxation_share: of the resistance to a quick indentation that relaxes, 0 to below 1.
         relaxation_time: time constant of that [s], above 0.
         rigid: bone: the needle goes no further.
@@ -77,6 +79,7 @@ class TissueLayer:
     relaxation_share: float = 0.0
     relaxation_time: float = 0.5
     rigid: bool = False
+    pressing: float = 0.0
     moves: float | None = None
 
     def __post_init__(self) -> None:
