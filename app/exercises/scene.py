@@ -24,6 +24,7 @@ from app.simulation.plan import TISSUE_FIELD, SimulationPlan
 from app.simulation.plan import compile as compile_scene
 from app.simulation.scene import DEFAULT_LAYERS, EffectRequest, Needle, Scene
 from app.simulation.tissue_values import tissue_values
+from app.simulation.tissues import MODELS, PUBLISHED
 
 if TYPE_CHECKING:
     from app.imaging.phantom.anatomy import Anatomy
@@ -92,10 +93,7 @@ def placed_plan_of(
 IN_FIELD: Final[Mapping[str, str]] = {
     "lateral_tissue": "field",
     "bone_contact": "field",
-    "puncture": "rate",
-    "cutting": "track",
-    "shaft_friction": "inserted",
-    "relaxation": "standing",
+    **MODELS[PUBLISHED],
 }
 """Effect -> model that it has in a field of tissue where the exercise names none."""
 

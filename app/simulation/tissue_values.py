@@ -4,7 +4,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
-from app.simulation.scene import BONE, FAT, LIVER, LUNG, MUSCLE, SKIN, TissueLayer
+from app.simulation.scene import TissueLayer
+from app.simulation.tissues import BONE, FAT, KIDNEY, LIVER, LUNG, MUSCLE, SKIN
 
 if TYPE_CHECKING:
     from app.imaging.field import FieldTissue
@@ -33,15 +34,21 @@ _BY_KIND: Final = {
     "muscle": MUSCLE,
     "organ": LIVER,
     "vessel": replace(LIVER, puncture_force=0.8, toughness=240.0),
-    "gut": replace(LIVER, puncture_force=0.5, side_stiffness=10e3),
+    "gut": replace(LIVER, puncture_force=0.5),
     "heart": replace(MUSCLE, puncture_force=1.0),
     "bone": BONE,
 }
-"""An organ is taken for liver; walls of vessel, gut and heart are estimates."""
+"""An organ is taken for liver; walls of vessel, gut and heart are estimates, none found."""
+
+_BY_NAME: Final = {"kidney": KIDNEY}
 
 
 def tissue_values(tissues: "Iterable[FieldTissue]") -> tuple[TissueLayer, ...]:
-    """Return the values of a field's tissues by code; their thickness means nothing and is 0."""
-    return tuple(
-        replace(_BY_KIND[str(one.kind)], name=one.words, thickness=0.0) for one in tissues
-    )
+    """Return the published values of a field's tissues by code; their thickness means nothing."""
+    return tuple(replace(_values(one), name=one.words, thickness=0.0) for one in tissues)
+
+
+def _values(one: "FieldTissue") -> TissueLayer:
+    words = one.name.casefold()
+    named = [values for name, values in _BY_NAME.items() if name in words]
+    return named[0] if named and str(one.kind) == "organ" else _BY_KIND[str(one.kind)]

@@ -283,9 +283,10 @@ def tissue_at(
             share, held = 0.5 * share, True
             continue
         now = share_at(p, seen[0], x - share * bx, y - share * by, z - share * bz)
-        if held or abs(now - share) * size < _NEAR:
+        is_near = held or abs(now - share) * size < _NEAR
+        share = share if held else now
+        if is_near:
             break
-        share = now
     if not lies:
         return rest[0], rest[1], rest[2], rest[3], rest[4], rest[5], 0.0
     ends = p[_row(p, seen[1]) + ROW.share] == 0.0  # at rest; the wall itself has stayed
