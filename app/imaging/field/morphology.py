@@ -49,7 +49,7 @@ def spread(values: NDArray[Any], factor: int, shape: tuple[int, ...]) -> NDArray
 
 
 def pieces(mask: Mask) -> tuple[NDArray[np.int32], int]:
-    """Return the number of its connected piece for each voxel, 0 outside, and how many there are."""
+    """Return the number of each voxel's connected piece, 0 outside, and how many there are."""
     labels, count = ndimage.label(mask, np.ones((3, 3, 3), bool))
     return labels, int(count)
 

@@ -215,7 +215,7 @@ class TissueField:
     def _looked_up(self, points: FloatArray) -> tuple[NDArray[Any], ...]:
         ijk = points @ self.inverse_mm[:3, :3].T + self.inverse_mm[:3, 3]
         last = np.array(self.labels.shape[::-1]) - 1.0
-        inside: NDArray[np.bool_] = ((ijk >= 0.0) & (ijk <= last)).all(axis=1)  # NaN is outside
+        inside = np.asarray(((ijk >= 0.0) & (ijk <= last)).all(axis=1))  # NaN is outside
         at = np.where(inside[:, None], ijk, 0.0)
         base = np.minimum(np.floor(at), last - 1.0).astype(np.intp)
         labels, distance, weights, slopes = self._corners(base, at - base)
