@@ -1,4 +1,7 @@
-"""The tissue field: labels of all that a needle can reach, and where in a voxel each tissue ends."""
+"""The tissue field: labels of all that a needle can reach, and where in a voxel they end.
+
+`making.field_of` makes it, of any CT; what stands here needs nothing compiled.
+"""
 
 from app.imaging.field.errors import FieldError
 from app.imaging.field.storing import from_bytes, read, to_bytes, write

@@ -26,73 +26,142 @@ Crossing = Callable[[Indices, Indices], NDArray[Any]]
 _LEAST = 0.01  # a boundary is no nearer to a centre than this share of an edge
 _ROUNDS = 4
 _AROUND = np.array([offset for offset in product((-1, 0, 1), repeat=3) if any(offset)], np.intp)
+_BESIDE = _AROUND[np.abs(_AROUND).sum(axis=1) == 1]
 
 
 def distances(
-    labels: NDArray[Any], spacing_mm: Any, crossing: Crossing, rings: int | None = None
+    labels: NDArray[Any], spacing_mm: Any, crossing: Crossing, rounds: int = _ROUNDS
 ) -> NDArray[np.int8]:
     """Return the distance of every voxel's centre in 1/40 mm, at most 127, int8.
 
     Args:
-        labels: shape (nz, ny, nx).
+        labels: uint8, shape (nz, ny, nx).
         spacing_mm: between voxels along i, j and k, at right angles.
         crossing: see there.
-        rings: how many voxels from the boundaries to go; as far as a distance reaches where None.
+        rounds: how often the planes are turned to what lies around.
     """
     spacing = np.asarray(spacing_mm, np.float64)
-    shape = labels.shape
     voxels, inverse, row = _cut(labels, spacing, crossing)
-    result = np.full(labels.size, FARTHEST, np.int8)
+    flat, shape = np.ascontiguousarray(labels).ravel(), np.array(labels.shape)
     if not len(voxels):
-        return result.reshape(shape)
-    flat = np.ascontiguousarray(labels).ravel()
-    depth, way = _planes(flat, np.array(shape), spacing, voxels, row, inverse, _ROUNDS)
-    wanted = int(np.ceil(FARTHEST_MM / spacing.min())) if rings is None else rings
-    del row, inverse
+        return np.full(labels.shape, FARTHEST, np.int8)
+    depth = _planes(flat, shape, spacing, voxels, row, inverse, rounds)
+    stored = np.minimum(np.rint(depth * STEPS_PER_MM), FARTHEST).astype(np.int8)
+    return _completed(labels.shape, flat, shape, spacing, voxels, row, stored)
+
+
+def ring_of(labels: NDArray[Any]) -> Indices:
+    """Return the voxels with a neighbour along an axis that has another label, flat, ascending."""
+    touched = np.zeros(labels.shape, bool)
+    for axis in range(3):
+        here, cut = np.moveaxis(labels, axis, 0), np.moveaxis(touched, axis, 0)
+        differ = here[:-1] != here[1:]
+        cut[:-1] |= differ
+        cut[1:] |= differ
+    return np.flatnonzero(touched)
+
+
+def completed(labels: NDArray[Any], spacing_mm: Any, stored: NDArray[np.int8]) -> NDArray[np.int8]:
+    """Return the distances of all voxels from those of `ring_of`, as `distances` does.
+
+    Args:
+        labels: uint8, shape (nz, ny, nx).
+        spacing_mm: between voxels along i, j and k.
+        stored: distances of the voxels of `ring_of` in 1/40 mm, in its order.
+    """
+    voxels = ring_of(labels)
+    if not len(voxels):
+        return np.full(labels.shape, FARTHEST, np.int8)
+    row = np.full(labels.size, -1, np.int32)
+    row[voxels] = np.arange(len(voxels), dtype=np.int32)
+    flat, shape = np.ascontiguousarray(labels).ravel(), np.array(labels.shape)
+    spacing = np.asarray(spacing_mm, np.float64)
+    return _completed(labels.shape, flat, shape, spacing, voxels, row, stored)
+
+
+def _completed(
+    sizes: tuple[int, ...],
+    flat: NDArray[Any],
+    shape: NDArray[Any],
+    spacing: NDArray[Any],
+    voxels: Indices,
+    row: NDArray[np.int32],
+    stored: NDArray[np.int8],
+) -> NDArray[np.int8]:
+    """Fill in the voxels behind the ring, from its stored distances alone."""
+    result = np.full(flat.size, FARTHEST, np.int8)
+    depth = (stored / np.float32(STEPS_PER_MM)).astype(np.float32)
+    way = _normals(flat, shape, spacing, voxels, row, depth)
+    rings = int(np.ceil(FARTHEST_MM / float(spacing.min())))
     _spread(
-        flat, np.array(shape), spacing, voxels, depth, way, _AROUND, wanted, FARTHEST_MM,
+        flat, shape, spacing, voxels, stored, depth, way, _AROUND, _BESIDE, rings, FARTHEST_MM,
         STEPS_PER_MM, result,
     )  # fmt: skip
-    return result.reshape(shape)
+    return result.reshape(sizes)
 
 
 def _cut(
     labels: NDArray[Any], spacing: NDArray[Any], crossing: Crossing
 ) -> tuple[Indices, NDArray[np.float32], NDArray[np.int32]]:
     """Find the voxels that a boundary cuts an edge of: where, and signed 1 / h along i, j, k."""
-    touched = np.zeros(labels.size, bool)
-    edges = []
-    for axis in range(3):
-        stride = int(np.prod(labels.shape[axis + 1 :], dtype=np.intp))
-        differ = np.zeros(labels.shape, bool)
-        low = tuple(slice(None, -1) if a == axis else slice(None) for a in range(3))
-        high = tuple(slice(1, None) if a == axis else slice(None) for a in range(3))
-        np.not_equal(labels[low], labels[high], out=differ[low])
-        first = np.flatnonzero(differ)
-        second = first + stride
-        share = np.clip(crossing(first, second), _LEAST, 1.0 - _LEAST).astype(np.float32)
-        edges.append((2 - axis, first, second, share))
-        touched[first] = True
-        touched[second] = True
-    voxels = np.flatnonzero(touched)
+    voxels = ring_of(labels)
     row = np.full(labels.size, -1, np.int32)
     row[voxels] = np.arange(len(voxels), dtype=np.int32)
     inverse = np.zeros((len(voxels), 3), np.float32)
-    for axis, first, second, share in edges:
-        step = float(spacing[axis])
-        inverse[row[first], axis] = 1.0 / (share * step)
+    flat = labels.ravel()
+    for axis in range(3):
+        stride = int(np.prod(labels.shape[axis + 1 :], dtype=np.intp))
+        place = (voxels // stride) % labels.shape[axis]
+        mine = np.flatnonzero(place < labels.shape[axis] - 1)
+        mine = mine[flat[voxels[mine]] != flat[voxels[mine] + stride]]
+        first = voxels[mine]
+        second = first + stride
+        share = np.clip(crossing(first, second), _LEAST, 1.0 - _LEAST).astype(np.float32)
+        step = np.float32(spacing[axis if axis == 1 else 2 - axis])
+        inverse[mine, 2 - axis] = 1.0 / (share * step)
         behind = row[second]
         back = 1.0 / ((1.0 - share) * step)
-        nearer = back > inverse[behind, axis]
-        inverse[behind[nearer], axis] = -back[nearer]
+        nearer = back > inverse[behind, 2 - axis]
+        inverse[behind[nearer], 2 - axis] = -back[nearer]
     return voxels, inverse, row
+
+
+@njit
+def _slope(
+    labels: Any,
+    strides: Any,
+    sizes: Any,
+    spacing: Any,
+    row: Any,
+    depth: Any,
+    way: Any,
+    n: int,
+    at: int,
+    slope: Any,
+) -> float:
+    """Gradient of the distances around a voxel, towards its boundary, in `slope`; its length."""
+    for a in range(3):
+        place = (at // strides[a]) % sizes[a]
+        total, known = 0.0, 0
+        for side in range(2):
+            sign = 2 * side - 1
+            if (place == 0 and side == 0) or (place == sizes[a] - 1 and side == 1):
+                continue
+            to = at + sign * strides[a]
+            other = row[to]
+            if other >= 0:
+                value = depth[other] if labels[to] == labels[at] else -depth[other]
+                total += sign * (depth[n] - value)
+                known += 1
+        slope[a] = total / (known * spacing[a]) if known else way[n, a]
+    return np.sqrt(slope[0] ** 2 + slope[1] ** 2 + slope[2] ** 2)
 
 
 @njit
 def _planes(
     labels: Any, shape: Any, spacing: Any, voxels: Any, row: Any, inverse: Any, rounds: int
-) -> tuple[Any, Any]:
-    """Distance [mm] and unit normal towards the boundary of each cut voxel, (n,) and (n, 3)."""
+) -> Any:
+    """Distance [mm] of each cut voxel from the plane of its boundary, shape (n,)."""
     count = len(voxels)
     depth = np.empty(count, np.float32)
     way = np.empty((count, 3), np.float32)
@@ -107,45 +176,46 @@ def _planes(
     slope = np.zeros(3)
     for _ in range(rounds):
         for n in range(count):
-            at = voxels[n]
-            label = labels[at]
+            length = _slope(labels, strides, sizes, spacing, row, depth, way, n, voxels[n], slope)
+            new_depth[n] = depth[n]
             for a in range(3):
-                place = (at // strides[a]) % sizes[a]
-                values = np.empty(2)
-                for side in range(2):
-                    sign = 2 * side - 1
-                    if (place == 0 and side == 0) or (place == sizes[a] - 1 and side == 1):
-                        values[side] = depth[n] - way[n, a] * sign * spacing[a]
-                        continue
-                    to = at + sign * strides[a]
-                    other = row[to]
-                    if other < 0:
-                        values[side] = depth[n] - way[n, a] * sign * spacing[a]
-                    elif labels[to] == label:
-                        values[side] = depth[other]
-                    else:
-                        values[side] = -depth[other]
-                slope[a] = (values[0] - values[1]) / (2.0 * spacing[a])
-            length = np.sqrt(slope[0] ** 2 + slope[1] ** 2 + slope[2] ** 2)
+                new_way[n, a] = way[n, a]
             if length < 1e-6:
                 continue
             total, weights = 0.0, 0.0
             for a in range(3):
                 part = slope[a] / length
-                new_way[n, a] = part
                 if inverse[n, a] * part > 0.0:
-                    weight = part * part
-                    total += weight * part / inverse[n, a]
-                    weights += weight
+                    total += part * part * part / inverse[n, a]
+                    weights += part * part
             if weights > 0.05:
                 new_depth[n] = total / weights
-            else:
-                new_depth[n] = depth[n]
                 for a in range(3):
-                    new_way[n, a] = way[n, a]
+                    new_way[n, a] = slope[a] / length
         depth, new_depth = new_depth, depth
         way, new_way = new_way, way
-    return depth, way
+    return depth
+
+
+@njit
+def _normals(labels: Any, shape: Any, spacing: Any, voxels: Any, row: Any, depth: Any) -> Any:
+    """Return the unit normal towards the boundary of each cut voxel from the distances around.
+
+    Returns:
+        Along i, j and k, shape (n, 3).
+    """
+    count = len(voxels)
+    way = np.zeros((count, 3), np.float32)
+    strides = np.array([1, shape[2], shape[1] * shape[2]])
+    sizes = np.array([shape[2], shape[1], shape[0]])
+    slope = np.zeros(3)
+    for _ in range(2):  # once to begin with, once with what goes on further in
+        for n in range(count):
+            length = _slope(labels, strides, sizes, spacing, row, depth, way, n, voxels[n], slope)
+            if length > 1e-6:
+                for a in range(3):
+                    way[n, a] = slope[a] / length
+    return way
 
 
 @njit
@@ -154,9 +224,11 @@ def _spread(
     shape: Any,
     spacing: Any,
     voxels: Any,
+    stored: Any,
     depth: Any,
     way: Any,
-    around: Any,
+    every: Any,
+    beside_only: Any,
     rings: int,
     most: float,
     steps: float,
@@ -166,9 +238,11 @@ def _spread(
     beside = np.zeros(labels.size, np.float32)  # 0 where not known, negative where known
     for n in range(len(voxels)):
         beside[voxels[n]] = -1.0
-        result[voxels[n]] = min(np.rint(depth[n] * steps), 127.0)
+        result[voxels[n]] = stored[n]
     ring, ring_depth, ring_way = voxels, depth, way
-    for _ in range(rings):
+    for number_of_ring in range(rings):
+        # cells that a boundary cuts have corners that only touch the ring: all 26 around, at first
+        around = every if number_of_ring == 0 else beside_only
         count = 0
         for n in range(len(ring)):  # how far beside its plane each neighbour lies
             at = ring[n]

@@ -1,4 +1,8 @@
-"""A tissue field as bytes: small for the record, quick for the cache. Patient data, like its CT."""
+"""A tissue field as bytes: small for the record, quick for the cache. Patient data, like its CT.
+
+For the record only the distances of voxels beside a boundary are kept; those behind them follow,
+to the last bit, by what made them (`band.completed`). The digest says whether they did.
+"""
 
 from __future__ import annotations
 
@@ -31,8 +35,12 @@ def to_bytes(field: TissueField, small: bool = True) -> bytes:
         field: what.
         small: as small as a second makes it, for the record; else as it lies in memory.
     """
-    way = _PACKED if small else _PLAIN
-    parts = [_packed(array.tobytes(), way) for array in (field.labels, field.distance)]
+    way, distance = (_PACKED if small else _PLAIN), field.distance
+    if small:
+        from app.imaging.field import band  # compiled code
+
+        distance = distance.ravel()[band.ring_of(field.labels)]
+    parts = [_packed(array.tobytes(), way) for array in (field.labels, distance)]
     header = field.header() | {
         "patient_data": True,
         "digest": field.digest,
@@ -87,16 +95,23 @@ def _unpacked(content: bytes, check: bool) -> TissueField:
     voxels = int(np.prod(shape))
     if len(shape) != 3 or min(shape) < 2 or 2 * voxels > LARGEST_BYTES:
         raise FieldError(f"a tissue field of {shape} voxels is none that can be read")
-    place, arrays = start + length, []
+    place, parts = start + length, []
     for size, checksum in zip(header["bytes"], header["check"], strict=True):
-        part = content[place : place + size]
+        part = memoryview(content)[place : place + size]
         if len(part) != size or zlib.crc32(part) != checksum:
             raise FieldError("the tissue field is damaged: a part of it is not what was written")
-        arrays.append(_plain(part, header["packed"], voxels))
+        parts.append(_plain(part, header["packed"], voxels))
         place += size
-    labels = np.frombuffer(arrays[0], np.uint8).reshape(shape)
-    distance = np.frombuffer(arrays[1], np.int8).reshape(shape)
+    labels = (
+        np.frombuffer(parts[0], np.uint8).reshape(shape).copy()
+    )  # kernels take what can be written
+    distance = np.frombuffer(parts[1], np.int8).copy()
     affine = np.array(header["affine_mm"], np.float64).reshape(4, 4)
+    if header["packed"] == _PACKED:
+        from app.imaging.field import band  # compiled code
+
+        distance = band.completed(labels, np.linalg.norm(affine[:3, :3], axis=0), distance)
+    distance = distance.reshape(shape)
     tissues = tuple(tissue_of(row) for row in header["tissues"])
     field = TissueField(labels, distance, affine, tissues, tuple(map(str, header["notes"])))
     if check and field.digest != header["digest"]:
@@ -108,11 +123,10 @@ def _packed(raw: bytes, way: str) -> bytes:
     return lzma.compress(raw, lzma.FORMAT_XZ, filters=_FILTERS) if way == _PACKED else raw
 
 
-def _plain(part: bytes, way: str, voxels: int) -> bytes:
+def _plain(part: memoryview, way: str, most: int) -> bytes | memoryview:
     if way == _PLAIN:
-        plain = part
-    else:
-        plain = lzma.LZMADecompressor().decompress(part, max_length=voxels + 1)
-    if len(plain) != voxels:
-        raise FieldError(f"the tissue field holds {len(plain)} voxels for {voxels}")
+        return part
+    plain = lzma.LZMADecompressor().decompress(part, max_length=most + 1)
+    if len(plain) > most:
+        raise FieldError(f"the tissue field holds more than its {most} voxels")
     return plain

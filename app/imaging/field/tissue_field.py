@@ -1,7 +1,7 @@
 """The tissue field: which tissue lies where in the patient, and where in a voxel it ends.
 
 Each voxel has the code of its tissue and the distance of its centre from the nearest boundary of
-that tissue, without a sign. Between voxels one rule holds, for scoring, pictures and the loop alike.
+that tissue, without a sign. Between voxels one rule holds, for scoring, pictures and loop alike.
 
 **The rule.** A point has eight corners, the voxels around it, with their trilinear weights w, codes
 and distances d. For every code A among the corners
@@ -138,7 +138,7 @@ class TissueField:
         shapes = {self.labels.shape, self.distance.shape}
         if len(shapes) > 1 or self.labels.ndim != 3 or min(self.labels.shape) < 2:
             raise FieldError(
-                f"labels of {self.labels.shape} and distances of {self.distance.shape} voxels: both "
+                f"labels of {self.labels.shape}, distances of {self.distance.shape} voxels: both "
                 "need one shape (nz, ny, nx) of two voxels at least"
             )
         if self.labels.dtype != np.uint8 or self.distance.dtype != np.int8:
@@ -215,7 +215,7 @@ class TissueField:
     def _looked_up(self, points: FloatArray) -> tuple[NDArray[Any], ...]:
         ijk = points @ self.inverse_mm[:3, :3].T + self.inverse_mm[:3, 3]
         last = np.array(self.labels.shape[::-1]) - 1.0
-        inside = ((ijk >= 0.0) & (ijk <= last)).all(axis=1)  # NaN is outside
+        inside = np.asarray(((ijk >= 0.0) & (ijk <= last)).all(axis=1))  # NaN is outside
         at = np.where(inside[:, None], ijk, 0.0)
         base = np.minimum(np.floor(at), last - 1.0).astype(np.intp)
         labels, distance, weights, slopes = self._corners(base, at - base)
