@@ -181,6 +181,7 @@ class Desktop:
         """Build and start a trainer; called beside the window, may take seconds."""
         with turn(progress):  # kernels and OpenCV: behind the window, not before it
             from app.compose.exercise_ct import load_risks
+            from app.compose.exercise_field import resolve_tissue
             from app.compose.pen import pen_settings
             from app.compose.trainer import TrainerSetup, build_rig
             from app.core.temporary import temporary_folder
@@ -188,7 +189,10 @@ class Desktop:
             from app.session.motion import ShownMotion
         self._kernels.wait(progress)
         risks = load_risks(setup.exercise, setup.volume, progress.part(0.0, 0.1))
-        progress.report(0.1, "compiling the loop")
+        exercise, field, _ = resolve_tissue(
+            setup.exercise, setup.placed, setup.volume, progress=progress.part(0.1, 0.6)
+        )
+        progress.report(0.6, "compiling the loop")
         seed = setup.exercise.seed if self._seed is None else self._seed
         ct = setup.ct
         if setup.volume is not None:  # by it the debrief knows the CT again
@@ -196,7 +200,7 @@ class Desktop:
         shows = setup.demonstrates
         skill = DEMONSTRATOR if shows else self._skill
         kept = temporary_folder("demonstration") if shows else self._sessions
-        exercise = with_tissue(setup.exercise, setup.volume, setup.placed.plan)
+        exercise = with_tissue(exercise, setup.volume, setup.placed.plan)
         shown = ShownMotion.kept(exercise.id, exercise.version) if shows else None
         trainer = TrainerSetup(
             exercise,
@@ -211,6 +215,7 @@ class Desktop:
             pen=pen_settings(setup.robot.pen) if setup.robot.pen else None,
             risks=risks,
             script=None if shown is None else shown.script(setup.placed),
+            field=field,
         )
         rig = build_rig(trainer)
         try:

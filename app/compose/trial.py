@@ -27,6 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.compose.exercise_ct import load_risks, read_ct
+from app.compose.exercise_field import resolve_tissue
 from app.compose.needle import UPRIGHT, measured_axis, needle_scene
 from app.compose.trainee import trainee_of
 from app.compose.trainer import START_DEPTH, TrainerSetup, build_loop, loop_table, pictures_of
@@ -42,6 +43,7 @@ from app.device.control import Loop, Table
 from app.exercises.parts import LayersFrom, OwnPlan
 from app.exercises.scene import device_of, placed_plan_of, plan_of
 from app.exercises.tissue import with_tissue
+from app.imaging.field import TissueField
 from app.planning.plan import Plan
 from app.scoring.touches import Touches
 from app.session import machine
@@ -175,6 +177,7 @@ def attempt(
     seed: int,
     risks: tuple[Risk, ...] = (),
     pictures: bool = False,
+    field: TissueField | None = None,
 ) -> AttemptResult:
     """Let a scripted trainee do one attempt in virtual time; nothing is written.
 
@@ -185,12 +188,13 @@ def attempt(
         seed: of the trainee and of the tracker's noise.
         risks: structures that the needle has to keep away from.
         pictures: whether both cameras' pictures are rendered and tracked: seven times the work.
+        field: the patient's tissue, of an exercise that has it looked up there.
 
     Raises:
         AcusError: if a profile, an effect or the path cannot be used; says which and why.
     """
     profile, clock = device_of(exercise), VirtualClock(BEGIN)
-    setup = TrainerSetup(exercise, placed, skill=skill, seed=seed, clock=clock)
+    setup = TrainerSetup(exercise, placed, skill=skill, seed=seed, clock=clock, field=field)
     loop, rig = build_loop(setup, profile), load_rig(exercise.rig)
     scene = needle_scene(loop, profile, rig.needle.marker_offset)
     fulcrum = profile.fulcrum
@@ -261,21 +265,27 @@ class Trials:
         exercise: with the assistance that it begins with.
         placed: its plan in the robot's frame.
         risks: structures that the needle has to keep away from.
+        field: the patient's tissue, of an exercise that has it looked up there.
 
     Raises:
         AcusError: if a profile, an effect or the path cannot be used; says which and why.
     """
 
     def __init__(
-        self, exercise: Exercise, placed: PlacedPlan, risks: tuple[Risk, ...] = ()
+        self,
+        exercise: Exercise,
+        placed: PlacedPlan,
+        risks: tuple[Risk, ...] = (),
+        field: TissueField | None = None,
     ) -> None:
         self._exercise, self._placed, self._risks = exercise, placed, risks
+        self._field = field
         self._profile = device_of(exercise)
         self._scorer = scorer(exercise)
         self._task = exercise.touch_task(placed)
         # What pulls towards the target follows the touches, which the loop alone does not know.
         self._pulled = self._task is not None and bool(exercise.laws) and exercise.assistance != 0.0
-        setup = TrainerSetup(exercise, placed, clock=VirtualClock(BEGIN))
+        setup = TrainerSetup(exercise, placed, clock=VirtualClock(BEGIN), field=field)
         table = loop_table(setup, self._profile)
         # What stages remember is in their arrays: each attempt takes copies, shared ones once.
         self._stages, self._write = table.compute, table.write
@@ -296,7 +306,9 @@ class Trials:
         touching = None if self._task is None else Touching(self._task)
         went = _Course.of(samples, begin, touching)
         if faults.any() or went.unseen >= LOST or self._pulled:
-            result = attempt(self._exercise, self._placed, skill, seed, self._risks)
+            result = attempt(
+                self._exercise, self._placed, skill, seed, self._risks, field=self._field
+            )
             return Trial(result.score, result.duration)
         samples = replace(samples, state=went.states, target=went.target)
         near = risk_marks_of(samples, self._placed, self._risks)
@@ -534,7 +546,8 @@ def run_trial(
     placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
     if exercise.layers_from is LayersFrom.CT:
         exercise = with_tissue(exercise, read_ct(exercise), placed.plan)
-    trials, outcomes = Trials(exercise, placed, risks), []
+    exercise, field, _ = resolve_tissue(exercise, placed, progress=progress.part(0.0, 0.2))
+    trials, outcomes = Trials(exercise, placed, risks, field), []
     for number, skill in enumerate(skills):
         part = progress.part(number / len(skills), (number + 1) / len(skills))
         results = []

@@ -12,7 +12,7 @@ import numpy as np
 from app.core.arrays import FloatArray, frozen
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
-from app.imaging.field import TissueField, TissueKind
+from app.imaging.field import FieldTissue, TissueField, TissueKind
 from app.simulation.errors import SimulationError
 from app.simulation.scene import TissueLayer
 
@@ -163,6 +163,14 @@ def _linear(name: str, values: FloatArray) -> dict[str, float]:
             (name, f"{name}_x", f"{name}_y", f"{name}_z"), values, strict=True
         )
     }
+
+
+def stand_in() -> BoundField:
+    """Return a field of eight voxels with every kind of tissue, for who only compiles a scene."""
+    codes = np.zeros((2, 2, 2), np.uint8)
+    tissues = tuple(FieldTissue(code, kind) for code, kind in enumerate(TissueKind))
+    tissue = TissueField(codes, codes.astype(np.int8), np.eye(4), tissues)
+    return BoundField(tissue, RigidTransform(np.eye(3), np.zeros(3)), np.zeros(3))
 
 
 def holding(array: FloatArray, bound: BoundField) -> FloatArray:

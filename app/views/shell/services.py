@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from app.core.progress import Progress
-from app.exercises.parts import LayersFrom
+from app.exercises.parts import LayersFrom, TissueSource
 from app.exercises.portrait import Portrait
 from app.exercises.schema import Exercise
 from app.imaging.volume import Volume
@@ -82,8 +82,10 @@ class RunSetup:
         return self._fixed() == other._fixed()
 
     def _fixed(self) -> tuple[object, ...]:
-        # A run has the tissue of its path, if the exercise takes it from the CT.
-        plan = self.placed.plan if self.exercise.layers_from is LayersFrom.CT else None
+        # A run has the tissue of its path or about its entry, if the exercise takes it from the CT.
+        from_ct = self.exercise.layers_from is LayersFrom.CT
+        in_space = self.exercise.tissue is not TissueSource.LAYERS
+        plan = self.placed.plan if from_ct or in_space else None
         path = None if plan is None else (*plan.entry_mm, *plan.target_mm)
         return self.exercise, self.ct, self.robot, self.cameras, self.demonstrates, path
 
