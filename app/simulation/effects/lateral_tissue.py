@@ -67,8 +67,14 @@ no tip; its share of U (tissue that clings to the shaft) comes and goes through 
 Neglected are that tissue moves along the shaft and past the tip, and its motion within a layer.
 A bin of two layers moves with their mean share. Where no layer moves, the array has none of this.
 
-Array: heads, layers (end, k), then per edge: S, G and a, which no history changes; y, m, c; and the
-q of the bin below the edge; where layers move, δ, then per edge R, D, b, w and e.
+Where the scene has a field, the shaft's bins keep the tissue that they were cut in (model `field`,
+the same beam): a bin takes the side stiffness of the code that the tip finds as it enters it, and
+what lies above never changes, so the filter goes on as before and only what is cut anew is
+tabulated anew. A boundary within a bin counts from the bin's edge: by a millimetre at most.
+
+Array: heads, layers (end, k), in a field instead (w, k) of each code and then of each bin; per
+edge: S, G and a, which no history changes; y, m, c; and the q of the bin below the edge; where
+layers move, δ, then per edge R, D, b, w and e.
 """
 
 from collections.abc import Mapping
@@ -80,6 +86,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
 from app.core.parameters import numbered, packed
+from app.simulation.channel import bins_of
 from app.simulation.errors import SimulationError
 from app.simulation.needles import bending_stiffness
 from app.simulation.scene import Binding
@@ -88,12 +95,16 @@ BIN: Final = 2.0**-10  # [m] depth resolution of the memory; a power of two, so 
 
 
 class _BuriedPlaces(NamedTuple):
-    """Sizes, 1 / EI, depth, and of the bin at the tip q0, q1 (vectors) and ∫ k u²."""
+    """Sizes, 1 / EI, depth, and of the bin at the tip q0, q1 (vectors) and ∫ k u².
+
+    In a field `codes` is how many tissues there are, and `layers` these and the bins; else it is 0.
+    """
 
     layers: int
     bins: int
     lever: int
     flexibility: int
+    codes: int
     depth: int = 0
     q0: int = 0
     q0_y: int = 0
@@ -171,11 +182,38 @@ def empty(
     bins = int(np.ceil(ends[-1] / BIN)) + 1
     pairs = np.column_stack([ends, stiffness]).ravel()
     edges = np.zeros(len(_EDGE) * (bins + 1))
-    p = packed(AT, pairs, edges, layers=len(ends), bins=bins, lever=lever, flexibility=flexibility)
+    heads = {"bins": bins, "lever": lever, "flexibility": flexibility, "codes": 0}
+    p = packed(AT, pairs, edges, layers=len(ends), **heads)
     if shares is not None and shares.any():
         p = np.concatenate([p, np.zeros(3 + len(_DRAG) * (bins + 1))])
         for j in range(bins):
             p[_drag(p, j) + _DRAG.share] = _mean_share(ends, stiffness, shares, j)
+    _tabulate(p)
+    return p
+
+
+def empty_field(
+    stiffness: FloatArray, shares: FloatArray, flexibility: float, lever: float, bins: int
+) -> FloatArray:
+    """Return the same for a field: nothing is known of a bin before the tip has entered it.
+
+    Args:
+        stiffness: side stiffness by code [N/m²], shape (n,).
+        shares: of the displacement of breathing that each code goes along with, shape (n,).
+        flexibility: 1 / EI of the needle [1/(N·m²)]; 0 for a rigid one.
+        lever: shortest L_out [m].
+        bins: that may be entered.
+    """
+    codes = np.column_stack([shares, stiffness]).ravel()
+    edges = np.zeros(len(_EDGE) * (bins + 1))
+    drag = np.zeros(3 + len(_DRAG) * (bins + 1) if shares.any() else 0)
+    heads = {"bins": bins, "lever": lever, "flexibility": flexibility, "codes": len(stiffness)}
+    cut = np.zeros(2 * bins)
+    p = packed(AT, codes, cut, edges, drag, layers=len(stiffness) + bins, **heads)
+    for j in range(bins):
+        p[_cut(p, j) : _cut(p, j) + 2] = codes[:2]
+        if shares.any():
+            p[_drag(p, j) + _DRAG.share] = shares[0]
     _tabulate(p)
     return p
 
@@ -206,6 +244,12 @@ def moves(p: FloatArray) -> bool:
 
 
 @njit
+def _cut(p: FloatArray, j: int) -> int:
+    """Return where (w, k) of bin j stand in an array of a field."""
+    return len(AT) + 2 * (int(p[AT.codes]) + j)
+
+
+@njit
 def _drag(p: FloatArray, j: int) -> int:
     return _shift(p) + 3 + len(_DRAG) * j
 
@@ -214,6 +258,12 @@ def _drag(p: FloatArray, j: int) -> int:
 def _tissue(p: FloatArray, j: int, begin: float, end: float) -> Any:
     """∫ k, ∫ k t and ∫ k t² over the part of bin j from `begin` to `end`, t from its upper edge."""
     f0 = f1 = f2 = 0.0
+    if p[AT.codes] > 0.0:
+        k, low, high = p[_cut(p, j) + 1], max(0.0, begin), min(BIN, end)
+        if high > low:
+            f0, f1 = k * (high - low), k * (high * high - low * low) / 2.0
+            f2 = k * (high * high * high - low * low * low) / 3.0
+        return f0, f1, f2
     upper = j * BIN
     start = 0.0
     for i in range(int(p[AT.layers])):
@@ -287,25 +337,40 @@ def _tabulate_drag(p: FloatArray, j: int, f: Any, held: Any) -> None:
 @njit
 def _tabulate(p: FloatArray) -> None:
     """Fill what depends on layers and needle alone: S, G and a at every edge; R, D and b."""
-    dragged = moves(p)
     p[_edge(p, 0) + _EDGE.g1] = 1.0
     for j in range(int(p[AT.bins])):
-        e, below = _edge(p, j), _edge(p, j + 1)
-        f0, f1, f2 = _tissue(p, j, 0.0, BIN)
-        held = _held(p, e, f0, f1, f2)
-        i11, i12, i21, i22, c11, c12, c22 = held
-        if dragged:
-            _tabulate_drag(p, j, (f0, f1, f2), held)
-        p[below + _EDGE.a] = _unit_moment(p, e, (f0, f1, f2), (c11, c12, c22))
-        g0, g1 = p[e + _EDGE.g0], p[e + _EDGE.g1]
-        turn = i21 * g0 + i22 * g1
-        p[below + _EDGE.g0], p[below + _EDGE.g1] = i11 * g0 + i12 * g1 + BIN * turn, turn
-        flexibility = p[AT.flexibility]
-        p[below + _EDGE.s11] = (
-            c11 + 2.0 * BIN * c12 + BIN * BIN * c22 + flexibility * BIN * BIN * BIN / 3.0
-        )
-        p[below + _EDGE.s12] = c12 + BIN * c22 + flexibility * BIN * BIN / 2.0
-        p[below + _EDGE.s22] = c22 + flexibility * BIN
+        _tabulate_bin(p, j)
+
+
+@njit
+def _tabulate_bin(p: FloatArray, j: int) -> None:
+    """Fill the same at the edge below bin j."""
+    e, below = _edge(p, j), _edge(p, j + 1)
+    f0, f1, f2 = _tissue(p, j, 0.0, BIN)
+    held = _held(p, e, f0, f1, f2)
+    i11, i12, i21, i22, c11, c12, c22 = held
+    if moves(p):
+        _tabulate_drag(p, j, (f0, f1, f2), held)
+    p[below + _EDGE.a] = _unit_moment(p, e, (f0, f1, f2), (c11, c12, c22))
+    g0, g1 = p[e + _EDGE.g0], p[e + _EDGE.g1]
+    turn = i21 * g0 + i22 * g1
+    p[below + _EDGE.g0], p[below + _EDGE.g1] = i11 * g0 + i12 * g1 + BIN * turn, turn
+    flexibility = p[AT.flexibility]
+    p[below + _EDGE.s11] = (
+        c11 + 2.0 * BIN * c12 + BIN * BIN * c22 + flexibility * BIN * BIN * BIN / 3.0
+    )
+    p[below + _EDGE.s12] = c12 + BIN * c22 + flexibility * BIN * BIN / 2.0
+    p[below + _EDGE.s22] = c22 + flexibility * BIN
+
+
+@njit
+def _enter(p: FloatArray, j: int, code: float) -> None:
+    """Let bin j be of the tissue of a code; one that the table does not have is the first."""
+    number = int(code) if 0.0 <= code < p[AT.codes] else 0
+    at, of = _cut(p, j), len(AT) + 2 * number
+    p[at], p[at + 1] = p[of], p[of + 1]
+    if moves(p):
+        p[_drag(p, j) + _DRAG.share] = p[of]
 
 
 @njit
@@ -425,14 +490,19 @@ def _lay(p: FloatArray, j: int, begin: float, end: float, axis: int, at: float, 
 
 
 @njit
-def advance(p: FloatArray, depth: float, x: float, y: float, z: float) -> None:
-    """Go on to `depth`, straight ahead from the tip of the needle along (x, y, z)."""
+def advance(p: FloatArray, depth: float, x: float, y: float, z: float, code: float = 0.0) -> None:
+    """Go on to `depth`, straight ahead from the tip of the needle along (x, y, z).
+
+    In a field what is entered is of the tissue `code`.
+    """
     tip = (at_tip(p, 0, x), at_tip(p, 1, y), at_tip(p, 2, z))
     old = p[AT.depth]
     dragged = moves(p)
     for j in range(int(old / BIN), int(p[AT.bins])):
         upper = j * BIN
         begin, end = max(old - upper, 0.0), min(depth - upper, BIN)
+        if p[AT.codes] > 0.0 and begin == 0.0:
+            _enter(p, j, code)
         for axis in range(3):
             place, slope = tip[axis][0], tip[axis][1]
             if dragged:
@@ -440,6 +510,8 @@ def advance(p: FloatArray, depth: float, x: float, y: float, z: float) -> None:
             _lay(p, j, begin, end, axis, place + slope * (upper - old), slope)
         if upper + BIN > depth:
             break
+        if p[AT.codes] > 0.0:
+            _tabulate_bin(p, j)
         _finish_bin(p, j)
     p[AT.depth] = depth
 
@@ -476,6 +548,11 @@ def carry(old: FloatArray, new: FloatArray) -> None:
         return
     tip = min(int(depth / BIN), int(old[AT.bins]) - 1)
     for j in range(tip + 1):
+        if old[AT.codes] > 0.0 and new[AT.codes] > 0.0:
+            new[_cut(new, j)], new[_cut(new, j) + 1] = old[_cut(old, j)], old[_cut(old, j) + 1]
+            if moves(new):
+                new[_drag(new, j) + _DRAG.share] = old[_cut(old, j)]
+            _tabulate_bin(new, j)
         e, end = _edge(old, j), (depth - tip * BIN if j == tip else BIN)
         f0, f1, f2 = _tissue(old, j, 0.0, end)
         det = f0 * f2 - f1 * f1
@@ -534,7 +611,9 @@ DECLARATION: Final[dict[str, Any]] = {
     "models": {
         "beam": "needle that bends on the layers, with its shape",
         "winkler": "rigid needle, closed form per layer; far too stiff beyond some 40 mm",
+        "field": "the beam in the tissue that each bin of the shaft was cut in",
     },
+    "model_reads": {"field": ("tissue",)},
     "energy": (
         "potential",
         "stored energy is never negative; advancing adds none, retreating loses it, and what"
@@ -557,6 +636,14 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
         SimulationError: if the layers together are thicker than a metre.
     """
     scene, scale = binding.scene, values["stiffness_scale"]
+    if scene.has_field and binding.model == "field":
+        return empty_field(
+            scale * np.array([tissue.side_stiffness for tissue in scene.tissues]),
+            np.array(scene.shares_moved),
+            1.0 / bending_stiffness(scene.needle.outer_diameter),
+            values["shortest_lever"],
+            bins_of(scene.needle.length),
+        )
     ends = np.cumsum([layer.thickness for layer in scene.layers])
     if ends[-1] > _LONGEST:
         raise SimulationError(
@@ -588,7 +675,7 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
         change = -stored(parameters, x, y, z)
         _follow(state, parameters)
         if depth > parameters[AT.depth]:
-            advance(parameters, depth, x, y, z)
+            advance(parameters, depth, x, y, z, state[sv.TISSUE])
         elif depth < parameters[AT.depth]:
             retreat(parameters, depth)
         change += stored(parameters, x, y, z)
@@ -625,6 +712,13 @@ def stored_energy(parameters: FloatArray, axis: FloatArray) -> float:
     return float(stored(parameters, *axis))
 
 
+def _stiffest(p: FloatArray) -> FloatArray:
+    """Return the array of a layer that is as stiff, and moves as much, as the most of a field."""
+    codes = p[len(AT) :][: 2 * int(p[AT.codes])].reshape(-1, 2).max(axis=0)
+    ends, stiffness = np.array([(p[AT.bins] - 1.0) * BIN]), codes[1:]
+    return empty(ends, stiffness, p[AT.flexibility], p[AT.lever], codes[:1])
+
+
 def energy_bound(parameters: FloatArray) -> float:
     """Return the most energy that turning the needle can store [J]: 2 a at the deepest needle.
 
@@ -632,6 +726,8 @@ def energy_bound(parameters: FloatArray) -> float:
     channel's own windings hold, which no turning gives back. Where layers move, m - D δ is longer:
     by 2 |D| δ at most, for tissue was laid with a displacement, too; and D² <= a b.
     """
+    if parameters[AT.codes] > 0.0:
+        return energy_bound(_stiffest(parameters))
     a = float(rotational_stiffness(parameters, parameters[AT.bins] * BIN - 0.5 * BIN))
     if not moves(parameters):
         return 2.0 * a
