@@ -4,7 +4,8 @@ Memory of the model `inserted` of the effect `shaft_friction`. As the tip goes o
 place (depth less the dimple in front of it) the shaft behind it lies in the tissue that the tip
 went through: each bin of 1/1024 m keeps the sums from the skin to its upper edge, so nothing is
 added twice and nothing drifts. Withdrawn, the needle is in what lies above; what was deeper is
-forgotten."""
+forgotten.
+"""
 
 from typing import Final, NamedTuple
 

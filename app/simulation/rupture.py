@@ -227,7 +227,7 @@ def _push(
     One that gives way leaves its dimple in the memory, and neither force nor depth here.
     """
     at, x = _row(int(p[AT.front])), depth - p[AT.met]
-    if x <= 0.0:
+    if x < 0.0:
         p[AT.e0] = p[AT.e1] = p[AT.e2] = 0.0
         if p[AT.by_field] == 0.0 or _at_tip(p, state, depth) != int(p[AT.front]):
             p[AT.front] = OUTSIDE  # else the tip still touches it: the wall was found a tick late

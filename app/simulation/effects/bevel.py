@@ -81,10 +81,30 @@ DECLARATION: Final[dict[str, Any]] = {
         "organ_share": (0.65, "-", 0.0, 1.0, "of gel's curvature in an organ (organ)"),
     },
     "published": {
-        "curvature_thick": (0.1, 1.97, "0.3 by stiffness against thin needles; 1.97 Tavakol"),
-        "curvature_thin": (1.06, 1.97, "5.3 mm over 100 mm, de Jong 2018; 1.28 to 1.97 Tavakol"),
-        "bend_scale": (0.87, 1.12, "7.71 to 9.96 mm about the mean of 8.85 mm, Rand 2016"),
-        "organ_share": (0.64, 0.66, "1.28 ex vivo over 1.97 /m in a hard phantom, Tavakol"),
+        "curvature_thick": (
+            0.1,
+            1.97,
+            "0.3 by stiffness against thin needles; 1.28 ex vivo to 1.97 in a phantom, Tavakol",
+            (1.28, 1.97),
+        ),
+        "curvature_thin": (
+            1.06,
+            3.13,
+            "5.3 mm over 100 mm, de Jong 2018; 7.71 to 9.96 mm over 80 mm of gel, Rand 2016",
+            (1.06, 2.41, 2.78, 3.12),
+        ),
+        "bend_scale": (
+            0.87,
+            1.13,
+            "7.71 to 9.96 mm about the mean of 8.85 mm, Rand 2016",
+            (0.87, 1.0, 1.126),
+        ),
+        "organ_share": (
+            0.64,
+            0.66,
+            "1.28 ex vivo over 1.97 /m in a hard phantom, Tavakol",
+            (0.65,),
+        ),
     },
 }
 
@@ -152,7 +172,8 @@ def _curvature(values: Mapping[str, float], binding: Binding) -> float:
     if binding.model in ("gel", "organ"):
         medium = values["organ_share"] if binding.model == "organ" else 1.0
         return values["bend_scale"] * medium * measured_curvature(diameter)
-    return values["curvature_thin" if diameter < _THIN else "curvature_thick"]
+    thick, thin = values["curvature_thick"], values["curvature_thin"]
+    return thin if diameter < _THIN else thick
 
 
 def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:

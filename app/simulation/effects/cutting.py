@@ -63,7 +63,12 @@ DECLARATION: Final[dict[str, Any]] = {
         "speed_smoothing": (0.03, "s", 0.0, 1.0, "time constant of a measured depth's speed"),
     },
     "published": {
-        "toughness_scale": (0.46, 1.13, "76 to 185 J/m² of liver, Azar and Hayward 2008"),
+        "toughness_scale": (
+            0.46,
+            1.13,
+            "76 to 185 J/m² of liver's 164, Azar and Hayward 2008; 164 ± 6 Gokgol 2012",
+            (0.463, 1.128, 1.0),
+        ),
     },
 }
 

@@ -60,6 +60,7 @@ DECLARATION: Final[dict[str, Any]] = {
             0.0103,
             "targets moved 6.4 ± 3.9 mm in the liver, 3.5 ± 2.1 mm behind the peritoneum: robot"
             " study of the Hebrew University of Jerusalem",
+            (0.0064, 0.0035),
         ),
     },
 }

@@ -62,7 +62,12 @@ DECLARATION: Final[dict[str, Any]] = {
         "speed_smoothing": (0.03, "s", 0.0, 1.0, "of a measured depth's speed (rate)"),
     },
     "published": {
-        "force_scale": (0.5, 2.0, "skin 2-3 N, fascia 1-3 N, capsule 0.3-1 N: Maurin 2004"),
+        "force_scale": (
+            0.5,
+            3.0,
+            "skin 2-3 N of 1.5, fascia 1-3 N of 1, capsule 0.3-1 N of 0.6: Maurin 2004",
+            (1.33, 2.0, 1.0, 3.0, 0.5, 1.67),
+        ),
     },
 }
 

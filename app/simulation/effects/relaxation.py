@@ -73,6 +73,7 @@ DECLARATION: Final[dict[str, Any]] = {
             0.1,
             4.0,
             "0.05 to 2 s for layers of 0.5 s: soft tissue, this project's table",
+            (0.1, 4.0),
         ),
     },
 }

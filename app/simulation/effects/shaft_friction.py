@@ -111,7 +111,12 @@ DECLARATION: Final[dict[str, Any]] = {
         "relaxing_time": (0.5, "s", 0.001, 100.0, "first of three time constants (inserted)"),
     },
     "published": {
-        "stribeck_speed": (0.0005, 0.0025, "speeds of fits to porcine organs, PMC13024575"),
+        "stribeck_speed": (
+            0.0005,
+            0.0025,
+            "speeds of fits to porcine organs, PMC13024575",
+            (0.0005, 0.0025),
+        ),
     },
 }
 
