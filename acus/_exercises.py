@@ -75,7 +75,7 @@ def try_exercise(exercise: Exercise | str | Path, skill: str = "expert", seed: i
     """
     from app.compose.exercise_ct import read_ct
     from app.compose.exercise_field import resolve_tissue
-    from app.compose.trial import attempt, risks_of, trial_plan
+    from app.compose.trial import attempt, risks_of, tissues_of, trial_plan
     from app.exercises.parts import LayersFrom
     from app.exercises.scene import device_of, placed_plan_of
     from app.exercises.tissue import with_tissue
@@ -85,8 +85,9 @@ def try_exercise(exercise: Exercise | str | Path, skill: str = "expert", seed: i
     placed = placed_plan_of(chosen, device_of(chosen), trial_plan(chosen))
     if chosen.layers_from is LayersFrom.CT:
         chosen = with_tissue(chosen, read_ct(chosen), placed.plan)
-    chosen, field, _ = resolve_tissue(chosen, placed)
-    result = attempt(chosen, placed, skill, seed, risks_of(chosen), field=field)
+    tissues = tissues_of(chosen, placed.plan)
+    chosen, _ = resolve_tissue(chosen, placed, tissues)
+    result = attempt(chosen, placed, skill, seed, risks_of(chosen), tissues=tissues)
     if result.recording is None:
         raise SessionError(f"the attempt at {chosen.id} by {skill}, seed {seed}, left no samples")
     record = record_of(result.recording)

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from app.compose.cameras import AttachedCameras
-from app.compose.exercise_field import FIELD, FIELD_FILE, make_field, resolve_tissue
+from app.compose.exercise_ct import load_field, read_ct
+from app.compose.exercise_field import FIELD, FIELD_FILE, resolve_tissue
 from app.compose.explaining import quick_explanation
 from app.compose.trainer import TrainerSetup, _context, build_loop, replay_recording
 from app.core import state_vector as sv
@@ -22,8 +23,6 @@ from app.exercises.scene import device_of, placed_plan_of
 from app.exercises.schema import Exercise
 from app.exercises.tissue_choice import choose
 from app.imaging.field import TissueField
-from app.imaging.phantom.series import phantom_series
-from app.imaging.reading import load_ct
 from app.imaging.volume import Volume
 from app.planning.plan import Plan
 from app.session.ct_facts import CtFacts
@@ -49,7 +48,7 @@ def exercise(**changes: Any) -> Exercise:
 
 @pytest.fixture(scope="module")
 def patient() -> Volume:
-    return load_ct(phantom_series(6))
+    return read_ct(exercise())
 
 
 def lesion() -> np.ndarray:
@@ -58,11 +57,17 @@ def lesion() -> np.ndarray:
     return np.array(anatomy(6).lesion_mm)
 
 
+def field_for(volume: Volume, plan: Plan) -> TissueField:
+    made = load_field(exercise(), volume, plan)
+    assert made is not None
+    return made
+
+
 @pytest.fixture(scope="module")
 def field(patient: Volume) -> TissueField:
     from app.imaging.phantom.anatomy import anatomy
 
-    return make_field(exercise(), Plan(anatomy(6).entry_mm, lesion()), patient)  # type: ignore[arg-type]
+    return field_for(patient, Plan(anatomy(6).entry_mm, lesion()))  # type: ignore[arg-type]
 
 
 def through_rib(field: TissueField) -> Plan:
@@ -99,7 +104,7 @@ def attempt(
     """An attempt in virtual time; its record, and the states of the loop every 20 ms."""
     profile, clock = device_of(chosen), VirtualClock(100.0)
     placed = placed_plan_of(chosen, profile, plan)
-    setup = TrainerSetup(chosen, placed, CtFacts("ct-1"), skill, 3, folder, clock, field=field)
+    setup = TrainerSetup(chosen, placed, CtFacts("ct-1"), skill, 3, folder, clock, tissues=field)
     loop = build_loop(setup, profile)
 
     def measure(now: float) -> None:
@@ -130,8 +135,7 @@ def attempt(
 def stopped(field: TissueField, tmp_path_factory: pytest.TempPathFactory) -> Any:
     plan = through_rib(field)
     chosen = exercise()
-    own = make_field(chosen, plan)
-    return (*attempt(tmp_path_factory.mktemp("rib"), chosen, plan, own, 30.0), plan, own)
+    return (*attempt(tmp_path_factory.mktemp("rib"), chosen, plan, field, 30.0), plan, field)
 
 
 def test_a_needle_on_a_path_through_a_rib_is_stopped_where_the_rib_begins(stopped: Any) -> None:
@@ -205,8 +209,9 @@ def test_what_needles_within_reach_meet_decides_between_layers_and_the_field(
     profile = device_of(chosen)
     plan = Plan(anatomy(6).entry_mm, lesion())  # type: ignore[arg-type]
     placed = placed_plan_of(chosen, profile, plan)
-    decided, made, why = resolve_tissue(chosen, placed, patient)
-    assert decided.tissue is TissueSource.FIELD and made is not None
+    made = field_for(patient, plan)
+    decided, why = resolve_tissue(chosen, placed, made)
+    assert decided.tissue is TissueSource.FIELD
     assert "the path does not" in why or "the path" in why
     same = np.ones_like(made.labels) * np.uint8(made.of_kind("organ")[0].code)  # type: ignore[arg-type]
     even = replace(made, labels=same, distance=np.full_like(made.distance, 127))

@@ -1,19 +1,16 @@
-"""The field of tissue of an exercise: made from its CT or taken from the cache, and in the record."""
+"""The field of tissue of an exercise: whether it is looked into, and how the record holds it."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
-from app.core.progress import Progress
-from app.core.units import MILLIMETRE
+from app.exercises.errors import ExerciseError
 from app.exercises.parts import TissueSource
 from app.exercises.scene import device_of
 from app.exercises.schema import Exercise
-from app.exercises.tissue_choice import choose
+from app.exercises.tissue_choice import TissueChoice, choose
 from app.planning.placement import PlacedPlan
-from app.planning.plan import Plan
 from app.session.context import RunContext
 from app.session.errors import ReplayError
 from app.session.header import Attachment
@@ -21,8 +18,6 @@ from app.session.recording import Recording
 
 if TYPE_CHECKING:
     from app.imaging.field import TissueField
-    from app.imaging.structures.structure import Structure
-    from app.imaging.volume import Volume
 
 FIELD_FILE: Final = "tissue-field.bin"
 """Name of the attachment that holds the field; patient data."""
@@ -32,59 +27,34 @@ FIELD: Final = "tissue_field"
 
 MEDIA_TYPE: Final = "application/x-acus-tissue-field"
 
-SPACING_MM: Final = 1.0
-"""Of the grid: `acus study tissue_field` compares others."""
 
-
-def make_field(
-    exercise: Exercise,
-    plan: Plan,
-    volume: Volume | None = None,
-    structures: Sequence[Structure] = (),
-    progress: Progress | None = None,
-) -> TissueField:
-    """Make the field of an exercise's CT about a plan's entry, or take it from the cache.
+def resolve_tissue(
+    exercise: Exercise, placed: PlacedPlan, tissues: TissueField | None
+) -> tuple[Exercise, str]:
+    """Return an exercise that says layers or field in place of `auto`, and why in a sentence.
 
     Args:
         exercise: the exercise.
-        plan: whose entry the needle goes through.
-        volume: its CT, where it has been read; None reads it.
-        structures: on it.
-        progress: reports, and may be cancelled.
+        placed: its plan in the robot's frame.
+        tissues: the field of its CT; None where there is none.
 
     Raises:
-        AcusError: if the CT cannot be read, or no field can be made of it; says why.
-        Cancelled: if `progress` was cancelled.
-    """
-    from app.compose.exercise_ct import read_ct
-    from app.imaging.field.making import field_of
-
-    progress = progress or Progress()
-    volume = volume or read_ct(exercise, progress.part(0.0, 0.3))
-    reach_mm = device_of(exercise).depth_range[1] / MILLIMETRE
-    rest = progress.part(0.3, 1.0)
-    return field_of(volume, structures, plan.entry_mm, reach_mm, SPACING_MM, rest)
-
-
-def resolve_tissue(
-    exercise: Exercise,
-    placed: PlacedPlan,
-    volume: Volume | None = None,
-    structures: Sequence[Structure] = (),
-    progress: Progress | None = None,
-) -> tuple[Exercise, TissueField | None, str]:
-    """Return an exercise that says layers or field, the field where it is one, and why.
-
-    See `make_field`; an exercise of layers needs neither CT nor time, and says nothing.
+        ExerciseError: if it asks for the field, and there is none.
     """
     if exercise.tissue is TissueSource.LAYERS:
-        return exercise, None, ""
-    field = make_field(exercise, placed.plan, volume, structures, progress)
+        return exercise, "layers: the exercise has them"
+    if exercise.tissue is TissueSource.FIELD and tissues is not None:
+        return exercise, "the field: the exercise asks for it"
     if exercise.tissue is TissueSource.FIELD:
-        return exercise, field, "the field: the exercise asks for it"
-    choice = choose(exercise, placed, device_of(exercise), field)
-    chosen = exercise.model_copy(update={"tissue": choice.source})
-    return chosen, field if choice.source is TissueSource.FIELD else None, choice.why
+        raise ExerciseError(
+            f"exercise {exercise.id} has tissue: field, and its CT is not open, or its values are"
+            " no Hounsfield values: open its CT, or set tissue: layers"
+        )
+    if tissues is None:
+        choice = TissueChoice(TissueSource.LAYERS, "layers: there is no CT in Hounsfield values")
+    else:
+        choice = choose(exercise, placed, device_of(exercise), tissues)
+    return exercise.model_copy(update={"tissue": choice.source}), choice.why
 
 
 def with_field(context: RunContext, field: TissueField) -> RunContext:

@@ -88,13 +88,14 @@ def _tissue(
     if exercise.tissue is TissueSource.LAYERS:
         return exercise, None, {"source": "layers", "why": "layers: the exercise has them"}
     from app.compose.exercise_field import resolve_tissue
-    from app.compose.trial import trial_plan
+    from app.compose.trial import tissues_of, trial_plan
     from app.simulation.bound_field import BoundField
 
     placed = placed_plan_of(exercise, profile, trial_plan(exercise))
-    exercise, field, why = resolve_tissue(exercise, placed)
+    field = tissues_of(exercise, placed.plan)
+    exercise, why = resolve_tissue(exercise, placed, field)
     said: dict[str, Any] = {"source": exercise.tissue.value, "why": why}
-    if field is None:
+    if field is None or exercise.tissue is TissueSource.LAYERS:
         return exercise, None, said
     said |= {
         "digest": field.digest,

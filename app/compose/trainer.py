@@ -38,6 +38,7 @@ from app.exercises.parts import LayersFrom, TissueSource
 from app.exercises.scene import compile_exercise, device_of, law_requests
 from app.exercises.schema import Exercise
 from app.exercises.touching import check_touch
+from app.imaging.field import TissueField
 from app.mechanisms.hand_motion import hand_stage
 from app.mechanisms.profile import DeviceProfile, parse_profile
 from app.planning.placement import PlacedPlan
@@ -65,7 +66,6 @@ from app.tracking.pen.settings import PenSettings
 from app.tracking.tracker import Tracker
 
 if TYPE_CHECKING:
-    from app.imaging.field import TissueField
     from app.simulation.bound_field import BoundField
 
 
@@ -188,8 +188,6 @@ class TrainerSetup:
         skill: `novice` or `expert` lets a scripted trainee insert the needle; None leaves it to
             the mouse.
         script: what the scripted trainee does, in place of what his skill would; None for that.
-        field: the patient's tissue, of an exercise that has it looked up there
-            (`compose.exercise_field`).
         seed: of everything random in the run.
         sessions: folder of the records.
         clock: monotonic clock; a virtual one for runs faster than real time.
@@ -199,6 +197,8 @@ class TrainerSetup:
         cameras: real ones; None simulates those of the exercise's rig.
         pen: a pen with printed markers and a webcam in place of robot and cameras; no force then.
         risks: structures that the needle has to keep away from.
+        tissues: field of the patient: tells what the needle met, and is what the loop looks into
+            where the exercise's tissue is the field; None for none.
     """
 
     exercise: Exercise
@@ -213,8 +213,8 @@ class TrainerSetup:
     cameras: CameraSettings | None = None
     pen: PenSettings | None = None
     risks: tuple[Risk, ...] = ()
+    tissues: TissueField | None = None
     script: TraineeScript | None = None
-    field: TissueField | None = None
 
     def bound_field(self) -> BoundField | None:
         """Return the field in the robot's frame; None of an exercise whose tissue lies in layers.
@@ -224,14 +224,14 @@ class TrainerSetup:
         """
         if self.exercise.tissue is TissueSource.LAYERS:
             return None
-        if self.field is None:
+        if self.tissues is None or self.exercise.tissue is TissueSource.AUTO:
             raise ExerciseError(
                 f"exercise {self.exercise.id} has tissue: {self.exercise.tissue.value}, and its"
                 " field has not been made: make it first, or set tissue: layers"
             )
         from app.simulation.bound_field import BoundField
 
-        return BoundField(self.field, self.placed.T_world_patient, self.placed.p_target)
+        return BoundField(self.tissues, self.placed.T_world_patient, self.placed.p_target)
 
 
 def build_trainer(setup: TrainerSetup) -> Trainer:
@@ -386,6 +386,7 @@ def _build_rig(
         clearance=robot.clearance if robot is not None else None,
         held_arming=setup.held_arming or robot is not None,
         risks=setup.risks,
+        tissues=setup.tissues,
         trust=DepthTrust(profile.hand.depth_speed, seen=robot is None or real is not None),
         start=Start.SIMULATED if robot is None else Start.REAL,
     )
@@ -409,6 +410,7 @@ def _build_pen_rig(setup: TrainerSetup, pen: Pen) -> Rig:
         context,
         setup.clock,
         risks=setup.risks,
+        tissues=setup.tissues,
         dial=0.0,
         trust=DepthTrust(FASTEST),  # a pen in the air is no needle in its tube
         start=Start.SIMULATED if pen.settings.simulated else Start.REAL,
@@ -504,7 +506,8 @@ def _context(
     context = run_context(
         setup.exercise, setup.sessions, setup.seed, metadata, documents, agreement
     )
-    return context if setup.field is None else with_field(context, setup.field)
+    looks = setup.exercise.tissue is TissueSource.FIELD and setup.tissues is not None
+    return with_field(context, setup.tissues) if looks and setup.tissues else context
 
 
 def replay_recording(recording: Recording) -> ReplayReport:
@@ -539,7 +542,7 @@ def replay_table(recording: Recording, choices: Sequence[ModelChoice] = ()) -> T
         recording.placed_plan(),
         skill=recording.metadata.get("trainee", {}).get("scripted") or None,
         seed=_seed(recording),
-        field=recorded_field(recording),
+        tissues=recorded_field(recording),
     )
     pen = recording.metadata.get("device", {}).get("pen")
     if pen:

@@ -26,7 +26,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from app.compose.exercise_ct import load_risks, read_ct
+from app.compose.exercise_ct import load_field, load_risks, read_ct
 from app.compose.exercise_field import resolve_tissue
 from app.compose.needle import UPRIGHT, measured_axis, needle_scene
 from app.compose.trainee import trainee_of
@@ -40,10 +40,9 @@ from app.core.progress import Progress
 from app.core.staleness import TRACKER_HOLD
 from app.core.units import MILLIMETRE, MILLISECOND
 from app.device.control import Loop, Table
-from app.exercises.parts import LayersFrom, OwnPlan
+from app.exercises.parts import LayersFrom, OwnPlan, TissueSource
 from app.exercises.scene import device_of, placed_plan_of, plan_of
 from app.exercises.tissue import with_tissue
-from app.imaging.field import TissueField
 from app.planning.plan import Plan
 from app.scoring.touches import Touches
 from app.session import machine
@@ -58,6 +57,7 @@ from app.session.recorder import Recorder
 from app.session.risks import risk_marks_of
 from app.session.samples import Samples
 from app.session.scored import scorer, trajectory
+from app.session.tissues import tissues_met_of
 from app.session.touching import Touching
 from app.session.trainer import Trainer
 from app.session.transitions import LOST, Classifier, classify
@@ -80,6 +80,7 @@ from app.tracking.tracker import Tracker
 
 if TYPE_CHECKING:
     from app.exercises.schema import Exercise
+    from app.imaging.field import TissueField
     from app.planning.placement import PlacedPlan
     from app.scoring.result import Score
     from app.session.result import AttemptResult
@@ -170,6 +171,24 @@ def risks_of(exercise: Exercise, progress: Progress | None = None) -> tuple[Risk
     return load_risks(exercise, volume, progress.part(0.6, 1.0))
 
 
+def tissues_of(
+    exercise: Exercise, plan: Plan, progress: Progress | None = None
+) -> TissueField | None:
+    """Make the tissue field of an exercise that looks into it; None where it does not.
+
+    It does where it forbids something, or does not say that its tissue lies in layers.
+
+    Raises:
+        AcusError: if the CT or a file of structures cannot be read.
+        Cancelled: if `progress` was cancelled.
+    """
+    if not exercise.rules.forbidden and exercise.tissue is TissueSource.LAYERS:
+        return None
+    progress = progress or Progress()
+    volume = read_ct(exercise, progress.part(0.0, 0.4))
+    return load_field(exercise, volume, plan, progress.part(0.4, 1.0))
+
+
 def attempt(
     exercise: Exercise,
     placed: PlacedPlan,
@@ -177,7 +196,7 @@ def attempt(
     seed: int,
     risks: tuple[Risk, ...] = (),
     pictures: bool = False,
-    field: TissueField | None = None,
+    tissues: TissueField | None = None,
 ) -> AttemptResult:
     """Let a scripted trainee do one attempt in virtual time; nothing is written.
 
@@ -187,14 +206,16 @@ def attempt(
         skill: a name of `skills.SKILLS`.
         seed: of the trainee and of the tracker's noise.
         risks: structures that the needle has to keep away from.
+        tissues: field of the patient that tells what the needle met.
         pictures: whether both cameras' pictures are rendered and tracked: seven times the work.
-        field: the patient's tissue, of an exercise that has it looked up there.
 
     Raises:
         AcusError: if a profile, an effect or the path cannot be used; says which and why.
     """
     profile, clock = device_of(exercise), VirtualClock(BEGIN)
-    setup = TrainerSetup(exercise, placed, skill=skill, seed=seed, clock=clock, field=field)
+    setup = TrainerSetup(
+        exercise, placed, skill=skill, seed=seed, clock=clock, tissues=tissues
+    )
     loop, rig = build_loop(setup, profile), load_rig(exercise.rig)
     scene = needle_scene(loop, profile, rig.needle.marker_offset)
     fulcrum = profile.fulcrum
@@ -224,6 +245,7 @@ def attempt(
         clock,
         measure,
         risks=risks,
+        tissues=tissues,
         trust=DepthTrust(profile.hand.depth_speed),
         start=Start.SIMULATED,
     )
@@ -265,7 +287,7 @@ class Trials:
         exercise: with the assistance that it begins with.
         placed: its plan in the robot's frame.
         risks: structures that the needle has to keep away from.
-        field: the patient's tissue, of an exercise that has it looked up there.
+        tissues: field of the patient that tells what the needle met.
 
     Raises:
         AcusError: if a profile, an effect or the path cannot be used; says which and why.
@@ -276,16 +298,16 @@ class Trials:
         exercise: Exercise,
         placed: PlacedPlan,
         risks: tuple[Risk, ...] = (),
-        field: TissueField | None = None,
+        tissues: TissueField | None = None,
     ) -> None:
         self._exercise, self._placed, self._risks = exercise, placed, risks
-        self._field = field
+        self._tissues = tissues
         self._profile = device_of(exercise)
         self._scorer = scorer(exercise)
         self._task = exercise.touch_task(placed)
         # What pulls towards the target follows the touches, which the loop alone does not know.
         self._pulled = self._task is not None and bool(exercise.laws) and exercise.assistance != 0.0
-        setup = TrainerSetup(exercise, placed, clock=VirtualClock(BEGIN), field=field)
+        setup = TrainerSetup(exercise, placed, clock=VirtualClock(BEGIN), tissues=tissues)
         table = loop_table(setup, self._profile)
         # What stages remember is in their arrays: each attempt takes copies, shared ones once.
         self._stages, self._write = table.compute, table.write
@@ -307,12 +329,13 @@ class Trials:
         went = _Course.of(samples, begin, touching)
         if faults.any() or went.unseen >= LOST or self._pulled:
             result = attempt(
-                self._exercise, self._placed, skill, seed, self._risks, field=self._field
+                self._exercise, self._placed, skill, seed, self._risks, tissues=self._tissues
             )
             return Trial(result.score, result.duration)
         samples = replace(samples, state=went.states, target=went.target)
         near = risk_marks_of(samples, self._placed, self._risks)
-        path = trajectory(samples, self._placed, risks=near, touches=went.touches)
+        met = tissues_met_of(samples, self._placed, self._tissues)
+        path = trajectory(samples, self._placed, risks=near, touches=went.touches, met=met)
         return Trial(self._scorer(path), float(samples.time[-1]) - begin)
 
     def _rows(self, skill: str, seed: int) -> tuple[FloatArray, float]:
@@ -546,8 +569,9 @@ def run_trial(
     placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
     if exercise.layers_from is LayersFrom.CT:
         exercise = with_tissue(exercise, read_ct(exercise), placed.plan)
-    exercise, field, _ = resolve_tissue(exercise, placed, progress=progress.part(0.0, 0.2))
-    trials, outcomes = Trials(exercise, placed, risks, field), []
+    tissues = tissues_of(exercise, placed.plan)
+    exercise, _ = resolve_tissue(exercise, placed, tissues)
+    trials, outcomes = Trials(exercise, placed, risks, tissues), []
     for number, skill in enumerate(skills):
         part = progress.part(number / len(skills), (number + 1) / len(skills))
         results = []

@@ -36,7 +36,7 @@ def score(
         row for name in names if (row := _row(metrics[name], trajectory, tolerances.get(name)))
     )
     rules = rules or ScoreRules()
-    return judge(rows, rules, _attempt_void(trajectory, rules))
+    return judge(rows, rules, _attempt_void(trajectory, rules), trajectory.met)
 
 
 def with_shown(scored: Score, trajectory: Trajectory) -> Score:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from app.core.units import MILLIMETRE
 from app.planning.placement import PlacedPlan
+from app.scoring.met import Met
 from app.scoring.result import Score
 from app.scoring.risks import RiskMark
 from app.scoring.scans import ScanMark
@@ -55,6 +56,7 @@ def trajectory(
     excused: float = 0.0,
     agreement: float = 0.0,
     touches: Touches | None = None,
+    met: tuple[Met, ...] | None = None,
 ) -> Trajectory:
     """Turn samples into what scoring wants.
 
@@ -73,6 +75,7 @@ def trajectory(
         excused: time of pauses that cost nothing [s], see `pauses.excused`.
         agreement: see `agreement_of` [m].
         touches: targets that were to be touched; None where there were none.
+        met: what the needle met; None where nothing could tell.
 
     Raises:
         SessionError: if no sample has a direction of the needle.
@@ -108,6 +111,7 @@ def trajectory(
         spread=None if samples.spread is None else samples.spread[rising],
         agreement=agreement,
         touches=touches,
+        met=met,
         clamped=samples.clamped[rising] if renders and samples.clamped is not None else None,
     )
 

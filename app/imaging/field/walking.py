@@ -1,4 +1,4 @@
-"""What a path meets in a tissue field: tissue after tissue, each boundary where the rule puts it."""
+"""What a path meets in a tissue field: one tissue after the other, parted where the rule says."""
 
 from __future__ import annotations
 

@@ -55,6 +55,9 @@ class RobotPort:
     title: str
 
 
+_ABOUT_MM = 50.0  # entries of one run whose tissue field is one
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class RunSetup:
     """What a run is made of.
@@ -82,12 +85,14 @@ class RunSetup:
         return self._fixed() == other._fixed()
 
     def _fixed(self) -> tuple[object, ...]:
-        # A run has the tissue of its path or about its entry, if the exercise takes it from the CT.
-        from_ct = self.exercise.layers_from is LayersFrom.CT
-        in_space = self.exercise.tissue is not TissueSource.LAYERS
-        plan = self.placed.plan if from_ct or in_space else None
+        # A run has the tissue of its path, if the exercise takes it from the CT.
+        plan = self.placed.plan if self.exercise.layers_from is LayersFrom.CT else None
         path = None if plan is None else (*plan.entry_mm, *plan.target_mm)
-        return self.exercise, self.ct, self.robot, self.cameras, self.demonstrates, path
+        # A run has the tissue field about its entry, if it looks into it.
+        looks = self.exercise.tissue is not TissueSource.LAYERS or self.exercise.rules.forbidden
+        entry = self.placed.plan.entry_mm if looks else None
+        about = None if entry is None else tuple(round(float(one) / _ABOUT_MM) for one in entry)
+        return self.exercise, self.ct, self.robot, self.cameras, self.demonstrates, path, about
 
 
 class OpenRun(Protocol):
