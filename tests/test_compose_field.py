@@ -11,7 +11,7 @@ import pytest
 
 from app.compose.cameras import AttachedCameras
 from app.compose.exercise_ct import load_field, read_ct
-from app.compose.exercise_field import FIELD, FIELD_FILE, resolve_tissue
+from app.compose.exercise_field import FIELD, resolve_tissue
 from app.compose.explaining import quick_explanation
 from app.compose.trainer import TrainerSetup, _context, build_loop, replay_recording
 from app.core import state_vector as sv
@@ -27,6 +27,7 @@ from app.imaging.volume import Volume
 from app.planning.plan import Plan
 from app.session.ct_facts import CtFacts
 from app.session.errors import ReplayError
+from app.session.header import TISSUE_FILE
 from app.session.recording import Recording, read_recording
 from app.session.trainer import Trainer
 from app.simulation.consumers import DevicePort
@@ -148,8 +149,8 @@ def test_a_needle_on_a_path_through_a_rib_is_stopped_where_the_rib_begins(stoppe
     assert rows[:, sv.BONE_CONTACT].max() == 1.0
     deepest = 1e3 * rows[:, sv.PLANT_DEPTH].max()
     assert deepest == pytest.approx(rib.begin_mm, abs=2.0), "no hand goes through a rib"
-    assert rows[:, sv.BONE_CROSSED].max() < 1e-3
-    assert rows[:, sv.AXIAL_FORCE].max() > 3.0
+    assert rows[:, sv.BONE_CROSSED].max() < 1.5e-3, "30 N bend bone by a millimetre"
+    assert 29.0 < rows[:, sv.AXIAL_FORCE].max() < 33.0, "all that the hand has"
     assert np.linalg.norm(plan.target_mm - plan.entry_mm) - deepest > 40.0
     assert (rows[:, sv.PUNCTURES].max() >= 1.0) and np.isfinite(rows).all()
 
@@ -157,7 +158,7 @@ def test_a_needle_on_a_path_through_a_rib_is_stopped_where_the_rib_begins(stoppe
 def test_a_replay_needs_no_ct_and_is_the_same_to_the_last_bit(stopped: Any) -> None:
     recording, _, _, own = stopped
     assert recording.metadata[FIELD] == {"digest": own.digest, "patient_data": "yes"}
-    assert len(recording.attachments[FIELD_FILE]) < 2_000_000
+    assert len(recording.attachments[TISSUE_FILE]) < 4_000_000
     report = replay_recording(recording)
     assert report.identical and report.every_slot and report.ticks > 29_000
 
@@ -165,11 +166,11 @@ def test_a_replay_needs_no_ct_and_is_the_same_to_the_last_bit(stopped: Any) -> N
 def test_a_record_whose_field_is_missing_damaged_or_another_is_refused(stopped: Any) -> None:
     recording = stopped[0]
     files = dict(recording.attachments)
-    content = bytearray(files[FIELD_FILE])
+    content = bytearray(files[TISSUE_FILE])
     content[len(content) // 2] ^= 0xFF
     for spoilt, why in (
-        ({k: v for k, v in files.items() if k != FIELD_FILE}, "has no tissue-field.bin"),
-        (files | {FIELD_FILE: bytes(content)}, "damaged"),
+        ({k: v for k, v in files.items() if k != TISSUE_FILE}, "has no tissue-field.bin"),
+        (files | {TISSUE_FILE: bytes(content)}, "damaged"),
     ):
         changed = replace(recording, attachments=MappingProxyType(spoilt))
         with pytest.raises(ReplayError, match=why):

@@ -13,14 +13,11 @@ from app.exercises.tissue_choice import TissueChoice, choose
 from app.planning.placement import PlacedPlan
 from app.session.context import RunContext
 from app.session.errors import ReplayError
-from app.session.header import Attachment
+from app.session.header import TISSUE_FILE, Attachment
 from app.session.recording import Recording
 
 if TYPE_CHECKING:
     from app.imaging.field import TissueField
-
-FIELD_FILE: Final = "tissue-field.bin"
-"""Name of the attachment that holds the field; patient data."""
 
 FIELD: Final = "tissue_field"
 """Metadata record that says which field it is."""
@@ -62,7 +59,7 @@ def with_field(context: RunContext, field: TissueField) -> RunContext:
     from app.imaging.field import to_bytes
 
     facts = {"digest": field.digest, "patient_data": "yes"}
-    file = Attachment(FIELD_FILE, MEDIA_TYPE, to_bytes(field))
+    file = Attachment(TISSUE_FILE, MEDIA_TYPE, to_bytes(field))
     return replace(
         context,
         metadata={**context.metadata, FIELD: facts},
@@ -76,22 +73,22 @@ def recorded_field(recording: Recording) -> TissueField | None:
     Raises:
         ReplayError: if it is damaged, or another than the record says.
     """
-    content = recording.attachments.get(FIELD_FILE)
+    content = recording.attachments.get(TISSUE_FILE)
     said = recording.metadata.get(FIELD, {}).get("digest", "")
     if content is None:
         if said:
-            raise ReplayError(f"this record cannot be replayed: it has no {FIELD_FILE}")
+            raise ReplayError(f"this record cannot be replayed: it has no {TISSUE_FILE}")
         return None
     from app.imaging.field import FieldError, from_bytes
 
     try:
         field = from_bytes(content)
     except FieldError as error:
-        why = f"this record cannot be replayed: {FIELD_FILE} is damaged: {error}"
+        why = f"this record cannot be replayed: {TISSUE_FILE} is damaged: {error}"
         raise ReplayError(why) from error
     if field.digest != said:
         raise ReplayError(
-            f"this record cannot be replayed: {FIELD_FILE} is {field.digest[:12]}, and it was made"
+            f"this record cannot be replayed: {TISSUE_FILE} is {field.digest[:12]}, and it was made"
             f" with {said[:12] or 'none'}"
         )
     return field

@@ -266,7 +266,7 @@ def _tell_ahead(
     code, inside = seen[0], seen[2]
     if p[int(p[FIELD.table]) + len(ROW) * code + ROW.rigid] > 0.0:
         against = -(seen[3] * way[0] + seen[4] * way[1] + seen[5] * way[2])
-        if inside < _NEAR and seen[1] != code and against > 0.1:
+        if inside < _NEAR and against > 0.1:
             _tell(state, code, -max(inside / against, 1e-9), -seen[3], -seen[4], -seen[5])
             return
     most = p[_AT.ahead]
