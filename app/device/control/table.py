@@ -83,15 +83,6 @@ def give_back_stage(state: FloatArray, p: FloatArray) -> None:
         place += 1
 
 
-@stage
-def give_back_others_stage(state: FloatArray, p: FloatArray) -> None:
-    """Take the state back, but for the slots that p names.
-
-    p holds the state, how many slots there are, and their numbers.
-    """
-    _give_back_others(state, p)
-
-
 @njit
 def _give_back_others(state: FloatArray, p: FloatArray) -> None:
     first = sv.SLOTS + 1
@@ -100,6 +91,15 @@ def _give_back_others(state: FloatArray, p: FloatArray) -> None:
         p[slot] = state[slot]
     for slot in range(sv.SLOTS):
         state[slot] = p[slot]
+
+
+@stage
+def give_back_others_stage(state: FloatArray, p: FloatArray) -> None:
+    """Take the state back, but for the slots that p names.
+
+    p holds the state, how many slots there are, and their numbers.
+    """
+    _give_back_others(state, p)
 
 
 _FORCES: Final = tuple(range(sv.FORCE.start, sv.FORCE.stop)) + tuple(
