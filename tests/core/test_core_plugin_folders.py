@@ -162,7 +162,10 @@ ENDS = {
     "exits": ("raise SystemExit(5)", "SystemExit: 5"),
     "a base": ("raise GeneratorExit", "GeneratorExit"),
     "half": ("root.command('half')(lambda: None); 1 / 0", "ZeroDivisionError: division by zero"),
-    "no type": ("root.command('odd')(lambda x: None)\n    root.command('y')(odd)", "AssertionError"),
+    "no type": (
+        "root.command('odd')(lambda x: None)\n    root.command('y')(odd)",
+        "AssertionError",
+    ),
 }
 
 
