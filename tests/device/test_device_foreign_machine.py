@@ -167,6 +167,14 @@ def test_what_a_foreign_machine_asks_of_cables_and_winches_is_finite_and_within_
     assert (after_efforts(profile, 1.0, 5.0, 0.0, 0.0)[sv.TENSION] == 5.0).all()
 
 
+@pytest.mark.parametrize("limit", [np.inf, np.nan, -1.0])
+def test_a_foreign_profile_without_a_limit_of_its_cables_is_refused(monkeypatch, foreign, limit):
+    kind = type(PROFILE)
+    monkeypatch.setattr(kind, "tension_range", property(lambda self: (0.0, limit)))
+    with pytest.raises(DeviceError, match=f"largest tension is {limit} N"):
+        after_efforts(PROFILE, 1.0, 5.0, 1.0, 0.0)
+
+
 def test_a_machine_whose_profile_states_no_cables_can_ask_nothing_of_any(foreign):
     state = after_efforts(PROFILE, 1.0, 5.0, 1.0, 0.0)
     assert (state[sv.TENSION] == 0.0).all()

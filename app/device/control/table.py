@@ -168,6 +168,11 @@ def _guarded(part: str, stages: Iterable[Stage], profile: DeviceProfile) -> list
     if part == "efforts":
         _, most = profile.tension_range or (0.0, 0.0)
         limits, back = [most, profile.fastest_reel], give_back_efforts_stage
+        if not all(isfinite(limit) and limit >= 0.0 for limit in limits):
+            raise DeviceError(
+                f"device {profile.name}: its largest tension is {most} N and its fastest reel"
+                f" {profile.fastest_reel} m/s; give finite numbers of 0 or more"
+            )
     memory = np.concatenate([np.zeros(sv.SLOTS), [len(theirs)], theirs, limits])
     before, after = AROUND_MACHINE[part]
     return [Stage(before, keep_stage, memory), *inner, Stage(after, back, memory)]
@@ -177,7 +182,7 @@ def _guarded_plant(stages: Iterable[Stage], profile: DeviceProfile) -> list[Stag
     """Return a link's write stages, with what moves somebody else's simulated machine guarded."""
     return [
         guarded
-        for stage in stages
+        for stage in (Stage(*given) for given in stages)
         for guarded in (_guarded("plant", [stage], profile) if stage.name == "plant" else [stage])
     ]
 
@@ -307,7 +312,7 @@ def machine_stages(
     Raises:
         DeviceError: if the bound is no finite number of 0 or more, a law needs dynamics that the
             machine does not state, or somebody else's machine has a stage of a name that another
-            has: memory goes from table to table by names.
+            has (memory goes from table to table by names), or no finite limits of its cables.
     """
     machine, laws = profile.machine.stages(), [Stage(*law) for law in laws]
     guard = [] if energy_bound is None else [PassivityGuard.of(profile, energy_bound).stage()]
