@@ -97,7 +97,7 @@ def test_one_that_is_not_offered_is_refused_for_a_series_that_cannot_be_read_as_
     (series,) = scan_folder(tmp_path / "ct").series
     with pytest.raises(
         SeriesRefusedError,
-        match=r"the remedy 'never' does not help series .*it can be read if you resample",
+        match=r"the remedy 'never' does not help series .*it can be read if you ask to resample",
     ):
         read_with(series, "never")
 
