@@ -68,6 +68,7 @@ def test_the_process_ends_with_whoever_started_it():
 
 
 @pytest.mark.long("journey")
+@pytest.mark.timeout(1200)  # two cores may be busy
 def test_a_first_start_fills_an_empty_cache_and_compiles_about_what_its_bar_goes_by(tmp_path):
     """One kernel a line; the second start finds the file that says so, and compiles none."""
     surroundings = environment(ACUS_CACHE=str(tmp_path))
