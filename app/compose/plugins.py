@@ -23,7 +23,7 @@ from app.core.plugins import PluginKind, read_statements
 from app.core.progress import Progress
 from app.exercises.library import read_exercise
 from app.mechanisms.profile import load_profile
-from app.mechanisms.profile.device import machine_fault
+from app.mechanisms.profile.device import TRIAL, machine_fault, refused_by_trial
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,7 +128,9 @@ def _machine(folder: Path, tried: bool) -> PluginFile:
             title = _docstring(body) or folder.name
         if reason:
             return PluginFile("machine", folder, "", reason)
-    return PluginFile("machine", folder, title, "")
+    kind = folder.name
+    reason = refused_by_trial(kind) if tried else TRIAL.refusal(folder / "machine.py")
+    return PluginFile("machine", folder, "" if reason else title, reason)
 
 
 _PARTS: Final = {
