@@ -28,7 +28,7 @@ from app.session.digest import MEASURED, digests
 from app.session.effect_models import ModelChoice, choices_of
 from app.session.errors import ReplayError
 from app.session.recording import Recording
-from app.session.risks import event_of, risk_marks, sentence
+from app.session.risks import event_of, mark_sentence, risk_marks
 from app.session.ticks import Inputs
 
 _INDEX = {name: k for k, name in enumerate(SLOT_NAMES) if name}
@@ -441,7 +441,7 @@ class ReplayContents:
         if self.ct.recipe is not None:
             lines.append(f"CT {self.ct.pseudonym}: {self.ct.words()}")
         lines += [scan.sentence(self.origin) for scan in self.scans]
-        lines += [sentence(mark) for mark in self.risks]
+        lines += [mark_sentence(mark) for mark in self.risks]
         build = ", ".join(f"{name} {value}" for name, value in self.build.items())
         return [*lines, f"build: {build or 'not recorded'}"]
 

@@ -100,7 +100,7 @@ def event_of(mark: RiskMark) -> Event:
         "breach_mm": mark.breach_mm,
         "depth_mm": mark.depth_mm,
     } | ({} if mark.inside_s is None else {"inside_s": mark.inside_s})
-    return Event(mark.time, KIND, sentence(mark), data)
+    return Event(mark.time, KIND, mark_sentence(mark), data)
 
 
 def risk_marks(events: Iterable[Event]) -> tuple[RiskMark, ...]:
@@ -121,7 +121,7 @@ def risk_marks(events: Iterable[Event]) -> tuple[RiskMark, ...]:
     return tuple(found)
 
 
-def sentence(mark: RiskMark) -> str:
+def mark_sentence(mark: RiskMark) -> str:
     """Say it in one line."""
     place = (
         f"{-mark.closest_mm:.1f} mm deep in {mark.name}"
