@@ -12,6 +12,7 @@ from app.compose.cameras import calibration_of, checked_cameras
 from app.core.arrays import FloatArray
 from app.core.clock import SystemClock
 from app.core.configuration import parse
+from app.core.messages import sentence
 from app.core.units import MILLISECOND
 from app.mechanisms.profile import load_profile
 from app.tracking.calibration.applies import require_cameras
@@ -94,8 +95,10 @@ def survey_cameras(settings: CameraSettings, source: str, seconds: float) -> Cam
         return CameraCheck(survey([camera], [source], clock, seconds), None, "")
     if settings.simulated:
         raise CameraError(
-            "the cameras are simulated; choose real ones with `acus camera use --left SOURCE "
-            "--right SOURCE`, or look at one with --source"
+            sentence(
+                "the cameras are simulated; choose real ones with `acus camera use --left SOURCE "
+                "--right SOURCE`, or look at one with --source"
+            )
         )
     settings.check()
     rig = load_rig(settings.rig)

@@ -9,6 +9,7 @@ import numpy as np
 from app.core import staleness
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.device.control import Loop, Table
 from app.device.errors import LinkError
 from app.device.links.link import describe_error
@@ -174,12 +175,20 @@ def _result(
     most_lost = int(min(LOST_SHARE * commands, staleness.ENCODER_FADE * rate_hz))
     if np.count_nonzero(in_time) < _MINIMUM and commands - answered <= most_lost:
         raise LinkError(
-            f"only {np.count_nonzero(in_time)} answers of the robot on {port} came within a tick of"
-            f" {1e3 / rate_hz:g} ms; lower loop.rate_hz in the profile or use a faster port"
+            sentence(
+                "only {count_nonzero} answers of the robot on {port} came within a tick of"
+                " {rate_hz:g} ms; lower loop.rate_hz in the profile or use a faster port",
+                count_nonzero=np.count_nonzero(in_time),
+                port=port,
+                rate_hz=1e3 / rate_hz,
+            )
         )
     if not len(trips):
         raise LinkError(
-            f"the robot on {port} was greeted, but answers no command; see its firmware"
+            sentence(
+                "the robot on {port} was greeted, but answers no command; see its firmware",
+                port=port,
+            )
         )
     p50, p90, p99, largest = np.percentile(trips, (50, 90, 99, 100))
     return LinkResult(

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import BinaryIO
 
+from app.core.messages import sentence
 from app.imaging import codestream
 from app.imaging.deflated import HEAD_BYTES
 from app.imaging.elements import Elements
@@ -67,18 +68,20 @@ def walk(stream: BinaryIO, start: int, size: int) -> Fragments:
         if (group, element) == _END:
             return _with_table(stream, places)
         if (group, element) != _ITEM or length == _UNDEFINED:
-            raise FileDamagedError("its compressed pixels are damaged")
+            raise FileDamagedError(sentence("its compressed pixels are damaged"))
         at = stream.tell()
         if at + length > size:
             break
         places.append((at, length))
         stream.seek(length, 1)
-    raise FileDamagedError(f"{TRUNCATED}: its compressed pixels do not end")
+    raise FileDamagedError(
+        sentence("{truncated}: its compressed pixels do not end", truncated=TRUNCATED)
+    )
 
 
 def _with_table(stream: BinaryIO, places: list[Place]) -> Fragments:
     if len(places) < 2:
-        raise FileDamagedError("its compressed pixels are empty")
+        raise FileDamagedError(sentence("its compressed pixels are empty"))
     at, length = places[0]
     stream.seek(at)
     count = length // 4
@@ -102,7 +105,13 @@ def frame_places(
         if len(starts) == frames and starts[0] == 0:
             ends = (*starts[1:], len(places))
             return tuple(places[a:b] for a, b in zip(starts, ends, strict=True))
-    raise FileDamagedError(f"its {len(places)} compressed fragments are not {frames} frames")
+    raise FileDamagedError(
+        sentence(
+            "its {places_count} compressed fragments are not {frames} frames",
+            places_count=len(places),
+            frames=frames,
+        )
+    )
 
 
 def _by_table(fragments: Fragments) -> list[int]:
@@ -132,7 +141,7 @@ def frame_bytes(stream: BinaryIO, places: Sequence[Place]) -> bytes:
         stream.seek(at)
         parts.append(stream.read(length))
         if len(parts[-1]) < length:
-            raise FileDamagedError("it ends within its compressed pixels; read it again")
+            raise FileDamagedError(sentence("it ends within its compressed pixels; read it again"))
     return parts[0] if len(parts) == 1 else b"".join(parts)
 
 

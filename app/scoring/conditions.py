@@ -8,6 +8,8 @@ from dataclasses import asdict, dataclass, field, fields, replace
 from enum import StrEnum
 from typing import Any, Final
 
+from app.core.messages import sentence
+
 DIAL_TOLERANCE: Final = 0.05
 """Dials of assistance that differ by no more than this count as the same: a twentieth of the way
 from no guidance to all of it."""
@@ -235,5 +237,5 @@ def _assistance(document: Mapping[str, Any]) -> Assistance:
 def _number(value: Any) -> float:
     number = float(value)
     if not math.isfinite(number):
-        raise ValueError(f"{value!r} is no number")
+        raise ValueError(sentence("{value!r} is no number", value=value))
     return number

@@ -7,6 +7,7 @@ and sealed: they are computed after that, by `with_shown`, for whoever looks at 
 from collections.abc import Mapping
 from dataclasses import replace
 
+from app.core.messages import sentence
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import MetricError, ToleranceError, UnknownMetricError
 from app.scoring.metrics import Metric, available
@@ -63,14 +64,29 @@ def check_names(
     metrics = available() if metrics is None else metrics
     for name, limits in tolerances.items():
         if name not in metrics:
-            raise UnknownMetricError(f"no metric {name!r}; there are {', '.join(metrics)}")
+            raise UnknownMetricError(
+                sentence(
+                    "no metric {name!r}; there are {metrics}", name=name, metrics=", ".join(metrics)
+                )
+            )
         if metrics[name].fault:
-            raise MetricError(f"metric {name!r} cannot be used: {metrics[name].fault}")
+            raise MetricError(
+                sentence(
+                    "metric {name!r} cannot be used: {metrics_fault}",
+                    name=name,
+                    metrics_fault=metrics[name].fault,
+                )
+            )
         if limits.higher_is_better != metrics[name].higher_is_better:
             way = "higher" if metrics[name].higher_is_better else "lower"
             raise ToleranceError(
-                f"{name}: bands {limits.knots[:3]} (expert, good, pass) run against the metric, "
-                f"of which {way} is better"
+                sentence(
+                    "{name}: bands {limits_knots} (expert, good, pass) run against the metric, "
+                    "of which {way} is better",
+                    name=name,
+                    limits_knots=limits.knots[:3],
+                    way=way,
+                )
             )
 
 

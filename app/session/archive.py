@@ -25,6 +25,7 @@ from app.core import paths
 from app.core.configuration import read_yaml
 from app.core.disclaimer import DISCLAIMER
 from app.core.files import beside, remove, replace, step, sweep
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.session.backup_file import FORMAT, MANIFEST, VERSION, ArchiveError, may_hold
 from app.session.course import courses_folder
@@ -75,7 +76,7 @@ def backup(
             replace(part, out)
     except (OSError, sqlite3.Error) as error:
         why = error.strerror if isinstance(error, OSError) and error.strerror else error
-        raise ArchiveError(f"cannot write {out}: {why}") from error
+        raise ArchiveError(sentence("cannot write {out}: {reason}", out=out, reason=why)) from error
     return count
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from app.core.arrays import FloatArray, frozen
 from app.core.errors import AcusError
 from app.core.events import Event
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.imaging.scan_order import ScanNeedle, ScanOrder, Seen, seen
 from app.planning.placement import PlacedPlan
@@ -151,8 +152,11 @@ def take(
     device = None if look is None else look.device
     if look is None or device is None or not look.pose.measured:
         raise ScanNotPossibleError(
-            "no control scan: the needle's depth is not measured now, so that a picture would be "
-            "a guess; nothing was counted. Let both cameras see the marker and press again"
+            sentence(
+                "no control scan: the needle's depth is not measured now, so that a picture "
+                "would be a guess; nothing was counted. Let both cameras see the marker and "
+                "press again"
+            )
         )
     length = float(np.linalg.norm(device.tip - device.hub))
     pose, to_patient = look.pose, placed.T_world_patient.inverse()

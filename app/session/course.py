@@ -16,6 +16,7 @@ from pydantic import Field, model_validator
 from app.core.configuration import Strict, load
 from app.core.errors import ConfigurationError
 from app.core.files import write_atomically
+from app.core.messages import sentence
 from app.exercises.guidance import Purpose
 from app.exercises.library import library
 from app.exercises.schema import Exercise
@@ -57,7 +58,13 @@ class CourseItem(Strict):
     @model_validator(mode="after")
     def _days_in_order(self) -> CourseItem:
         if self.opens and self.closes and self.closes < self.opens:
-            raise ValueError(f"closes on {self.closes}, before it opens on {self.opens}")
+            raise ValueError(
+                sentence(
+                    "closes on {closes}, before it opens on {opens}",
+                    closes=self.closes,
+                    opens=self.opens,
+                )
+            )
         return self
 
 
@@ -84,7 +91,12 @@ class Course(Strict):
         counts = Counter(item.exercise for item in self.items)
         twice = [name for name, count in counts.items() if count > 1]
         if twice:
-            raise ValueError(f"{twice[0]!r} stands there twice: an exercise has one place")
+            raise ValueError(
+                sentence(
+                    "{twice_first!r} stands there twice: an exercise has one place",
+                    twice_first=twice[0],
+                )
+            )
         return self
 
     def takes(self, person: Person) -> bool:
@@ -119,7 +131,13 @@ class Course(Strict):
         try:
             write_atomically(path, text)
         except OSError as error:
-            raise CourseError(f"cannot write {path}: {error.strerror or error}") from error
+            raise CourseError(
+                sentence(
+                    "cannot write {path}: {error_strerror}",
+                    path=path,
+                    error_strerror=error.strerror or error,
+                )
+            ) from error
         return path
 
 
@@ -159,7 +177,7 @@ def find_course(name: str, folder: Path | None = None) -> Course:
     if re.fullmatch(NAME, name) and path.is_file():
         return read_course(path)
     known = ", ".join(course.id for course in courses(folder)[0]) or "none"
-    raise CourseError(f"{name!r} is no course; there: {known}")
+    raise CourseError(sentence("{name!r} is no course; there: {known}", name=name, known=known))
 
 
 def newest_versions() -> dict[str, int]:

@@ -13,6 +13,7 @@ from pathlib import Path
 from uuid import uuid4
 
 from app.core import paths
+from app.core.messages import sentence
 from app.core.words import counted
 from app.session.errors import SessionError
 from app.session.header import TRASH
@@ -100,7 +101,13 @@ def gather(result: Elsewhere, folder: Path, people: People) -> int:
             journal.plan([*_steps(own, stage, folder), removal(stage), *_cleared(result, own)])
     except OSError as error:
         what = error.filename or folder
-        raise SessionError(f"cannot bring attempts here: {what}: {error.strerror}") from error
+        raise SessionError(
+            sentence(
+                "cannot bring attempts here: {what}: {error_strerror}",
+                what=what,
+                error_strerror=error.strerror,
+            )
+        ) from error
     return len(own)
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from app.core import state_vector as slots
 from app.core.arrays import FloatArray, read_only
 from app.core.events import Event, EventQueue
+from app.core.messages import sentence
 from app.device.faults import Fault
 from app.device.state import DeviceState
 from app.planning.off_path import Offset
@@ -247,9 +248,13 @@ class RobotAndCameras:
             NotReadyError: saying which.
         """
         if self._loop.latest().tick == 0:
-            raise NotReadyError("the robot is still starting: begin once it reports its pose")
+            raise NotReadyError(
+                sentence("the robot is still starting: begin once it reports its pose")
+            )
         if failed:
-            raise NotReadyError("the program has had a fault: close the exercise, open it again")
+            raise NotReadyError(
+                sentence("the program has had a fault: close the exercise, open it again")
+            )
 
     def take(self, fix: NeedleFix, placed: PlacedPlan) -> None:
         """Take a fix."""

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
+from app.core.messages import sentence
 from app.session.backup_file import ArchiveError
 from app.session.errors import PeopleError
 from app.session.people import OF_PERSON, VERSION, People, tables
@@ -55,8 +56,11 @@ def read_rows(path: Path, whose: str) -> PeopleRows:
             version = int(source.execute("PRAGMA user_version").fetchone()[0])
             if version > VERSION:
                 raise ArchiveError(
-                    f"the people of {whose} were written by a newer version of Acus: use that "
-                    "version; nothing was changed"
+                    sentence(
+                        "the people of {whose} were written by a newer version of Acus: use that "
+                        "version; nothing was changed",
+                        whose=whose,
+                    )
                 )
             if source.execute("PRAGMA quick_check").fetchone()[0] != "ok" or version < 1:
                 raise ArchiveError(_no_people(whose, "it is empty, or of another program"))

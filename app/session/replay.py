@@ -20,6 +20,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.build import BUILD, build, changes
+from app.core.messages import sentence
 from app.scoring.risks import RiskMark
 from app.session.blocks import CABLES, CLOCK, INPUTS, JUDGED, LATER, SLOT_NAMES, WIRE
 from app.session.control_scan import ControlScan
@@ -348,7 +349,7 @@ def _replayable(inputs: Inputs) -> int:
     """Count the rows up to the first gap, or up to the loop's end (a row without a step)."""
     reason = why_not(inputs)
     if reason:
-        raise ReplayError(f"this record cannot be replayed: {reason}")
+        raise ReplayError(sentence("this record cannot be replayed: {reason}", reason=reason))
     tick, dt = inputs.column("tick"), inputs.column("dt")
     stops = np.flatnonzero((np.diff(tick, prepend=tick[0] - 1.0) != 1.0) | (dt == 0.0))
     return int(stops[0]) if len(stops) else len(tick)
@@ -367,7 +368,7 @@ def _states(
     inputs = recording.inputs
     recorded = inputs.checkpoint
     if recorded is None:
-        raise ReplayError(f"this record cannot be replayed: {why_not(inputs)}")
+        raise ReplayError(sentence("this record cannot be replayed: {not_}", not_=why_not(inputs)))
     values = np.zeros((len(inputs.values), len(given)))  # an input that came later was never given
     for place, name in enumerate(given):
         if name in inputs.columns:
@@ -375,7 +376,9 @@ def _states(
     rerun = Rerun(table_of(recording), recorded.in_order_of(SLOT_NAMES), given)
     choices = choices_of(recording.events)
     if choices and change is None:
-        raise ReplayError("this record cannot be replayed: models were chosen while it ran")
+        raise ReplayError(
+            sentence("this record cannot be replayed: models were chosen while it ran")
+        )
     begin = int(inputs.column("tick")[0])
     at = [min(max(choice.tick - begin, 0), rows) for choice in choices]
     edges = sorted({0, rows, *at})

@@ -12,6 +12,7 @@ from app.core.arrays import FloatArray
 from app.core.errors import AcusError
 from app.core.events import Event
 from app.core.loading import ONE_AT_A_TIME
+from app.core.messages import sentence
 from app.core.units import DEGREE
 from app.exercises.scene import scene_of
 from app.exercises.schema import Exercise
@@ -341,7 +342,9 @@ def review_of_result(result: AttemptResult) -> Review:
     recording = result.recording
     if recording is None or (result.record is None and result.trajectory is None):
         raise SessionError(
-            result.unscored or result.reason or "the attempt left nothing to show: no valid pose"
+            result.unscored
+            or result.reason
+            or sentence("the attempt left nothing to show: no valid pose")
         )
     return review(recording)
 

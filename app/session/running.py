@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from app.core.events import Event, EventQueue
+from app.core.messages import sentence
 from app.core.staleness import TRACKER_HOLD
 from app.imaging.scan_order import ScanOrder
 from app.session import control_scan, machine
@@ -119,7 +120,11 @@ class RunningAttempt:
         """
         if self.attempt.running:
             raise IllegalTransitionError(
-                f"{what} while {self.attempt.state}: end the attempt first"
+                sentence(
+                    "{what} while {attempt_state}: end the attempt first",
+                    what=what,
+                    attempt_state=self.attempt.state,
+                )
             )
 
     def begin(
@@ -207,7 +212,10 @@ class RunningAttempt:
         """
         if self.log is None or not self.attempt.running or self.withdrawing:
             raise IllegalTransitionError(
-                f"a control scan is not possible while {self.attempt.state}: begin an attempt first"
+                sentence(
+                    "a control scan is not possible while {attempt_state}: begin an attempt first",
+                    attempt_state=self.attempt.state,
+                )
             )
         number = self.log.scans + 1
         data: dict[str, object] = {"number": number}
@@ -239,7 +247,7 @@ class RunningAttempt:
         if paused:
             self._tell_pause("the attempt ended while it was paused", now, over=True)
         if self.log is None:
-            raise IllegalTransitionError("no attempt has begun")
+            raise IllegalTransitionError(sentence("no attempt has begun"))
         if seen is not None and seen.time >= (self.attempt.began or 0.0):
             self.log.sample(seen.sample(self.attempt.state, inputs))
         return self.log.finish(self.attempt)

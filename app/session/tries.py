@@ -14,6 +14,7 @@ from functools import cache
 from hashlib import blake2b
 from typing import TYPE_CHECKING, Final
 
+from app.core.messages import sentence
 from app.session.database import Database, DatabaseError
 from app.session.errors import PeopleError
 
@@ -81,7 +82,9 @@ class Tries:
             early, count, right = self._compared_here(account, known, given)
             why = f"{error}; until then wrong tries are not kept"
         if early > 0.0:
-            raise WrongPasswordError(f"too many wrong tries: wait {early:.0f} s, then try again")
+            raise WrongPasswordError(
+                sentence("too many wrong tries: wait {early:.0f} s, then try again", early=early)
+            )
         if right:
             return why
         wait = _delay(count)

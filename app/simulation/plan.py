@@ -13,6 +13,7 @@ import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.parameters import Stage
 from app.simulation.consumers import IN_WORDS, Consumer, DevicePort
 from app.simulation.effects import Effect, array_of, declaration, load
@@ -126,8 +127,12 @@ class SimulationPlan:
         bound = float(module.energy_bound(self.stage(stored)[2]))
         if not 0.0 <= bound < math.inf:
             raise SimulationError(
-                f"effect {stored.name}: energy_bound is {bound} J; give a finite number of 0 or"
-                " more"
+                sentence(
+                    "effect {stored_name}: energy_bound is {bound} J; give a finite number of 0 "
+                    "or more",
+                    stored_name=stored.name,
+                    bound=bound,
+                )
             )
         return bound
 
@@ -269,5 +274,8 @@ def _ordered(stored: dict[str, Effect]) -> list[str]:
     except CycleError as error:
         circle = " -> ".join(error.args[1])
         raise SimulationError(
-            f"effects need each other's results in a circle: {circle}; take one of them out"
+            sentence(
+                "effects need each other's results in a circle: {circle}; take one of them out",
+                circle=circle,
+            )
         ) from error

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from app.arm.mechanics import kernels
 from app.arm.mechanics.profile import JOINTS, TWISTS, ArmProfile
 from app.core.arrays import FloatArray, frozen
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.mechanisms.errors import MechanismError, NotFiniteError
 from app.mechanisms.status import check
@@ -99,9 +100,15 @@ def seven(values: ArrayLike, name: str = "q") -> FloatArray:
     """
     array = np.ascontiguousarray(values, dtype=np.float64)
     if array.shape != (JOINTS,):
-        raise MechanismError(f"{name} has shape {array.shape}; (7,) is needed")
+        raise MechanismError(
+            sentence(
+                "{name} has shape {array_shape}; (7,) is needed", name=name, array_shape=array.shape
+            )
+        )
     if not np.isfinite(array).all():
-        raise NotFiniteError(f"{name} is not finite: {array.tolist()}")
+        raise NotFiniteError(
+            sentence("{name} is not finite: {array}", name=name, array=array.tolist())
+        )
     return array
 
 

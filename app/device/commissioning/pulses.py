@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.device.commissioning.results import RobotLatency, RoutineName, Side, Signs
 from app.device.commissioning.routine import Part, Routine, Script
 from app.device.control.loop import Loop
@@ -165,7 +166,7 @@ class SignRoutine(PulseRoutine):
                 response[index(side)] += 0.5 * sign * moved
                 self._progress += 0.15
         if problems := diagnose(response):
-            raise CommissioningError(f"{self.TITLE}: " + "; ".join(problems))
+            raise CommissioningError(sentence("{title}: ", title=self.TITLE) + "; ".join(problems))
         (ll, lr), (rl, rr) = response.tolist()
         return Signs(response=((ll, lr), (rl, rr)), by_hand=self._by_hand)
 
@@ -180,7 +181,9 @@ class SignRoutine(PulseRoutine):
         self._progress += 0.15
         moved, own = after - before, index(side)
         if problem := hand_problem(side, moved, own):
-            raise CommissioningError(f"{self.TITLE}: {problem}")
+            raise CommissioningError(
+                sentence("{title}: {problem}", title=self.TITLE, problem=problem)
+            )
 
 
 def hand_problem(side: Side, moved: ArrayLike, own: int) -> str:
@@ -289,8 +292,12 @@ class LatencyRoutine(PulseRoutine):
             state = yield from self._say("torque step on the left joint")
             if self._now - begin > _STEP_PATIENCE:
                 raise CommissioningError(
-                    f"{self.TITLE}: the left joint does not follow a step of {_TORQUE:g} N·m; run"
-                    " the sign check, and take the needle out"
+                    sentence(
+                        "{title}: the left joint does not follow a step of {torque:g} N·m; run"
+                        " the sign check, and take the needle out",
+                        title=self.TITLE,
+                        torque=_TORQUE,
+                    )
                 )
         rows = self._loop.rows(since)
         return dead_time(
@@ -333,9 +340,14 @@ def dead_time(time: FloatArray, torque: FloatArray, moved: FloatArray, count: fl
     used = (way >= _FIT_FROM * count) & (way <= _FIT_TO * count)
     if len(sent) == 0 or used.sum() < 3:
         raise CommissioningError(
-            "Latency: too few readings between rest and motion; is the link slow or the step lost?"
+            sentence(
+                "Latency: too few readings between rest and motion; is the link slow or the step "
+                "lost?"
+            )
         )
     slope, offset = np.polyfit(time[used] - time[sent[0]], np.sqrt(way[used]), 1)
     if not slope > 0.0:
-        raise CommissioningError("Latency: the joint does not speed up under a constant torque")
+        raise CommissioningError(
+            sentence("Latency: the joint does not speed up under a constant torque")
+        )
     return max(float(-offset / slope), 0.0)

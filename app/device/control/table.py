@@ -20,6 +20,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import stage
+from app.core.messages import sentence
 from app.core.parameters import Stage
 from app.device.control.depth_interval import DepthInterval
 from app.device.control.governor import SpeedGovernor
@@ -199,7 +200,11 @@ def _dynamics(machine: MachineStages, laws: Iterable[Stage], device: str) -> lis
         return []
     if machine.dynamics is None:
         raise DeviceError(
-            f"law {readers[0]!r} needs the dynamics of the machine, and {device} states none"
+            sentence(
+                "law {readers_first!r} needs the dynamics of the machine, and {device} states none",
+                readers_first=readers[0],
+                device=device,
+            )
         )
     return [machine.dynamics]
 

@@ -8,6 +8,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, Final
 
+from app.core.messages import sentence
 from app.device.errors import LinkError
 
 ANSWER_TIME = 0.06
@@ -90,7 +91,9 @@ class Port:
         try:
             import serial
         except ImportError as error:
-            raise LinkError(f"serial ports cannot be used on this system: {error}") from error
+            raise LinkError(
+                sentence("serial ports cannot be used on this system: {error}", error=error)
+            ) from error
         try:
             self._serial = serial.Serial(
                 self.path, self.baud, timeout=0, write_timeout=0, exclusive=True

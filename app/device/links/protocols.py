@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.device.errors import LinkError
 from app.device.links import acus_protocol as acus
 from app.device.links import cable_protocol as cables
@@ -81,18 +82,34 @@ class AcusSpeech(Speech):
         wanted = self._profile
         if info.profile and info.profile != wanted.name:
             raise LinkError(
-                f"the board says that it belongs to a robot of the profile {info.profile!r}, the"
-                f" program was started for {wanted.name!r}; choose the profile {info.profile}"
+                sentence(
+                    "the board says that it belongs to a robot of the profile {info_profile!r}, "
+                    "the program was started for {wanted_name!r}; choose the profile "
+                    "{info_profile_2}",
+                    info_profile=info.profile,
+                    wanted_name=wanted.name,
+                    info_profile_2=info.profile,
+                )
             )
         if counts != wanted.encoder.counts_per_turn:
             raise LinkError(
-                f"the board counts {counts} per turn, the profile {wanted.name} says"
-                f" {wanted.encoder.counts_per_turn}; correct the profile or the firmware"
+                sentence(
+                    "the board counts {counts} per turn, the profile {wanted_name} says"
+                    " {encoder_counts_per_turn}; correct the profile or the firmware",
+                    counts=counts,
+                    wanted_name=wanted.name,
+                    encoder_counts_per_turn=wanted.encoder.counts_per_turn,
+                )
             )
         if watchdog > wanted.wire.watchdog_ms * 1e-3 + 1e-9:
             raise LinkError(
-                f"the board's watchdog waits {watchdog * 1e3:g} ms, the profile {wanted.name}"
-                f" allows {wanted.wire.watchdog_ms:g} ms; update the firmware"
+                sentence(
+                    "the board's watchdog waits {watchdog:g} ms, the profile {wanted_name}"
+                    " allows {wanted_wire_watchdog_ms:g} ms; update the firmware",
+                    watchdog=watchdog * 1e3,
+                    wanted_name=wanted.name,
+                    wanted_wire_watchdog_ms=wanted.wire.watchdog_ms,
+                )
             )
         return info
 

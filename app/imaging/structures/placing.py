@@ -10,6 +10,7 @@ import numpy as np
 from scipy import ndimage
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.structures.errors import FrameOfReferenceError, StructureError
 from app.imaging.structures.structure import (
@@ -105,10 +106,14 @@ def place(
         placed = placed.with_one(structure)
     if result.count and not len(placed):
         if empty == result.count:
-            raise StructureError("the structures in the file are empty: nothing is drawn in them")
+            raise StructureError(
+                sentence("the structures in the file are empty: nothing is drawn in them")
+            )
         raise StructureError(
-            "none of the structures in the file lies in this CT: they belong to another patient "
-            "or another scan"
+            sentence(
+                "none of the structures in the file lies in this CT: they belong to another "
+                "patient or another scan"
+            )
         )
     return StructureSet(placed.structures, tuple(said))
 
@@ -129,9 +134,13 @@ def _same_frame(result: Found, own: str, uids: frozenset[str]) -> list[str]:
             "by its coordinates; check that the outlines fit the picture"
         ]
     raise FrameOfReferenceError(
-        "the structures were drawn on another frame of reference "
-        f"(…{named[-12:]}) than that of this CT (…{own[-12:]}), and the file does not name this "
-        "series: open the CT that they belong to"
+        sentence(
+            "the structures were drawn on another frame of reference "
+            "(…{named}) than that of this CT (…{own}), and the file does not name this "
+            "series: open the CT that they belong to",
+            named=named[-12:],
+            own=own[-12:],
+        )
     )
 
 

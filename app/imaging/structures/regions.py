@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.imaging.structures.contours import ONE_PLANE_MM, ContourPlane, gathered, stacked
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.structure import Colour, StructureKind
@@ -167,7 +168,12 @@ class Layers:
             slices * shape[0] * shape[1] > LARGEST_CONTOURS
         ):
             raise StructureFileError(
-                f"its contours spread over {shape[1]} × {shape[0]} × {slices} voxels"
+                sentence(
+                    "its contours spread over {shape_second} × {shape_first} × {slices} voxels",
+                    shape_second=shape[1],
+                    shape_first=shape[0],
+                    slices=slices,
+                )
             )
         pixel_mm = np.linalg.norm(self.frame[:, :2], axis=0)
         planes = [self._plane(group, low, shape, pixel_mm) for group in self.groups()]

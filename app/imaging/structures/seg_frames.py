@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.imaging.elements import FURTHEST_MM
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.structure import Mask
@@ -342,7 +343,7 @@ def _boxed(places: Sequence[NDArray[Any]], affine: FloatArray) -> Part | None:
     size = (high - low + 1).astype(np.float64)
     if float(size.prod()) > LARGEST_BOX:
         raise StructureFileError(
-            "it spreads over " + " × ".join(f"{n:.0f}" for n in size) + " voxels"
+            sentence("it spreads over ") + " × ".join(f"{n:.0f}" for n in size) + " voxels"
         )
     mask = np.zeros(tuple(int(n) for n in size[::-1]), bool)
     for place in places:

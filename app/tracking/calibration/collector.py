@@ -13,6 +13,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from app.core.messages import sentence
 from app.tracking.calibration.boards import Board
 from app.tracking.calibration.corners import find_corners
 from app.tracking.calibration.coverage import Attitude, Coverage
@@ -121,7 +122,12 @@ class ViewCollector:
 
     def __init__(self, board: Board, names: Sequence[str], live: bool = True) -> None:
         if not 1 <= len(names) <= 2:
-            raise CalibrationError(f"{len(names)} cameras were named; one or two can be calibrated")
+            raise CalibrationError(
+                sentence(
+                    "{names_count} cameras were named; one or two can be calibrated",
+                    names_count=len(names),
+                )
+            )
         self.board, self.names, self._live = board, tuple(names), live
         self._kept: list[tuple[BoardView | None, ...]] = []
         self._coverage = [Coverage() for _ in names]
@@ -163,8 +169,12 @@ class ViewCollector:
         """
         if len(seen) != len(self.names):
             raise CalibrationError(
-                f"{len(seen)} pictures were given; there are {len(self.names)} cameras: "
-                f"{', '.join(self.names)}"
+                sentence(
+                    "{seen_count} pictures were given; there are {names_count} cameras: {names}",
+                    seen_count=len(seen),
+                    names_count=len(self.names),
+                    names=", ".join(self.names),
+                )
             )
         views = [view if isinstance(view, BoardView) else None for view in seen]
         if not any(views):

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.tracking.calibration import finders
 from app.tracking.calibration.boards import Board, BoardKind
 from app.tracking.calibration.finders import Found, Grey, edge_width
@@ -101,8 +102,12 @@ def to_grey(image: NDArray[Any]) -> Grey:
     usable = image.dtype in (np.uint8, np.uint16) and min(shape[:2], default=0) >= 16
     if not usable or not (len(shape) == 2 or (len(shape) == 3 and shape[2] == 3)):
         raise CalibrationError(
-            f"an array of {image.dtype} and shape {shape} is no picture; 8 or 16 bit, grey or "
-            "BGR, at least 16x16 pixels is needed"
+            sentence(
+                "an array of {image_dtype} and shape {shape} is no picture; 8 or 16 bit, grey or "
+                "BGR, at least 16x16 pixels is needed",
+                image_dtype=image.dtype,
+                shape=shape,
+            )
         )
     if image.dtype == np.uint16:
         image = cv2.convertScaleAbs(image, alpha=255.0 / max(1, int(image.max())))

@@ -8,6 +8,7 @@ from typing import Final
 
 import cv2
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.tracking.calibration.boards import Board
 from app.tracking.calibration.corners import find_corners
@@ -29,20 +30,32 @@ def list_pictures(folder: Path, pattern: str = "*") -> list[Path]:
             `MOST_PICTURES`.
     """
     if not folder.is_dir():
-        raise CalibrationError(f"{no_folder(folder)}; give the folder of the pictures")
+        raise CalibrationError(
+            sentence("{no_folder}; give the folder of the pictures", no_folder=no_folder(folder))
+        )
     found = sorted(
         path for path in folder.glob(pattern) if path.is_file() and path.suffix.lower() in SUFFIXES
     )
     if not found:
         named = "" if pattern == "*" else f" named {pattern}"
         raise CalibrationError(
-            f"no picture{named} in {folder}; choose the folder of the pictures "
-            f"({', '.join(SUFFIXES)} are read)"
+            sentence(
+                "no picture{named} in {folder}; choose the folder of the pictures "
+                "({suffixes} are read)",
+                named=named,
+                folder=folder,
+                suffixes=", ".join(SUFFIXES),
+            )
         )
     if len(found) > MOST_PICTURES:
         raise CalibrationError(
-            f"{len(found)} pictures in {folder}, {MOST_PICTURES} are the most: put 20 to 200 of "
-            "them, of different views, into a folder of their own"
+            sentence(
+                "{count} pictures in {folder}, {most_pictures} are the most: put 20 to 200 of "
+                "them, of different views, into a folder of their own",
+                count=len(found),
+                folder=folder,
+                most_pictures=MOST_PICTURES,
+            )
         )
     return found
 

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.tracking.calibration.boards import Board
 from app.tracking.calibration.mono import MonoResult, calibrate_mono
@@ -118,8 +119,14 @@ def stereo_set(
     )
     if both < LEAST_PAIRS:
         raise CalibrationError(
-            f"{both} of {len(pairs)} pairs show the board to both cameras; at least {LEAST_PAIRS} "
-            f"are needed, 15 to 30 are good; {common_reasons(read)}"
+            sentence(
+                "{both} of {pairs_count} pairs show the board to both cameras; at least "
+                "{least_pairs} are needed, 15 to 30 are good; {common_reasons}",
+                both=both,
+                pairs_count=len(pairs),
+                least_pairs=LEAST_PAIRS,
+                common_reasons=common_reasons(read),
+            )
         )
     lefts, rights = lone[: len(alone[0])], lone[len(alone[0]) :]
     result = calibrate_pairs(

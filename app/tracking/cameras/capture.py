@@ -10,6 +10,7 @@ from typing import Any, Final, Protocol
 
 import cv2
 
+from app.core.messages import sentence
 from app.core.units import MILLISECOND
 from app.tracking.errors import CameraError
 
@@ -119,8 +120,15 @@ def lock(capture: Capture, controls: Controls) -> tuple[DriverSetting, ...]:
     )
     if given != (width, height):
         raise CameraError(
-            f"the camera gives pictures of {given[0]}x{given[1]} where {width}x{height} was asked "
-            "for; set `size` in the camera settings to one that the camera has and calibrate at it"
+            sentence(
+                "the camera gives pictures of {given_first}x{given_second} where "
+                "{width}x{height} was asked for; set `size` in the camera settings to one that "
+                "the camera has and calibrate at it",
+                given_first=given[0],
+                given_second=given[1],
+                width=width,
+                height=height,
+            )
         )
     if any(v is None for v in (controls.exposure, controls.focus, controls.white_balance)):
         for _ in range(_SETTLE):

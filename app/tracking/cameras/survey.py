@@ -17,6 +17,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.clock import Clock
+from app.core.messages import sentence
 from app.tracking.cameras.camera import Camera, CameraFrame, Image
 from app.tracking.cameras.checked import CheckedCamera
 from app.tracking.cameras.files import FolderCamera
@@ -41,9 +42,15 @@ def write_pictures(folder: Path, images: Mapping[str, Image]) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         for name, image in images.items():
             if not cv2.imwrite(str(folder / f"{name}.png"), image):
-                raise CameraError(f"cannot write {folder / name}.png")
+                raise CameraError(sentence("cannot write {folder}.png", folder=folder / name))
     except OSError as error:
-        raise CameraError(f"cannot write into {folder}: {error.strerror or error}") from error
+        raise CameraError(
+            sentence(
+                "cannot write into {folder}: {error_strerror}",
+                folder=folder,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
 
 
 def with_outline(image: Image, outline: FloatArray) -> Image:
@@ -161,7 +168,13 @@ def survey(
         CameraError: if one cannot be opened; all are closed then.
     """
     if len(cameras) != len(names):
-        raise CameraError(f"{len(cameras)} cameras have {len(names)} names")
+        raise CameraError(
+            sentence(
+                "{cameras_count} cameras have {names_count} names",
+                cameras_count=len(cameras),
+                names_count=len(names),
+            )
+        )
     arrived = threading.Condition()
     readers = [
         CameraReader(camera, name, clock, arrived, noise_expected=True)

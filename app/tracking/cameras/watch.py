@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from app.core.clock import Clock
+from app.core.messages import sentence
 from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.cameras.intake import Intake, IntakeVerdict, StreamFigures, plain
 from app.tracking.errors import CameraError
@@ -196,7 +197,12 @@ class CameraReader:
             self._received = self._changed = now
             self._publish(frame)
         elif now - self._received > STALL:
-            raise CameraError(f"its capture times cannot be used: {self._intake.figures().text}")
+            raise CameraError(
+                sentence(
+                    "its capture times cannot be used: {intake_figures_text}",
+                    intake_figures_text=self._intake.figures().text,
+                )
+            )
         self._failures, self._error = 0, ""
 
     def _publish(self, frame: CameraFrame) -> None:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.tracking.errors import PenError
 from app.tracking.optics.calibration import PARAMETERS, CameraCalibration
@@ -59,8 +60,15 @@ class Webcam:
         if size != tuple(self.calibration.image_size):
             wide, high = self.calibration.image_size
             raise PenError(
-                f"the pictures are {size[0]}x{size[1]}, the calibration is of {wide}x{high}; set "
-                "the webcam to that size or calibrate it anew (`acus calibrate mono`)"
+                sentence(
+                    "the pictures are {size_first}x{size_second}, the calibration is of "
+                    "{wide}x{high}; set the webcam to that size or calibrate it anew (`acus "
+                    "calibrate mono`)",
+                    size_first=size[0],
+                    size_second=size[1],
+                    wide=wide,
+                    high=high,
+                )
             )
 
     @property
