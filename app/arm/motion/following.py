@@ -264,13 +264,24 @@ class MotionRefusedError(MotionError):
         looked: bool = False,
     ) -> None:
         x, y, z = p_world.tolist()
-        message = f"the arm gets {100.0 * at:.3g} % of the way, to ({x:.4g}, {y:.4g}, {z:.4g}) m: "
-        message += reason
+        message = sentence(
+            "the arm gets {share:.3g} % of the way, to ({x:.4g}, {y:.4g}, {z:.4g}) m: {reason}",
+            share=100.0 * at,
+            x=x,
+            y=y,
+            z=z,
+            reason=reason,
+        )
         if placement is not None:
             px, py, pz = placement.translation.tolist()
-            message += f"; with its base at ({px:.4g}, {py:.4g}, {pz:.4g}) m it could"
+            message += sentence(
+                "; with its base at ({x:.4g}, {y:.4g}, {z:.4g}) m it could", x=px, y=py, z=pz
+            )
         elif looked:
-            message += f"; no base within {_SHIFTS[-1]:g} m of where it stands was found that could"
+            message += sentence(
+                "; no base within {away:g} m of where it stands was found that could",
+                away=_SHIFTS[-1],
+            )
         super().__init__(message)
         self.why, self.at, self.p_world, self.placement = reason, at, p_world, placement
 

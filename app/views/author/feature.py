@@ -81,7 +81,7 @@ from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.parts import button, label
 from app.views.kit.side_panel import scrolled
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, translated
 from app.views.kit.verdict import Verdict
 from app.views.kit.wizard import Wizard
 from app.views.shell.feature import Context, Feature
@@ -230,7 +230,7 @@ class ExerciseDialog(Wizard):
         try:
             return "" if exercise is None else exercise_text(exercise, folders()[1])
         except AcusError as error:
-            return str(error)
+            return translated(error)
 
     def _lay_out_buttons(self) -> None:
         row = QHBoxLayout()
@@ -281,7 +281,7 @@ class SkillTrial(QObject):
         try:
             file.write_text(exercise_text(tried, folders()[1]), encoding="utf-8")
         except (OSError, AcusError) as error:
-            self.failed.emit(str(error))
+            self.failed.emit(translated(error))
             return
         self._start(file, TRIAL_SEEDS)
 
@@ -547,7 +547,7 @@ class AuthorFeature(Feature):
             marked, path = self.context.editors.structures.structures, plan_of(exercise)
             layers = layers_along(patient.volume, path, tuple(marked))
         except AcusError as error:
-            self._say(str(error), Verdict.BAD)
+            self._say(translated(error), Verdict.BAD)
             return
         found = [layer.model_dump(mode="json", exclude_defaults=True) for layer in layers]
         self.editor.put("layers", value=found)
@@ -591,7 +591,7 @@ class AuthorFeature(Feature):
         try:
             self._conductor.set_exercise(exercise)
         except AcusError as error:
-            self._say(str(error), Verdict.BAD)
+            self._say(translated(error), Verdict.BAD)
             return
         if self.editor.dirty:
             self._say(tr("The exercise is taken as it stands; it is not kept by that."))
@@ -609,7 +609,7 @@ class AuthorFeature(Feature):
         try:
             saved = self.editor.keep(exercise)
         except AcusError as error:
-            self._say(str(error), Verdict.BAD)
+            self._say(translated(error), Verdict.BAD)
             return False
         plan = self.context.editors.plan
         drawn = plan_document(plan.edit, own=is_own(self.editor.document))
@@ -632,7 +632,7 @@ class AuthorFeature(Feature):
         try:
             return finished(exercise, self._conductor.patient, structures)
         except AcusError as error:
-            self._say(str(error), Verdict.BAD)
+            self._say(translated(error), Verdict.BAD)
             return None
 
     # --- files ----------------------------------------------------------------------------------

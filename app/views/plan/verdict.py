@@ -36,7 +36,7 @@ def verdict_words(editor: PlanEditor) -> VerdictWords:
     )
     if reached.reachable:
         return VerdictWords("good", tr("The robot can follow this path."), measures)
-    reasons = "; ".join(str(reason) for reason in reached.reasons)
+    reasons = "; ".join(translated(reason.message) for reason in reached.reasons)
     text = tr("Out of reach: {reasons}.", reasons=reasons)
     if reached.remedy is None:
         return VerdictWords("bad", text, measures)

@@ -34,7 +34,7 @@ from app.core.units import MILLIMETRE
 from app.session.machine import State
 from app.session.snapshot import Snapshot
 from app.views.kit.background import run_in_background
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, translated
 from app.views.kit.verdict import StatusItem, Verdict
 from app.views.shell.feature import Context, Feature
 
@@ -391,7 +391,7 @@ class SoundsFeature(Feature):
         self._opening, self._speaker = False, speaker
 
     def _fail(self, error: Exception) -> None:
-        self._opening, self._why = False, str(error)
+        self._opening, self._why = False, translated(error)
 
 
 class SoundsMenu:
