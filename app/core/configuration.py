@@ -14,7 +14,7 @@ from pydantic_core import ErrorDetails
 from app.core.errors import ConfigurationError
 from app.core.files import LARGEST_FILE as LARGEST_FILE
 from app.core.files import read_at_most
-from app.core.messages import sentence
+from app.core.messages import Sentence, sentence
 
 M = TypeVar("M", bound="Strict")
 
@@ -60,6 +60,10 @@ def _mapping(loader: _UniqueKeyLoader, node: yaml.MappingNode) -> dict[Any, Any]
     return loader.construct_mapping(node, deep=True)
 
 
+# What is written is read again as a text, with or without its template.
+yaml.SafeDumper.add_multi_representer(
+    Sentence, lambda dumper, text: dumper.represent_str(str(text))
+)
 _UniqueKeyLoader.add_constructor(yaml.resolver.BaseResolver.DEFAULT_MAPPING_TAG, _mapping)
 
 

@@ -108,8 +108,16 @@ class StageDeclaration(Declaration):
     def unpublished(self, values: Mapping[str, float]) -> tuple[str, ...]:
         """Return a sentence for each of `values` outside its range in the literature."""
         return tuple(
-            f"{name} is {values[name]:g} {self.parameters[name].unit}; published are "
-            f"{known.least:g} to {known.most:g} ({known.source})"
+            sentence(
+                "{name} is {values:g} {parameters_unit}; published are "
+                "{known_least:g} to {known_most:g} ({known_source})",
+                name=name,
+                values=values[name],
+                parameters_unit=self.parameters[name].unit,
+                known_least=known.least,
+                known_most=known.most,
+                known_source=known.source,
+            )
             for name, known in self.published.items()
             if name in values and not known.least <= values[name] <= known.most
         )
@@ -296,7 +304,9 @@ class PluginKind(Generic[D]):
         its_own |= any(map(self.is_own, plugin_folders.files(self.folder, escape(name))))
         if not its_own and (standing is None or loaded):
             return ""
-        return f"{path}: {name!r} is a name of the program's own; rename the file"
+        return sentence(
+            "{path}: {name!r} is a name of the program's own; rename the file", path=path, name=name
+        )
 
     def fault(self, path: Path) -> str:
         """Say why somebody else's file cannot be imported or fails its trial, as processes of their
@@ -307,7 +317,12 @@ class PluginKind(Generic[D]):
         # By the name that it will have: compiled code is kept with it.
         package = self._module_name(path).rpartition(".")[0]
         if found := import_fault(path, package):
-            return f"{self.word} file {path} cannot be imported: {found}"
+            return sentence(
+                "{word} file {path} cannot be imported: {result}",
+                word=self.word,
+                path=path,
+                result=found,
+            )
         return "" if self.trial is None else self.trial.fault(path)
 
     @contextmanager

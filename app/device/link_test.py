@@ -64,16 +64,24 @@ class LinkResult:
     def verdict(self) -> str:
         """One sentence: whether the wire is good, else what was wrong and what to do."""
         if self.good:
-            return "the wire is good"
-        unanswered = f"{self.lost} of {self.commands} commands were never answered"
+            return sentence("the wire is good")
+        unanswered = sentence(
+            "{lost} of {commands} commands were never answered",
+            lost=self.lost,
+            commands=self.commands,
+        )
         if self.seconds - self.last_answer > SILENCE:
-            return (
-                f"the board fell silent {self.last_answer:.2f} s after the beginning: {unanswered};"
-                " check its power, its cable and its program, then test again"
+            return sentence(
+                "the board fell silent {last_answer:.2f} s after the beginning: {unanswered};"
+                " check its power, its cable and its program, then test again",
+                last_answer=self.last_answer,
+                unanswered=unanswered,
             )
-        return (
-            f"{unanswered}, at most {self.most_lost} may be: check the cable and its plugs, and"
-            " what else this computer has to do, then test again"
+        return sentence(
+            "{unanswered}, at most {most_lost} may be: check the cable and its plugs, and"
+            " what else this computer has to do, then test again",
+            unanswered=unanswered,
+            most_lost=self.most_lost,
         )
 
     def document(self) -> dict[str, Any]:

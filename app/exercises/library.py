@@ -205,8 +205,10 @@ def unknown_profile(field: str, value: str) -> str:
     names = profile_names(field)
     if value in names or _is_path(value):
         return ""
-    return (
-        f"{value!r} is not known; valid names are {', '.join(names)}, or the path of a .yaml file"
+    return sentence(
+        "{value!r} is not known; valid names are {names}, or the path of a .yaml file",
+        value=value,
+        names=", ".join(names),
     )
 
 

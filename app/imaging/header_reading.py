@@ -314,7 +314,11 @@ def _missing(header: Elements) -> str:
     if not absent:
         return ""
     verb = "is" if len(absent) == 1 else "are"
-    return f"{' and '.join(absent)} {verb} missing, without which its pixels cannot be told"
+    return sentence(
+        "{absent} {verb} missing, without which its pixels cannot be told",
+        absent=" and ".join(absent),
+        verb=verb,
+    )
 
 
 def _format(header: Elements) -> PixelFormat:

@@ -132,7 +132,7 @@ def _room(library: Path, series: Series) -> None:
 
 def _why(error: OSError) -> str:
     if error.errno == errno.ENOSPC:
-        return "the disk of the library is full"
+        return sentence("the disk of the library is full")
     return error.strerror or type(error).__name__
 
 
@@ -201,18 +201,21 @@ class Imported:
     def words(self) -> str:
         """Return what became of it, for people."""
         if self.again and self.given < self.before:
-            return (
-                f"all {self.before} images of this series are in the library already; the "
-                f"{self.given} given are a part of them"
+            return sentence(
+                "all {before} images of this series are in the library already; the "
+                "{given} given are a part of them",
+                before=self.before,
+                given=self.given,
             )
         if self.again:
-            return "was in the library already, image for image"
+            return sentence("was in the library already, image for image")
         if 0 < self.before < self.given:
-            return (
-                f"taken into the library, in place of {self.before} of its {self.given} images "
-                "that lay there"
+            return sentence(
+                "taken into the library, in place of {before} of its {given} images that lay there",
+                before=self.before,
+                given=self.given,
             )
-        return "taken into the library"
+        return sentence("taken into the library")
 
 
 class CtLibrary:

@@ -164,11 +164,18 @@ def _placed(image: Any) -> tuple[FloatArray, str]:
 def _flaw(image: Any) -> str:
     shape = image.shape
     if len(shape) not in (3, 4) or (len(shape) == 4 and shape[3] != 1):
-        return f"has sizes {' × '.join(map(str, shape))}; one volume is read, no times or vectors"
+        return sentence(
+            "has sizes {shape}; one volume is read, no times or vectors",
+            shape=" × ".join(map(str, shape)),
+        )
     if min(shape[:2]) < 1 or shape[2] < 2:
-        return f"has {shape[2]} slices; a volume needs at least two"
+        return sentence("has {shape} slices; a volume needs at least two", shape=shape[2])
     kind = image.get_data_dtype()
-    return "" if kind.kind in "iuf" else f"holds {kind}, not one number for each voxel"
+    return (
+        ""
+        if kind.kind in "iuf"
+        else sentence("holds {kind}, not one number for each voxel", kind=kind)
+    )
 
 
 def _slabs(image: Any, size: tuple[int, ...]) -> Iterator[tuple[int, NDArray[Any]]]:

@@ -251,12 +251,19 @@ def choose(listing: Listing, series_uid: str | None = None, remedy: str = NO_REM
 def nothing_in(listing: Listing) -> str:
     """Say that a place holds no series, and what it does hold."""
     if not listing.ignored:
-        return f"{listing.path} is empty; name a folder with DICOM files"
+        return sentence(
+            "{listing_path} is empty; name a folder with DICOM files", listing_path=listing.path
+        )
     first = listing.ignored[0]
     count = len(listing.ignored)
-    return (
-        f"no DICOM series in {listing.path}: {count} file{'s' * (count > 1)} ignored "
-        f"({first.path.name}: {first.reason})"
+    return sentence(
+        "no DICOM series in {listing_path}: {count} file{count_2} ignored "
+        "({first_path_name}: {first_reason})",
+        listing_path=listing.path,
+        count=count,
+        count_2="s" * (count > 1),
+        first_path_name=first.path.name,
+        first_reason=first.reason,
     )
 
 
@@ -292,15 +299,22 @@ def _named(listing: Listing, series_uid: str, remedy: str) -> Series:
 
 def _refusal(series: Series) -> str:
     """Return why a series is not read as it is, and what could be asked for instead."""
-    return f"series {series.key} cannot be used: {series.reason}{offer(series)}"
+    return sentence(
+        "series {series_key} cannot be used: {series_reason}{offer}",
+        series_key=series.key,
+        series_reason=series.reason,
+        offer=offer(series),
+    )
 
 
 def offer(series: Series) -> str:
     """Say with which `--remedy` a refused series can be read; nothing where there is none."""
     if series.usable or not series.remedies:
         return ""
-    ways = (f"ask to {remedy} (--remedy {remedy})" for remedy in series.remedies)
-    return f"; it can be read if you {' or '.join(ways)}"
+    ways = (
+        sentence("ask to {remedy} (--remedy {remedy})", remedy=remedy) for remedy in series.remedies
+    )
+    return sentence("; it can be read if you {ways}", ways=" or ".join(ways))
 
 
 def read_series(series: Series, progress: Progress | None = None) -> Volume:
@@ -418,7 +432,9 @@ def _too_large(series: Series, reason: str) -> TooLargeError:
     """Make an error that holds the series as the scan would have found it, had it known."""
     known = replace(series, usable=False, reason=reason, refusal=Refusal.TOO_LARGE)
     known = replace(known, remedies=offered(known).names)
-    ask = f"; ask to {known.remedy} it" if known.remedies else ""
+    ask = (
+        sentence("; ask to {known_remedy} it", known_remedy=known.remedy) if known.remedies else ""
+    )
     return TooLargeError(
         sentence(
             "series {series_key} {reason}{ask}", series_key=series.key, reason=reason, ask=ask

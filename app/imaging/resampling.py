@@ -223,12 +223,28 @@ def _between(
 def _words(series: Series, grid: stack.Stack, target: _Target, empty: int) -> tuple[str, ...]:
     words = []
     if grid.tilt_deg:
-        words.append(f"straightened from a gantry tilt of {grid.tilt_deg:.1f}°")
+        words.append(
+            sentence(
+                "straightened from a gantry tilt of {grid_tilt_deg:.1f}°",
+                grid_tilt_deg=grid.tilt_deg,
+            )
+        )
     gaps, step = grid.gaps_mm, float(np.linalg.norm(target.affine_mm[:3, 2]))
     if not grid.tilt_deg or np.ptp(gaps) > stack.TOLERANCE_MM:
         words.append(
-            f"resampled from slices {gaps.min():.3g} to {gaps.max():.3g} mm apart to {step:.3g} mm"
+            sentence(
+                "resampled from slices {gaps_min:.3g} to {gaps_max:.3g} mm apart to {step:.3g} mm",
+                gaps_min=gaps.min(),
+                gaps_max=gaps.max(),
+                step=step,
+            )
         )
     if empty:
-        words.append(f"{empty} gap{'s' * (empty > 1)} of missing slices left empty")
+        words.append(
+            sentence(
+                "{empty} gap{empty_2} of missing slices left empty",
+                empty=empty,
+                empty_2="s" * (empty > 1),
+            )
+        )
     return tuple(words)

@@ -126,15 +126,15 @@ def _refused(member: zipfile.ZipInfo) -> str:
     """Return why a member is left out; empty if it is not."""
     name = PurePosixPath(member.filename.replace("\\", "/"))
     if name.is_absolute() or ".." in name.parts or ":" in member.filename or not name.parts:
-        return "leads out of the archive"
+        return sentence("leads out of the archive")
     if "\\" in member.filename or any(len(os.fsencode(part)) > 255 for part in name.parts):
-        return "has a name that is no file's"
+        return sentence("has a name that is no file's")
     if stat.S_ISLNK(member.external_attr >> 16):
-        return "a link, not a file"
+        return sentence("a link, not a file")
     if member.flag_bits & 1:
-        return "encrypted; unpack the archive yourself"
+        return sentence("encrypted; unpack the archive yourself")
     if member.compress_type not in (_STORED, _DEFLATED):
-        return "packed in a way that is not read (stored and deflated are)"
+        return sentence("packed in a way that is not read (stored and deflated are)")
     return ""
 
 

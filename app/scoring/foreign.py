@@ -198,4 +198,8 @@ def _module(path: Path) -> Any:
 
 def _named(error: BaseException) -> str:
     text = f"{type(error).__name__}: {error}".rstrip(": ")
-    return f"it ends the program ({text})" if isinstance(error, SystemExit) else text
+    return (
+        sentence("it ends the program ({text})", text=text)
+        if isinstance(error, SystemExit)
+        else text
+    )

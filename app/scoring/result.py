@@ -171,13 +171,19 @@ def judge(rows: tuple[Row, ...], rules: ScoreRules, attempt_void: str = "") -> S
 def _rows_void(rows: tuple[Row, ...], rules: ScoreRules) -> str:
     for row in rows:
         if row.name == TRACKING and row.value is not None and row.value < rules.minimum_tracking:
-            return (
-                f"the tip was tracked for {row.value:.0f} % of the insertion; "
-                f"{rules.minimum_tracking:g} % are needed"
+            return sentence(
+                "the tip was tracked for {row:.0f} % of the insertion; "
+                "{rules_minimum_tracking:g} % are needed",
+                row=row.value,
+                rules_minimum_tracking=rules.minimum_tracking,
             )
     for row in rows:
         if row.tolerance and row.tolerance.required and row.value is None:
-            return f"{row.label.lower()} is required and cannot be computed: {row.note}"
+            return sentence(
+                "{row_label} is required and cannot be computed: {row_note}",
+                row_label=row.label.lower(),
+                row_note=row.note,
+            )
     return ""
 
 

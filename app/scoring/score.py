@@ -100,17 +100,24 @@ def _row(metric: Metric, trajectory: Trajectory, limits: Tolerance | None) -> Ro
 
 def _attempt_void(trajectory: Trajectory, rules: ScoreRules) -> str:
     if trajectory.was_aborted:
-        return f"the attempt was aborted: {trajectory.aborted or 'no reason recorded'}"
+        return sentence(
+            "the attempt was aborted: {trajectory_aborted}",
+            trajectory_aborted=trajectory.aborted or "no reason recorded",
+        )
     if not trajectory.running.any():
-        return "the attempt was never begun: it ended before the needle was out of the skin"
+        return sentence(
+            "the attempt was never begun: it ended before the needle was out of the skin"
+        )
     if not trajectory.depth_valid[trajectory.running].any():
-        return "nothing measured how deep the needle was"
+        return sentence("nothing measured how deep the needle was")
     if not trajectory.inserted.any():
-        return "the needle never crossed the skin: it was never inserted"
+        return sentence("the needle never crossed the skin: it was never inserted")
     paused = trajectory.waited
     if paused > rules.maximum_pause:
-        return (
-            f"the attempt waited {paused:.0f} s for the cameras; {rules.maximum_pause:g} s are "
-            "allowed"
+        return sentence(
+            "the attempt waited {paused:.0f} s for the cameras; {rules_maximum_pause:g} s "
+            "are allowed",
+            paused=paused,
+            rules_maximum_pause=rules.maximum_pause,
         )
     return ""

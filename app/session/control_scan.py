@@ -112,10 +112,18 @@ class ControlScan:
     def sentence(self, origin: float) -> str:
         """Say it in one line, the time counted from `origin` [s]."""
         order = self.order
-        return (
-            f"control scan {self.number} at {self.time - origin:.1f} s: {order.slices} slices of "
-            f"{order.slice_mm:g} mm about z {order.centre_mm:.1f} mm, {SEEN_WORDS[self.seen]}, "
-            f"{self.dose:.1f} mGy·cm ({TEACHING_ESTIMATE})"
+        return sentence(
+            "control scan {number} at {time:.1f} s: {order_slices} slices of "
+            "{order_slice_mm:g} mm about z {order_centre_mm:.1f} mm, {seen_words}, "
+            "{dose:.1f} mGy·cm ({teaching_estimate})",
+            number=self.number,
+            time=self.time - origin,
+            order_slices=order.slices,
+            order_slice_mm=order.slice_mm,
+            order_centre_mm=order.centre_mm,
+            seen_words=SEEN_WORDS[self.seen],
+            dose=self.dose,
+            teaching_estimate=TEACHING_ESTIMATE,
         )
 
 

@@ -188,14 +188,23 @@ def newest_versions() -> dict[str, int]:
 def pinned_problems(course: Course) -> list[str]:
     """Say which exercises of a course are not in the library as they are pinned, one line each."""
     known = newest_versions()
-    found = []
+    found: list[str] = []
     for item in course.items:
         if item.exercise not in known:
-            found.append(f"{item.exercise}: no such exercise in the library")
+            found.append(
+                sentence(
+                    "{item_exercise}: no such exercise in the library", item_exercise=item.exercise
+                )
+            )
         elif known[item.exercise] != item.version:
             found.append(
-                f"{item.exercise}: the library has version {known[item.exercise]}, the course pins "
-                f"version {item.version}"
+                sentence(
+                    "{item_exercise}: the library has version {known}, the course pins "
+                    "version {item_version}",
+                    item_exercise=item.exercise,
+                    known=known[item.exercise],
+                    item_version=item.version,
+                )
             )
     return found
 
@@ -220,16 +229,24 @@ def why_not(
     place = next((n for n, item in enumerate(course.items) if item.exercise == exercise), None)
     if place is None:
         named = titled.get(exercise, exercise)
-        return f"{named} is no exercise of the course {course.title}"
+        return sentence(
+            "{named} is no exercise of the course {course_title}",
+            named=named,
+            course_title=course.title,
+        )
     item = course.items[place]
     if item.opens and today < item.opens:
-        return f"it opens on {item.opens}"
+        return sentence("it opens on {item_opens}", item_opens=item.opens)
     if item.closes and today > item.closes:
-        return f"it closed on {item.closes}"
+        return sentence("it closed on {item_closes}", item_closes=item.closes)
     done = attempts_used(own, item)
     if item.attempts is not None and len(done) >= item.attempts:
         many = item.attempts > 1
-        return f"all {item.attempts} attempts are used" if many else "the one attempt is used"
+        return (
+            sentence("all {item_attempts} attempts are used", item_attempts=item.attempts)
+            if many
+            else sentence("the one attempt is used")
+        )
     if course.ordered and place > 0:
         before = course.items[place - 1]
         tries = attempts_used(own, before)

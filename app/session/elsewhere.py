@@ -40,10 +40,12 @@ class Elsewhere:
         """Say in one line how many lie where, and what can be done about it."""
         count = len(self.records)
         lie = counted(count, "1 attempt lies", f"{count} attempts lie")
-        return (
-            f"{lie} in {self.folder}, where earlier versions kept attempts: "
-            f"`acus session gather` brings yours here, `acus session list --folder {self.folder}` "
-            "lists all"
+        return sentence(
+            "{lie} in {folder}, where earlier versions kept attempts: "
+            "`acus session gather` brings yours here, `acus session list --folder {folder}` "
+            "lists all",
+            lie=lie,
+            folder=self.folder,
         )
 
 

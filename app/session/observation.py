@@ -114,10 +114,10 @@ class Observation:
         `simulated` hand a needle that swings in it is none either, the attempt pauses for it.
         """
         if self.device is None:
-            return "" if self.time - began < LOOP_LIMIT else "the loop does not run"
+            return "" if self.time - began < LOOP_LIMIT else sentence("the loop does not run")
         age = self.time - self.device.time
         if age > LOOP_LIMIT:
-            return f"the loop has stopped: its newest state is {age:.1f} s old"
+            return sentence("the loop has stopped: its newest state is {age:.1f} s old", age=age)
         if self.device.time <= began + GRACE:
             return ""
         if self.encoder:
@@ -335,9 +335,17 @@ class BreathWatch:
     def _change(self, before: BreathHold) -> str:
         now = self.now
         if now.held and not before.held:
-            return f"the patient holds the breath, for {now.left:.0f} s at most"
+            return sentence(
+                "the patient holds the breath, for {now_left:.0f} s at most", now_left=now.left
+            )
         if now.spent and not before.spent:
-            return "the patient could hold no longer and breathes: release him, and ask again"
+            return sentence(
+                "the patient could hold no longer and breathes: release him, and ask again"
+            )
         if now.asked != before.asked:
-            return "the patient is told to hold" if now.asked else "the patient may breathe"
+            return (
+                sentence("the patient is told to hold")
+                if now.asked
+                else sentence("the patient may breathe")
+            )
         return ""

@@ -319,7 +319,7 @@ def _withheld(recording: Recording) -> str:
     check = judge_whole(recording.path, this_station())
     if check.verdict is not Signed.ALTERED:
         return ""
-    return f"altered after it was signed: {check.why}; it has no points"
+    return sentence("altered after it was signed: {check}; it has no points", check=check.why)
 
 
 def only_measured(figures: Curves, measured: NDArray[np.bool_]) -> Curves:

@@ -50,17 +50,19 @@ class DepthLoss:
             self._since = pose.time if self._since is None else self._since
             if self._lost and pose.time - self._since >= STEADY:
                 self._lost = False
-                return "the cameras see the needle again: the depth is measured"
+                return sentence("the cameras see the needle again: the depth is measured")
             return ""
         was_measured, self._since = self._since is not None, None
         if pose.depth_source is DepthSource.MODEL and was_measured and not self._lost:
             self._lost = True
-            why = pose.doubt or (
-                f"the cameras have not seen the needle for {TRACKER_HOLD * 1e3:.0f} ms"
+            why = pose.doubt or sentence(
+                "the cameras have not seen the needle for {tracker_hold:.0f} ms",
+                tracker_hold=TRACKER_HOLD * 1e3,
             )
-            return (
-                f"{why}: from now on the depth is not measured, and the force is held back as if "
-                "the needle could be anywhere"
+            return sentence(
+                "{reason}: from now on the depth is not measured, and the force is held back "
+                "as if the needle could be anywhere",
+                reason=why,
             )
         return ""
 

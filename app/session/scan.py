@@ -304,7 +304,9 @@ def _parse(frame: bytes, offset: int, problems: list[str]) -> list[McapRecord]:
 
 def _damaged(offset: int, error: Exception) -> str:
     text = " ".join(str(error).split()) or type(error).__name__
-    return f"the record at byte {offset} is damaged and left out: {text}"
+    return sentence(
+        "the record at byte {offset} is damaged and left out: {text}", offset=offset, text=text
+    )
 
 
 def _sort(record: McapRecord, topics: dict[int, str], result: FileContents) -> None:

@@ -236,6 +236,6 @@ def _stretched(recovery: str, salt: bytes) -> bytes:
     return hashlib.scrypt(raw, salt=salt, **_SCRYPT)
 
 
-_NO_RECOVERY_KEY: Final = (
+_NO_RECOVERY_KEY: Final = sentence(
     "a recovery key has eight groups of four letters and digits: type it again"
 )

@@ -45,9 +45,10 @@ def read_pixels(path: Path) -> NDArray[np.uint8]:
 
 
 _SIDE: Final = round(MOST_PIXELS**0.5)
-_TOO_MANY: Final = (
-    f"has more than {_SIDE} x {_SIDE} pixels, which are the most: make it smaller, or take it out "
-    "of the folder"
+_TOO_MANY: Final = sentence(
+    "has more than {side} x {side} pixels, which are the most: make it smaller, or take it out "
+    "of the folder",
+    side=_SIDE,
 )
 
 
@@ -94,4 +95,6 @@ def _as_stored(data: bytes) -> bytes:
 
 def no_folder(path: Path) -> str:
     """Say that a path is no folder: a file, or not there."""
-    return f"{path} is a file" if path.is_file() else f"there is no folder {path}"
+    return (
+        f"{path} is a file" if path.is_file() else sentence("there is no folder {path}", path=path)
+    )

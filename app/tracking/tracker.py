@@ -180,8 +180,10 @@ def with_cause(fix: NeedleFix, markers: Markers, names: Sequence[str]) -> Needle
         return replace(fix, reason=words)
     if fix.status is FixStatus.ONE_CAMERA:
         for name, word in seen.items():
-            lost = f"the marker is out of view of the {name} camera"
-            instead = f"the {name} camera does not measure the marker ({word})"
+            lost = sentence("the marker is out of view of the {name} camera", name=name)
+            instead = sentence(
+                "the {name} camera does not measure the marker ({word})", name=name, word=word
+            )
             return replace(fix, reason=fix.reason.replace(lost, instead))
     return fix
 
@@ -301,7 +303,7 @@ class Tracker:
         frames = self._times.sound((left, right))
         times = [frame.time for frame in frames if frame is not None]
         if not times:
-            reason = "the pictures' capture times run backwards"
+            reason = sentence("the pictures' capture times run backwards")
             return without_point(
                 FixStatus.NO_PICTURE, (None, None), self._times.newest, self._names, reason
             )

@@ -410,16 +410,21 @@ def _beyond(geometry: HandGeometry, status: int, phi2: float, phi3: float, reach
     if status == UNREACHABLE:
         near = abs(geometry.proximal - geometry.distal) / MILLIMETRE
         far = (geometry.proximal + geometry.distal) / MILLIMETRE
-        return (
-            f"it is {reach / MILLIMETRE:.4g} mm from joint 2,"
-            f" the links reach from {near:.4g} to {far:.4g} mm"
+        return sentence(
+            "it is {reach_mm:.4g} mm from joint 2, the links reach from {near:.4g} to {far:.4g} mm",
+            reach_mm=reach / MILLIMETRE,
+            near=near,
+            far=far,
         )
     for name, angle, most in (
         ("φ2", phi2, geometry.most_proximal),
         ("φ3", phi3, geometry.most_distal),
     ):
         if not -_ROUNDING <= angle <= most + _ROUNDING:
-            return (
-                f"{name} would be {angle / DEGREE:.4g}°, its limits are 0 and {most / DEGREE:.4g}°"
+            return sentence(
+                "{name} would be {angle_deg:.4g}°, its limits are 0 and {most_deg:.4g}°",
+                name=name,
+                angle_deg=angle / DEGREE,
+                most_deg=most / DEGREE,
             )
     return ""

@@ -266,12 +266,26 @@ def in_words(arm: ArmProfile, pose: RigidTransform) -> str:
     reach = float(np.linalg.norm(away))
     least, most = abs(arm.upper_arm - arm.forearm), arm.upper_arm + arm.forearm
     x, y, z = pose.translation
-    words = (
-        f"wrist centre ({x:.6g}, {y:.6g}, {z:.6g}) m is {reach:.6g} m from the shoulder; the links"
-        f" span {least:.4g} to {most:.4g} m"
+    words = sentence(
+        "wrist centre ({x:.6g}, {y:.6g}, {z:.6g}) m is {reach:.6g} m from the shoulder; the "
+        "links span {least:.4g} to {most:.4g} m",
+        x=x,
+        y=y,
+        z=z,
+        reach=reach,
+        least=least,
+        most=most,
     )
     within = min(max(reach, least), most)
     if within == reach or not 0.0 < reach < float("inf"):
-        return f"{words}; nearest_pose gives the nearest that is within the joint limits"
+        return sentence(
+            "{words}; nearest_pose gives the nearest that is within the joint limits", words=words
+        )
     x, y, z = shoulder + within / reach * away
-    return f"{words}; the nearest that they reach is ({x:.4f}, {y:.4f}, {z:.4f}) m (nearest_pose)"
+    return sentence(
+        "{words}; the nearest that they reach is ({x:.4f}, {y:.4f}, {z:.4f}) m (nearest_pose)",
+        words=words,
+        x=x,
+        y=y,
+        z=z,
+    )

@@ -31,7 +31,7 @@ from app.arm.motion.pivot import HeldTool, Pivot
 from app.arm.motion.searching import Budget, Collisions, SearchError, search
 from app.arm.motion.timing import JointMotion, import_ruckig, timed
 from app.core.arrays import FloatArray, angle_between, cross
-from app.core.messages import sentence, sentence_of
+from app.core.messages import joined, sentence, sentence_of
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.mechanisms.errors import MechanismError
@@ -166,7 +166,9 @@ class NotPlacedError(MotionError):
     """
 
     def __init__(self, stuck: _StuckError, tried: tuple[str, ...]) -> None:
-        super().__init__("no grip brings the tool into the trocar: " + "; ".join(tried))
+        super().__init__(
+            sentence("no grip brings the tool into the trocar: {tried}", tried=joined("; ", tried))
+        )
         self.phase, self.hindrance, self.why = stuck.phase, stuck.hindrance, stuck.why
         self.tried = tried
 
@@ -240,7 +242,7 @@ def _first(
     q0 = seven(start, "start")
 
     def failed(grip: str, error: _StuckError) -> None:
-        tried.append(f"{grip}: {error}")
+        tried.append(sentence("{grip}: {reason}", grip=grip, reason=error))
         stuck.append(error)
 
     for sign in (1.0, -1.0):
@@ -271,7 +273,7 @@ class _StuckError(MotionError):
     """A phase that cannot be."""
 
     def __init__(self, phase: PhaseName, hindrance: Hindrance, reason: str) -> None:
-        super().__init__(f"{phase.value}: {reason}")
+        super().__init__(sentence("{phase}: {reason}", phase=phase.value, reason=reason))
         self.phase, self.hindrance, self.why = phase, hindrance, reason
 
 

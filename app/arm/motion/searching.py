@@ -98,7 +98,7 @@ class Collisions:
     def touched(self, q: FloatArray) -> str:
         """Say what a posture touches, as the end of a sentence."""
         what = self.names(q) if self.names is not None else None
-        return what or "the arm touches something"
+        return what or sentence("the arm touches something")
 
     def stopped(self, arm: ArmProfile, path: JointPath) -> float | None:
         """Return where along a path something is touched, or a joint is beyond its limit; None:

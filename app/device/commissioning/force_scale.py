@@ -157,30 +157,39 @@ def refusal(factor: float, residual: float, gear: float) -> str:
         residual: root mean square from the line [N].
         gear: motor turns per joint turn.
     """
-    text = f"measured over commanded force is {factor:.3f}"
+    text = sentence("measured over commanded force is {factor:.3f}", factor=factor)
     if abs(factor - 1.0) <= SCALE_TOLERANCE:
         if residual <= _RESIDUAL:
             return ""
-        return (
-            f"the readings scatter by {residual:.3f} N about a line (at most {_RESIDUAL:g} N):"
-            " tare the scale, keep the needle still, and weigh again"
+        return sentence(
+            "the readings scatter by {residual:.3f} N about a line (at most {residual_2:g} "
+            "N): tare the scale, keep the needle still, and weigh again",
+            residual=residual,
+            residual_2=_RESIDUAL,
         )
     allowed = f"{text}, outside 1 ± {SCALE_TOLERANCE:g}: "
     if abs(factor) < _NOTHING:
-        return allowed + "the scale does not feel the robot; check thread, tare and motor supply"
+        return allowed + sentence(
+            "the scale does not feel the robot; check thread, tare and motor supply"
+        )
     if factor < 0.0:
-        return allowed + "the sign is wrong; check the direction of the set-up, then the signs"
+        return allowed + sentence(
+            "the sign is wrong; check the direction of the set-up, then the signs"
+        )
     if gear > 1.0 and _near(factor, gear):
-        return allowed + (
-            f"the gear ratio {gear:g}:1 seems to be missing in the torque factor: the board takes"
-            " the joint torque for the motor shaft's; divide its torque factor by the gear ratio"
+        return allowed + sentence(
+            "the gear ratio {gear:g}:1 seems to be missing in the torque factor: the board "
+            "takes the joint torque for the motor shaft's; divide its torque factor by the "
+            "gear ratio",
+            gear=gear,
         )
     if gear > 1.0 and _near(factor, 1.0 / gear):
-        return allowed + (
-            f"the gear ratio {gear:g}:1 seems to be applied twice; multiply the board's torque"
-            " factor by the gear ratio"
+        return allowed + sentence(
+            "the gear ratio {gear:g}:1 seems to be applied twice; multiply the board's torque"
+            " factor by the gear ratio",
+            gear=gear,
         )
-    return allowed + (
+    return allowed + sentence(
         "check torque constant, amplifier gain and lengths in the profile against the device"
     )
 

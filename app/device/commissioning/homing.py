@@ -54,9 +54,11 @@ class HomingRoutine(Routine):
     def instruction(self) -> str:
         """Say what the user does to reach the reference pose."""
         left, right = np.degrees(self.known())
-        return (
+        return sentence(
             "move both links outwards against their stops"
-            f" (left {left:.1f}°, right {right:.1f}°), hold them there and confirm"
+            " (left {left:.1f}°, right {right:.1f}°), hold them there and confirm",
+            left=left,
+            right=right,
         )
 
     def _script(self) -> Script:
@@ -143,7 +145,7 @@ class JigHomingRoutine(HomingRoutine):
 
     def instruction(self) -> str:
         """Say what the user does to reach the reference pose."""
-        return "put the needle into the jig that holds it vertical and confirm"
+        return sentence("put the needle into the jig that holds it vertical and confirm")
 
     def _check(self) -> Part:
         """Lean the needle: both encoders must agree on a pose within the joint's cone."""

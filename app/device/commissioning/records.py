@@ -256,7 +256,11 @@ def settle(bench: RecordedDevice, step: RoutineName, report: RoutineReport) -> s
         return report.failure
     while _counts(bench, step):
         bench.undo(step)
-    return f"{report.failure} ({CHECKS[step]} counts no more: do this step again)"
+    return sentence(
+        "{report_failure} ({checks} counts no more: do this step again)",
+        report_failure=report.failure,
+        checks=CHECKS[step],
+    )
 
 
 def _counts(bench: RecordedDevice, step: RoutineName) -> bool:

@@ -236,7 +236,11 @@ class Routine(ABC):
 
 def _why_not_armed(state: DeviceState) -> str:
     if state.tick == 0:
-        return "the loop does not tick; start it before the routine"
+        return sentence("the loop does not tick; start it before the routine")
     if state.fault is Fault.NONE:
-        return "the loop does not answer in time to arm the forces; close other programs, try again"
-    return f"the forces cannot be armed: {state.fault.message}"
+        return sentence(
+            "the loop does not answer in time to arm the forces; close other programs, try again"
+        )
+    return sentence(
+        "the forces cannot be armed: {state_fault_message}", state_fault_message=state.fault.message
+    )

@@ -75,7 +75,7 @@ class AcusSpeech(Speech):
             for payload in deframer.feed(data):
                 if payload[0] == acus.INFO:
                     return self._checked(payload)
-        raise LinkError(silence(seen, "no board that speaks Acus' protocol"))
+        raise LinkError(silence(seen, sentence("no board that speaks Acus' protocol")))
 
     def _checked(self, payload: bytes) -> BoardInfo:
         info, counts, _, watchdog = acus.read_info(payload, self._version)
@@ -145,7 +145,9 @@ class HaplySpeech(Speech):
             seen += len(data)
             if len(data) == haply.REPLY_BYTES and data[0] == number:
                 return self._found()
-        raise LinkError(silence(seen, f"no Haply board with number {number}"))
+        raise LinkError(
+            silence(seen, sentence("no Haply board with number {number}", number=number))
+        )
 
     def _found(self) -> BoardInfo:
         # A number that no other connection has, of any program: records outlive them.
@@ -180,13 +182,17 @@ def speech_of(profile: DeviceProfile) -> Speech:
 def silence(seen: int, whom: str) -> str:
     """Say that nobody answers, and why that may be."""
     if seen:
-        return (
-            f"{whom} answers: {seen} bytes came, but they make no sense; check that this is the"
-            " robot's port (acus device list), its profile, and the baud rate there (wire.baud)"
+        return sentence(
+            "{whom} answers: {seen} bytes came, but they make no sense; check that this is "
+            "the robot's port (acus device list), its profile, and the baud rate there "
+            "(wire.baud)",
+            whom=whom,
+            seen=seen,
         )
-    return (
-        f"{whom} answers; check its power and cable, that this is the robot's port (acus device"
-        " list), its profile, and the baud rate there (wire.baud)"
+    return sentence(
+        "{whom} answers; check its power and cable, that this is the robot's port (acus "
+        "device list), its profile, and the baud rate there (wire.baud)",
+        whom=whom,
     )
 
 

@@ -272,9 +272,9 @@ def _refused(settings: PacsSettings, linked: Any) -> PacsError:
         )
     tls = settings.tls
     wish = (
-        "; perhaps it wants a certificate of our own (tls: certificate, key)"
+        sentence("; perhaps it wants a certificate of our own (tls: certificate, key)")
         if tls is not None and not tls.certificate
-        else "; perhaps that port wants TLS"
+        else sentence("; perhaps that port wants TLS")
         if tls is None
         else ""
     )

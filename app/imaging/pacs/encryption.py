@@ -96,14 +96,20 @@ def shake_hands(connection: socket.socket, settings: PacsSettings) -> str:
         with context.wrap_socket(connection, server_hostname=settings.host):
             return ""
     except ssl.SSLCertVerificationError as error:
-        return f"its certificate is not trusted: {error.verify_message}"
+        return sentence(
+            "its certificate is not trusted: {error_verify_message}",
+            error_verify_message=error.verify_message,
+        )
     except ssl.SSLError as error:
         why = (error.reason or "").replace("_", " ").lower()
-        return f"no encrypted connection comes about ({why or 'TLS error'}); is that its TLS port?"
+        return sentence(
+            "no encrypted connection comes about ({reason}); is that its TLS port?",
+            reason=why or "TLS error",
+        )
     except TimeoutError:
-        return "it does not answer to TLS; is that its TLS port?"
+        return sentence("it does not answer to TLS; is that its TLS port?")
     except OSError:
-        return "it closes the connection when TLS begins; is that its TLS port?"
+        return sentence("it closes the connection when TLS begins; is that its TLS port?")
 
 
 def _trust(context: ssl.SSLContext, tls: TlsSettings) -> None:

@@ -273,20 +273,21 @@ def face_warning(dataset: Dataset) -> str:
     """Return what to say about a face in these slices; empty where none is to be expected."""
     part = str(dataset.get("BodyPartExamined", "") or "").strip().upper()
     if _HEAD.fullmatch(part):
-        return (
-            f"a face may be recognisable in the 3D view (body part {part}): nothing was removed "
-            "from the pictures; keep this CT where patients' pictures may be kept"
+        return sentence(
+            "a face may be recognisable in the 3D view (body part {part}): nothing was "
+            "removed from the pictures; keep this CT where patients' pictures may be kept",
+            part=part,
         )
     recognisable = str(dataset.get("RecognizableVisualFeatures", "") or "").strip().upper()
     if recognisable == "YES" or any(_SPOKEN.search(str(dataset.get(k, "") or "")) for k in _TEXTS):
-        return (
-            "the files' own texts speak of a head or neck: a face may be recognisable in the 3D "
-            "view; nothing was removed from the pictures"
+        return sentence(
+            "the files' own texts speak of a head or neck: a face may be recognisable in the "
+            "3D view; nothing was removed from the pictures"
         )
     if not part:
-        return (
-            "the files do not say which body part they show: if it is the head, a face may be "
-            "recognisable in the 3D view"
+        return sentence(
+            "the files do not say which body part they show: if it is the head, a face may "
+            "be recognisable in the 3D view"
         )
     return ""
 

@@ -269,7 +269,7 @@ def _class_name(uid: str) -> str:
     from pydicom.uid import UID
 
     name = UID(uid, config.IGNORE).name
-    return "of an unknown SOP class" if name == uid else name
+    return sentence("of an unknown SOP class") if name == uid else name
 
 
 def _unknown(path: Path, what: str) -> StructureFileError:

@@ -58,7 +58,13 @@ class ContourRegion:
     def notes(self) -> list[str]:
         """Say what was left out, a line for each reason."""
         return [
-            f"{self.name}: {count} contour{'s' if count > 1 else ''} {reason} left out"
+            sentence(
+                "{name}: {count} contour{text} {reason} left out",
+                name=self.name,
+                count=count,
+                text="s" if count > 1 else "",
+                reason=reason,
+            )
             for reason, count in self.left_out.items()
         ]
 
@@ -204,12 +210,16 @@ class Layers:
 
 
 def _remarks(planes: Sequence[ContourPlane]) -> list[str]:
-    said = []
+    said: list[str] = []
     if repeated := sum(plane.repeated for plane in planes):
-        times = "contour that is" if repeated == 1 else "contours that are"
-        said.append(f"{repeated} {times} in the file twice counted once")
+        times = sentence("contour that is") if repeated == 1 else sentence("contours that are")
+        said.append(
+            sentence(
+                "{repeated} {times} in the file twice counted once", repeated=repeated, times=times
+            )
+        )
     if any(plane.crossed for plane in planes):
-        said.append("contours that cross one another were joined")
+        said.append(sentence("contours that cross one another were joined"))
     return said
 
 

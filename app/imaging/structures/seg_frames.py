@@ -211,9 +211,11 @@ def spacing_note(frames: Sequence[SegFrame]) -> str:
     counts = gaps / between if between > 0.0 else np.array([0.5])
     if (np.abs(counts - np.rint(counts)) <= 0.1).all() and counts.min() > 0.5:
         return ""
-    return (
-        f"its SpacingBetweenSlices ({between:g} mm) contradicts its frames (at least "
-        f"{gaps.min():.3g} mm apart): each frame was placed where it says itself"
+    return sentence(
+        "its SpacingBetweenSlices ({between:g} mm) contradicts its frames (at least "
+        "{gaps_min:.3g} mm apart): each frame was placed where it says itself",
+        between=between,
+        gaps_min=gaps.min(),
     )
 
 

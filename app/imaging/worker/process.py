@@ -214,15 +214,15 @@ class Child:
             self._process.wait(1.0)
         code = self._process.returncode
         if code is None:
-            return "closed its connection"
+            return sentence("closed its connection")
         if code >= 0:
-            return f"ended with code {code}"
+            return sentence("ended with code {code}", code=code)
         try:
             name = signal.Signals(-code).name
         except ValueError:
             name = f"signal {-code}"
         why = _WHY.get(name, "")
-        return f"was ended by {name}{why}"
+        return sentence("was ended by {name}{reason}", name=name, reason=why)
 
 
 def _is_progress(message: Any) -> bool:

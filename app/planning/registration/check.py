@@ -152,17 +152,20 @@ class PointCheck:
     def condition(self) -> str:
         """Return what the figure at the target rests on, for people."""
         shift = (
-            f"a shift that all share: {np.sqrt(self.shared) / MILLIMETRE:.2f} mm by the plate"
+            sentence(
+                "a shift that all share: {sqrt_mm:.2f} mm by the plate",
+                sqrt_mm=np.sqrt(self.shared) / MILLIMETRE,
+            )
             if self.shared
-            else "a shift that all share is not in it"
+            else sentence("a shift that all share is not in it")
         )
         if self.stated is not None:
-            shape = "errors of each point as stated"
-            shape += ", which the residuals exceed" if self.contradicted else ""
+            shape = sentence("errors of each point as stated")
+            shape += sentence(", which the residuals exceed") if self.contradicted else ""
         elif self.shaped is not None:
-            shape = "shape of the errors by the residuals"
+            shape = sentence("shape of the errors by the residuals")
         else:
-            shape = "holds for errors that are as large in every direction"
+            shape = sentence("holds for errors that are as large in every direction")
         return f"{shape}; {shift}"
 
 

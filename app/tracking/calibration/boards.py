@@ -23,9 +23,10 @@ from app.tracking.errors import CalibrationError
 
 UNITS = {"mm": MILLIMETRE, "cm": 0.01, "m": 1.0}
 DEFAULT_BOARD = "charuco:9x6:20mm:15mm:DICT_5X5_100"
-_FORMS = (
+_FORMS = sentence(
     "checkerboard:COLSxROWS:SQUARE (inner corners, e.g. checkerboard:9x6:25mm) or "
-    f"charuco:COLSxROWS:SQUARE:MARKER:DICTIONARY (squares, e.g. {DEFAULT_BOARD})"
+    "charuco:COLSxROWS:SQUARE:MARKER:DICTIONARY (squares, e.g. {example})",
+    example=DEFAULT_BOARD,
 )
 
 

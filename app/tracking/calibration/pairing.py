@@ -64,14 +64,25 @@ class Paired:
     @property
     def remarks(self) -> list[str]:
         """Return what is not a pair, one line each."""
-        lines = []
+        lines: list[str] = []
         if self.skipped:
             names = _listed([path.name for path in self.skipped])
-            lines.append(f"skipped: {names}: not pictures whose names say one of the two cameras")
+            lines.append(
+                sentence(
+                    "skipped: {names}: not pictures whose names say one of the two cameras",
+                    names=names,
+                )
+            )
         for side, paths in zip(("left", "right"), self.alone, strict=True):
             if paths:
                 names = _listed([path.name for path in paths])
-                lines.append(f"no partner: {names}: used for the {side} camera alone")
+                lines.append(
+                    sentence(
+                        "no partner: {names}: used for the {side} camera alone",
+                        names=names,
+                        side=side,
+                    )
+                )
         return lines
 
 

@@ -91,14 +91,18 @@ def read_view(
     try:
         image = read_pixels(path)
     except OSError as error:
-        why = f"cannot be read: {error.strerror or error}"
+        why = sentence("cannot be read: {error_strerror}", error_strerror=error.strerror or error)
         return Rejection(RejectionReason.UNREADABLE, why, path.name)
     except TrackingError as error:
         return Rejection(RejectionReason.UNREADABLE, _short(error), path.name)
     try:
         found = find_corners(image, board, thorough, window)
     except (CalibrationError, cv2.error) as error:
-        return Rejection(RejectionReason.UNREADABLE, f"cannot be used: {_short(error)}", path.name)
+        return Rejection(
+            RejectionReason.UNREADABLE,
+            sentence("cannot be used: {short}", short=_short(error)),
+            path.name,
+        )
     if isinstance(found, Rejection):
         return Rejection(found.reason, found.text, path.name)
     return found.called(path.name)

@@ -130,21 +130,31 @@ def remarks_on(
     for camera, centre in zip(calibration.cameras, centres, strict=True):
         if centre[2] < 0.0:
             remarks.append(
-                f"camera {camera.name} stands {-centre[2] / MILLIMETRE:.0f} mm below the robot's "
-                "plane (z = 0): is the board's place right?"
+                sentence(
+                    "camera {camera_name} stands {centre_mm:.0f} mm below the robot's "
+                    "plane (z = 0): is the board's place right?",
+                    camera_name=camera.name,
+                    centre_mm=-centre[2] / MILLIMETRE,
+                )
             )
     if watched is not None:
         for model in calibration.models():
             if not bool(np.all(model.sees(watched))):
                 remarks.append(
-                    f"camera {model.name} does not see the needle's place: is the board's place "
-                    "right, and does the camera look at the needle?"
+                    sentence(
+                        "camera {model_name} does not see the needle's place: is the board's "
+                        "place right, and does the camera look at the needle?",
+                        model_name=model.name,
+                    )
                 )
     at_camera = np.hstack([np.eye(3), -skew(centres[0])])
     spread = float(np.sqrt(np.trace(at_camera @ covariance @ at_camera.T)))
     if away > 3.0 * spread + 1e-3:
         remarks.append(
-            f"the places disagree by {away / MILLIMETRE:.1f} mm at the left camera: was a board "
-            "laid wrongly?"
+            sentence(
+                "the places disagree by {away_mm:.1f} mm at the left camera: was a board "
+                "laid wrongly?",
+                away_mm=away / MILLIMETRE,
+            )
         )
     return tuple(remarks)

@@ -159,7 +159,11 @@ def seen_by_both(pairs: Sequence[Pair], board: Board, estimate: StereoEstimate) 
 
 def none_seen(read: Sequence[Seen]) -> str:
     """Say that no picture shows the board, and the commonest reasons."""
-    return f"the board is usable in none of {len(read)} pictures (or pairs); {common_reasons(read)}"
+    return sentence(
+        "the board is usable in none of {read_count} pictures (or pairs); {common_reasons}",
+        read_count=len(read),
+        common_reasons=common_reasons(read),
+    )
 
 
 def common_reasons(read: Sequence[Seen]) -> str:

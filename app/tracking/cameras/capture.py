@@ -98,7 +98,12 @@ class DriverSetting:
         """One line for people."""
         if not self.accepted:
             asked = "holding it" if self.wanted is None else f"{self.wanted:g}"
-            return f"{self.name}: the driver did not accept {asked} (it is at {self.got:g})"
+            return sentence(
+                "{name}: the driver did not accept {asked} (it is at {got:g})",
+                name=self.name,
+                asked=asked,
+                got=self.got,
+            )
         return f"{self.name}: {'held at ' if self.wanted is None else ''}{self.got:g}"
 
 

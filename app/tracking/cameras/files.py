@@ -102,9 +102,21 @@ class FolderCamera(Camera):
                 sizes.setdefault((width, height), path)
         if len(sizes) > 1:
             each = ", ".join(f"{w}x{h} ({path.name} …)" for (w, h), path in sizes.items())
-            found.append(f"the pictures of {self.folder} are of different sizes: {each}")
+            found.append(
+                sentence(
+                    "the pictures of {folder} are of different sizes: {each}",
+                    folder=self.folder,
+                    each=each,
+                )
+            )
         if len(files) > most:
-            found.append(f"only the first {most} of {len(files)} pictures were looked at")
+            found.append(
+                sentence(
+                    "only the first {most} of {files_count} pictures were looked at",
+                    most=most,
+                    files_count=len(files),
+                )
+            )
         return tuple(found)
 
     def _due(self) -> int:

@@ -56,9 +56,12 @@ class CameraLatency:
     @property
     def text(self) -> str:
         """For people."""
-        return (
-            f"{1e3 * self.median:.1f} ± {1e3 * self.error:.1f} ms (spread of a single picture "
-            f"{1e3 * self.sd:.1f} ms, {self.n} changes)"
+        return sentence(
+            "{median:.1f} ± {error:.1f} ms (spread of a single picture {sd:.1f} ms, {n} changes)",
+            median=1e3 * self.median,
+            error=1e3 * self.error,
+            sd=1e3 * self.sd,
+            n=self.n,
         )
 
 

@@ -87,8 +87,10 @@ def find_port(place: str, ports: Sequence[CameraPort]) -> str | int:
 def plugged_in(ports: Sequence[CameraPort]) -> str:
     """Say which cameras there are."""
     if not ports:
-        return "none is plugged in: check the cable, and `acus camera list`"
-    return "plugged in are: " + ", ".join(f"usb:{port.port} ({port.title})" for port in ports)
+        return sentence("none is plugged in: check the cable, and `acus camera list`")
+    return sentence("plugged in are: ") + ", ".join(
+        f"usb:{port.port} ({port.title})" for port in ports
+    )
 
 
 def _port(interface: str, interfaces: Sequence[str]) -> str:

@@ -79,9 +79,9 @@ def missing(source: str, ports: Sequence[CameraPort]) -> str:
         except CameraError as error:
             return str(error)
     if origin.kind is SourceKind.FOLDER and not Path(origin.place).is_dir():
-        return f"there is no folder {origin.place}"
+        return sentence("there is no folder {origin_place}", origin_place=origin.place)
     if origin.kind is SourceKind.VIDEO and not Path(origin.place).is_file():
-        return f"there is no video {origin.place}"
+        return sentence("there is no video {origin_place}", origin_place=origin.place)
     return ""
 
 
@@ -132,18 +132,34 @@ class CameraReport:
         if self.image is None or self.health.message:
             lines += [self.health.text] if self.health.text not in lines else []
         elif self.saturated > _TOO_BRIGHT:
-            lines.append(f"{self.saturated:.0%} of the picture is overexposed: lower the exposure")
+            lines.append(
+                sentence(
+                    "{saturated:.0%} of the picture is overexposed: lower the exposure",
+                    saturated=self.saturated,
+                )
+            )
         elif self.brightness < _TOO_DARK:
-            lines.append(f"the picture is dark (mean {self.brightness:.0f} of 255): more light")
+            lines.append(
+                sentence(
+                    "the picture is dark (mean {brightness:.0f} of 255): more light",
+                    brightness=self.brightness,
+                )
+            )
         elif self.noise > _TOO_NOISY:
             lines.append(
-                f"the picture is noisy ({self.noise:.0f} grey values where it is even): more "
-                "light, so that the camera amplifies less, or a longer exposure"
+                sentence(
+                    "the picture is noisy ({noise:.0f} grey values where it is even): more "
+                    "light, so that the camera amplifies less, or a longer exposure",
+                    noise=self.noise,
+                )
             )
         if self.figures.repeated_share > 0.02:
             lines.append(
-                f"{self.figures.repeated_share:.0%} of the pictures repeat: lower the rate, or "
-                "plug the cameras into ports of different USB controllers"
+                sentence(
+                    "{figures_repeated_share:.0%} of the pictures repeat: lower the rate, or "
+                    "plug the cameras into ports of different USB controllers",
+                    figures_repeated_share=self.figures.repeated_share,
+                )
             )
         return tuple(lines)
 

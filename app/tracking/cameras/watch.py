@@ -58,18 +58,25 @@ class CameraHealth:
         if self.message:
             return self.message
         if self.plain:
-            return f"the picture is {self.plain}; look at the lens cap, the light, the exposure"
+            return sentence(
+                "the picture is {plain}; look at the lens cap, the light, the exposure",
+                plain=self.plain,
+            )
         if self.state is CameraState.FROZEN:
-            return "the picture does not change any more; plug the camera in again"
+            return sentence("the picture does not change any more; plug the camera in again")
         refused = (
             f" ({self.figures.text})" if self.figures.backwards + self.figures.impossible else ""
         )
         if self.simulated:
-            return (
-                f"no picture for {self.age:.1f} s{refused}: this computer is too busy to draw "
-                "them; close other programs"
+            return sentence(
+                "no picture for {age:.1f} s{refused}: this computer is too busy to draw "
+                "them; close other programs",
+                age=self.age,
+                refused=refused,
             )
-        return f"no picture for {self.age:.1f} s{refused}; check its cable"
+        return sentence(
+            "no picture for {age:.1f} s{refused}; check its cable", age=self.age, refused=refused
+        )
 
     @property
     def named(self) -> str:

@@ -380,7 +380,7 @@ class ViewCone:
         if not lost.any():
             return None
         if lost.all():
-            return f"{name} sees nothing of it: the camera looks another way"
+            return sentence("{name} sees nothing of it: the camera looks another way", name=name)
         depths = np.unique(self.depth)
         gone = [d for d in depths if lost[self.depth == d].all()]
         part = [d for d in depths if d not in gone and lost[self.depth == d].any()]
@@ -388,8 +388,8 @@ class ViewCone:
         if gone:
             texts.append(f"everything at {_ranges(gone, depths)}")
         if part:
-            texts.append(f"part of it at {_ranges(part, depths)}")
-        return f"{name} loses {' and '.join(texts)} mm depth"
+            texts.append(sentence("part of it at {ranges}", ranges=_ranges(part, depths)))
+        return sentence("{name} loses {texts} mm depth", name=name, texts=" and ".join(texts))
 
 
 def view_cone(

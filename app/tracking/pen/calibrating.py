@@ -165,9 +165,12 @@ class HeldBack:
     @property
     def words(self) -> str:
         """Return what was found, for people."""
-        return (
-            f"on {self.poses} positions held back the tip was {self.rms / MILLIMETRE:.2f} mm from "
-            f"its dimple (at most {self.worst / MILLIMETRE:.1f} mm)"
+        return sentence(
+            "on {poses} positions held back the tip was {rms_mm:.2f} mm from "
+            "its dimple (at most {worst_mm:.1f} mm)",
+            poses=self.poses,
+            rms_mm=self.rms / MILLIMETRE,
+            worst_mm=self.worst / MILLIMETRE,
         )
 
 
@@ -216,12 +219,20 @@ class PenCalibration:
     def words(self) -> str:
         """Return what was found, for people."""
         x, y, z = (self.tip.p_tip / MILLIMETRE).tolist()
-        return (
-            f"tip at ({x:.1f}, {y:.1f}, {z:.1f}) mm from the middle of the cube, standard "
-            f"deviation {self.tip.sd_mm:.2f} mm; it stood still to {self.tip.rms / MILLIMETRE:.2f} "
-            f"mm in {self.tip.poses} poses ({self.tip.left_out} left out); axis to "
-            f"{self.axis.sd_deg:.2f}°" + (f"; {self.check.words}" if self.check else "")
-        )
+        return sentence(
+            "tip at ({x:.1f}, {y:.1f}, {z:.1f}) mm from the middle of the cube, standard "
+            "deviation {tip_sd_mm:.2f} mm; it stood still to {tip_rms_mm:.2f} "
+            "mm in {tip_poses} poses ({tip_left_out} left out); axis to "
+            "{axis_sd_deg:.2f}°",
+            x=x,
+            y=y,
+            z=z,
+            tip_sd_mm=self.tip.sd_mm,
+            tip_rms_mm=self.tip.rms / MILLIMETRE,
+            tip_poses=self.tip.poses,
+            tip_left_out=self.tip.left_out,
+            axis_sd_deg=self.axis.sd_deg,
+        ) + (f"; {self.check.words}" if self.check else "")
 
 
 class PoseCollector:

@@ -75,11 +75,15 @@ class Webcam:
     def words(self) -> str:
         """Return where the lens is known from, for people."""
         if self.guessed:
-            return (
+            return sentence(
                 "THE LENS IS GUESSED from the size of the picture: calibrate it with `acus "
                 "calibrate mono`, the needle is several times less certain until then"
             )
-        return f"lens calibrated ({self.calibration.views} views, {self.calibration.rms_px:.2f} px)"
+        return sentence(
+            "lens calibrated ({calibration_views} views, {calibration_rms_px:.2f} px)",
+            calibration_views=self.calibration.views,
+            calibration_rms_px=self.calibration.rms_px,
+        )
 
 
 def guessed_webcam(size: tuple[int, int], name: str = "webcam") -> Webcam:

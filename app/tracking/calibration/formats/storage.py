@@ -143,7 +143,7 @@ def matrices_in(path: Path, keys: tuple[str, ...], progress: Progress) -> Matric
 
 
 def _line(error: Exception) -> str:
-    text = "OpenCV cannot read it" if hasattr(error, "func") else str(error)
+    text = sentence("OpenCV cannot read it") if hasattr(error, "func") else str(error)
     return " ".join(text.split())[:200]
 
 
