@@ -2,7 +2,7 @@
 
 import ast
 
-from tools.words import count, risen, words_in
+from tools.words import count, risen, unmarked_in, words_in
 
 
 def test_no_refused_word_is_there_more_often_than_before():
@@ -30,3 +30,23 @@ def test_names_at_borders_docstrings_without_a_verb_and_texts_are_seen():
         "name: why",
         "text: counts for nobody",
     ]
+
+
+def test_a_raise_below_the_window_that_nobody_can_translate_is_seen():
+    wrong = (
+        'raise DeviceError(f"{path} is busy")',
+        'raise DeviceError("the port is busy")',
+        'raise DeviceError("%s is busy" % path)',
+        'raise DeviceError("{} is busy".format(path))',
+        'raise DeviceError("busy: " + path if busy else f"{path} is gone")',
+        'raise CarryError(MISSED, f"{path} is busy")',
+    )
+    right = (
+        'raise DeviceError(sentence("{path} is busy", path=path))',
+        "raise DeviceError(message)",
+        'raise AttributeError(f"no attribute {name}")',
+        'raise self.wrong(f"{key}.data", value)',
+        "raise",
+    )
+    assert [list(unmarked_in(ast.parse(code))) for code in wrong] == [[1]] * len(wrong)
+    assert [list(unmarked_in(ast.parse(code))) for code in right] == [[]] * len(right)

@@ -85,10 +85,11 @@ def joined(separator: str, parts: Iterable[str]) -> Sentence:
 
 
 def _remembered(template: str, values: Mapping[str, Any]) -> dict[str, Any]:
-    return {
-        name: _plain(values[name], conversion, form)
-        for name, form, conversion in reversed(_fields(template))  # of two, the first counts
-    }
+    remembered: dict[str, Any] = {}
+    for name, form, conversion in _fields(template):
+        if name not in remembered:  # of two, the first counts
+            remembered[name] = _plain(values[name], conversion, form)
+    return remembered
 
 
 def _plain(value: Any, conversion: str, form: str) -> Any:
