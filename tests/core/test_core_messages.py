@@ -69,9 +69,11 @@ def test_sentences_that_are_added_keep_their_templates():
     assert isinstance(text, Sentence)
 
 
-@pytest.mark.parametrize(
-    "way", [copy.copy, copy.deepcopy, lambda it: pickle.loads(pickle.dumps(it))]
-)
+def through_pickle(text):
+    return pickle.loads(pickle.dumps(text))
+
+
+@pytest.mark.parametrize("way", [copy.copy, copy.deepcopy, through_pickle])
 def test_copies_are_sentences(way):
     text = sentence("{path}: {reason}", path=Path("a"), reason=sentence("line {line}", line=3))
     again = way(text)
@@ -81,9 +83,11 @@ def test_copies_are_sentences(way):
 
 
 def test_an_error_keeps_its_template_across_processes():
-    with multiprocessing.get_context("spawn").Pool(1) as pool:
-        with pytest.raises(ConfigurationError, match="line 7 is wrong") as error:
-            pool.apply(raised, (7,))
+    with (
+        multiprocessing.get_context("spawn").Pool(1) as pool,
+        pytest.raises(ConfigurationError, match="line 7 is wrong") as error,
+    ):
+        pool.apply(raised, (7,))
     assert error.value.args[0].template == "line {line} is wrong"
     assert error.value.args[0].values == {"line": 7}
 
