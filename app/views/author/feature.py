@@ -358,7 +358,7 @@ class AuthorFeature(Feature):
         self._actions = add_entries(
             self._shell.menu(tr("&File"), tr("Exercise")),
             [
-                (tr("Make an exercise from what is open…"), "Ctrl+Shift+E", self.make),
+                (tr("Make an exercise from the open patient…"), "Ctrl+Shift+E", self.make),
                 (tr("Change the present exercise…"), "", self.change),
                 None,
                 (tr("Import an exercise…"), "", self.ask_import),
@@ -458,7 +458,7 @@ class AuthorFeature(Feature):
             return
         exercise = self._conductor.exercise
         if exercise is None:
-            self.failed.emit(tr("No exercise is taken: choose one first."))
+            self.failed.emit(tr("No exercise is open: choose one first."))
             return
         if self.dialog is not None and not self.may_go():
             return
@@ -594,9 +594,9 @@ class AuthorFeature(Feature):
             self._say(translated(error), Verdict.BAD)
             return
         if self.editor.dirty:
-            self._say(tr("The exercise is taken as it stands; it is not kept by that."))
+            self._say(tr("The exercise is used as it is now; this does not save it."))
         else:
-            self._say(tr("The exercise is taken."))
+            self._say(tr("The exercise is now in use."))
         self._shell.show_panel(self._conductor.views.panel)
 
     def keep(self) -> bool:
@@ -649,7 +649,7 @@ class AuthorFeature(Feature):
         if not self._may():
             return
         if self._conductor.exercise is None:
-            self.failed.emit(tr("No exercise is taken: choose one first."))
+            self.failed.emit(tr("No exercise is open: choose one first."))
         else:
             self._export(self._conductor.exercise)
 

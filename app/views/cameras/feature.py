@@ -309,8 +309,8 @@ class CamerasMenu:
         menu.setToolTipsVisible(True)
         latency.menuAction().setToolTip(
             tr(
-                "How late a picture comes: a patch blinks, the camera looks at it, the delay is "
-                "kept"
+                "Measure how late a picture arrives: a patch blinks, the camera watches "
+                "it, the delay is saved"
             )
         )
         for action, help_ in (

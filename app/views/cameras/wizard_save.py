@@ -389,8 +389,8 @@ class SavePage(QWidget):
         rows.addWidget(
             label(
                 tr(
-                    "Calibrations so far; none is ever deleted. One that is found bad is used no "
-                    "more, and attempts made with it are flagged."
+                    "Calibrations so far; none is ever deleted. One that proves bad is no "
+                    "longer used, and attempts made with it are flagged."
                 ),
                 "dim",
             )

@@ -61,7 +61,7 @@ def agreement_item(
         checked=checked,
     )
     if not known:
-        text = tr("{size}; the calibration's own uncertainty is not known", size=text)
+        text = tr("{size}; the calibration's own uncertainty is unknown", size=text)
         help_ += " " + tr(
             "The calibration was imported and does not say how sure it is: the radius leaves its "
             "error out. Calibrate with pictures of a board to know it."

@@ -121,7 +121,7 @@ class Listed:
             return [words for so, words in told if so]
         lines = said_words(said, held if manages else "")
         if summary.id in self.cut:
-            lines.append(tr("cut off: Recover closes it as it stands"))
+            lines.append(tr("cut off: Recover closes it as it is"))
         if summary.id in self.deleted:
             lines.insert(
                 0,

@@ -118,7 +118,7 @@ class PacsPanel(QDialog):
         return tree
 
     def _lay_out(self) -> None:
-        self.patient.setPlaceholderText(tr("* and ? stand for what is not known"))
+        self.patient.setPlaceholderText(tr("* and ? stand for unknown characters"))
         self.name.setPlaceholderText(tr("FAMILY^GIVEN, with * and ?"))
         self.date.setPlaceholderText(tr("YYYYMMDD or YYYYMMDD-YYYYMMDD"))
         server = QHBoxLayout()

@@ -431,7 +431,7 @@ class PenDialog(QDialog):
         self.back.setVisible(self._used)
         self.use.setText(tr("&Use this pen") if self._used else tr("&Use the pen as needle"))
         self.use.setDefault(True)
-        self.again.setToolTip(tr("Open the webcam anew, for instance once it is plugged in"))
+        self.again.setToolTip(tr("Open the webcam again, for instance after plugging it in"))
         seen = QVBoxLayout()
         seen.setSpacing(theme.SPACING)
         seen.addWidget(self.preview, 1)

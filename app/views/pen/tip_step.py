@@ -237,14 +237,14 @@ class TipStep(QWidget):
         self.begin.setVisible(not collecting)
         self.begin.setEnabled(ready)
         self.begin.setText(
-            tr("&Measure anew") if self.found is not None else tr("&Measure the tip")
+            tr("&Measure again") if self.found is not None else tr("&Measure the tip")
         )
         for one in (self.compute, self.stop):
             one.setVisible(collecting)
         self.save.setVisible(self.found is not None)
         self.save.setEnabled(not practice)
         self.save.setToolTip(
-            tr("A simulated pen's tip is not kept: it would be taken for the real one's")
+            tr("A simulated pen's tip is not saved: it would be mistaken for the real one's")
             if practice
             else tr("Keep this tip; it is used from now on")
         )

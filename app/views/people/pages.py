@@ -222,7 +222,7 @@ class BoardTab(QWidget):
         self.hint.setText(
             tr("Nobody yet: add students, or a roster, on the next tab.")
             if not board.students
-            else tr("Nothing yet: attempts of students who signed in will stand here.")
+            else tr("Nothing yet: attempts of students who signed in will appear here.")
             if not board.items
             else tr(
                 "Only attempts that may be compared; none of a script or an emulated robot. "

@@ -340,7 +340,7 @@ class SoundsFeature(Feature):
             return ()
         cue = self._last[1]
         verdict = Verdict.WARNING if cue.kind in _WARNS else Verdict.GOOD
-        help_text = tr("What was told last, to be heard as well: View, Sounds.")
+        help_text = tr("The last announcement, which can also be heard: View, Sounds.")
         return (StatusItem(verdict, "♪", words(cue), help_text),)
 
     # --- inside -------------------------------------------------------------------------------
