@@ -10,6 +10,7 @@ from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
 from app.commands.shown import Each
+from app.core.messages import sentence
 
 if TYPE_CHECKING:
     from app.compose.skill_scores import SkillOutcome
@@ -99,7 +100,9 @@ def new(
 
     instructor()
     if ct is not None and plan is None:
-        raise ConfigurationError("--ct DIR needs --plan FILE: entry and target lie in that CT")
+        raise ConfigurationError(
+            sentence("--ct DIR needs --plan FILE: entry and target lie in that CT")
+        )
     document = exercise_document(load_exercise(like))
     document |= {"id": free_id(title, taken_ids()), "version": 1, "title": title}
     if plan is not None:

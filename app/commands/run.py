@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from app.commands import completion
+from app.core.messages import sentence
 
 RANK = 10
 
@@ -85,7 +86,9 @@ def _check(ct: Path | None, device: str | None, exercise: str) -> None:
     if ct is not None and not ct.exists():
         from app.imaging.errors import FolderError
 
-        raise FolderError(f"--ct {ct} does not exist; name a folder or file with a CT")
+        raise FolderError(
+            sentence("--ct {ct} does not exist; name a folder or file with a CT", ct=ct)
+        )
     if device is not None and os.sep in device and not Path(device).exists():
         from app.device.errors import LinkError
         from app.device.links.port import reason

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 from app.compose.first_start import TrackerKernels
 from app.core import paths
 from app.core.loading import load_modules, turn
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.device.errors import LoopError
 from app.exercises.library import library
@@ -236,7 +237,11 @@ def _wait_until_alive(rig: Rig, progress: Progress) -> None:
             return
         clock.sleep(_LOOK)
     if rig.loop.latest().tick == 0:
-        raise LoopError(f"the control loop has not ticked in {waited:.0f} s; start it again")
+        raise LoopError(
+            sentence(
+                "the control loop has not ticked in {waited:.0f} s; start it again", waited=waited
+            )
+        )
 
 
 def _learner(

@@ -20,6 +20,7 @@ from app.compose.trainee import trainee_of
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
+from app.core.messages import sentence
 from app.core.parameters import Stage
 from app.device.control import Loop, Table
 from app.device.control.depth_interval import DepthInterval
@@ -66,7 +67,7 @@ def calibrate_pen(
         CameraError: if the webcam cannot be used.
     """
     if settings.simulated:
-        raise PenError("a simulated pen has no tip to measure; give --source usb:0")
+        raise PenError(sentence("a simulated pen has no tip to measure; give --source usb:0"))
     pen, collector = settings.profile(), PoseCollector()
     _collect(settings, collector, seconds, tell, clock)
     return collector.finish(pen)

@@ -18,6 +18,7 @@ from app import mechanisms
 from app.core import paths
 from app.core import plugin_folders as folders
 from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.core.plugin_trial import import_fault
 from app.core.plugins import PluginKind, read_statements
 from app.core.progress import Progress
@@ -172,13 +173,20 @@ def _parts(folder: folders.PluginFolder, tried: bool) -> Iterator[PluginFile]:
 def _feature_fault(path: Path, body: list[ast.stmt], declared: Mapping[str, Any]) -> str:
     """Return why the window would leave a feature out, as its text shows; empty if it takes it."""
     if "FEATURE" not in _defined(body):
-        return f"{path} must define FEATURE, a class of Feature; see 'How to add a panel'"
+        return sentence(
+            "{path} must define FEATURE, a class of Feature; see 'How to add a panel'", path=path
+        )
     own = (p for p in (folders.APP / "views").glob("*/*.py") if b"(Feature):" in p.read_bytes())
     others = (p for one in folders.folders() for p in one.files("features") if p != path)
     names = sorted(p.parent.name if p.stem == "feature" else p.stem for p in (*own, *others))
     if declared.get("after") in names:
         return ""
-    return f"{path}: after is {declared.get('after')!r}; valid are {', '.join(names)}"
+    return sentence(
+        "{path}: after is {declared_get!r}; valid are {names}",
+        path=path,
+        declared_get=declared.get("after"),
+        names=", ".join(names),
+    )
 
 
 def _checked(kind: str, path: Path, title: Callable[[Path], str]) -> PluginFile:

@@ -26,6 +26,7 @@ from app.core.build import BUILD, build
 from app.core.clock import Clock, SystemClock
 from app.core.configuration import parse
 from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.core.parameters import Stage
 from app.device.control import Loop, Table, laws, machine_stages
 from app.device.links.link import Link
@@ -237,7 +238,9 @@ class Rig:
             TrackingError: if a pen and its webcam are in place of robot and cameras.
         """
         if self.tracker.stereo is None:
-            raise TrackingError("this needs the two cameras of a robot; a pen has one webcam")
+            raise TrackingError(
+                sentence("this needs the two cameras of a robot; a pen has one webcam")
+            )
         return self.tracker.stereo
 
     def close(self) -> None:
@@ -258,12 +261,18 @@ class Rig:
             AcusError: for an effect or model that there is not, or a loop that does not run.
         """
         if self.pen is not None:
-            raise TrackingError("a pen has no robot that could push: no effect is computed")
+            raise TrackingError(
+                sentence("a pen has no robot that could push: no effect is computed")
+            )
         exercise = effect_models.with_model(self.setup.exercise, effect, model)
         if effect not in self.loop.names:
             raise ExerciseError(
-                f"effect {effect} is not simulated in {exercise.id}: nobody needs what it gives;"
-                f" `acus explain {exercise.id}` says why"
+                sentence(
+                    "effect {effect} is not simulated in {exercise_id}: nobody needs what it "
+                    "gives; `acus explain {exercise_id}` says why",
+                    effect=effect,
+                    exercise_id=exercise.id,
+                )
             )
         setup = replace(self.setup, exercise=exercise)
 
@@ -544,9 +553,15 @@ def _attached(recording: Recording, name: str) -> Any:
     try:
         return json.loads(recording.attachments[name])
     except KeyError as error:
-        raise ReplayError(f"this record cannot be replayed: it has no {name}") from error
+        raise ReplayError(
+            sentence("this record cannot be replayed: it has no {name}", name=name)
+        ) from error
     except (ValueError, RecursionError) as error:
-        raise ReplayError(f"this record cannot be replayed: {name} is damaged: {error}") from error
+        raise ReplayError(
+            sentence(
+                "this record cannot be replayed: {name} is damaged: {error}", name=name, error=error
+            )
+        ) from error
 
 
 def _seed(recording: Recording) -> int:
@@ -554,4 +569,6 @@ def _seed(recording: Recording) -> int:
     try:
         return int(text)
     except ValueError as error:
-        raise ReplayError(f"this record cannot be replayed: its seed is {text!r}") from error
+        raise ReplayError(
+            sentence("this record cannot be replayed: its seed is {text!r}", text=text)
+        ) from error

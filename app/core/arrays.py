@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from app.core.errors import NumericalError
+from app.core.messages import sentence
 
 FloatArray = NDArray[np.float64]
 """Double precision array; shapes stand in the docstrings."""
@@ -25,10 +26,19 @@ def frozen(
     """
     array = np.array(values, dtype=np.float64)
     if shape is not None and array.shape != shape:
-        raise NumericalError(f"{name} has shape {array.shape}; {shape} is needed")
+        raise NumericalError(
+            sentence(
+                "{name} has shape {array_shape}; {shape} is needed",
+                name=name,
+                array_shape=array.shape,
+                shape=shape,
+            )
+        )
     # the square's sum is finite if all are, unless they are huge: then one looks again
     if not math.isfinite(np.vdot(array, array)) and not np.isfinite(array).all():
-        raise NumericalError(f"{name} is not finite: {array.tolist()}")
+        raise NumericalError(
+            sentence("{name} is not finite: {array}", name=name, array=array.tolist())
+        )
     array.setflags(write=False)
     return array
 
@@ -48,7 +58,9 @@ def unit(vector: ArrayLike, name: str = "vector") -> FloatArray:
     array = np.asarray(vector, dtype=np.float64)
     scale = float(np.abs(array).max(initial=0.0))
     if not np.isfinite(scale) or scale < 1e-300:
-        raise NumericalError(f"{name} {array.tolist()} has no direction")
+        raise NumericalError(
+            sentence("{name} {array} has no direction", name=name, array=array.tolist())
+        )
     array = array / scale  # first by the largest entry: the norm neither overflows nor underflows
     result: FloatArray = array / np.linalg.norm(array)
     return result

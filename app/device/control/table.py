@@ -24,6 +24,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.messages import sentence
 from app.core.parameters import Stage
 from app.device.control.depth_interval import DepthInterval
 from app.device.control.governor import SpeedGovernor
@@ -170,8 +171,13 @@ def _guarded(part: str, stages: Iterable[Stage], profile: DeviceProfile) -> list
         limits, back = [most, profile.fastest_reel], give_back_efforts_stage
         if not all(isfinite(limit) and limit >= 0.0 for limit in limits):
             raise DeviceError(
-                f"device {profile.name}: its largest tension is {most} N and its fastest reel"
-                f" {profile.fastest_reel} m/s; give finite numbers of 0 or more"
+                sentence(
+                    "device {profile_name}: its largest tension is {most} N and its fastest reel"
+                    " {profile_fastest_reel} m/s; give finite numbers of 0 or more",
+                    profile_name=profile.name,
+                    most=most,
+                    profile_fastest_reel=profile.fastest_reel,
+                )
             )
     memory = np.concatenate([np.zeros(sv.SLOTS), [len(theirs)], theirs, limits])
     before, after = AROUND_MACHINE[part]
@@ -274,7 +280,11 @@ def _dynamics(machine: MachineStages, laws: Iterable[Stage], device: str) -> lis
         return []
     if machine.dynamics is None:
         raise DeviceError(
-            f"law {readers[0]!r} needs the dynamics of the machine, and {device} states none"
+            sentence(
+                "law {readers_first!r} needs the dynamics of the machine, and {device} states none",
+                readers_first=readers[0],
+                device=device,
+            )
         )
     return [machine.dynamics]
 
@@ -340,7 +350,11 @@ def machine_stages(
         theirs = [machine.pose, *machine.watch, *filter(None, [machine.dynamics]), *machine.efforts]
         for name in (stage.name for stage in theirs if names.count(stage.name) > 1):
             raise DeviceError(
-                f"machine {profile.kind!r}: its stage is named {name!r}, and so is another of the"
-                " loop; give it a name of its own"
+                sentence(
+                    "machine {profile_kind!r}: its stage is named {name!r}, and so is another of "
+                    "the loop; give it a name of its own",
+                    profile_kind=profile.kind,
+                    name=name,
+                )
             )
     return table

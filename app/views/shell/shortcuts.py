@@ -69,7 +69,7 @@ def groups(scheme: Scheme, watching: Mapping[str, str] | None = None) -> list[Gr
         (
             tr("Attempt"),
             [
-                ("F5", tr("start the attempt; what is new is briefed first")),
+                ("F5", tr("start the attempt; anything new is explained first")),
                 (
                     ", ".join(("Shift+F5", "Ctrl+F5", *watched)),
                     "; ".join((tr("briefing; an expert shows it"), *watched.values())),
