@@ -244,8 +244,9 @@ def goes_on(name: str, place: Path, tests: list[str] | None = None) -> bool:
         tests: paths of tests to run too, empty for all; None runs none.
     """
     part, folder = PARTS[name], place / "acus"
-    for leftover in ("data", "settings", "cache"):
-        shutil.rmtree(place / leftover, ignore_errors=True)
+    earlier = [kernels for kernels in place.glob("kernels/*") if kernels.name != kernels_digest()]
+    for leftover in (*(place / kind for kind in ("data", "settings", "cache")), *earlier):
+        shutil.rmtree(leftover, ignore_errors=True)
     left_out = copied(part, folder)
     print(f"{folder}: without {', '.join(left_out)}", flush=True)
     pattern = pattern_of(part, left_out)
