@@ -1,8 +1,9 @@
 """Words that a stranger stumbles over grow no more."""
 
 import ast
+from collections import Counter
 
-from tools.words import count, risen, words_in
+from tools.words import count, lowered, risen, words_in
 
 
 def test_no_refused_word_is_there_more_often_than_before():
@@ -30,3 +31,9 @@ def test_names_at_borders_docstrings_without_a_verb_and_texts_are_seen():
         "name: why",
         "text: counts for nobody",
     ]
+
+
+def test_what_is_written_is_never_more_than_before():
+    counts = Counter({"name: one": 5, "name: told": 2, "name: why": 1})
+    before = {"name: one": 3, "name: told": 4, "text: anew": 2}
+    assert lowered(counts, before) == {"name: one": 3, "name: told": 2}

@@ -19,6 +19,8 @@ those of the checkout but for what is left out, and compiled once for all parts.
 from __future__ import annotations
 
 import argparse
+import ast
+import contextlib
 import os
 import re
 import shutil
@@ -177,21 +179,67 @@ def pattern_of(part: Part, left_out: list[str]) -> re.Pattern[str]:
             package, last = ".".join(dotted[:-1]), dotted[-1]
             names.append(rf"\b{re.escape('.'.join(dotted))}\b")
             names.append(rf"\bfrom {re.escape(package)} import .*\b{last}\b")
-            names.append(re.escape(path))
+            names.append(rf"\b{re.escape(path)}\b")
         elif top == "resources" and "." in path:
             names.append(rf"[\"'/ ]{re.escape(stem)}(?:\.\w+)?[\"']")
     return re.compile("|".join(names))
 
 
 def naming(folder: Path, pattern: re.Pattern[str], rooms: tuple[str, ...]) -> Iterator[str]:
-    """Yield `file:line: text` of every line of some folders that a pattern is in."""
+    """Yield `file:line: text` of every line of some folders that a pattern is in.
+
+    Of Python also what no single line says: an import of several lines or of `.`, and a text in
+    several pieces.
+    """
     for path in sorted(path for room in rooms for path in (folder / room).rglob("*")):
-        if path.suffix in _TEXTS and path.is_file():
-            lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
-            for number, line in enumerate(lines, 1):
-                if pattern.search(line):
-                    where = path.relative_to(folder).as_posix()
-                    yield f"{where}:{number}: {line.strip()[:120]}"
+        if path.suffix not in _TEXTS or not path.is_file():
+            continue
+        text, where = path.read_text(encoding="utf-8", errors="replace"), path.relative_to(folder)
+        lines = text.splitlines()
+        numbers = {number for number, line in enumerate(lines, 1) if pattern.search(line)}
+        if path.suffix == ".py":
+            with contextlib.suppress(SyntaxError):  # its lines alone, then
+                meant = spelled(ast.parse(text), where.with_suffix("").parts)
+                numbers |= {number for words, number in meant if pattern.search(words)}
+        for number in sorted(numbers):
+            yield f"{where.as_posix()}:{number}: {lines[number - 1].strip()[:120]}"
+
+
+def spelled(tree: ast.AST, module: tuple[str, ...]) -> Iterator[tuple[str, int]]:
+    """Yield what a module imports, by full names, and its texts and paths as they are joined.
+
+    Args:
+        tree: of the module.
+        module: parts of its own name; the last of a package is `__init__`.
+
+    Yields:
+        Words, and the line on which they stand or begin.
+    """
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom):
+            above = module[: len(module) - node.level] if node.level else ()
+            package = ".".join((*above, *filter(None, [node.module])))
+            yield package, node.lineno
+            for alias in node.names:
+                yield f"{package}.{alias.name}", alias.lineno
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            yield node.value, node.lineno
+        elif isinstance(node, ast.BinOp | ast.Tuple | ast.List | ast.Call):
+            pieces = _pieces(node)
+            yield from ((sign.join(pieces), node.lineno) for sign in "/." if len(pieces) > 1)
+
+
+def _pieces(node: ast.AST) -> list[str]:
+    """Return the texts that a path, a sum, a tuple or a call's arguments are made of, in order."""
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        return [node.value]
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div):
+        return _pieces(node.left) + _pieces(node.right)
+    if isinstance(node, ast.Tuple | ast.List):
+        return [piece for each in node.elts for piece in _pieces(each)]
+    if isinstance(node, ast.Call):
+        return [piece for each in node.args for piece in _pieces(each)]
+    return []
 
 
 def tests_left(folder: Path, part: Part, pattern: re.Pattern[str], asked: list[str]) -> list[str]:

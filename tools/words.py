@@ -4,8 +4,8 @@
 
 Looked at are names that cross a function's border (functions, parameters, attributes and fields),
 the first word of a function's docstring, which is a verb, and literal texts of the window. What is
-there now stands in tools/words.yaml: a count that rises ends with code 3, one that falls is written
-by `--write`. docs/vocabulary.md says which words to use.
+there now stands in tools/words.yaml: a count that rises ends with code 3 and is never written; one
+that falls is, by `--write`. docs/vocabulary.md says which words to use.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import ast
 import re
 import sys
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import yaml
@@ -82,9 +82,19 @@ def count(root: Path = ROOT) -> tuple[Counter[str], list[str]]:
     return counts, places
 
 
+def lowered(counts: Counter[str], allowed: Mapping[str, int]) -> dict[str, int]:
+    """Return the counts to be stored: the lower one of now and before; without those at zero."""
+    lowest = {word: min(counts[word], number) for word, number in sorted(allowed.items())}
+    return {word: number for word, number in lowest.items() if number > 0}
+
+
+def _allowed() -> dict[str, int]:
+    return yaml.safe_load(COUNTS.read_text(encoding="utf-8")) or {}
+
+
 def risen(counts: Counter[str]) -> list[str]:
     """Return a sentence for each word that is there more often than tools/words.yaml says."""
-    allowed = yaml.safe_load(COUNTS.read_text(encoding="utf-8")) or {}
+    allowed = _allowed()
     return [
         f"{word!r} is there {number} times, {allowed.get(word, 0)} before: see docs/vocabulary.md"
         for word, number in sorted(counts.items())
@@ -96,13 +106,14 @@ def main() -> int:
     """Print the counts; return 3 where one has risen."""
     parser = argparse.ArgumentParser(prog="python -m tools.words", description=__doc__)
     parser.add_argument("--list", action="store_true", help="name each place")
-    parser.add_argument("--write", action="store_true", help="keep the counts of now")
+    parser.add_argument("--write", action="store_true", help="store counts that have fallen")
     options = parser.parse_args()
     counts, places = count()
     if options.list:
         print(*places, sep="\n")
     if options.write:
-        COUNTS.write_text("".join(f"'{word}': {n}\n" for word, n in sorted(counts.items())))
+        lines = (f"'{word}': {number}\n" for word, number in lowered(counts, _allowed()).items())
+        COUNTS.write_text("".join(lines), encoding="utf-8")
     sentences = risen(counts)
     print(*sentences, f"{sum(counts.values())} words that {COUNTS.name} counts", sep="\n")
     return 3 if sentences else 0

@@ -143,10 +143,10 @@ def _demonstration(name: str) -> ModuleType:
     raise AcusError(" ".join(plugin_folders.refused.values()))
 
 
-def _show_alone(other: ModuleType, seed: int, folder: Path) -> None:
+def _show_alone(demonstration: ModuleType, seed: int, folder: Path) -> None:
     from app.core.exits import Exit
 
-    failure = other.alone(seed, folder, typer.echo)
+    failure = demonstration.alone(seed, folder, typer.echo)
     typer.echo(f"pictures and report are in {folder}")
     if failure:
         typer.echo(failure)

@@ -12,7 +12,7 @@ from app.commands.doors import instructor
 from app.commands.shown import Each
 
 if TYPE_CHECKING:
-    from app.compose.trial import SkillOutcome
+    from app.compose.skill_scores import SkillOutcome
     from app.core.progress import Progress
     from app.exchange.acusx import PackageManifest, UnpackedExercise
 
@@ -254,7 +254,7 @@ def trial(
 ) -> Answer:
     """Try an exercise: what five scripted skills score (instructor). Nothing is recorded."""
     from app.commands.calibrate_parts import with_progress
-    from app.compose.trial import ordered_seeds, ordered_share, risks_of, run_trial
+    from app.compose.skill_scores import ordered_seeds, ordered_share, risks_of, run_trial
     from app.exercises.library import load_exercise
 
     instructor()

@@ -54,27 +54,27 @@ def unit(vector: ArrayLike, name: str = "vector") -> FloatArray:
     return result
 
 
-def cross(a: FloatArray, b: FloatArray) -> FloatArray:
+def cross(first: FloatArray, second: FloatArray) -> FloatArray:
     """Cross product of two 3-vectors: that of numpy to the last bit, without its generality.
 
     numpy's own takes 30 µs for checks and axes, this one 1.
     """
-    (a1, a2, a3), (b1, b2, b3) = a.tolist(), b.tolist()
+    (a1, a2, a3), (b1, b2, b3) = first.tolist(), second.tolist()
     return np.array((a2 * b3 - a3 * b2, a3 * b1 - a1 * b3, a1 * b2 - a2 * b1))
 
 
-def crosses(a: FloatArray, b: FloatArray) -> FloatArray:
+def crosses(first: FloatArray, second: FloatArray) -> FloatArray:
     """Cross products of 3-vectors or stacks of them (..., 3): those of numpy to the last bit, in
     half its time or less.
     """
-    if a.ndim == b.ndim == 1:
-        return cross(a, b)
-    a1, a2, a3 = a[..., 0], a[..., 1], a[..., 2]
-    b1, b2, b3 = b[..., 0], b[..., 1], b[..., 2]
+    if first.ndim == second.ndim == 1:
+        return cross(first, second)
+    a1, a2, a3 = first[..., 0], first[..., 1], first[..., 2]
+    b1, b2, b3 = second[..., 0], second[..., 1], second[..., 2]
     return np.stack((a2 * b3 - a3 * b2, a3 * b1 - a1 * b3, a1 * b2 - a2 * b1), axis=-1)
 
 
-def angle_between(a: ArrayLike, b: ArrayLike) -> float:
+def angle_between(first: ArrayLike, second: ArrayLike) -> float:
     """Angle between two 3-vectors [rad], accurate near 0 and π (atan2, never acos)."""
-    u, v = unit(a), unit(b)
+    u, v = unit(first), unit(second)
     return float(np.arctan2(np.linalg.norm(cross(u, v)), np.dot(u, v)))

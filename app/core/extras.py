@@ -13,18 +13,18 @@ from app.core.paths import in_checkout
 _Family = TypeVar("_Family", bound=Exception)
 
 
-def not_installed(family: type[_Family], what: str, extra: str, instead: str = "") -> _Family:
+def not_installed(family: type[_Family], package: str, extra: str, instead: str = "") -> _Family:
     """Return the error to raise from an ImportError.
 
     The import itself stays where it is used, as a statement: the contracts of imports see it.
 
     Args:
         family: of the error.
-        what: the package as people call it, and what needs it where that is not plain.
+        package: its name, as people call it, and what needs it where that is not plain.
         extra: that brings it.
         instead: what can be done without it.
     """
-    said = f"{what} is not installed; install the extra `{extra}`: {install_command(extra)}"
+    said = f"{package} is not installed; install the extra `{extra}`: {install_command(extra)}"
     return family(f"{said}, or {instead}" if instead else said)
 
 

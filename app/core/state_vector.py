@@ -283,6 +283,18 @@ PLANT_REEL_4: Final = _machine()
 ENCODER_FAULT: Final = _machine()  # [-] code of the fault of an encoder, kept until homing
 UNBELIEVED: Final = _machine()  # [-] readings of the encoders that were not believed so far
 
+# --- the tissue about the tip, where the scene has a field of it --------------------------------
+TISSUE: Final = _scene()  # [-] code of the tissue at the tip, of the field's table; 0 unknown
+TISSUE_AHEAD: Final = _scene()  # [-] code of the tissue beyond the wall in front of the tip
+WALL: Final = _scene()  # [m] way along the needle to that wall; negative: behind; 1 for none near
+WALL_X: Final = _scene()  # [-] its unit normal, out of TISSUE and into TISSUE_AHEAD
+WALL_Y: Final = _scene()
+WALL_Z: Final = _scene()
+CHANNEL: Final = _scene()  # [-] 1 while the tip goes where this attempt has cut already
+CARRIED_X: Final = _scene()  # [m] displacement of the tissue at the tip by breathing
+CARRIED_Y: Final = _scene()
+CARRIED_Z: Final = _scene()
+
 SLOTS: Final = next(_next)
 """Length of the state vector."""
 
@@ -317,6 +329,8 @@ TORQUE: Final = _vector(TORQUE_LEFT, TORQUE_RIGHT)
 TIP_OFFSET: Final = _vector(TIP_OFFSET_X, TIP_OFFSET_Y, TIP_OFFSET_Z)
 TIP_SLOPE: Final = _vector(TIP_SLOPE_X, TIP_SLOPE_Y, TIP_SLOPE_Z)
 ROOT_CURVATURE: Final = _vector(ROOT_CURVATURE_X, ROOT_CURVATURE_Y, ROOT_CURVATURE_Z)
+WALL_NORMAL: Final = _vector(WALL_X, WALL_Y, WALL_Z)
+CARRIED: Final = _vector(CARRIED_X, CARRIED_Y, CARRIED_Z)
 TARGET_SHIFT: Final = _vector(TARGET_SHIFT_X, TARGET_SHIFT_Y, TARGET_SHIFT_Z)
 PLANT_Q: Final = _vector(PLANT_Q_LEFT, PLANT_Q_RIGHT)
 PLANT_QD: Final = _vector(PLANT_QD_LEFT, PLANT_QD_RIGHT)

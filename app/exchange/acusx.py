@@ -272,11 +272,11 @@ def _identity(exercise: Exercise, volume: Volume) -> CtIdentity:
     )
 
 
-def _require_same(result: str, wanted: str | None, what: str) -> None:
+def _require_same(result: str, wanted: str | None, subject: str) -> None:
     if wanted is not None and result != wanted:
         raise CtMissingError(
-            f"{what} is another one than the exercise was made on: its digest is {result[:12]}…, "
-            f"{wanted[:12]}… is needed (acus ct digest tells it)"
+            f"{subject} is another one than the exercise was made on: its digest is "
+            f"{result[:12]}…, {wanted[:12]}… is needed (acus ct digest tells it)"
         )
 
 

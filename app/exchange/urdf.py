@@ -165,25 +165,26 @@ def _needle_length(path: Path, root: ET.Element) -> float:
     raise UrdfError(f"{path}: link 'tool_phi_link' is missing; the needle is its cylinder")
 
 
-def _numbers(text: str, what: str) -> tuple[float, float, float]:
+def _numbers(text: str, place: str) -> tuple[float, float, float]:
     parts = text.split()
     if len(parts) != 3:
-        raise UrdfError(f"{what}: {text!r} is not three numbers")
-    x, y, z = (_number(part, what) for part in parts)
+        raise UrdfError(f"{place}: {text!r} is not three numbers")
+    x, y, z = (_number(part, place) for part in parts)
     return x, y, z
 
 
-def _number(text: str, what: str) -> float:
+def _number(text: str, place: str) -> float:
     if "$" in text:
         raise UrdfError(
-            f"{what}: {text!r} is a xacro expression; expand the file first (xacro FILE > out.urdf)"
+            f"{place}: {text!r} is a xacro expression; expand the file first"
+            " (xacro FILE > out.urdf)"
         )
     try:
         value = float(text)
     except ValueError:
-        raise UrdfError(f"{what}: {text!r} is not a number") from None
+        raise UrdfError(f"{place}: {text!r} is not a number") from None
     if not isfinite(value):
-        raise UrdfError(f"{what}: {text!r} is not finite")
+        raise UrdfError(f"{place}: {text!r} is not finite")
     return value
 
 

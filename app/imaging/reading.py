@@ -304,9 +304,18 @@ def read_with(
     if remedy == NO_REMEDY:
         return read_series(series, progress)
     if not series.slices or not (series.usable or remedy in series.remedies):
-        why = series.reason or "it is one file that holds a whole volume"
-        raise SeriesRefusedError(f"asking to {remedy} series {series.key} does not help: {why}")
+        reason = series.reason or "it is one file that holds a whole volume"
+        raise SeriesRefusedError(
+            f"the remedy {remedy!r} does not help series {series.key}: {reason}{_instead(series)}"
+        )
     return read_mended(series, Recipe(remedy, factors, spacing_mm), progress)
+
+
+def _instead(series: Series) -> str:
+    """Say what helps a series that a remedy does not help."""
+    if series.usable:
+        return f"; read it as it is (--remedy {NO_REMEDY})"
+    return offer(series) or "; no remedy does"
 
 
 def read_again(series: Series, recipe: Recipe, progress: Progress | None = None) -> Volume:

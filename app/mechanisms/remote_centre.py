@@ -163,7 +163,7 @@ MACHINE_WRITES: Final = {
         *("torque", "felt", "felt_most", "guidance_limit", "guidance_limited_by", "force", "guide"),
         *("shortfall", "tension", "reel_rate", "holding"),
     ),
-    "plant": frozenset(sv.MACHINE)
+    "plant": frozenset(sv.MACHINE) - _slots("machine_fault", "encoder_fault", "unbelieved")
     | _slots("plant_q", "plant_qd", "plant_depth", "plant_depth_rate", "pull", "push", "grip")
     | _slots("grip_depth"),
 }

@@ -31,7 +31,7 @@ from app.device.control.kernel import (
     compiled,
     run_stages,
 )
-from app.device.control.table import SCRATCH, SINCE, WITHOUT_MEMORY, Table
+from app.device.control.table import AROUND_MACHINE, SCRATCH, SINCE, WITHOUT_MEMORY, Table
 from app.device.errors import LoopError, RerunError
 
 from numba import types  # isort: skip  (after core.compiled)
@@ -173,7 +173,12 @@ def _memories(table: Table, checkpoint: Checkpoint) -> list[tuple[Stage, FloatAr
     ]
     pairs: list[tuple[Stage, FloatArray]] = []
     shared: dict[int, FloatArray] = {}
+    around = {name for names in AROUND_MACHINE.values() for name in names}
     for stage in table:
+        if stage.name in around:  # what they hold is of one tick, and of this program
+            values = stage.parameters.copy()
+            pairs.append((stage, shared.setdefault(id(stage.parameters), values)))
+            continue
         if stage.name in WITHOUT_MEMORY and stage.name not in checkpoint.names:
             pairs.append((stage, stage.parameters.copy()))  # from before machines had stages
             continue

@@ -334,6 +334,21 @@ def trial_fault(profile: DeviceProfile) -> str:
     return fault
 
 
+def refused_by_trial(kind: str) -> str:
+    """Say why a trial of somebody else's machine has refused it, with the profiles that are known
+    by name or with another before; nothing if none has.
+    """
+    path = _foreign(kind, "machine")
+    if path is None:
+        return ""
+    for name in profile_names():
+        with suppress(ConfigurationError):  # of somebody else's
+            profile = load_profile(name)
+            if profile.kind == kind and (fault := trial_fault(profile)):
+                return fault
+    return TRIAL.refusal(path)
+
+
 def untried_machine(profile: DeviceProfile) -> RemoteCentre:
     """Return the machine of a profile, see `DeviceProfile.machine`, without its trial."""
     module = _part(profile.kind, "machine", f"device {profile.name}")
