@@ -16,6 +16,7 @@ KINDS = {
     "metrics": "metric",
     "extractors": "marker extractor",
     "remedies": "CT remedy",
+    "needle_sources": "needle source",
     "studies": "study",
 }
 BROKEN = {

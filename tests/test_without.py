@@ -5,9 +5,6 @@ import pytest
 from tools import without
 from tools.without import PARTS, ROOT, Part, naming, pattern_of
 
-DONE = ("arm", "tensegrity", "studies", "pacs", "author")
-"""Parts that nothing else names."""
-
 
 def left_out(part):
     return sorted(
@@ -20,7 +17,7 @@ def test_every_pattern_of_the_table_is_of_some_file(name):
     assert [one for one in PARTS[name].files if not list(ROOT.glob(one))] == []
 
 
-@pytest.mark.parametrize("name", DONE)
+@pytest.mark.parametrize("name", PARTS)
 def test_nothing_else_in_the_program_names_a_part(name):
     gone = left_out(PARTS[name])
     pattern = pattern_of(PARTS[name], gone)
@@ -88,3 +85,14 @@ def test_a_test_that_concerns_a_part_or_rests_on_one_that_does_is_left_out(tmp_p
     part = Part(())
     left = without.tests_left(tmp_path, part, pattern_of(part, ["app/claw"]), [])
     assert left == ["tests/test_rest.py"]
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory):
+    return tmp_path_factory.mktemp("without")
+
+
+@pytest.mark.long("journey")
+@pytest.mark.parametrize("name", PARTS)
+def test_the_program_goes_on_without_a_part(name, place, capfd):
+    assert without.goes_on(name, place), capfd.readouterr().out

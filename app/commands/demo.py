@@ -165,6 +165,7 @@ def _show(
     leader: MakesLeader | None = None,
 ) -> None:
     from app.commands.session import tell_folder
+    from app.compose import needle_sources
     from app.compose.desktop import Desktop
     from app.core.exits import Exit
     from app.imaging.reading import choose
@@ -175,6 +176,8 @@ def _show(
     from app.views.shell.demonstration import Demonstration, DemonstrationScript
     from app.views.shell.window import open_window
 
+    if pen:
+        needle_sources.KIND.find("pen")
     if ct is not None:
         choose(scan_folder(ct))  # says here what a dialog would have to ask
     chosen = parse_cameras(cameras)

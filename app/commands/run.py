@@ -47,6 +47,7 @@ def run(
     """Open the trainer. The mouse moves a simulated hand, or a real robot its own needle."""
     _check(ct, device, exercise)
     from app.commands.session import tell_folder
+    from app.compose import needle_sources
     from app.compose.desktop import Desktop
     from app.tracking.cameras.settings import parse_cameras
     from app.tracking.cameras.source import parse_source
@@ -55,6 +56,7 @@ def run(
     from app.views.shell.window import open_window
 
     if pen is not None:
+        needle_sources.KIND.find("pen")
         parse_source(pen)
     chosen = None if cameras is None else parse_cameras(cameras)
     tell_folder()

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import ClassVar, Final
 
 from app.compose.declared_views import declared_views
 from app.compose.live_pen import attached_camera, simulated_lens, simulated_webcam
@@ -38,8 +38,9 @@ from app.tracking.calibration.pictures import list_pictures
 from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.cameras.files import read_picture
 from app.tracking.cameras.source import SourceKind, parse_source
-from app.tracking.errors import PenError
+from app.tracking.pen.body import PenProfile
 from app.tracking.pen.calibrating import WANTED, PenCalibration, PoseCollector
+from app.tracking.pen.errors import PenError
 from app.tracking.pen.needle import PenTip
 from app.tracking.pen.settings import PenSettings, load_settings, with_source
 from app.tracking.pen.step import PenObservation, PenStep
@@ -219,6 +220,12 @@ class Pen:
     settings: PenSettings
     profile: DeviceProfile
     link: PenLink
+    noun: ClassVar[str] = "a pen"
+
+    @property
+    def simulated(self) -> bool:
+        """Return whether a simulated hand holds it."""
+        return self.settings.simulated
 
     @classmethod
     def of(cls, settings: PenSettings, profile: DeviceProfile) -> Pen:
@@ -280,6 +287,10 @@ class Pen:
             self.webcam(),
             on_needle=self.take,
         )
+
+    def documents(self) -> dict[str, PenProfile]:
+        """Return what a record has attached beside exercise and device: the pen."""
+        return {"pen": self.settings.profile()}
 
     def metadata(self, skill: str | None) -> dict[str, dict[str, str]]:
         """Facts for the head of a record; `skill` of the scripted trainee, None without one."""

@@ -7,6 +7,7 @@ say of what kind their files are; each kind is looked for by whoever uses it:
 |---|---|
 | `machines/` | machines that point a needle, a folder each |
 | `laws/`, `effects/`, `metrics/`, `extractors/`, `studies/` | plug-ins of that kind, a file each |
+| `needle_sources/` | what stands in for robot and cameras, a file each |
 | `features/` | features of the window |
 | `views/` | what features are built from; views that exercises switch on and off |
 | `demonstrations/` | who shows an exercise by `acus demo` |

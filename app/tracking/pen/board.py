@@ -8,7 +8,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray, frozen
 from app.core.messages import sentence
-from app.tracking.errors import PenError
+from app.tracking.pen.errors import PenError
 
 CORNERS = np.array([(-0.5, 0.5), (0.5, 0.5), (0.5, -0.5), (-0.5, -0.5)])
 """Corners of a marker of side 1, x right and y up on the print, in the detector's order."""

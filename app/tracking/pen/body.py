@@ -18,8 +18,8 @@ from app.core.configuration import Strict, load
 from app.core.messages import sentence, sentence_of
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
-from app.tracking.errors import PenError
 from app.tracking.pen.board import Marker, MarkerBoard, all_ids
+from app.tracking.pen.errors import PenError
 
 _QUIET_CELLS = 0.9
 """White that a marker needs round it, in cells of the marker (6 along its side)."""

@@ -17,8 +17,8 @@ from app.core.messages import sentence
 from app.core.rotation import skew
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
-from app.tracking.errors import PenError
 from app.tracking.pen.body import PenProfile, TipProfile
+from app.tracking.pen.errors import PenError
 from app.tracking.pen.pivot import FEWEST, MeasuredPose, TipCalibration, pivot
 from app.tracking.pen.pose import PoseStatus
 from app.tracking.pen.step import PenObservation

@@ -13,8 +13,8 @@ from typing import Final
 from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.tracking.calibration.board_layout import EDGE_MM, Paper
-from app.tracking.errors import PenError
 from app.tracking.pen.body import BaseProfile, BodyProfile
+from app.tracking.pen.errors import PenError
 
 TAB_MM: Final = 9.0
 """Depth of a glue tab."""

@@ -15,7 +15,7 @@ from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
 from app.tracking.confidence import chi_square_quantile
-from app.tracking.errors import PenError
+from app.tracking.pen.errors import PenError
 from app.tracking.pen.pose import skews
 
 FEWEST = 20

@@ -7,9 +7,9 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.messages import sentence
 from app.core.transform import RigidTransform
-from app.tracking.errors import PenError
 from app.tracking.optics.calibration import PARAMETERS, CameraCalibration
 from app.tracking.optics.camera_model import CameraModel
+from app.tracking.pen.errors import PenError
 
 GUESSED_FOCAL = 0.83
 """Focal length over the longer side of the picture: 62° wide, in the middle of usual webcams."""

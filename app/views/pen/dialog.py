@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, cast
 
 from PySide6.QtCore import QStandardPaths, QTimer, Signal
 from PySide6.QtWidgets import (
@@ -348,7 +348,7 @@ class PenDialog(QDialog):
 
         def operation(progress: Progress) -> PenPort:
             free()
-            return services.open_pen(settings, progress)
+            return cast("PenPort", services.open_source("pen", settings, progress))
 
         self.preview.open(operation)
         self.poll()

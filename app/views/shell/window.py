@@ -280,7 +280,7 @@ class MainWindow(QMainWindow):
     def show_shortcuts(self) -> None:
         """Open the sheet of keys."""
         keys = {key: words for one in self.features for key, words in one.watching().items()}
-        sheet = ShortcutSheet(self.workspace.viewing.scheme, self, keys)
+        sheet = ShortcutSheet(self.workspace.viewing.scheme, self, keys, self.equipment.offers_pen)
         sheet.finished.connect(sheet.deleteLater)
         sheet.open()
 
