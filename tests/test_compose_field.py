@@ -88,7 +88,12 @@ def through_rib(field: TissueField) -> Plan:
         skin = solid[0].begin_mm
         ribs = [p for p in solid if field.tissues[p.code].name == "rib"]
         tilt = np.degrees(np.arccos(way @ [0.0, 1.0, 0.0]))
-        if ribs and ribs[0].length_mm > 6.0 and 5.0 < ribs[0].begin_mm - skin < 40.0 and tilt < 37.0:
+        if (
+            ribs
+            and ribs[0].length_mm > 6.0
+            and 5.0 < ribs[0].begin_mm - skin < 40.0
+            and tilt < 37.0
+        ):
             return Plan(moved + (skin - 60.0) * way, target, "through a rib")
     raise AssertionError("no such path")
 

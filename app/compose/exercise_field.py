@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
+from app.core.messages import sentence
 from app.exercises.errors import ExerciseError
 from app.exercises.parts import TissueSource
 from app.exercises.scene import device_of
@@ -44,8 +45,11 @@ def resolve_tissue(
         return exercise, "the field: the exercise asks for it"
     if exercise.tissue is TissueSource.FIELD:
         raise ExerciseError(
-            f"exercise {exercise.id} has tissue: field, and its CT is not open, or its values are"
-            " no Hounsfield values: open its CT, or set tissue: layers"
+            sentence(
+                "exercise {exercise_id} has tissue: field, and its CT is not open, or its values "
+                "are no Hounsfield values: open its CT, or set tissue: layers",
+                exercise_id=exercise.id,
+            )
         )
     if tissues is None:
         choice = TissueChoice(TissueSource.LAYERS, "layers: there is no CT in Hounsfield values")
@@ -77,7 +81,12 @@ def recorded_field(recording: Recording) -> TissueField | None:
     said = recording.metadata.get(FIELD, {}).get("digest", "")
     if content is None:
         if said:
-            raise ReplayError(f"this record cannot be replayed: it has no {TISSUE_FILE}")
+            raise ReplayError(
+                sentence(
+                    "this record cannot be replayed: it has no {tissue_file}",
+                    tissue_file=TISSUE_FILE,
+                )
+            )
         return None
     from app.imaging.field import FieldError, from_bytes
 
@@ -88,7 +97,12 @@ def recorded_field(recording: Recording) -> TissueField | None:
         raise ReplayError(why) from error
     if field.digest != said:
         raise ReplayError(
-            f"this record cannot be replayed: {TISSUE_FILE} is {field.digest[:12]}, and it was made"
-            f" with {said[:12] or 'none'}"
+            sentence(
+                "this record cannot be replayed: {tissue_file} is {field_digest}, and it was made"
+                " with {message}",
+                tissue_file=TISSUE_FILE,
+                field_digest=field.digest[:12],
+                message=said[:12] or "none",
+            )
         )
     return field

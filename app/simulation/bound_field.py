@@ -10,6 +10,7 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray, frozen
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.imaging.field import FieldTissue, TissueField, TissueKind
@@ -96,8 +97,12 @@ class BoundField:
         tissues = self.tissue.tissues
         if len(values) != len(tissues):
             raise SimulationError(
-                f"the field has {len(tissues)} tissues and {len(values)} rows of values; give one"
-                " for each code"
+                sentence(
+                    "the field has {tissues_count} tissues and {values_count} rows of values; "
+                    "give one for each code",
+                    tissues_count=len(tissues),
+                    values_count=len(values),
+                )
             )
         return np.array(
             [
@@ -159,9 +164,7 @@ class BoundField:
 def _linear(name: str, values: FloatArray) -> dict[str, float]:
     return {
         key: float(value)
-        for key, value in zip(
-            (name, f"{name}_x", f"{name}_y", f"{name}_z"), values, strict=True
-        )
+        for key, value in zip((name, f"{name}_x", f"{name}_y", f"{name}_z"), values, strict=True)
     }
 
 

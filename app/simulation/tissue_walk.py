@@ -259,7 +259,14 @@ def share_at(p: FloatArray, code: int, x: float, y: float, z: float) -> float:
 
 @njit
 def tissue_at(
-    p: FloatArray, labels: Any, distance: Any, x: float, y: float, z: float, breath: Any, near: float
+    p: FloatArray,
+    labels: Any,
+    distance: Any,
+    x: float,
+    y: float,
+    z: float,
+    breath: Any,
+    near: float,
 ) -> Any:
     """What lies at a point of the world [m] now: see `Place`.
 

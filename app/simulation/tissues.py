@@ -12,6 +12,7 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Final
 
+from app.core.messages import sentence
 from app.simulation import scene
 from app.simulation.errors import SimulationError
 from app.simulation.scene import TissueLayer
@@ -115,11 +116,20 @@ def tissue(name: str, version: str = PUBLISHED) -> TissueLayer:
     """
     if version not in TISSUES:
         raise SimulationError(
-            f"there are no values of tissues called {version!r}; there are {', '.join(TISSUES)}"
+            sentence(
+                "there are no values of tissues called {version!r}; there are {tissues}",
+                version=version,
+                tissues=", ".join(TISSUES),
+            )
         )
     table = TISSUES[version]
     if name not in table:
         raise SimulationError(
-            f"the {version} values have no tissue {name!r}; they have {', '.join(table)}"
+            sentence(
+                "the {version} values have no tissue {name!r}; they have {table}",
+                version=version,
+                name=name,
+                table=", ".join(table),
+            )
         )
     return table[name]

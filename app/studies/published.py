@@ -15,6 +15,7 @@ from typing import Any, Final
 
 from app.core import paths
 from app.core.configuration import read_yaml
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.simulation.needles import OUTER_DIAMETER
 from app.simulation.tissues import FIRST, PUBLISHED, TISSUES
@@ -124,11 +125,17 @@ def read_cases(path: Path) -> tuple[PublishedCase, ...]:
     document = read_yaml(path)
     rows = document.get("cases") if isinstance(document, dict) else None
     if not isinstance(rows, list) or not rows:
-        raise StudyError(f"{path} has no list `cases`")
+        raise StudyError(sentence("{path} has no list `cases`", path=path))
     read = tuple(_case(path, number, row) for number, row in enumerate(rows, 1))
     names = [case.name for case in read]
     if twice := sorted({name for name in names if names.count(name) > 1}):
-        raise StudyError(f"{path}: two cases are called {twice[0]!r}; rename one")
+        raise StudyError(
+            sentence(
+                "{path}: two cases are called {twice_first!r}; rename one",
+                path=path,
+                twice_first=twice[0],
+            )
+        )
     return read
 
 
@@ -136,23 +143,47 @@ def _case(path: Path, number: int, row: Any) -> PublishedCase:
     name = row.get("id", number) if isinstance(row, dict) else number
     where = f"{path}: case {name}"
     if not isinstance(row, dict):
-        raise StudyError(f"{where} is {row!r}; give {', '.join(_WANTED)}")
+        raise StudyError(
+            sentence(
+                "{where} is {row!r}; give {wanted}", where=where, row=row, wanted=", ".join(_WANTED)
+            )
+        )
     if wrong := sorted((set(_WANTED) - set(row)) | (set(row) - set(_WANTED) - set(_MAY))):
         raise StudyError(
-            f"{where}: check {wrong[0]!r}; there must be {', '.join(_WANTED)}, and may be"
-            f" {', '.join(_MAY)}"
+            sentence(
+                "{where}: check {wrong_first!r}; there must be {wanted}, and may be {may}",
+                where=where,
+                wrong_first=wrong[0],
+                wanted=", ".join(_WANTED),
+                may=", ".join(_MAY),
+            )
         )
     for key, kind in {**_WANTED, **_MAY}.items():
         if key in row and (not isinstance(row[key], kind) or row[key] == ""):
-            raise StudyError(f"{where}: {key} is {row[key]!r}")
+            raise StudyError(
+                sentence("{where}: {key} is {row!r}", where=where, key=key, row=row[key])
+            )
     ends = row["range"]
     usable = len(ends) == 2 and all(type(end) in (int, float) and isfinite(end) for end in ends)
     if not usable or not ends[0] <= ends[1]:
-        raise StudyError(f"{where}: range is {ends!r}; give [least, most], finite numbers")
+        raise StudyError(
+            sentence(
+                "{where}: range is {ends!r}; give [least, most], finite numbers",
+                where=where,
+                ends=ends,
+            )
+        )
     if not ends[0] <= row["value"] <= ends[1]:
         raise StudyError(
-            f"{where}: {row['value']:g} {row['unit']} was measured, and the range {ends[0]:g} to"
-            f" {ends[1]:g} excludes it; give the range that holds it"
+            sentence(
+                "{where}: {value:g} {unit} was measured, and the range {ends_first:g} to"
+                " {ends_second:g} excludes it; give the range that holds it",
+                where=where,
+                value=row["value"],
+                unit=row["unit"],
+                ends_first=ends[0],
+                ends_second=ends[1],
+            )
         )
     _check_names(where, row)
     given = {key: row[key] for key in _WANTED if key not in ("id", "range")}
@@ -171,10 +202,16 @@ def _check_names(where: str, row: Mapping[str, Any]) -> None:
     ):
         if value not in valid:
             raise StudyError(
-                f"{where}: {what} is {value!r}; there are {', '.join(map(str, valid))}"
+                sentence(
+                    "{where}: {what} is {value!r}; there are {valid}",
+                    where=where,
+                    what=what,
+                    value=value,
+                    valid=", ".join(map(str, valid)),
+                )
             )
     if row.get("chosen") is False and not row.get("choice"):
-        raise StudyError(f"{where} is not chosen; say in `choice` why")
+        raise StudyError(sentence("{where} is not chosen; say in `choice` why", where=where))
 
 
 def _verdict(case: PublishedCase, found: float) -> str:

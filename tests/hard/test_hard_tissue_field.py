@@ -139,7 +139,9 @@ def test_two_membranes_in_one_place_are_told_one_after_the_other() -> None:
 
 def test_a_jump_of_the_measurement_ends_where_the_tip_is(field: TissueField) -> None:
     stages = everything(field)
-    rows = go(stages, [[0, 0, 0.002], [0, 0, -0.029], [0.5, 0.5, 3.0], [0, 0, -0.012]], axis=(0, 0, -1))
+    rows = go(
+        stages, [[0, 0, 0.002], [0, 0, -0.029], [0.5, 0.5, 3.0], [0, 0, -0.012]], axis=(0, 0, -1)
+    )
     check(rows, len(field.tissues))
     for _ in range(8):  # walls in between are told one a tick
         rows = go(stages, [[0, 0, -0.012]], axis=(0, 0, -1), state=rows[-1].copy())

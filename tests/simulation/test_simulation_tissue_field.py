@@ -64,7 +64,14 @@ def test_the_loop_looks_up_what_scoring_and_pictures_look_up() -> None:
     assert outside > 100
 
 
-THIN = (("skin", 2.0), ("fat", 1.3), ("muscle", 0.9), ("organ", 1.4), ("vessel", 1.1), ("gut", 60.0))
+THIN = (
+    ("skin", 2.0),
+    ("fat", 1.3),
+    ("muscle", 0.9),
+    ("organ", 1.4),
+    ("vessel", 1.1),
+    ("gut", 60.0),
+)
 
 
 @pytest.mark.parametrize("speed", [0.002, 0.1, 1.0])
@@ -165,7 +172,9 @@ def test_tissue_that_breathes_past_a_tip_that_stands_is_told() -> None:
     assert set(rows[:, sv.TISSUE]) == {2.0, 3.0}  # the liver comes up to the tip, and goes again
     met = rows[rows[:, sv.WALL] < 0.0]
     assert met[:, sv.TISSUE].tolist() == [3.0, 2.0]
-    np.testing.assert_allclose(rows[:, sv.CARRIED_Z], rows[:, sv.CARRIED_SHARE] * rows[:, sv.BREATH_Z])
+    np.testing.assert_allclose(
+        rows[:, sv.CARRIED_Z], rows[:, sv.CARRIED_SHARE] * rows[:, sv.BREATH_Z]
+    )
 
 
 DOWN = (("skin", 2.0), ("organ", 100.0))

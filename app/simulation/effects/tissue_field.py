@@ -34,6 +34,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.messages import sentence
 from app.core.parameters import numbered, packed
 from app.simulation.bound_field import BoundField, holding
 from app.simulation.errors import SimulationError
@@ -126,11 +127,14 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
     """
     bound, scene = binding.scene.field, binding.scene
     if not isinstance(bound, BoundField):
-        raise SimulationError(f"the scene's field is a {type(bound).__name__}; bind it first")
+        raise SimulationError(
+            sentence(
+                "the scene's field is a {bound_type}; bind it first",
+                bound_type=type(bound).__name__,
+            )
+        )
     rows = bound.rows(scene.tissues)
-    head = packed(
-        FIELD, slot=binding.depth_slot, codes=len(rows), table=TABLE, **bound.head()
-    )
+    head = packed(FIELD, slot=binding.depth_slot, codes=len(rows), table=TABLE, **bound.head())
     memory = packed(
         _AT, ahead=values["ahead"], radius=values["channel"] * scene.needle.outer_diameter
     )
@@ -187,9 +191,7 @@ def in_channel(p: FloatArray, x: float, y: float, z: float, way: Any) -> bool:
 @njit
 def _bucket_of(p: FloatArray, point: int) -> int:
     at, cell = _POINTS + 3 * point, 2.0 * p[_AT.radius]
-    return _bucket(
-        np.floor(p[at] / cell), np.floor(p[at + 1] / cell), np.floor(p[at + 2] / cell)
-    )
+    return _bucket(np.floor(p[at] / cell), np.floor(p[at + 1] / cell), np.floor(p[at + 2] / cell))
 
 
 @njit
