@@ -213,9 +213,7 @@ def attempt(
         AcusError: if a profile, an effect or the path cannot be used; says which and why.
     """
     profile, clock = device_of(exercise), VirtualClock(BEGIN)
-    setup = TrainerSetup(
-        exercise, placed, skill=skill, seed=seed, clock=clock, tissues=tissues
-    )
+    setup = TrainerSetup(exercise, placed, skill=skill, seed=seed, clock=clock, tissues=tissues)
     loop, rig = build_loop(setup, profile), load_rig(exercise.rig)
     scene = needle_scene(loop, profile, rig.needle.marker_offset)
     fulcrum = profile.fulcrum

@@ -11,7 +11,6 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, read_only
 
-
 ADDRESSED: Final = {"tissue_field": 3, "keep_bend": 3}
 """Stage -> how many numbers at the beginning of its array are a slot's place and addresses of this
 process: no checkpoint holds an address, and no run goes on with that of another."""

@@ -113,9 +113,7 @@ def _requests(exercise: Exercise, in_field: bool) -> tuple[EffectRequest, ...]:
     return (*asked, *(request for request in more if request.name not in named))
 
 
-def scene_of(
-    exercise: Exercise, profile: DeviceProfile, bound: BoundField | None = None
-) -> Scene:
+def scene_of(exercise: Exercise, profile: DeviceProfile, bound: BoundField | None = None) -> Scene:
     """Return what the simulation has to know about an exercise.
 
     Args:

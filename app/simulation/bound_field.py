@@ -159,9 +159,7 @@ class BoundField:
 def _linear(name: str, values: FloatArray) -> dict[str, float]:
     return {
         key: float(value)
-        for key, value in zip(
-            (name, f"{name}_x", f"{name}_y", f"{name}_z"), values, strict=True
-        )
+        for key, value in zip((name, f"{name}_x", f"{name}_y", f"{name}_z"), values, strict=True)
     }
 
 

@@ -1,4 +1,4 @@
-"""Fields of tissue from distances that are known everywhere, and a needle on a given way in them."""
+"""Fields of tissue from distances that are known everywhere, and a needle on a way in them."""
 
 from collections.abc import Callable, Sequence
 
@@ -71,7 +71,9 @@ def slab(top: float, bottom: float) -> Distance:
     return lambda points: np.minimum(top - points[:, 2], points[:, 2] - bottom)
 
 
-def layered(*thicknesses: tuple[str, float], above: float = 100.0) -> list[tuple[str, str, Distance]]:
+def layered(
+    *thicknesses: tuple[str, float], above: float = 100.0
+) -> list[tuple[str, str, Distance]]:
     """Return air above z = 0 and tissues below, by kind and thickness [mm]; the last goes on."""
     found = [("air", "", slab(above, 0.0))]
     top = 0.0

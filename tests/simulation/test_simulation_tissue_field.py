@@ -64,7 +64,14 @@ def test_the_loop_looks_up_what_scoring_and_pictures_look_up() -> None:
     assert outside > 100
 
 
-THIN = (("skin", 2.0), ("fat", 1.3), ("muscle", 0.9), ("organ", 1.4), ("vessel", 1.1), ("gut", 60.0))
+THIN = (
+    ("skin", 2.0),
+    ("fat", 1.3),
+    ("muscle", 0.9),
+    ("organ", 1.4),
+    ("vessel", 1.1),
+    ("gut", 60.0),
+)
 
 
 @pytest.mark.parametrize("speed", [0.002, 0.1, 1.0])
@@ -151,7 +158,9 @@ def test_the_wall_stays_the_lung_changes_its_volume_and_the_spine_side_goes_less
     assert share(3, 0.0, 0.0, -0.03) == pytest.approx(1.0)  # the target goes along with all of it
     assert share(3, 0.0, 0.05, -0.03) < 0.7 < share(3, 0.0, -0.01, -0.03)
     base, middle, apex = (share(2, 0.0, 0.0, z) for z in (0.001, 0.03, 0.06))
-    assert base > 0.9 and middle == pytest.approx(0.5, abs=0.05) and apex == pytest.approx(0.0)
+    assert base > 0.9
+    assert middle == pytest.approx(0.5, abs=0.05)
+    assert apex == pytest.approx(0.0)
 
 
 def test_tissue_that_breathes_past_a_tip_that_stands_is_told() -> None:
@@ -165,7 +174,9 @@ def test_tissue_that_breathes_past_a_tip_that_stands_is_told() -> None:
     assert set(rows[:, sv.TISSUE]) == {2.0, 3.0}  # the liver comes up to the tip, and goes again
     met = rows[rows[:, sv.WALL] < 0.0]
     assert met[:, sv.TISSUE].tolist() == [3.0, 2.0]
-    np.testing.assert_allclose(rows[:, sv.CARRIED_Z], rows[:, sv.CARRIED_SHARE] * rows[:, sv.BREATH_Z])
+    np.testing.assert_allclose(
+        rows[:, sv.CARRIED_Z], rows[:, sv.CARRIED_SHARE] * rows[:, sv.BREATH_Z]
+    )
 
 
 DOWN = (("skin", 2.0), ("organ", 100.0))
@@ -231,7 +242,8 @@ def test_the_memory_of_cuts_is_bounded_and_a_new_attempt_begins_without() -> Non
         assert not rows[:, sv.CHANNEL].any()
         go(stages, way[::-1], axis=(0.0, 0.0, -1.0), state=state)
     rows = go(stages, way, axis=(0.0, 0.0, -1.0), state=state)
-    assert rows[10:-5, sv.CHANNEL].all() and len(stages[1].parameters) == size
+    assert rows[10:-5, sv.CHANNEL].all()
+    assert len(stages[1].parameters) == size
     go(stages, way[:1], axis=(0.0, 0.0, -1.0), state=state)
 
     def arm(k: int, state: FloatArray) -> None:
@@ -251,7 +263,8 @@ def test_no_checkpoint_holds_the_field_or_says_where_it_lies() -> None:
     checkpoint = loop.checkpoint()
     took = time.perf_counter() - begin
     loop.close()
-    assert checkpoint.parameters.nbytes < 300_000 and took < 5e-3
+    assert checkpoint.parameters.nbytes < 300_000
+    assert took < 5e-3
     addresses = {float(field.labels.ctypes.data), float(field.distance.ctypes.data)}
     assert not addresses & set(checkpoint.parameters.tolist())
 
