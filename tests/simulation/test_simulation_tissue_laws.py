@@ -79,11 +79,14 @@ def test_the_force_of_rupture_falls_with_speed_to_its_floor() -> None:
 
 @pytest.mark.parametrize("speed", [0.001, 0.005, 0.05, 0.2])
 def test_no_tick_changes_the_force_more_than_the_motion_does(speed: float) -> None:
-    """A puncture lets go in its time, not in a tick; nothing else jumps either."""
+    """A puncture lets go in its time, not in a tick; the tip's forces come over their ways."""
     found = follow(stages_of(*ALONG, layers=[tissues.LIVER], models=MODELS), ramp(0.0, 0.05, speed))
     total = found.states[:, sv.AXIAL_FORCE]
     assert found.states[-1, sv.PUNCTURES] == 1.0
-    assert np.abs(np.diff(total)).max() < 0.12 * 0.6 + 40.0 * speed * 1e-3 * 40.0
+    travel, freed = 1e-3 * speed, 1e-3  # the tip's way, and the dimple's beside it, in a tick [m]
+    tip = 0.208 * (1.0 - np.exp(-travel / 1e-4)) + 0.8 * (1.0 - np.exp(-travel / 3e-4))
+    dimple, shaft = 0.1 * 0.6, (travel + freed) * (18.45 + 250.0 * speed)
+    assert np.abs(np.diff(total)).max() < tip + dimple + shaft
 
 
 def test_the_whole_gives_out_nothing_on_the_way_in_and_out_and_in() -> None:
