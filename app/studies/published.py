@@ -109,9 +109,9 @@ class PublishedCase:
         """Return what the program's values and models of a version give [unit]."""
         return EXPERIMENTS[self.drive](version, self.protocol)
 
-    def holds(self, found: float) -> bool:
+    def holds(self, value: float) -> bool:
         """Return whether a value lies in the range."""
-        return self.least <= found <= self.most
+        return self.least <= value <= self.most
 
 
 def cases_file() -> Path:
@@ -190,13 +190,13 @@ def _check_names(where: str, row: Mapping[str, Any]) -> None:
         raise StudyError(f"{where} is not chosen; say in `choice` why")
 
 
-def _verdict(case: PublishedCase, found: float) -> str:
-    if case.holds(found):
+def _verdict(case: PublishedCase, ours: float) -> str:
+    if case.holds(ours):
         return "within"
     return "OUTSIDE" if case.chosen else "not followed"
 
 
-def _row(case: PublishedCase, found: float, before: float) -> tuple[str | float, ...]:
+def _row(case: PublishedCase, ours: float, before: float) -> tuple[str | float, ...]:
     return (
         case.name,
         case.what,
@@ -204,10 +204,10 @@ def _row(case: PublishedCase, found: float, before: float) -> tuple[str | float,
         case.unit,
         case.measured,
         f"{case.least:g} to {case.most:g}",
-        round(found, 4),
-        round(found / case.value, 3) if case.value else "-",
+        round(ours, 4),
+        round(ours / case.value, 3) if case.value else "-",
         round(before, 4),
-        _verdict(case, found),
+        _verdict(case, ours),
         case.source,
     )
 
