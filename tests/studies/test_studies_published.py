@@ -124,7 +124,7 @@ def test_a_case_that_cannot_be_is_refused_by_name(
     tmp_path: Path, change: dict[str, Any], words: str
 ) -> None:
     row = yaml.safe_load(cases_file().read_text(encoding="utf-8"))["cases"][0]
-    del row["choice"]
+    row.pop("choice", None)
     path = tmp_path / "published.yaml"
     path.write_text(yaml.safe_dump({"cases": [row | change]}), encoding="utf-8")
     with pytest.raises(StudyError, match=words) as refused:
