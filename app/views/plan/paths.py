@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from app.planning.paths import PathScores
 
 
+_ABOUT_TARGET_MM = 125.0  # no path that is scored is longer
 _WIDTHS = 58, 64, 58
 """Of the columns before the last [px]."""
 
@@ -94,7 +95,8 @@ class PathsPanel(QWidget):
             self.note.setText(
                 tr(
                     "Scores straight paths to the target from all over the skin: length, angle to "
-                    "the skin, bone, distance to structures that warn, and the robot's reach."
+                    "the skin, bone, lung, vessels and gut on the way, distance to structures that "
+                    "warn, and the robot's reach."
                 )
             )
             return
@@ -105,7 +107,7 @@ class PathsPanel(QWidget):
         if not free:
             words = tr("No entry is possible: turn the patient, or choose another target.")
         if not scores.names:
-            words += " " + tr("No structure warns: the scores know only bone and reach.")
+            words += " " + tr("No structure warns: the scores know tissue and reach only.")
         self.note.setText(words)
 
     def suit_text(self) -> None:
@@ -267,9 +269,21 @@ class PathsFeature(Feature):
 
         def work(progress: Progress) -> PathScores:
             with ONE_AT_A_TIME:  # scipy: behind the window
+                from app.imaging.field.making import field_of
                 from app.imaging.skin import skin_points
                 from app.planning.paths import score_paths
-            skin = skin_points(patient.body, progress=progress.part(0.0, 0.3))
+            skin = skin_points(patient.body, progress=progress.part(0.0, 0.2))
+            tissues = None
+            if patient.volume.unit == "HU":
+                structures = [structure for structure, _ in fields]
+                tissues = field_of(
+                    patient.volume,
+                    structures,
+                    target,
+                    _ABOUT_TARGET_MM,
+                    progress=progress.part(0.2, 0.7),
+                    body=patient.body,
+                )
             return score_paths(
                 target,
                 skin,
@@ -277,7 +291,8 @@ class PathsFeature(Feature):
                 _warning(fields),
                 edit.placement,
                 limits,
-                progress=progress.part(0.3, 1.0),
+                progress=progress.part(0.7, 1.0),
+                tissues=tissues,
             )
 
         self.panel.make.setEnabled(False)
