@@ -249,10 +249,25 @@ def score_paths(
         )
     progress.report(1.0, "paths scored")
     columns: list[Any] = [np.concatenate(column) for column in zip(*parts, strict=True)]
-    score, block, length, angle, *met, nearest, which = columns
+    score, block, length, angle, bone, *others, pleura, nearest, which = columns
+    lung, vessel, gut, heart = others
     names = tuple(structure.name for structure, _ in avoided)
     return PathScores(
-        target, skin.points_mm, score, block, length, angle, *met, nearest, which, names
+        target_mm=target,
+        entries_mm=skin.points_mm,
+        score=score,
+        block=block,
+        length_mm=length,
+        angle_deg=angle,
+        bone_mm=bone,
+        lung_mm=lung,
+        vessel_mm=vessel,
+        gut_mm=gut,
+        heart_mm=heart,
+        pleural_deg=pleura,
+        nearest_mm=nearest,
+        nearest=which,
+        names=names,
     )
 
 

@@ -79,7 +79,7 @@ def _nearest(field: TissueField, points: FloatArray) -> NDArray[np.uint8]:
     """Codes of the voxels that points lie in, unknown beyond the field."""
     ijk = np.rint(points @ field.inverse_mm[:3, :3].T + field.inverse_mm[:3, 3]).astype(np.intp)
     size = np.array(field.labels.shape[::-1])
-    inside = ((ijk >= 0) & (ijk < size)).all(axis=1)
+    inside = np.asarray(((ijk >= 0) & (ijk < size)).all(axis=1))
     i, j, k = np.where(inside[:, None], ijk, 0).T
     return np.where(inside, field.labels[k, j, i], np.uint8(UNKNOWN))
 
