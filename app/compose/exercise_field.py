@@ -55,7 +55,7 @@ def resolve_tissue(
         choice = TissueChoice(TissueSource.LAYERS, "layers: there is no CT in Hounsfield values")
     else:
         choice = choose(exercise, placed, device_of(exercise), tissues)
-    return exercise.model_copy(update={"tissue": choice.source}), choice.why
+    return exercise.model_copy(update={"tissue": choice.source}), choice.reason
 
 
 def with_field(context: RunContext, field: TissueField) -> RunContext:

@@ -1,9 +1,9 @@
 """Layers or the field: which of both an exercise with `tissue: auto` needs, and why.
 
-Every needle that the machine can hold at the entry, to the end of its reach, is followed through the
-field. Layers along the plan stand for all of them only where each meets the same tissues in the same
-order and, at every depth, the same force along the needle to a tenth of a newton, which is what a
-hand tells apart. One that meets another tissue, or the same ones elsewhere, needs the field.
+Every needle that the machine can hold at the entry, to the end of its reach, is followed through
+the field. Layers along the plan stand for all of them only where each meets the same tissues in the
+same order and, at every depth, the same force along the needle to a tenth of a newton, which is
+what a hand tells apart. One that meets another tissue, or the same ones elsewhere, needs the field.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class TissueChoice:
     """Which of both, and why in one sentence."""
 
     source: TissueSource
-    why: str
+    reason: str
 
 
 def choose(

@@ -20,7 +20,7 @@ from app.core.arrays import FloatArray
 from app.core.events import Event
 from app.core.units import MILLIMETRE
 from app.imaging.field.tissue_field import TissueField, TissueKind
-from app.imaging.field.walking import Crossed, holding, joined, walk
+from app.imaging.field.walking import Crossed, directions, holding, joined, walk
 from app.planning.placement import PlacedPlan
 from app.scoring.errors import TrajectoryError
 from app.scoring.met import BY_SHAFT, BY_TIP, SMALL_VESSELS, Met
@@ -49,6 +49,7 @@ SHAFTS: Final = 200
 
 SHAFT_STEP_MM: Final = 1.0
 
+_PROBES = 32  # places around the tip at which bone is looked for
 _NOT_MET = (TissueKind.UNKNOWN, TissueKind.AIR)
 _STEEPEST = 5.0  # tangent of the angle at which a boundary is met counts as no more than this
 
@@ -89,7 +90,8 @@ def tissues_met_of(
 
 def event_of(met: Met) -> Event:
     """Return the event that keeps it in the record; `tissues_met` reads it back."""
-    return Event(met.time, KIND, met.sentence, {"version": VERSION, **met.document()})
+    data = {key: value for key, value in met.document().items() if key != "time"}
+    return Event(met.time, KIND, met.sentence, {"version": VERSION, **data})
 
 
 def tissues_met(events: Iterable[Event]) -> tuple[Met, ...] | None:
@@ -103,7 +105,7 @@ def tissues_met(events: Iterable[Event]) -> tuple[Met, ...] | None:
         if data.get("nothing"):
             continue
         try:
-            found.append(Met.of(data))
+            found.append(Met.of(data | {"time": event.time}))
         except (LookupError, TypeError, ValueError, TrajectoryError):
             continue
     return tuple(found) if looked else None
@@ -184,20 +186,31 @@ def _met_on(field: TissueField, way: _Way, held: set[int]) -> list[Met]:
 
 
 def _touching(field: TissueField, way: _Way, crossed: list[Crossed]) -> list[Crossed]:
-    """Return what was crossed, and bone that the way's end lies at without being in it."""
-    bones = {tissue.code for tissue in field.of_kind(TissueKind.BONE)}
-    if not crossed or crossed[-1].code in bones:
+    """Return what was crossed, and bone that the tip came to without lying in it."""
+    bones = [tissue.code for tissue in field.of_kind(TissueKind.BONE)]
+    if not crossed or not bones:
         return crossed
-    last = crossed[-1]
-    looked = field.look_up(last.end[None])
-    near = float(looked.wall_mm[0]) <= CONTACT_MM
-    if not near or int(looked.other[0]) not in bones:
-        return crossed
-    ahead = way.places[-1] - way.places[max(0, len(way.places) - 5)]
-    cosine = float(looked.normal[0] @ ahead) / max(float(np.linalg.norm(ahead)), 1e-9)
-    angle = float(np.degrees(np.arccos(np.clip(abs(cosine), 0.0, 1.0))))
-    bone = Crossed(int(looked.other[0]), last.end_mm, last.end_mm, last.end, last.end, angle)
-    return [*crossed, bone]
+    lengths = np.linalg.norm(np.diff(way.places, axis=0), axis=1)
+    along = np.concatenate([[0.0], np.cumsum(lengths)])
+    around = way.places[:, None, :] + CONTACT_MM * directions(_PROBES)
+    codes = field.codes_at(around.reshape(-1, 3)).reshape(len(along), _PROBES)
+    near = np.isin(codes, bones)
+    for part in crossed:
+        if part.code in bones:  # lain in, and told already
+            inside = (along >= part.begin_mm - 1.0) & (along <= part.end_mm + 1.0)
+            near[inside] = False
+    touched = near.any(axis=1)
+    first = np.flatnonzero(touched & ~np.concatenate([[False], touched[:-1]]))
+    found = list(crossed)
+    for n in first.tolist():
+        probe = int(near[n].argmax())
+        ahead = way.places[n] - way.places[max(0, n - 5)]
+        normal = field.look_up(around[n, probe][None]).normal[0]
+        cosine = float(normal @ ahead) / max(float(np.linalg.norm(ahead)), 1e-9)
+        angle = float(np.degrees(np.arccos(np.clip(abs(cosine), 0.0, 1.0))))
+        at, place = float(along[n]), way.places[n]
+        found.append(Crossed(int(codes[n, probe]), at, at, place, place, angle))
+    return found
 
 
 def _met(

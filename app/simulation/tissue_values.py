@@ -48,7 +48,7 @@ def tissue_values(tissues: "Iterable[FieldTissue]") -> tuple[TissueLayer, ...]:
     return tuple(replace(_values(one), name=one.words, thickness=0.0) for one in tissues)
 
 
-def _values(one: "FieldTissue") -> TissueLayer:
-    words = one.name.casefold()
+def _values(tissue: "FieldTissue") -> TissueLayer:
+    words = tissue.name.casefold()
     named = [values for name, values in _BY_NAME.items() if name in words]
-    return named[0] if named and str(one.kind) == "organ" else _BY_KIND[str(one.kind)]
+    return named[0] if named and str(tissue.kind) == "organ" else _BY_KIND[str(tissue.kind)]

@@ -1,4 +1,4 @@
-"""Kernels that look into a bound field of tissue: what lies at a point, and the first wall on a way.
+"""Kernels that look into a bound field of tissue: what lies at a point, the first wall on a way.
 
 A field is two arrays of bytes outside the loop's own: the code of each voxel's tissue, and how far
 the voxel's centre is from the nearest boundary of that tissue [1/40 mm]. At a point, with the
@@ -36,6 +36,7 @@ _SHORTEST: Final = 0.25  # voxels of a step along a way
 _UNSURE: Final = 0.5  # voxels by which an interpolated distance may be too long
 _EXACT: Final = 2e-6  # [m]
 _MOST_STEPS: Final = 600
+_MOST_HALVINGS: Final = 40
 
 
 class FieldPlaces(NamedTuple):
@@ -91,26 +92,6 @@ FIELD: Final = numbered(FieldPlaces)
 ROW: Final = numbered(TissueRow)
 
 
-class Place(NamedTuple):
-    """What lies at a point.
-
-    Attributes:
-        code: of the tissue; other: of the one beyond the nearest boundary, the same for none near.
-        inside: distance to that boundary [m], 3 mm or so where it is farther.
-        x, y, z: normal of the boundary, out of the tissue, in world; zero for none near.
-        share: of the displacement by breathing.
-        moved: turns that the looking up took.
-    """
-
-    code: int
-    other: int
-    inside: float
-    x: float
-    y: float
-    z: float
-    share: float
-
-
 @intrinsic
 def _pointer(typing_context: Any, address: Any) -> Any:
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
@@ -150,7 +131,7 @@ def _of(code: int, c: Any, w: Any) -> float:
 
 @njit
 def at_rest(p: FloatArray, labels: Any, distance: Any, x: float, y: float, z: float) -> Any:
-    """What lies at a point of the world [m] without breathing: see `Place`, its share left out."""
+    """Return what lies at a point of the world [m] without breathing: `tissue_at` but the share."""
     i = p[FIELD.i_x] * x + p[FIELD.i_y] * y + p[FIELD.i_z] * z + p[FIELD.i_0]
     j = p[FIELD.j_x] * x + p[FIELD.j_y] * y + p[FIELD.j_z] * z + p[FIELD.j_0]
     k = p[FIELD.k_x] * x + p[FIELD.k_y] * y + p[FIELD.k_z] * z + p[FIELD.k_0]
@@ -268,11 +249,19 @@ def tissue_at(
     breath: Any,
     near: float,
 ) -> Any:
-    """What lies at a point of the world [m] now: see `Place`.
+    """Return what lies at a point of the world [m] now.
+
+    Returned are the code of the tissue; that beyond the nearest boundary, the same for none near;
+    the distance to that boundary [m], 3 mm or so where it is farther; its normal in world, out of
+    the tissue, zero for none near; and the share of the displacement by breathing.
 
     Args:
-        p: the array, `labels` and `distance` the field.
-        x, y, z: the point.
+        p: the array.
+        labels: codes of the field.
+        distance: of the field's voxels.
+        x: of the point.
+        y: of the point.
+        z: of the point.
         breath: displacement of what goes along with all of it (x, y, z) [m].
         near: the share that the search begins with.
     """
@@ -318,18 +307,21 @@ def first_wall(
     breath: Any,
     near: float,
 ) -> tuple[float, int]:
-    """Where a straight way first leaves a tissue: how far on [m] and into what; -1 for nowhere.
+    """Return where a straight way first leaves a tissue [m], -1 for nowhere, and into what.
 
     Steps are as long as the nearest boundary is away, and a quarter of a voxel at least.
 
     Args:
-        p: the array, `labels` and `distance` the field.
+        p: the array.
+        labels: codes of the field.
+        distance: of the field's voxels.
         start: where it begins, in the tissue `code`, `inside` from its boundary [m].
         way: unit vector.
         length: of the way [m].
         code: of the tissue.
         inside: from its boundary [m].
-        breath: see `tissue_at`, likewise `near`.
+        breath: see `tissue_at`.
+        near: see `tissue_at`.
     """
     spacing = p[FIELD.spacing]
     low = 0.0
@@ -343,7 +335,9 @@ def first_wall(
         seen = tissue_at(p, labels, distance, x, y, z, breath, near)
         if seen[0] != code:
             beyond = seen[0]
-            while high - low > _EXACT:
+            for _ in range(_MOST_HALVINGS):
+                if high - low <= _EXACT:
+                    break
                 middle = 0.5 * (low + high)
                 x, y, z = (
                     start[0] + middle * way[0],

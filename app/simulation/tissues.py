@@ -19,15 +19,16 @@ from app.simulation.scene import TissueLayer
 
 SKIN: Final = replace(
     scene.SKIN,
-    puncture_force=2.5,
+    puncture_force=2.78,
     indentation_stiffness=250.0,
     indentation_hardening=50e3,
     relaxation_share=0.4,
 )
-"""2 to 3 N in vivo (pig, 18 G, Maurin 2004); J of porcine skin cut by a needle, 1136 J/m² (table 2
-of doi 10.1186/s10033-022-00767-4). Indentation: an estimate that dimples by some 4 mm. Relaxation:
-skin relaxes (PMC7595329); the share is an estimate. Friction: an estimate, none found: searched
-"needle friction force per unit length"."""
+"""2 to 3 N in vivo (pig, 18 G, Maurin 2004), 2.75 to 2.80 N in fresh human cadavers (doi
+10.1089/end.2016.0342): both hold. J of porcine skin cut by a needle, 1136 J/m² (table 2 of doi
+10.1186/s10033-022-00767-4). Indentation: an estimate that dimples by some 4 mm. Relaxation: skin
+relaxes (PMC7595329); the share is an estimate. Friction: an estimate, none found: searched "needle
+friction force per unit length"."""
 
 FAT: Final = replace(scene.FAT, side_stiffness=3.3e3, toughness=1000.0, relaxation_share=0.4)
 """J: published are 4100 J/m² of porcine fat (same table), which is 5.2 N for 18 G, more than skin,

@@ -7,6 +7,7 @@ the unit that its case names.
 """
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from math import cos
 from typing import Any, Final, NamedTuple
 
@@ -27,6 +28,7 @@ ALONG: Final = ("puncture", "relaxation", "cutting", "shaft_friction")
 TICK: Final = 1e-3  # [s]
 
 Protocol = Mapping[str, Any]
+Layers = tuple[TissueLayer, ...]
 
 
 class Insertion(NamedTuple):
@@ -55,16 +57,16 @@ def ramp(begin_mm: float, end_mm: float, speed_mm_s: float) -> FloatArray:
     return np.linspace(begin_mm, end_mm, ticks + 1)[1:] * MILLIMETRE
 
 
-def insert(version: str, tissue: TissueLayer, gauge: int, depths: FloatArray) -> Insertion:
-    """Move the tip of a needle through depths [m], one a tick, in a tissue.
+def insert(version: str, layers: Layers, gauge: int, depths: FloatArray) -> Insertion:
+    """Move the tip of a needle through depths [m], one a tick, in tissue.
 
     Args:
         version: whose models compute it, a key of `simulation.tissues.MODELS`.
-        tissue: it alone, from depth 0 on.
+        layers: from depth 0 on.
         gauge: of the needle.
         depths: of its tip, shape (n,).
     """
-    scene = Scene(layers=(tissue,), needle=Needle(outer_diameter=OUTER_DIAMETER[gauge]))
+    scene = Scene(layers=layers, needle=Needle(outer_diameter=OUTER_DIAMETER[gauge]))
     stages = []
     for name in ALONG:
         declared = declaration(name)
@@ -89,19 +91,20 @@ def insert(version: str, tissue: TissueLayer, gauge: int, depths: FloatArray) ->
 
 
 def _tissue(version: str, protocol: Protocol) -> TissueLayer:
-    """Return the tissue alone and 200 mm thick; what a version lacks is its liver."""
-    from dataclasses import replace
+    """Return the tissue 200 mm thick; what a version lacks is its liver."""
+    return _layer(version, protocol["tissue"], 200.0)
 
-    name = protocol["tissue"]
+
+def _layer(version: str, name: str, thickness_mm: float) -> TissueLayer:
     name = name if name in tissues.TISSUES[version] else "liver"
-    return replace(tissues.tissue(name, version), thickness=0.2)
+    return replace(tissues.tissue(name, version), thickness=thickness_mm * MILLIMETRE)
 
 
 def _straight(version: str, protocol: Protocol, depth_mm: float, **changed: Any) -> Insertion:
     """Push in from the surface to a depth, as the protocol says or as `changed` does."""
     of = {**protocol, **changed}
     depths = ramp(0.0, depth_mm, of["speed_mm_s"])
-    return insert(version, _tissue(version, of), int(of["gauge"]), depths)
+    return insert(version, (_tissue(version, of),), int(of["gauge"]), depths)
 
 
 DEEP: Final = 40.0
@@ -139,7 +142,7 @@ def second_cut(version: str, protocol: Protocol) -> float:
     depth, speed = protocol["depth_mm"], protocol["speed_mm_s"]
     once = ramp(0.0, depth, speed)
     path = np.concatenate([once, ramp(depth, -1.0, speed), ramp(-1.0, depth, speed)])
-    found = insert(version, _tissue(version, protocol), int(protocol["gauge"]), path)
+    found = insert(version, (_tissue(version, protocol),), int(protocol["gauge"]), path)
     late = len(once) - int(np.searchsorted(once, protocol["at_mm"] * MILLIMETRE))
     cut = found.force["cutting"]
     return float(cut[-late] / cut[len(once) - late])
@@ -209,8 +212,17 @@ def held_share(version: str, protocol: Protocol) -> float:
     """Return the force after a rest over that after its first 10 ms."""
     way = ramp(0.0, protocol["depth_mm"], protocol["speed_mm_s"])
     path = np.concatenate([way, np.full(round(protocol["hold_s"] / TICK), way[-1])])
-    total = insert(version, _tissue(version, protocol), int(protocol["gauge"]), path).total
+    total = insert(version, (_tissue(version, protocol),), int(protocol["gauge"]), path).total
     return float(total[-1] / total[len(way) + 9])
+
+
+def wall_slope(version: str, protocol: Protocol) -> float:
+    """Return the slope of the whole force over the depth, through a wall into an organ [N/cm]."""
+    wall = (("skin", 2.0), ("fat", 20.0), ("muscle", 20.0), (protocol["tissue"], 200.0))
+    layers = tuple(_layer(version, name, thickness_mm) for name, thickness_mm in wall)
+    depths = ramp(0.0, protocol["depth_mm"], protocol["speed_mm_s"])
+    total = insert(version, layers, int(protocol["gauge"]), depths).total
+    return float(np.polyfit(depths, total, 1)[0]) / 100.0
 
 
 def curvature(version: str, protocol: Protocol) -> float:
@@ -276,6 +288,7 @@ EXPERIMENTS: Final[Mapping[str, Callable[[str, Protocol], float]]] = {
         friction_share,
         cutting_share,
         held_share,
+        wall_slope,
         curvature,
         deflection,
         deflection_by_gauge,

@@ -44,7 +44,10 @@ _WANTED: Final[Mapping[str, Any]] = {
     "kind": str,
     "read": str,
 }
-_MAY: Final[Mapping[str, Any]] = {"chosen": bool, "choice": str}
+_MAY: Final[Mapping[str, Any]] = {"means": str, "chosen": bool, "choice": str}
+
+MEANINGS: Final = ("mean", "at most", "at least", "middle of the range")
+"""What the value is that a source gives; only an inequality, or a range, where it gives no more."""
 
 COLUMNS: Final = (
     "case",
@@ -78,6 +81,7 @@ class PublishedCase:
         read: how the figure was come by.
         chosen: whether the program's values are made to follow it.
         choice: why it is followed, or why not.
+        means: what the value is, of `MEANINGS`.
     """
 
     name: str
@@ -93,14 +97,22 @@ class PublishedCase:
     read: str
     chosen: bool = True
     choice: str = ""
+    means: str = MEANINGS[0]
+
+    @property
+    def measured(self) -> str:
+        """Return the value as its source gives it."""
+        if self.means == "middle of the range":
+            return f"{self.least:g} to {self.most:g}"
+        return f"{self.value:g}" if self.means == "mean" else f"{self.means} {self.value:g}"
 
     def ours(self, version: str = PUBLISHED) -> float:
         """Return what the program's values and models of a version give [unit]."""
         return EXPERIMENTS[self.drive](version, self.protocol)
 
-    def holds(self, found: float) -> bool:
+    def holds(self, value: float) -> bool:
         """Return whether a value lies in the range."""
-        return self.least <= found <= self.most
+        return self.least <= value <= self.most
 
 
 def cases_file() -> Path:
@@ -196,6 +208,7 @@ def _check_names(where: str, row: Mapping[str, Any]) -> None:
     for what, value, valid in (
         ("drive", row["drive"], tuple(EXPERIMENTS)),
         ("kind", row["kind"], KINDS),
+        ("means", row.get("means", "mean"), MEANINGS),
         ("tissue", protocol.get("tissue", "liver"), tuple(TISSUES[PUBLISHED])),
         ("gauge", protocol.get("gauge", 18), tuple(OUTER_DIAMETER)),
         ("against_gauge", protocol.get("against_gauge", 18), tuple(OUTER_DIAMETER)),
@@ -214,24 +227,24 @@ def _check_names(where: str, row: Mapping[str, Any]) -> None:
         raise StudyError(sentence("{where} is not chosen; say in `choice` why", where=where))
 
 
-def _verdict(case: PublishedCase, found: float) -> str:
-    if case.holds(found):
+def _verdict(case: PublishedCase, ours: float) -> str:
+    if case.holds(ours):
         return "within"
     return "OUTSIDE" if case.chosen else "not followed"
 
 
-def _row(case: PublishedCase, found: float, before: float) -> tuple[str | float, ...]:
+def _row(case: PublishedCase, ours: float, before: float) -> tuple[str | float, ...]:
     return (
         case.name,
         case.what,
         case.kind,
         case.unit,
-        case.value,
+        case.measured,
         f"{case.least:g} to {case.most:g}",
-        round(found, 4),
-        round(found / case.value, 3) if case.value else "-",
+        round(ours, 4),
+        round(ours / case.value, 3) if case.value else "-",
         round(before, 4),
-        _verdict(case, found),
+        _verdict(case, ours),
         case.source,
     )
 

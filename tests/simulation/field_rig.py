@@ -1,4 +1,4 @@
-"""Fields of tissue from distances that are known everywhere, and a needle on a given way in them."""
+"""Fields of tissue from distances that are known everywhere, and a needle on a way in them."""
 
 from collections.abc import Callable, Sequence
 

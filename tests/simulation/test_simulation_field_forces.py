@@ -134,7 +134,9 @@ def wander(ticks: int, seed: int) -> tuple[float, float, float, float]:
 
 def test_a_hundred_thousand_pushes_and_tilts_give_out_no_more_than_was_supplied() -> None:
     given, supplied, _, worst = wander(100_000, 3)
-    assert worst < 1e-6 and supplied > 1e-2 and given < supplied
+    assert worst < 1e-6
+    assert supplied > 1e-2
+    assert given < supplied
 
 
 @pytest.mark.long
@@ -192,7 +194,8 @@ def test_a_slanted_surface_turns_the_tip_aside_where_it_is_steeper_than_the_tip_
     assert last[sv.BONE_CROSSED] == pytest.approx(beyond / np.cos(tilt), abs=4e-5)
     across = total * (np.sin(tilt) - 0.5 * np.cos(tilt))
     if across <= 0.0:
-        assert not last[sv.BONE_PUSH].any() and not last[sv.FORCE].any()
+        assert not last[sv.BONE_PUSH].any()
+        assert not last[sv.FORCE].any()
         return
     np.testing.assert_allclose(last[sv.BONE_PUSH], [-across, 0.0, 0.0], atol=0.05 * across)
     lever = last[sv.DEPTH] / last[sv.L_OUT]

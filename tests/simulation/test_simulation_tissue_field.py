@@ -158,7 +158,9 @@ def test_the_wall_stays_the_lung_changes_its_volume_and_the_spine_side_goes_less
     assert share(3, 0.0, 0.0, -0.03) == pytest.approx(1.0)  # the target goes along with all of it
     assert share(3, 0.0, 0.05, -0.03) < 0.7 < share(3, 0.0, -0.01, -0.03)
     base, middle, apex = (share(2, 0.0, 0.0, z) for z in (0.001, 0.03, 0.06))
-    assert base > 0.9 and middle == pytest.approx(0.5, abs=0.05) and apex == pytest.approx(0.0)
+    assert base > 0.9
+    assert middle == pytest.approx(0.5, abs=0.05)
+    assert apex == pytest.approx(0.0)
 
 
 def test_tissue_that_breathes_past_a_tip_that_stands_is_told() -> None:
@@ -240,7 +242,8 @@ def test_the_memory_of_cuts_is_bounded_and_a_new_attempt_begins_without() -> Non
         assert not rows[:, sv.CHANNEL].any()
         go(stages, way[::-1], axis=(0.0, 0.0, -1.0), state=state)
     rows = go(stages, way, axis=(0.0, 0.0, -1.0), state=state)
-    assert rows[10:-5, sv.CHANNEL].all() and len(stages[1].parameters) == size
+    assert rows[10:-5, sv.CHANNEL].all()
+    assert len(stages[1].parameters) == size
     go(stages, way[:1], axis=(0.0, 0.0, -1.0), state=state)
 
     def arm(k: int, state: FloatArray) -> None:
@@ -260,7 +263,8 @@ def test_no_checkpoint_holds_the_field_or_says_where_it_lies() -> None:
     checkpoint = loop.checkpoint()
     took = time.perf_counter() - begin
     loop.close()
-    assert checkpoint.parameters.nbytes < 300_000 and took < 5e-3
+    assert checkpoint.parameters.nbytes < 300_000
+    assert took < 5e-3
     addresses = {float(field.labels.ctypes.data), float(field.distance.ctypes.data)}
     assert not addresses & set(checkpoint.parameters.tolist())
 

@@ -232,10 +232,13 @@ def _wall(
     cell = factor * grid.spacing_mm
     outside = pooled(labels == _AIR, factor) | pooled(skin, factor)
     fat = pooled((labels == _FAT).astype(np.float32), factor, np.add) > 0.5 * factor**3
-    parts, _ = pieces(fat | outside)
+    # opened before it is taken apart: fat within the wall joins that below it by narrow gaps
+    ball = np.ones((3, 3, 3), bool)
+    edges = np.pad(fat | outside, 2, mode="edge")
+    opened = ndimage.binary_opening(edges, ball)[2:-2, 2:-2, 2:-2]
+    parts, _ = pieces(opened)
     from_outside = np.unique(parts[outside])
-    outer = np.isin(parts, from_outside[from_outside > 0])
-    outer = ndimage.binary_opening(outer, np.ones((2, 2, 2), bool)) | outside
+    outer = np.isin(parts, from_outside[from_outside > 0]) | outside
     level = np.full(outer.shape, WALL_MM, np.float32)
     if outer.any() and not outer.all():
         level -= ndimage.distance_transform_edt(~outer, cell).astype(np.float32)

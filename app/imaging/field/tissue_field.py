@@ -48,6 +48,7 @@ UNKNOWN: Final = 0
 
 MOST_TISSUES: Final = 256
 
+_FAR_MM = 1e12  # beyond every field
 _CHUNK: Final = 20_000  # points that are looked up at a time
 
 
@@ -237,9 +238,10 @@ class TissueField:
         return self.look_up(points_mm).code
 
     def _looked_up(self, points: FloatArray) -> tuple[NDArray[Any], ...]:
+        points = np.where(np.abs(points) < _FAR_MM, points, _FAR_MM)  # NaN and what overflows too
         ijk = points @ self.inverse_mm[:3, :3].T + self.inverse_mm[:3, 3]
         last = np.array(self.labels.shape[::-1]) - 1.0
-        inside = np.asarray(((ijk >= 0.0) & (ijk <= last)).all(axis=1))  # NaN is outside
+        inside = np.asarray(((ijk >= 0.0) & (ijk <= last)).all(axis=1))  # beyond it is outside
         at = np.where(inside[:, None], ijk, 0.0)
         base = np.minimum(np.floor(at), last - 1.0).astype(np.intp)
         labels, distance, weights, slopes = self._corners(base, at - base)

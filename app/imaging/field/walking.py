@@ -140,7 +140,7 @@ def holding(field: TissueField, target_mm: ArrayLike) -> NDArray[np.intp]:
     target = np.asarray(target_mm, np.float64)
     own = int(field.codes_at(target[None])[0])
     codes = {own}
-    ways = _sphere()
+    ways = directions()
     for radius in (4.0, 8.0, 12.0, 16.0, 20.0):
         around = field.codes_at(target + radius * ways)
         others = around[(around != own)]
@@ -157,8 +157,8 @@ def holding(field: TissueField, target_mm: ArrayLike) -> NDArray[np.intp]:
     return np.array(sorted(small), np.intp)
 
 
-def _sphere(count: int = 96) -> FloatArray:
-    """Directions spread evenly, shape (count, 3) (Fibonacci)."""
+def directions(count: int = 96) -> FloatArray:
+    """Return directions spread evenly, shape (count, 3) (Fibonacci)."""
     n = np.arange(count) + 0.5
     polar, round_ = np.arccos(1.0 - 2.0 * n / count), np.pi * (1.0 + 5.0**0.5) * n
     across = np.sin(polar)

@@ -149,9 +149,9 @@ def carry(old: FloatArray, new: FloatArray) -> None:
 
 @njit
 def _beyond(state: FloatArray, p: FloatArray, tip: Any) -> float:
-    """How far the tip is beyond the surface that it touches [m], by what lies about it now.
+    """Return how far the tip is beyond the surface that it touches [m]; 0 where it touches none.
 
-    0 or less where it touches none.
+    By what lies about it now.
     """
     code, wall = state[sv.TISSUE], state[sv.WALL]
     rigid = 0.0 <= code < p[_ON.codes] and p[len(_AT) + len(_ON) + int(code)] > 0.0

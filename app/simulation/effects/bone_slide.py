@@ -1,13 +1,13 @@
-"""Bone turns the tip aside: met at a slant, its surface pushes the tip along, and the hand feels it.
+"""Bone turns the tip aside: met at a slant, its surface pushes the tip along.
 
-The push across the needle that `bone_contact` says (BONE_PUSH) acts on the tip, a depth d beyond the
-fulcrum; at the hub, L_out on the other side, that is
+The push across the needle that `bone_contact` says (BONE_PUSH) acts on the tip, a depth d beyond
+the fulcrum; at the hub, L_out on the other side, that is
 
     F = -BONE_PUSH d / L_out.
 
-What presses the tip on bone is the hand's own push along the needle, so what is given back here came
-in there: declared active. A device without a port along the needle takes none in, and gives none
-back: where the hand is real, nothing is added.
+What presses the tip on bone is the hand's own push along the needle, so what is given back here
+came in there: declared active. A device without a port along the needle takes none in, and gives
+none back: where the hand is real, nothing is added.
 """
 
 from collections.abc import Mapping

@@ -254,7 +254,7 @@ def _met(p: FloatArray) -> int:
 
 
 @njit
-def _kept(p: FloatArray, row: int, j: int) -> int:
+def _of_bin(p: FloatArray, row: int, j: int) -> int:
     """Return where the k (0), the tissue (1) and the share (2) of bin j stand, of a field."""
     met = _met(p)
     return met + len(_MET) + int(p[met + _MET.codes]) + row * int(p[AT.bins]) + j
@@ -266,7 +266,7 @@ def _tissue(p: FloatArray, j: int, begin: float, end: float) -> Any:
     f0 = f1 = f2 = 0.0
     if _in_field(p):
         if end > begin:
-            k = p[_kept(p, 0, j)]
+            k = p[_of_bin(p, 0, j)]
             f0 = k * (end - begin)
             f1 = k * (end * end - begin * begin) / 2.0
             f2 = k * (end * end * end - begin * begin * begin) / 3.0
@@ -484,9 +484,9 @@ def _cut_in(p: FloatArray, j: int) -> None:
     """Let a bin that is begun keep the tissue that the tip met in its middle, or is in now."""
     met = _met(p)
     passed = (j + 0.5) * BIN <= p[met + _MET.depth]
-    code = p[_kept(p, 1, j)] if passed else p[met + _MET.code]
-    p[_kept(p, 0, j)] = p[met + len(_MET) + int(code)]
-    share = p[_kept(p, 2, j)] if passed else p[met + _MET.share]
+    code = p[_of_bin(p, 1, j)] if passed else p[met + _MET.code]
+    p[_of_bin(p, 0, j)] = p[met + len(_MET) + int(code)]
+    share = p[_of_bin(p, 2, j)] if passed else p[met + _MET.share]
     p[_drag(p, j) + _DRAG.share] = share
 
 
@@ -497,10 +497,10 @@ def _meet(state: FloatArray, p: FloatArray) -> None:
     depth, code, share = state[int(p[met + _MET.slot])], state[sv.TISSUE], state[sv.CARRIED_SHARE]
     if not (np.isfinite(depth + share) and 0.0 <= code < p[met + _MET.codes]):
         return
-    before = max(p[met + _MET.depth], 0.0)
-    first, last = int(before / BIN + 0.5), int(max(depth, 0.0) / BIN + 0.5)
+    depth = min(max(depth, 0.0), p[AT.bins] * BIN)
+    first, last = int(p[met + _MET.depth] / BIN + 0.5), int(depth / BIN + 0.5)
     for j in range(first, min(last, int(p[AT.bins]))):
-        p[_kept(p, 1, j)], p[_kept(p, 2, j)] = code, share
+        p[_of_bin(p, 1, j)], p[_of_bin(p, 2, j)] = code, share
     p[met + _MET.depth], p[met + _MET.code], p[met + _MET.share] = depth, code, share
 
 
@@ -570,7 +570,7 @@ def carry(old: FloatArray, new: FloatArray) -> None:
         e, end = _edge(old, j), (depth - tip * BIN if j == tip else BIN)
         f0, f1, f2 = _tissue(old, j, 0.0, end)
         if _in_field(new):
-            new[_kept(new, 0, j)] = f0 / end if end > 0.0 else 0.0
+            new[_of_bin(new, 0, j)] = f0 / end if end > 0.0 else 0.0
             share = old[_drag(old, j) + _DRAG.share] if moves(old) else 0.0
             new[_drag(new, j) + _DRAG.share] = share
         det = f0 * f2 - f1 * f1

@@ -2,8 +2,9 @@
 
 Where the tip is. TIP is the straight needle's at the depth that is measured; the tip that is looked
 up is at the depth that effects along the needle take, and beside the straight line by TIP_OFFSET of
-the tick before (a stage behind the effects keeps it, `keep_bend`): the bend of this tick is computed
-from what is met here. A tick moves a bent tip by hundredths of a millimetre beside the line.
+the tick before (a stage behind the effects keeps it, `keep_bend`): the bend of this tick is
+computed from what is met here. A tick moves a bent tip by hundredths of a millimetre beside the
+line.
 
 The way of the tip since the tick before is walked through the field (`tissue_walk`), in steps that
 no boundary lies within, or of a quarter of a voxel. At the first wall the walk ends: TISSUE is what
@@ -23,7 +24,8 @@ here (so 0.93 of that is sure, the points being apart). The last 2048 are
 remembered (1.2 m of cutting with 22 G), found by a hash of their places; they are forgotten when
 forces are armed while the tip is outside: a new attempt.
 
-CARRIED is the displacement by breathing of the tissue at the tip, CARRIED_SHARE its share of BREATH.
+CARRIED is the displacement by breathing of the tissue at the tip, CARRIED_SHARE its share of
+BREATH.
 """
 
 from collections.abc import Mapping
@@ -80,13 +82,14 @@ _BEYOND: Final = 0.1  # of the radius: what lies less far ahead is where the tip
 _BESIDE: Final = 0.3  # of the radius: what lies so far beside is not the way that led here
 _LIMIT: Final = 0.1  # [m] of breathing; further is no displacement
 _NEAR: Final = 0.003  # [m]
+_FARTHEST: Final = 0.3  # [m]
 _SIDEWAYS: Final = -0.5  # cosine between way and needle below which the tip goes back
 
 
 class _MemoryPlaces(NamedTuple):
     """Constants; the place walked to, its tissue and share, the bend, the end of the cut; points.
 
-    `ready` is 1 once there is a place, `enabled` what ENABLED was; `count` points were made so far.
+    `ready` is 1 once there is a place, `enabled` what ENABLED was; `points` were made so far.
     """
 
     ahead: int
@@ -106,7 +109,7 @@ class _MemoryPlaces(NamedTuple):
     end_y: int = 0
     end_z: int = 0
     has_end: int = 0
-    count: int = 0
+    points: int = 0
 
 
 _AT: Final = numbered(_MemoryPlaces, len(FIELD))
@@ -210,7 +213,7 @@ def _forget_point(p: FloatArray, point: int) -> None:
 def _remember(p: FloatArray, x: float, y: float, z: float) -> None:
     """Let the cut end at a place at rest [m], and leave a point where the last is far enough."""
     p[_AT.end_x], p[_AT.end_y], p[_AT.end_z], p[_AT.has_end] = x, y, z, 1.0
-    count = int(p[_AT.count])
+    count = int(p[_AT.points])
     if count > 0:
         at = _POINTS + 3 * ((count - 1) % POINTS)
         dx, dy, dz = p[at] - x, p[at + 1] - y, p[at + 2] - z
@@ -225,12 +228,12 @@ def _remember(p: FloatArray, x: float, y: float, z: float) -> None:
     head = _HEADS + _bucket_of(p, point)
     p[_NEXT + point] = p[head]
     p[head] = point + 1.0
-    p[_AT.count] = count + 1.0
+    p[_AT.points] = count + 1.0
 
 
 @njit
 def _forget_cuts(p: FloatArray) -> None:
-    p[_AT.count] = p[_AT.has_end] = 0.0
+    p[_AT.points] = p[_AT.has_end] = 0.0
     for k in range(_BUCKETS):
         p[_HEADS + k] = 0.0
 
@@ -288,12 +291,19 @@ def _tell_ahead(
 
 
 @njit
+def _is_far(p: FloatArray, tip: Any) -> bool:
+    """Return whether the tip is where no way can have led within a tick: it is begun anew there."""
+    square = (tip[0] - p[_AT.x]) ** 2 + (tip[1] - p[_AT.y]) ** 2 + (tip[2] - p[_AT.z]) ** 2
+    return not square < _FARTHEST * _FARTHEST
+
+
+@njit
 def _walk(state: FloatArray, p: FloatArray, tip: Any, depth: float) -> None:
     """Go from the place of the tick before towards the tip, and tell what is met and lies there."""
     labels, distance, breath = labels_of(p), distances_of(p), _breath_of(state)
     way = (state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z])
     near = p[_AT.share]
-    if p[_AT.ready] == 0.0:
+    if p[_AT.ready] == 0.0 or _is_far(p, tip):
         p[_AT.x], p[_AT.y], p[_AT.z] = tip
         p[_AT.code] = tissue_at(p, labels, distance, tip[0], tip[1], tip[2], breath, near)[0]
         p[_AT.ready] = 1.0
@@ -368,7 +378,7 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
 
 @stage
 def keep_bend(state: FloatArray, parameters: FloatArray) -> None:
-    """Keep for the next tick how far beside the straight line the tip is, and how far it dimples."""
+    """Keep for the next tick how far the tip is beside the line, and how far it dimples."""
     x, y, z = state[sv.TIP_OFFSET_X], state[sv.TIP_OFFSET_Y], state[sv.TIP_OFFSET_Z]
     if np.isfinite(x + y + z):
         parameters[_AT.bent_x], parameters[_AT.bent_y], parameters[_AT.bent_z] = x, y, z
