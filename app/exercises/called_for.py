@@ -164,11 +164,12 @@ def within_reach(
                 before = least.get(part.code)
                 if before is None or part.begin_mm < before:
                     least[part.code] = part.begin_mm
-    return tuple(
+    met = (
         Met(tissue, least[tissue.code])
         for tissue in field.tissues
         if tissue.code in least and tissue.confidence >= LEAST_CONFIDENCE
     )
+    return tuple(sorted(met, key=lambda one: one.depth_mm or 0.0))
 
 
 def additions(calls: Sequence[Call], exercise: Exercise) -> dict[str, Any]:
@@ -214,10 +215,10 @@ def _reasons(
         reasons["relaxation"] = sentence("what is pierced gives way while the needle rests")
     if bones:
         listed = _listed(one.words for one in bones)
-        reasons["bone_contact"] = sentence("{listed} stops the needle", listed=listed)
+        reasons["bone_contact"] = sentence("no needle goes through {listed}", listed=listed)
     if breathing:
         listed = _listed(one.words for one in breathing)
-        reasons["breathing"] = sentence("{listed} goes along with the breath", listed=listed)
+        reasons["breathing"] = sentence("along with the breath go {listed}", listed=listed)
     if exercise.needle.tip is TipShape.BEVEL and holds:
         reasons["bevel"] = sentence("a bevelled tip cuts a curved way")
     if holds and (why := _field_reason(exercise, placed, profile, field)):
