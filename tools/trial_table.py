@@ -30,7 +30,8 @@ from app.core import paths
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
 from app.exercises.schema import Exercise
-from app.scoring.result import SCORING_VERSION, Score
+from app.scoring.result import Score
+from app.scoring.version import SCORING_VERSION
 from app.simulation.skills import SKILLS
 
 DOCS = Path(__file__).resolve().parents[1] / "docs" / "exercises.md"

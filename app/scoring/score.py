@@ -14,6 +14,7 @@ from app.scoring.result import Score, judge
 from app.scoring.rows import Row, ScoreRules
 from app.scoring.tolerance import Tolerance
 from app.scoring.trajectory import Trajectory
+from app.scoring.version import SCORING_VERSION
 
 __all__ = ["DEFAULT_TOLERANCES", "Row", "Score", "ScoreRules", "check_names", "score", "with_shown"]
 
@@ -22,21 +23,26 @@ def score(
     trajectory: Trajectory,
     tolerances: Mapping[str, Tolerance] = DEFAULT_TOLERANCES,
     rules: ScoreRules | None = None,
+    version: int = SCORING_VERSION,
 ) -> Score:
     """Compute every metric of the program's own, and those that count, and judge the attempt.
+
+    `version` is one of `scoring.version.KNOWN_VERSIONS`: an older score is made by its own rules.
 
     Raises:
         UnknownMetricError: for a tolerance of a metric that does not exist; lists those that do.
     """
     metrics = available()
     check_names(tolerances, metrics)
+    if version != trajectory.scoring_version:
+        trajectory = replace(trajectory, scoring_version=version)
     own = [name for name, metric in metrics.items() if metric.is_own]
     names = [*tolerances, *(name for name in own if name not in tolerances)]
     rows = tuple(
         row for name in names if (row := _row(metrics[name], trajectory, tolerances.get(name)))
     )
     rules = rules or ScoreRules()
-    return judge(rows, rules, _attempt_void(trajectory, rules))
+    return replace(judge(rows, rules, _attempt_void(trajectory, rules)), version=version)
 
 
 def with_shown(scored: Score, trajectory: Trajectory) -> Score:

@@ -17,6 +17,7 @@ from app.scoring.errors import MetricNotAskedError, MetricUnavailableError, Traj
 from app.scoring.risks import RiskMark
 from app.scoring.scans import ScanMark
 from app.scoring.touches import Touches
+from app.scoring.version import SCORING_VERSION
 
 LAST_SEEN = 1.0
 """The tip counts as known at the end if the cameras saw it within this time before [s]."""
@@ -69,6 +70,7 @@ class Trajectory:
             had to check.
         clamped: whether the force was at the robot's limit, shape (n,); None if not known.
         touches: targets that were to be touched; None where there were none.
+        scoring_version: of the rules that it is measured by (`scoring.version`).
 
     Raises:
         TrajectoryError: naming the array and the first bad sample.
@@ -93,6 +95,7 @@ class Trajectory:
     agreement: float = 0.0
     clamped: NDArray[np.bool_] | None = None
     touches: Touches | None = None
+    scoring_version: int = SCORING_VERSION
 
     def __post_init__(self) -> None:
         time = _samples(self.time, "time", None, ())

@@ -16,7 +16,7 @@ from app.commands import build as command_line
 from app.core.exits import Exit
 from app.exchange.csv_export import score_table
 from app.scoring.conditions import DeviceKind, comparable
-from app.scoring.result import SCORING_VERSION
+from app.scoring.version import KNOWN_VERSIONS, SCORING_VERSION
 from app.session.recording import read_recording
 from app.session.review import review
 from app.session.sidecar import cached, fresh_summary, read_summary, sidecar, verify_record
@@ -154,7 +154,7 @@ def test_a_score_rewritten_inside_the_record_is_found_out(folder: Path) -> None:
 
 def test_a_score_of_another_version_is_kept_said_and_not_comparable(folder: Path) -> None:
     path = next(folder.glob("*a001.mcap"))
-    now, then = SCORING_VERSION, SCORING_VERSION - 1
+    now, then = KNOWN_VERSIONS[0], KNOWN_VERSIONS[0] - 1  # the records are of the first
     with_score(path, f'"total":{TOTAL}', f'"total":{TOTAL + 70.0:.14f}')
     with_score(path, f'"scoring_version":{now}', f'"scoring_version":{then}')
     shown = review(read_recording(path))
@@ -164,7 +164,8 @@ def test_a_score_of_another_version_is_kept_said_and_not_comparable(folder: Path
     found = verify(read_recording(path))
     assert not found.confirmed
     assert found.changes == ()
-    assert "it cannot be checked: this program has the rules of version 5 only" in found.sentences()
+    only = "it cannot be checked: this program has the rules of versions 5 and 6"
+    assert only in found.sentences()
     assert run("session", "verify", path.stem, "--folder", str(folder))[0] == Exit.NO
     old = fresh_summary(path).conditions
     assert old is not None
