@@ -32,6 +32,7 @@ from app.exercises.scene import device_of, placed_plan_of
 from app.exercises.schema import Exercise
 from app.scoring.result import Score
 from app.scoring.version import SCORING_VERSION
+from app.simulation.hands import HANDS
 from app.simulation.skills import SKILLS
 
 DOCS = Path(__file__).resolve().parents[1] / "docs" / "exercises.md"
@@ -56,7 +57,7 @@ def kind_of_attempts(exercise: Exercise) -> str:
     for field in ("version", "title", "description", "level", "rules"):
         document.pop(field)
     document["tolerances"] = sorted(document["tolerances"])  # an effect may live by a metric
-    text = json.dumps([document, SCORING_VERSION], sort_keys=True)
+    text = json.dumps([document, SCORING_VERSION, repr(HANDS)], sort_keys=True)
     return sha256(text.encode()).hexdigest()[:16]
 
 

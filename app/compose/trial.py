@@ -60,8 +60,9 @@ from app.session.touching import Touching
 from app.session.trainer import Trainer
 from app.session.transitions import LOST, Classifier, classify
 from app.session.withdrawal import Start
+from app.simulation.hands import Script, named
 from app.simulation.plant import initial_plant
-from app.simulation.skills import SKILLS
+from app.simulation.skills import SKILLS, find_skill
 from app.simulation.trainee import ScriptPhase
 from app.tracking.optics.rig import RigProfile, load_rig
 from app.tracking.simulated.cameras import simulated_cameras
@@ -90,7 +91,7 @@ STEP_TICKS: Final = 20
 
 BEGIN: Final = 10.0
 SETTLED: Final = 0.6
-LONGEST: Final = 300.0
+LONGEST: Final = 900.0
 """Virtual time [s]: of the beginning, for the cameras to be believed, and of an attempt at most."""
 
 STEP: Final = 1.0 * MILLIMETRE
@@ -175,6 +176,7 @@ def attempt(
     seed: int,
     risks: tuple[Risk, ...] = (),
     pictures: bool = False,
+    script: Script = Script.HAND,
 ) -> AttemptResult:
     """Let a scripted trainee do one attempt in virtual time; nothing is written.
 
@@ -185,12 +187,14 @@ def attempt(
         seed: of the trainee and of the tracker's noise.
         risks: structures that the needle has to keep away from.
         pictures: whether both cameras' pictures are rendered and tracked: seven times the work.
+        script: how the trainee behaves: as people do, or as in a demonstration.
 
     Raises:
         AcusError: if a profile, an effect or the path cannot be used; says which and why.
     """
     profile, clock = device_of(exercise), VirtualClock(BEGIN)
-    setup = TrainerSetup(exercise, placed, skill=skill, seed=seed, clock=clock)
+    played = named(find_skill(skill).name, script)
+    setup = TrainerSetup(exercise, placed, skill=played, seed=seed, clock=clock)
     loop, rig = build_loop(setup, profile), load_rig(exercise.rig)
     scene = needle_scene(loop, profile, rig.needle.marker_offset)
     fulcrum = profile.fulcrum
@@ -261,14 +265,20 @@ class Trials:
         exercise: with the assistance that it begins with.
         placed: its plan in the robot's frame.
         risks: structures that the needle has to keep away from.
+        script: how the trainees behave: as people do, or as in a demonstration.
 
     Raises:
         AcusError: if a profile, an effect or the path cannot be used; says which and why.
     """
 
     def __init__(
-        self, exercise: Exercise, placed: PlacedPlan, risks: tuple[Risk, ...] = ()
+        self,
+        exercise: Exercise,
+        placed: PlacedPlan,
+        risks: tuple[Risk, ...] = (),
+        script: Script = Script.HAND,
     ) -> None:
+        self._script = script
         self._exercise, self._placed, self._risks = exercise, placed, risks
         self._profile = device_of(exercise)
         self._scorer = scorer(exercise)
@@ -296,7 +306,9 @@ class Trials:
         touching = None if self._task is None else Touching(self._task)
         went = _Course.of(samples, begin, touching)
         if faults.any() or went.unseen >= LOST or self._pulled:
-            result = attempt(self._exercise, self._placed, skill, seed, self._risks)
+            result = attempt(
+                self._exercise, self._placed, skill, seed, self._risks, script=self._script
+            )
             return Trial(result.score, result.duration)
         samples = replace(samples, state=went.states, target=went.target)
         near = risk_marks_of(samples, self._placed, self._risks)
@@ -312,7 +324,8 @@ class Trials:
             values = own.setdefault(id(stage.parameters), stage.parameters.copy())
             return stage._replace(parameters=values)
 
-        trainee = trainee_of(self._exercise, placed, skill, seed)
+        played = named(find_skill(skill).name, self._script)
+        trainee = trainee_of(self._exercise, placed, played, seed)
         before = trainee, self._cameras.stage(seed, self._spoiled)
         table = Table.of([*before, *map(fresh, self._stages)], map(fresh, self._write))
         initial = initial_plant(profile, UPRIGHT, START_DEPTH)
@@ -521,6 +534,7 @@ def run_trial(
     skills: Sequence[str] = tuple(SKILLS),
     risks: tuple[Risk, ...] = (),
     progress: Progress | None = None,
+    script: Script = Script.HAND,
 ) -> tuple[SkillOutcome, ...]:
     """Let every skill do the exercise once per seed; the least skilled first.
 
@@ -534,7 +548,7 @@ def run_trial(
     placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
     if exercise.layers_from is LayersFrom.CT:
         exercise = with_tissue(exercise, read_ct(exercise), placed.plan)
-    trials, outcomes = Trials(exercise, placed, risks), []
+    trials, outcomes = Trials(exercise, placed, risks, script), []
     for number, skill in enumerate(skills):
         part = progress.part(number / len(skills), (number + 1) / len(skills))
         results = []

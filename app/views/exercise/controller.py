@@ -390,7 +390,7 @@ class ExerciseController(QObject):
             return
         self.beginning.emit()
         self._views.messages.clear()
-        self._views.messages.start_clock(self._clock.now())
+        self._views.messages.start_clock(run.trainer.snapshot().time)
         try:
             by_hand = self._views.bullseye.source.name if run.interactive else ""
             hand = self._led_as or by_hand
