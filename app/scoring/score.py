@@ -98,6 +98,11 @@ def _attempt_void(trajectory: Trajectory, rules: ScoreRules) -> str:
     if not trajectory.inserted.any():
         return "the needle never crossed the skin: it was never inserted"
     paused = trajectory.waited
+    if paused > rules.maximum_pause and trajectory.computer > 0.5 * paused:
+        return (
+            f"this computer was too slow: the attempt waited {paused:.0f} s for pictures of its "
+            f"own simulated cameras; {rules.maximum_pause:g} s are allowed"
+        )
     if paused > rules.maximum_pause:
         return (
             f"the attempt waited {paused:.0f} s for the cameras; {rules.maximum_pause:g} s are "

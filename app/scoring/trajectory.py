@@ -70,6 +70,7 @@ class Trajectory:
             had to check.
         clamped: whether the force was at the robot's limit, shape (n,); None if not known.
         touches: targets that were to be touched; None where there were none.
+        computer: time of pauses because the computer was too slow for its simulated cameras [s].
         scoring_version: of the rules that it is measured by (`scoring.version`).
 
     Raises:
@@ -95,6 +96,7 @@ class Trajectory:
     agreement: float = 0.0
     clamped: NDArray[np.bool_] | None = None
     touches: Touches | None = None
+    computer: float = 0.0
     scoring_version: int = SCORING_VERSION
 
     def __post_init__(self) -> None:

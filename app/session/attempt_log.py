@@ -33,7 +33,7 @@ from app.session.signature import signature_file, signed
 from app.session.station import StationKey
 from app.session.summary import Summary
 from app.session.touching import touches_of
-from app.session.transitions import excused
+from app.session.transitions import excused, waited_for_computer
 from app.session.verify import SCORE_FILE
 
 Scorer = Callable[[Trajectory], Score]
@@ -102,6 +102,7 @@ class AttemptLog:
                 excused(self.events),
                 agreement_of(self.recorder.header.metadata),
                 touches_of(self.events),
+                waited_for_computer(self.events),
             )
             score = self.scorer(path)
         except AcusError as error:

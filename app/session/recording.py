@@ -27,7 +27,7 @@ from app.session.schemas import CHANNELS, conforms
 from app.session.scored import agreement_of, renders_force, trajectory
 from app.session.ticks import Inputs, read_inputs
 from app.session.touching import touches_of
-from app.session.transitions import excused
+from app.session.transitions import excused, waited_for_computer
 
 Metadata = MappingProxyType[str, dict[str, str]]
 
@@ -102,6 +102,7 @@ class Recording:
             excused(self.events),
             agreement_of(self.metadata),
             touches_of(self.events),
+            waited_for_computer(self.events),
         )
 
     def placed_plan(self) -> PlacedPlan:

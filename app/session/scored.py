@@ -55,6 +55,7 @@ def trajectory(
     excused: float = 0.0,
     agreement: float = 0.0,
     touches: Touches | None = None,
+    computer: float = 0.0,
 ) -> Trajectory:
     """Turn samples into what scoring wants.
 
@@ -73,6 +74,7 @@ def trajectory(
         excused: time of pauses that cost nothing [s], see `pauses.excused`.
         agreement: see `agreement_of` [m].
         touches: targets that were to be touched; None where there were none.
+        computer: time of pauses for simulated pictures that came late [s].
 
     Raises:
         SessionError: if no sample has a direction of the needle.
@@ -108,6 +110,7 @@ def trajectory(
         spread=None if samples.spread is None else samples.spread[rising],
         agreement=agreement,
         touches=touches,
+        computer=computer,
         clamped=samples.clamped[rising] if renders and samples.clamped is not None else None,
     )
 
