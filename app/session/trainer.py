@@ -142,6 +142,8 @@ class Trainer:
 
     def close(self) -> None:
         """Abort a running attempt, stop everything at zero force; idempotent."""
+        if self._paced is not None:
+            self._paced.stop()  # nobody waits any more for whoever holds time
         if self._ticker is not None:
             self._ticker.close()
         self.abort("the trainer was closed")

@@ -274,6 +274,8 @@ class Tracker:
         for memory in (self._health, self._hiding, self._continuity):
             memory.clear()  # needle, cameras and robot may be others than before
         rehearse(self.rig, self._fulcrum, self.extractors, self._solver)
+        if self._paced is not None:
+            self._paced.begin()
         self._feed.open()
         self._worker.open()
 

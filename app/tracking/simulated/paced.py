@@ -24,6 +24,10 @@ class PacedFixes:
         self._period = 1.0 / rig.rate_hz
         self._hold = clock.hold("cameras")
 
+    def begin(self) -> None:
+        """Hold time until the first fix is due: the cameras are opened."""
+        self._hold.until(self._clock.now() + self._period + self._delay)
+
     def wait(self, fix: NeedleFix) -> None:
         """Wait until a fix is due."""
         self._clock.sleep(fix.time + self._delay - self._clock.now())
