@@ -8,10 +8,12 @@ import typer
 from typer.core import TyperGroup
 
 from app.commands.answer import Answer, Commands
+from app.commands.shown import Each
 from app.core.errors import ConfigurationError
 
 if TYPE_CHECKING:
     from app.core.progress import Progress
+    from app.imaging.field import TissueField
     from app.imaging.library import Imported, LibraryEntry
     from app.imaging.privacy.burned_in import MaskBox
     from app.imaging.series import Listing, Series
@@ -137,6 +139,72 @@ def digest(
     size = "×".join(map(str, found.size))
     lines = [f"{name} [mm]  {row}" for name, row in zip("xyz", rows, strict=True)]
     return Answer(asdict(found), [f"values  sha256 {found.values} of {size} {found.kind}", *lines])
+
+
+@app.command()
+def path(
+    folder: Folder,
+    entry: Annotated[str, typer.Option(metavar="X,Y,Z", help="Entry, DICOM LPS [mm].")],
+    target: Annotated[str, typer.Option(metavar="X,Y,Z", help="Target, DICOM LPS [mm].")],
+    structures: Annotated[
+        list[Path] | None, typer.Option(metavar="FILE", help="Structures on this CT.")
+    ] = None,
+    series: Annotated[
+        str | None, typer.Option(help="SeriesInstanceUID, where several fit.")
+    ] = None,
+) -> Answer:
+    """Print what a straight path meets, tissue after tissue, and how sure that is."""
+    import numpy as np
+
+    from app.commands.calibrate_parts import with_progress
+    from app.imaging.field.making import field_of
+    from app.imaging.field.walking import walk
+    from app.imaging.structures.files import read_structures
+
+    ends = np.array([_numbers(entry, "--entry"), _numbers(target, "--target")])
+    _start_reader()
+    volume = _volume(folder, series, None)
+    reach = float(np.linalg.norm(ends[1] - ends[0])) + _BEYOND_MM
+
+    def work(progress: "Progress") -> "TissueField":
+        marked = [one for file in structures or () for one in read_structures(file, volume)]
+        return field_of(volume, marked, ends[0], reach, progress=progress)
+
+    field = with_progress(work)
+    rows = []
+    for part in walk(field, ends):
+        tissue = field.tissues[part.code]
+        rows.append(
+            {
+                "kind": tissue.kind.value,
+                "name": tissue.name,
+                "words": tissue.words,
+                "begin_mm": part.begin_mm,
+                "length_mm": part.length_mm,
+                "angle_deg": part.angle_deg,
+                "confidence": tissue.confidence,
+                "source": tissue.source,
+            }
+        )
+    facts = {"digest": field.digest, "notes": list(field.notes), "tissues": rows}
+    row = "{begin_mm:6.1f} mm  {words}, {length_mm:.1f} mm  ({source:?{source}, }{confidence:.0%})"
+    return Answer(facts, shown=(Each("tissues", row), Each("notes", "note: {}")))
+
+
+_BEYOND_MM = 10.0
+
+
+def _numbers(text: str, option: str) -> list[float]:
+    """Read three numbers of an option.
+
+    Raises:
+        ConfigurationError: if they are none.
+    """
+    try:
+        x, y, z = (float(part) for part in text.split(","))
+    except ValueError as error:
+        raise ConfigurationError(f"{option} {text!r}: three numbers X,Y,Z in mm") from error
+    return [x, y, z]
 
 
 @app.command("import")

@@ -226,6 +226,8 @@ def _tell(result: AttemptResult, script: DemonstrationScript, hurried: bool) -> 
             typer.echo(f"  {row.label:<28} {value}".rstrip())
         total = "void" if score.total is None else f"{score.total:.0f} of 100"
         typer.echo(f"  {'Score':<28} {total}, {'passed' if score.passed else 'not passed'}")
+        for fail in score.hard_fails:
+            typer.echo(f"  {fail}")
         if score.void_reason:
             void.append(score.void_reason)
             typer.echo(f"  void: {score.void_reason}")

@@ -185,7 +185,7 @@ class Desktop:
     def open_run(self, setup: RunSetup, progress: Progress) -> DesktopRun:
         """Build and start a trainer; called beside the window, may take seconds."""
         with turn(progress):  # kernels and OpenCV: behind the window, not before it
-            from app.compose.exercise_ct import load_risks
+            from app.compose.exercise_ct import load_field, load_risks
             from app.compose.pen import pen_settings
             from app.compose.trainer import TrainerSetup, build_rig
             from app.core.temporary import temporary_folder
@@ -193,7 +193,9 @@ class Desktop:
             from app.session.motion import ShownMotion
         self._kernels.wait(progress)
         risks = load_risks(setup.exercise, setup.volume, progress.part(0.0, 0.1))
-        progress.report(0.1, "compiling the loop")
+        plan = setup.placed.plan
+        tissues = load_field(setup.exercise, setup.volume, plan, progress.part(0.1, 0.6))
+        progress.report(0.6, "compiling the loop")
         seed = setup.exercise.seed if self._seed is None else self._seed
         ct = setup.ct
         if setup.volume is not None:  # by it the debrief knows the CT again
@@ -219,6 +221,7 @@ class Desktop:
             cameras=setup.cameras,
             pen=pen_settings(setup.robot.pen) if setup.robot.pen else None,
             risks=risks,
+            tissues=tissues,
             script=None if shown is None else shown.script(setup.placed),
         )
         rig = build_rig(trainer)

@@ -1,11 +1,14 @@
-"""The CT of an exercise as it is used: read in the exercise's way, its structures of risk on it."""
+"""The CT of an exercise as it is used, read in its way, with structures of risk and tissue."""
 
 from __future__ import annotations
 
 from app.core.progress import Progress
 from app.exercises.errors import ExerciseError
+from app.exercises.parts import OwnPlan
 from app.exercises.schema import Exercise
+from app.imaging.field import TissueField
 from app.imaging.volume import Volume
+from app.planning.plan import Plan
 from app.session.risks import Risk
 
 
@@ -55,3 +58,39 @@ def load_risks(
             field = SignedDistance.of(found.find(name), step.part(0.5, 1.0))
             risks.append(Risk(name, limit, field))
     return tuple(risks)
+
+
+ENTRY_STEP_MM = 20.0
+"""Plans whose entries round to one place in these steps share a tissue field."""
+
+
+def load_field(
+    exercise: Exercise, volume: Volume | None, plan: Plan, progress: Progress | None = None
+) -> TissueField | None:
+    """Return the tissue field of an exercise's CT; None without a CT in Hounsfield units.
+
+    It is made once, in up to ten seconds, and kept in the cache. Where the student chooses the
+    entry it covers all of the CT, else what a needle reaches from about the plan's entry.
+
+    Raises:
+        AcusError: if a file of structures cannot be read, or the field does not fit the memory.
+        Cancelled: if `progress` was cancelled.
+    """
+    if volume is None or volume.unit != "HU":
+        return None
+    import numpy as np
+
+    from app.imaging.field.making import REACH_MM, field_of  # scipy, compiled code
+    from app.imaging.structures.files import read_structures
+
+    progress = progress or Progress()
+    structures = []
+    for number, part in enumerate(exercise.structures):
+        step = progress.part(0.2 * number / len(exercise.structures), 0.2)
+        structures += list(read_structures(part.file, volume, step))
+    entry = np.rint(plan.entry_mm / ENTRY_STEP_MM) * ENTRY_STEP_MM
+    whole = isinstance(exercise.plan, OwnPlan) or not volume.contains(entry)
+    reach = REACH_MM + ENTRY_STEP_MM
+    return field_of(
+        volume, structures, None if whole else entry, reach, progress=progress.part(0.2, 1.0)
+    )

@@ -37,6 +37,7 @@ from app.exercises.parts import LayersFrom
 from app.exercises.scene import compile_exercise, device_of, law_requests
 from app.exercises.schema import Exercise
 from app.exercises.touching import check_touch
+from app.imaging.field import TissueField
 from app.mechanisms.hand_motion import hand_stage
 from app.mechanisms.profile import DeviceProfile, parse_profile
 from app.planning.placement import PlacedPlan
@@ -194,6 +195,7 @@ class TrainerSetup:
         cameras: real ones; None simulates those of the exercise's rig.
         pen: a pen with printed markers and a webcam in place of robot and cameras; no force then.
         risks: structures that the needle has to keep away from.
+        tissues: field of the patient that tells what the needle met; None for none.
     """
 
     exercise: Exercise
@@ -208,6 +210,7 @@ class TrainerSetup:
     cameras: CameraSettings | None = None
     pen: PenSettings | None = None
     risks: tuple[Risk, ...] = ()
+    tissues: TissueField | None = None
     script: TraineeScript | None = None
 
 
@@ -364,6 +367,7 @@ def _build_rig(
         clearance=robot.clearance if robot is not None else None,
         held_arming=setup.held_arming or robot is not None,
         risks=setup.risks,
+        tissues=setup.tissues,
         trust=DepthTrust(profile.hand.depth_speed, seen=robot is None or real is not None),
         start=Start.SIMULATED if robot is None else Start.REAL,
     )
@@ -387,6 +391,7 @@ def _build_pen_rig(setup: TrainerSetup, pen: Pen) -> Rig:
         context,
         setup.clock,
         risks=setup.risks,
+        tissues=setup.tissues,
         dial=0.0,
         trust=DepthTrust(FASTEST),  # a pen in the air is no needle in its tube
         start=Start.SIMULATED if pen.settings.simulated else Start.REAL,

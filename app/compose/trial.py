@@ -26,7 +26,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from app.compose.exercise_ct import load_risks, read_ct
+from app.compose.exercise_ct import load_field, load_risks, read_ct
 from app.compose.needle import UPRIGHT, measured_axis, needle_scene
 from app.compose.trainee import trainee_of
 from app.compose.trainer import START_DEPTH, TrainerSetup, build_loop, loop_table, pictures_of
@@ -56,6 +56,7 @@ from app.session.recorder import Recorder
 from app.session.risks import risk_marks_of
 from app.session.samples import Samples
 from app.session.scored import scorer, trajectory
+from app.session.tissues import tissues_met_of
 from app.session.touching import Touching
 from app.session.trainer import Trainer
 from app.session.transitions import LOST, Classifier, classify
@@ -79,6 +80,7 @@ from app.tracking.tracker import Tracker
 
 if TYPE_CHECKING:
     from app.exercises.schema import Exercise
+    from app.imaging.field import TissueField
     from app.planning.placement import PlacedPlan
     from app.scoring.result import Score
     from app.session.result import AttemptResult
@@ -169,6 +171,22 @@ def risks_of(exercise: Exercise, progress: Progress | None = None) -> tuple[Risk
     return load_risks(exercise, volume, progress.part(0.6, 1.0))
 
 
+def tissues_of(
+    exercise: Exercise, plan: Plan, progress: Progress | None = None
+) -> TissueField | None:
+    """Make the tissue field of an exercise that forbids something; None where it forbids nothing.
+
+    Raises:
+        AcusError: if the CT or a file of structures cannot be read.
+        Cancelled: if `progress` was cancelled.
+    """
+    if not exercise.rules.forbidden:
+        return None
+    progress = progress or Progress()
+    volume = read_ct(exercise, progress.part(0.0, 0.4))
+    return load_field(exercise, volume, plan, progress.part(0.4, 1.0))
+
+
 def attempt(
     exercise: Exercise,
     placed: PlacedPlan,
@@ -176,6 +194,7 @@ def attempt(
     seed: int,
     risks: tuple[Risk, ...] = (),
     pictures: bool = False,
+    tissues: TissueField | None = None,
     script: Script = Script.HAND,
 ) -> AttemptResult:
     """Let a scripted trainee do one attempt in virtual time; nothing is written.
@@ -186,6 +205,7 @@ def attempt(
         skill: a name of `skills.SKILLS`.
         seed: of the trainee and of the tracker's noise.
         risks: structures that the needle has to keep away from.
+        tissues: field of the patient that tells what the needle met.
         pictures: whether both cameras' pictures are rendered and tracked: seven times the work.
         script: how the trainee behaves: as people do, or as in a demonstration.
 
@@ -224,6 +244,7 @@ def attempt(
         clock,
         measure,
         risks=risks,
+        tissues=tissues,
         trust=DepthTrust(profile.hand.depth_speed),
         start=Start.SIMULATED,
     )
@@ -265,6 +286,7 @@ class Trials:
         exercise: with the assistance that it begins with.
         placed: its plan in the robot's frame.
         risks: structures that the needle has to keep away from.
+        tissues: field of the patient that tells what the needle met.
         script: how the trainees behave: as people do, or as in a demonstration.
 
     Raises:
@@ -276,10 +298,12 @@ class Trials:
         exercise: Exercise,
         placed: PlacedPlan,
         risks: tuple[Risk, ...] = (),
+        tissues: TissueField | None = None,
         script: Script = Script.HAND,
     ) -> None:
         self._script = script
         self._exercise, self._placed, self._risks = exercise, placed, risks
+        self._tissues = tissues
         self._profile = device_of(exercise)
         self._scorer = scorer(exercise)
         self._task = exercise.touch_task(placed)
@@ -307,12 +331,19 @@ class Trials:
         went = _Course.of(samples, begin, touching)
         if faults.any() or went.unseen >= LOST or self._pulled:
             result = attempt(
-                self._exercise, self._placed, skill, seed, self._risks, script=self._script
+                self._exercise,
+                self._placed,
+                skill,
+                seed,
+                self._risks,
+                tissues=self._tissues,
+                script=self._script,
             )
             return Trial(result.score, result.duration)
         samples = replace(samples, state=went.states, target=went.target)
         near = risk_marks_of(samples, self._placed, self._risks)
-        path = trajectory(samples, self._placed, risks=near, touches=went.touches)
+        met = tissues_met_of(samples, self._placed, self._tissues)
+        path = trajectory(samples, self._placed, risks=near, touches=went.touches, met=met)
         return Trial(self._scorer(path), float(samples.time[-1]) - begin)
 
     def _rows(self, skill: str, seed: int) -> tuple[FloatArray, float]:
@@ -548,7 +579,8 @@ def run_trial(
     placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
     if exercise.layers_from is LayersFrom.CT:
         exercise = with_tissue(exercise, read_ct(exercise), placed.plan)
-    trials, outcomes = Trials(exercise, placed, risks, script), []
+    tissues = tissues_of(exercise, placed.plan)
+    trials, outcomes = Trials(exercise, placed, risks, tissues, script), []
     for number, skill in enumerate(skills):
         part = progress.part(number / len(skills), (number + 1) / len(skills))
         results = []

@@ -1,4 +1,4 @@
-"""How good straight paths to one target are: length, angle to the skin, bone, structures, reach.
+"""How good straight paths to one target are: length, angle, what they meet, structures, reach.
 
 A path that must not be is blocked, and says why. Any other has a cost, the weighted sum of its
 parts, each 0 (best) to 1 (as bad as is allowed), and from it a score of 100 to 0.
@@ -23,6 +23,7 @@ from app.core.progress import Progress
 from app.core.units import DEGREE, MILLIMETRE
 from app.imaging.body import Body, is_inside, skin_entry
 from app.imaging.errors import InvalidEntryError
+from app.imaging.field import TissueField
 from app.imaging.interpolation import interpolate
 from app.imaging.skin import SkinPatch
 from app.imaging.volume import Volume
@@ -31,6 +32,7 @@ from app.planning.errors import PlanError
 from app.planning.limits import ReachLimits
 from app.planning.placement import Placement
 from app.planning.plan import Plan
+from app.planning.tissues import along as along_paths
 
 _ACROSS = (-0.45, 0.45, -0.35, 0.35, -0.25, 0.25, -0.15, 0.15)  # of the body's half width
 _ALONG_MM = (0.0, 15.0, -15.0, 30.0, -30.0, 7.0, -7.0)
@@ -112,6 +114,10 @@ class PathObstacle(StrEnum):
     AIR = "air"
     BONE = "bone"
     STRUCTURE = "structure"
+    LUNG = "lung"
+    VESSEL = "vessel"
+    GUT = "gut"
+    HEART = "heart"
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,6 +129,9 @@ class Weights:
         longest_mm: path; the device's depth limit counts where it is shorter.
         flattest_deg: angle between path and the skin's normal.
         most_bone_mm: length of path through bone.
+        most_lung_mm, most_vessel_mm, most_gut_mm, most_heart_mm: through these, where a tissue
+            field tells of them and the target does not lie in them; looked at each millimetre.
+        pleura: weight of the angle at which the lung is entered that holds the target.
         free_mm: structures further away than their warning distance by this cost nothing.
     """
 
@@ -132,6 +141,11 @@ class Weights:
     longest_mm: float = 120.0
     flattest_deg: float = 65.0
     most_bone_mm: float = 1.5
+    most_lung_mm: float = 1.5
+    most_vessel_mm: float = 0.5
+    most_gut_mm: float = 0.5
+    most_heart_mm: float = 0.5
+    pleura: float = 1.0
     free_mm: float = 10.0
 
 
@@ -147,6 +161,9 @@ class PathScores:
         length_mm: of the paths.
         angle_deg: between path and the skin's normal, 0 is straight in.
         bone_mm: length through bone.
+        lung_mm, vessel_mm, gut_mm, heart_mm: length through these, by the tissue field; 0 for what
+            holds the target, NaN without a field.
+        pleural_deg: between path and the pleura's normal, NaN where the lung is not entered.
         nearest_mm: distance from the nearest structure that is to be avoided; infinite without.
         nearest: its number in `names`, -1 without.
         names: of the structures.
@@ -159,6 +176,11 @@ class PathScores:
     length_mm: FloatArray
     angle_deg: FloatArray
     bone_mm: FloatArray
+    lung_mm: FloatArray
+    vessel_mm: FloatArray
+    gut_mm: FloatArray
+    heart_mm: FloatArray
+    pleural_deg: FloatArray
     nearest_mm: FloatArray
     nearest: NDArray[np.intp]
     names: tuple[str, ...] = field(default=())
@@ -187,6 +209,7 @@ def score_paths(
     limits: ReachLimits,
     weights: Weights = Weights(),
     progress: Progress | None = None,
+    tissues: TissueField | None = None,
 ) -> PathScores:
     """Score the paths from every point of the skin to a target.
 
@@ -199,6 +222,7 @@ def score_paths(
         limits: of the device.
         weights: what counts how much.
         progress: reports, and may be cancelled.
+        tissues: field of the CT, which tells bone from contrast, lung, vessels, gut and heart.
 
     Raises:
         Cancelled: if `progress` was cancelled.
@@ -220,14 +244,30 @@ def score_paths(
                 placement,
                 limits,
                 weights,
+                tissues,
             )
         )
     progress.report(1.0, "paths scored")
     columns: list[Any] = [np.concatenate(column) for column in zip(*parts, strict=True)]
-    score, block, length, angle, bone, nearest, which = columns
+    score, block, length, angle, bone, *others, pleura, nearest, which = columns
+    lung, vessel, gut, heart = others
     names = tuple(structure.name for structure, _ in avoided)
     return PathScores(
-        target, skin.points_mm, score, block, length, angle, bone, nearest, which, names
+        target_mm=target,
+        entries_mm=skin.points_mm,
+        score=score,
+        block=block,
+        length_mm=length,
+        angle_deg=angle,
+        bone_mm=bone,
+        lung_mm=lung,
+        vessel_mm=vessel,
+        gut_mm=gut,
+        heart_mm=heart,
+        pleural_deg=pleura,
+        nearest_mm=nearest,
+        nearest=which,
+        names=names,
     )
 
 
@@ -240,6 +280,7 @@ def _chunk(
     placement: Placement,
     limits: ReachLimits,
     weights: Weights,
+    tissues: TissueField | None,
 ) -> tuple[NDArray[np.generic], ...]:
     count = len(entries)
     path = target - entries
@@ -255,6 +296,8 @@ def _chunk(
     bone, air = np.zeros(count), np.zeros(count)
     nearest, which = np.full(count, np.inf), np.full(count, -1, np.intp)
     worst = np.zeros(count)
+    others = {name: np.full(count, np.nan) for name in ("lung", "vessel", "gut", "heart")}
+    pleura = np.full(count, np.nan)
     left = np.flatnonzero(block == 0)
     if left.size:
         steps = int(np.ceil(length[left].max() / STEP_MM)) + 1
@@ -273,17 +316,31 @@ def _chunk(
             which[left[closer]] = number
             room = structure.warn_mm + weights.free_mm
             worst[left] = np.maximum(worst[left], np.clip(1.0 - least / room, 0.0, 1.0))
+        if tissues is not None:
+            met = along_paths(tissues, target, points, length[left])
+            known = met.unknown_mm < 0.5 * length[left]  # else the values have to tell
+            bone[left[known]] = met.bone_mm[known]
+            others["lung"][left], others["vessel"][left] = met.lung_mm, met.vessel_mm
+            others["gut"][left], others["heart"][left] = met.gut_mm, met.heart_mm
+            pleura[left] = met.pleural_deg
         _mark(block, air > 2.0, PathObstacle.AIR)
         _mark(block, bone > weights.most_bone_mm, PathObstacle.BONE)
+        _mark(block, others["lung"] > weights.most_lung_mm, PathObstacle.LUNG)
+        _mark(block, others["vessel"] > weights.most_vessel_mm, PathObstacle.VESSEL)
+        _mark(block, others["gut"] > weights.most_gut_mm, PathObstacle.GUT)
+        _mark(block, others["heart"] > weights.most_heart_mm, PathObstacle.HEART)
         _mark(block, nearest <= 0.0, PathObstacle.STRUCTURE)
     cost = (
         weights.length * np.clip(length / longest, 0.0, 1.0)
         + weights.angle * np.clip(angle / weights.flattest_deg, 0.0, 1.0)
         + weights.clearance * worst
     )
-    score = 100.0 * (1.0 - cost / (weights.length + weights.angle + weights.clearance))
+    entered = np.isfinite(pleura)
+    cost += np.where(entered, weights.pleura * np.nan_to_num(pleura) / 90.0, 0.0)
+    most = weights.length + weights.angle + weights.clearance + weights.pleura * entered
+    score = 100.0 * (1.0 - cost / most)
     score[block != 0] = np.nan
-    return score, block, length, angle, bone, nearest, which
+    return score, block, length, angle, bone, *others.values(), pleura, nearest, which
 
 
 def _mark(block: NDArray[np.intp], bad: NDArray[np.bool_], reason: PathObstacle) -> None:

@@ -11,6 +11,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from app.scoring.errors import ScoreFormatError, UnknownMetricError
+from app.scoring.met import Met, fails
 from app.scoring.rows import Row, ScoreRules
 from app.scoring.tolerance import Tolerance
 from app.scoring.version import SCORING_VERSION
@@ -29,11 +30,13 @@ class Score:
     Attributes:
         rows: every metric: first the ones that count, in the exercise's order, then the others.
         total: 0 ... 100; None if the score is void.
-        passed: total at or above the pass mark and no required metric beyond its pass limit.
+        passed: total at or above the pass mark, no required metric beyond its pass limit, and
+            nothing met that the rules forbid.
         void_reason: why there is no score; empty if there is one.
         rules: what it was judged by.
         attempt_void: the part of `void_reason` that comes from the course of the attempt.
         version: `SCORING_VERSION` of the program that made it.
+        met: what the needle met; None where nothing could tell.
     """
 
     rows: tuple[Row, ...]
@@ -43,6 +46,7 @@ class Score:
     rules: ScoreRules
     attempt_void: str = ""
     version: int = SCORING_VERSION
+    met: tuple[Met, ...] | None = None
 
     @property
     def total_sd(self) -> float | None:
@@ -61,6 +65,11 @@ class Score:
     def failures(self) -> tuple[Row, ...]:
         """Required metrics beyond their pass limit."""
         return tuple(row for row in self.rows if row.failed)
+
+    @property
+    def hard_fails(self) -> tuple[str, ...]:
+        """Say what the needle met though the rules forbid it: "rib touched at 12.0 mm"."""
+        return fails(self.met or (), self.rules.forbidden)
 
     @property
     def losses(self) -> tuple[tuple[float, Row], ...]:
@@ -94,7 +103,8 @@ class Score:
         rows = self.rows
         if tolerances is not None:
             rows = tuple(replace(row, tolerance=tolerances.get(row.name)) for row in rows)
-        return replace(judge(rows, rules or self.rules, self.attempt_void), version=self.version)
+        judged = judge(rows, rules or self.rules, self.attempt_void, self.met)
+        return replace(judged, version=self.version)
 
     def document(self) -> dict[str, Any]:
         """Return the score with all its parameters as JSON-ready values; never NaN."""
@@ -108,6 +118,8 @@ class Score:
             "attempt_void": self.attempt_void,
             "rules": self.rules.model_dump(),
             "rows": [row.document() for row in self.rows],
+            "tissues_met": None if self.met is None else [met.document() for met in self.met],
+            "hard_fails": list(self.hard_fails),
         }
 
     def to_json(self, indent: int | None = None) -> str:
@@ -133,23 +145,30 @@ class Score:
                 rules=ScoreRules.model_validate(document["rules"]),
                 attempt_void=document["attempt_void"],
                 version=int(document["scoring_version"]),
+                met=_met(document.get("tissues_met")),
             )
         except (KeyError, TypeError, AttributeError, ValueError, ValidationError) as error:
             reason = f"{type(error).__name__}: {' '.join(str(error).split())}"
             raise ScoreFormatError(f"not a stored score ({reason})") from error
 
 
-def judge(rows: tuple[Row, ...], rules: ScoreRules, attempt_void: str = "") -> Score:
+def judge(
+    rows: tuple[Row, ...],
+    rules: ScoreRules,
+    attempt_void: str = "",
+    met: tuple[Met, ...] | None = None,
+) -> Score:
     """Make a score of rows whose values are known: the weighted mean of the utilities times 100."""
     void = attempt_void or _rows_void(rows, rules)
     weight = sum(row.weight for row in rows)
     if not void and weight <= 0.0:
         void = "no metric with a weight could be computed"
     if void:
-        return Score(rows, None, False, void, rules, attempt_void)
+        return Score(rows, None, False, void, rules, attempt_void, met=met)
     total = 100.0 * sum(row.weight * (row.utility or 0.0) for row in rows) / weight
     passed = total >= rules.pass_mark and not any(row.failed for row in rows)
-    return Score(rows, total, passed, "", rules, attempt_void)
+    passed = passed and not fails(met or (), rules.forbidden)
+    return Score(rows, total, passed, "", rules, attempt_void, met=met)
 
 
 def _rows_void(rows: tuple[Row, ...], rules: ScoreRules) -> str:
@@ -163,6 +182,10 @@ def _rows_void(rows: tuple[Row, ...], rules: ScoreRules) -> str:
         if row.tolerance and row.tolerance.required and row.value is None:
             return f"{row.label.lower()} is required and cannot be computed: {row.note}"
     return ""
+
+
+def _met(documents: list[dict[str, Any]] | None) -> tuple[Met, ...] | None:
+    return None if documents is None else tuple(map(Met.of, documents))
 
 
 def _refuse(constant: str) -> float:

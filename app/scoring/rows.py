@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Annotated, Any
 
-from pydantic import Field
+from pydantic import Field, field_validator
 
 from app.core.configuration import Strict
+from app.scoring.met import FORBIDDABLE
 from app.scoring.tolerance import Band, Tolerance, band, best_within, tolerance
 
 _KEPT_AT_ZERO = frozenset({"risk_breach"})
@@ -37,11 +38,27 @@ class ScoreRules(Strict):
             score is void.
         maximum_pause: longest time [s], over all pauses, that an attempt may wait for the cameras;
             beyond it the score is void.
+        forbidden: kinds of tissue that fail the attempt if the needle meets them, unless the target
+            lies in them: `bone`, `vessel` (2 mm radius and more), `gut`, `heart`, `lung` and the
+            like; empty where what was met is information.
     """
 
     pass_mark: Annotated[float, Field(ge=0.0, le=100.0)] = 60.0
     minimum_tracking: Annotated[float, Field(ge=0.0, le=100.0)] = 70.0
     maximum_pause: Annotated[float, Field(ge=0.0)] = 20.0
+    forbidden: tuple[str, ...] = ()
+
+    @field_validator("forbidden")
+    @classmethod
+    def _known_kinds(cls, kinds: tuple[str, ...]) -> tuple[str, ...]:
+        unknown = [kind for kind in kinds if kind not in FORBIDDABLE]
+        if unknown:
+            raise ValueError(
+                f"no tissue is called {unknown[0]!r}; there are {', '.join(FORBIDDABLE)}"
+            )
+        if len(set(kinds)) < len(kinds):
+            raise ValueError("a kind of tissue is forbidden twice")
+        return kinds
 
 
 @dataclass(frozen=True, slots=True)

@@ -42,7 +42,8 @@ def score(
         row for name in names if (row := _row(metrics[name], trajectory, tolerances.get(name)))
     )
     rules = rules or ScoreRules()
-    return replace(judge(rows, rules, _attempt_void(trajectory, rules)), version=version)
+    judged = judge(rows, rules, _attempt_void(trajectory, rules), trajectory.met)
+    return replace(judged, version=version)
 
 
 def with_shown(scored: Score, trajectory: Trajectory) -> Score:

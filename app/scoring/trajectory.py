@@ -14,6 +14,7 @@ from app.core.arrays import FloatArray, read_only
 from app.planning.off_path import Offset, offset
 from app.planning.placement import PlacedPlan
 from app.scoring.errors import MetricNotAskedError, MetricUnavailableError, TrajectoryError
+from app.scoring.met import Met
 from app.scoring.risks import RiskMark
 from app.scoring.scans import ScanMark
 from app.scoring.touches import Touches
@@ -70,6 +71,7 @@ class Trajectory:
             had to check.
         clamped: whether the force was at the robot's limit, shape (n,); None if not known.
         touches: targets that were to be touched; None where there were none.
+        met: what the needle met in the patient; None where nothing could tell.
         computer: time of pauses because the computer was too slow for its simulated cameras [s].
         scoring_version: of the rules that it is measured by (`scoring.version`).
 
@@ -96,6 +98,7 @@ class Trajectory:
     agreement: float = 0.0
     clamped: NDArray[np.bool_] | None = None
     touches: Touches | None = None
+    met: tuple[Met, ...] | None = None
     computer: float = 0.0
     scoring_version: int = SCORING_VERSION
 
@@ -214,6 +217,16 @@ class Trajectory:
         pauses = np.cumsum(self.paused)[stay]
         parts = np.split(stay, np.flatnonzero(np.diff(pauses)) + 1)
         return max(parts, key=lambda part: float(self.time[part[-1]] - self.time[part[0]]))
+
+    def tissues_met(self) -> tuple[Met, ...]:
+        """Return what the needle met.
+
+        Raises:
+            MetricNotAskedError: if nothing could tell: there was no tissue field.
+        """
+        if self.met is None:
+            raise MetricNotAskedError("no tissue field told what the needle met")
+        return self.met
 
     def to_touch(self) -> Touches:
         """Return the targets that were to be touched.

@@ -9,5 +9,6 @@ void gives another answer to the same attempt. Scores of two versions are not co
 KNOWN_VERSIONS: Final = (5, SCORING_VERSION)
 """Versions whose rules this program still has, so that a score is checked by its own. What changed:
 
-6: the spectral arc length takes each picture once and smooths no more than its noise asks for.
+6: the spectral arc length takes each picture once and smooths no more than its noise asks for; what
+the rules forbid to be met fails the attempt.
 """

@@ -8,6 +8,7 @@ from types import MappingProxyType
 from app.core.errors import AcusError
 from app.core.events import Event
 from app.core.json_values import finite
+from app.imaging.field import TissueField
 from app.planning.placement import PlacedPlan
 from app.scoring.result import Score
 from app.scoring.score import with_shown
@@ -32,6 +33,7 @@ from app.session.sidecar import write_summary
 from app.session.signature import signature_file, signed
 from app.session.station import StationKey
 from app.session.summary import Summary
+from app.session.tissues import events_of, tissues_met_of
 from app.session.touching import touches_of
 from app.session.transitions import excused, waited_for_computer
 from app.session.verify import SCORE_FILE
@@ -52,6 +54,7 @@ class AttemptLog:
         events: events in order.
         scans: control scans taken.
         risks: structures that the needle has to keep away from.
+        tissues: field of the patient that tells what the needle met; None for none.
     """
 
     recorder: Recorder
@@ -61,6 +64,7 @@ class AttemptLog:
     events: list[Event] = field(default_factory=list)
     scans: int = 0
     risks: tuple[Risk, ...] = ()
+    tissues: TissueField | None = None
 
     def open(self, threaded: bool) -> str:
         """Start recording; returns why it cannot be recorded, or nothing."""
@@ -92,6 +96,9 @@ class AttemptLog:
             near = risk_marks_of(samples, self.placed, self.risks)
             for mark in near:
                 self.event(event_of(mark))
+            met = tissues_met_of(samples, self.placed, self.tissues)
+            for event in events_of(met, samples):
+                self.event(event)
             path = trajectory(
                 samples,
                 self.placed,
@@ -102,7 +109,8 @@ class AttemptLog:
                 excused(self.events),
                 agreement_of(self.recorder.header.metadata),
                 touches_of(self.events),
-                waited_for_computer(self.events),
+                met,
+                computer=waited_for_computer(self.events),
             )
             score = self.scorer(path)
         except AcusError as error:

@@ -26,6 +26,7 @@ from app.session.scan import FileContents, scan, scan_by_index
 from app.session.schemas import CHANNELS, conforms
 from app.session.scored import agreement_of, renders_force, trajectory
 from app.session.ticks import Inputs, read_inputs
+from app.session.tissues import tissues_met
 from app.session.touching import touches_of
 from app.session.transitions import excused, waited_for_computer
 
@@ -102,7 +103,8 @@ class Recording:
             excused(self.events),
             agreement_of(self.metadata),
             touches_of(self.events),
-            waited_for_computer(self.events),
+            tissues_met(self.events),
+            computer=waited_for_computer(self.events),
         )
 
     def placed_plan(self) -> PlacedPlan:

@@ -20,6 +20,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.build import BUILD, build, changes
+from app.scoring.met import Met
 from app.scoring.risks import RiskMark
 from app.session.blocks import CABLES, CLOCK, INPUTS, JUDGED, LATER, SLOT_NAMES, WIRE
 from app.session.control_scan import ControlScan
@@ -30,6 +31,7 @@ from app.session.errors import ReplayError
 from app.session.recording import Recording
 from app.session.risks import event_of, risk_marks, sentence
 from app.session.ticks import Inputs
+from app.session.tissues import tissues_met
 
 _INDEX = {name: k for k, name in enumerate(SLOT_NAMES) if name}
 
@@ -407,6 +409,7 @@ class ReplayContents:
         origin: monotonic time of the beginning, which their times are told from [s].
         ct: the CT, and how it was read.
         risks: structures of risk, and how near the needle came.
+        met: what the needle met; None where the record says nothing of it.
     """
 
     session: str
@@ -424,6 +427,7 @@ class ReplayContents:
     origin: float = 0.0
     ct: CtFacts = UNKNOWN_CT
     risks: tuple[RiskMark, ...] = ()
+    met: tuple[Met, ...] | None = None
 
     def sentences(self) -> list[str]:
         """Say it, one line each."""
@@ -442,6 +446,7 @@ class ReplayContents:
             lines.append(f"CT {self.ct.pseudonym}: {self.ct.words()}")
         lines += [scan.sentence(self.origin) for scan in self.scans]
         lines += [sentence(mark) for mark in self.risks]
+        lines += [met.sentence for met in self.met or ()]
         build = ", ".join(f"{name} {value}" for name, value in self.build.items())
         return [*lines, f"build: {build or 'not recorded'}"]
 
@@ -462,6 +467,7 @@ class ReplayContents:
             "build": dict(self.build),
             "ct": self.ct.document(),
             "risks": [dict(event_of(mark).data) for mark in self.risks],
+            "tissues_met": None if self.met is None else [met.document() for met in self.met],
             "scans": [scan.document(self.origin) for scan in self.scans],
         }
 
@@ -490,6 +496,7 @@ def contents(recording: Recording) -> ReplayContents:
         origin=recording.origin,
         ct=recording.ct,
         risks=risk_marks(recording.events),
+        met=tissues_met(recording.events),
     )
 
 

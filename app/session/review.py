@@ -18,6 +18,7 @@ from app.exercises.schema import Exercise
 from app.mechanisms.profile import parse_profile
 from app.planning.placement import PlacedPlan
 from app.scoring.conditions import Conditions
+from app.scoring.met import Met
 from app.scoring.result import Score
 from app.scoring.risks import RiskMark
 from app.scoring.score import with_shown
@@ -43,6 +44,7 @@ from app.session.signature import Signed, judge_whole
 from app.session.station import this_station
 from app.session.summary import derive
 from app.session.timeline import Span, TimeMark, marks, spans
+from app.session.tissues import tissues_met
 from app.session.touching import KIND, TASK, TargetMarks, marks_at, radius_of
 from app.session.verify import Verification, judged_by, verify
 from app.simulation.scene import Binding
@@ -181,6 +183,7 @@ class Review:
         origin: moment that their times are told from [s].
         ct: the CT, and how it was read.
         risks: structures of risk, and how near the needle came.
+        met: what the needle met; None where the record says nothing of it.
         conditions: what the score was made under; None where nothing is known.
         tip_radius: round the tip that holds the true one with 95 %, median [m]; None if not known.
         correction: the largest turn of the needle in the tissue; None if there was none.
@@ -214,6 +217,7 @@ class Review:
     origin: float = 0.0
     ct: CtFacts = UNKNOWN_CT
     risks: tuple[RiskMark, ...] = ()
+    met: tuple[Met, ...] | None = None
     conditions: Conditions | None = None
     correction: Correction | None = None
     motion: NeedleMotion | None = None
@@ -302,6 +306,7 @@ def review(recording: Recording) -> Review:
         origin=origin,
         ct=recording.ct,
         risks=risk_marks(recording.events),
+        met=tissues_met(recording.events),
         correction=correction(samples, measured, side_force(recording)),
         touches=tuple(event for event in recording.events if event.kind in (TASK, KIND)),
         tolerances=judged_by(recording, found.standing)[0],

@@ -69,17 +69,17 @@ def risk_marks_of(
     wanted = tuple(risks)
     if not wanted:
         return ()
-    rows, lines, spans = _needles(samples, placed)
+    rows, lines, spans = needles_in_body(samples, placed)
     if not len(rows):
         return ()
-    kept = _different(lines)
+    kept = different_needles(lines)
     found = []
     for risk in wanted:
         meets = risk.field.boundary.meets(lines)
         looked_at = kept
         if meets.any():  # then the deepest is one of these
             inside = np.flatnonzero(meets)
-            looked_at = inside[_different(lines[inside])]
+            looked_at = inside[different_needles(lines[inside])]
         rough = _roughly(lines[looked_at], risk.field)
         order = looked_at[np.argsort(rough, kind="stable")[:CLOSEST]].tolist()
         closest, n = _closest(lines, order, risk.field)
@@ -133,7 +133,7 @@ def sentence(mark: RiskMark) -> str:
     return f"needle {place} at the closest; limit {mark.limit_mm:g} mm: {kept}{inside}"
 
 
-def _needles(samples: Samples, placed: PlacedPlan) -> tuple[Any, FloatArray, FloatArray]:
+def needles_in_body(samples: Samples, placed: PlacedPlan) -> tuple[Any, FloatArray, FloatArray]:
     """Find the needles in the body: number of their sample, corners in LPS [mm], how long [s].
 
     Two corners each, entry and tip; as many as a bent needle has where one of them is bent.
@@ -155,7 +155,7 @@ def _needles(samples: Samples, placed: PlacedPlan) -> tuple[Any, FloatArray, Flo
     return rows, lines, np.diff(samples.time, append=samples.time[-1])[rows]
 
 
-def _different(lines: FloatArray) -> Any:
+def different_needles(lines: FloatArray) -> Any:
     """Numbers of needles that differ, ascending."""
     alike = np.rint(lines.reshape(len(lines), -1) / SAME_MM)
     return np.sort(np.unique(alike, axis=0, return_index=True)[1])

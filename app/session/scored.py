@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from app.core.units import MILLIMETRE
 from app.planning.placement import PlacedPlan
+from app.scoring.met import Met
 from app.scoring.result import Score
 from app.scoring.risks import RiskMark
 from app.scoring.scans import ScanMark
@@ -55,6 +56,7 @@ def trajectory(
     excused: float = 0.0,
     agreement: float = 0.0,
     touches: Touches | None = None,
+    met: tuple[Met, ...] | None = None,
     computer: float = 0.0,
 ) -> Trajectory:
     """Turn samples into what scoring wants.
@@ -74,6 +76,7 @@ def trajectory(
         excused: time of pauses that cost nothing [s], see `pauses.excused`.
         agreement: see `agreement_of` [m].
         touches: targets that were to be touched; None where there were none.
+        met: what the needle met; None where nothing could tell.
         computer: time of pauses for simulated pictures that came late [s].
 
     Raises:
@@ -110,6 +113,7 @@ def trajectory(
         spread=None if samples.spread is None else samples.spread[rising],
         agreement=agreement,
         touches=touches,
+        met=met,
         computer=computer,
         clamped=samples.clamped[rising] if renders and samples.clamped is not None else None,
     )

@@ -14,6 +14,7 @@ from app.core.latest import Latest
 from app.core.paced_clock import PacedClock
 from app.core.units import MILLIMETRE
 from app.exercises.locks import Lock
+from app.imaging.field import TissueField
 from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
 from app.session.attempt_log import AttemptLog
@@ -81,6 +82,7 @@ class Trainer:
         clearance: ClearanceOf | None = None,
         held_arming: bool = False,
         risks: tuple[Risk, ...] = (),
+        tissues: TissueField | None = None,
         dial: float | None = None,
         trust: DepthTrust = TRUST,
         start: Start = Start.ANYWHERE,
@@ -90,8 +92,9 @@ class Trainer:
         `advance` is for virtual time only. `clearance` is asked in every tick how much force the
         device is cleared for; without it, whoever built the loop has written it. With
         `held_arming`, forces are on only between `arm` and `disarm` during an attempt.
-        `risks` are measured and recorded when an attempt ends. `dial` is the assistance that every
-        attempt begins with; None for the exercise's. `trust` says how far a depth by the cameras is
+        `risks` are measured and recorded when an attempt ends, and by `tissues` what the needle
+        met. `dial` is the assistance that every attempt begins with; None for the exercise's.
+        `trust` says how far a depth by the cameras is
         believed, `start` how the needle comes out of the skin before an attempt.
         """
         self.events = EventQueue()
@@ -105,7 +108,7 @@ class Trainer:
         self._context = context or RunContext()
         self._clock = clock or SystemClock()
         self._advance = advance
-        self._risks = risks
+        self._risks, self._tissues = risks, tissues
         self._inputs = LoopInputs(loop.inbox)
         self._arming = Arming(self._inputs, held_arming, clearance)
         self._sources = RobotAndCameras(loop, tracker, self._inputs, trust)
@@ -195,7 +198,13 @@ class Trainer:
             now = self._clock.now()
             header = self._context.header(self._exercise, self._placed, student, now, hand)
             recorder = self._context.recorder(header, self._loop, self._placed, self._clock)
-            log = AttemptLog(recorder, self._placed, self._scorer, risks=self._risks)
+            log = AttemptLog(
+                recorder,
+                self._placed,
+                self._scorer,
+                risks=self._risks,
+                tissues=self._tissues,
+            )
             # Head and checkpoint are on the disk before the attempt's clock starts.
             failure = log.open(threaded=self._ticker is not None)
             now = self._clock.now()

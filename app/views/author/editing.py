@@ -22,6 +22,7 @@ from app.planning.draft import Edit
 from app.planning.history import UndoHistory
 from app.planning.patient import Patient
 from app.scoring.defaults import PUBLISHED_TOLERANCES
+from app.scoring.met import FORBIDDEN
 from app.views.kit.text import tr
 
 Document = dict[str, Any]
@@ -276,7 +277,10 @@ def opened_document(
         name: one.model_dump(mode="json", by_alias=True, exclude_none=True)
         for name, one in PUBLISHED_TOLERANCES.items()
     }
-    document["rules"] = document["rules"] | {"pass_mark": PASS_MARK}
+    document["rules"] = document["rules"] | {
+        "pass_mark": PASS_MARK,
+        "forbidden": list(FORBIDDEN),
+    }
     document["ct"] = ct_document(patient)
     document["plan"] = plan_document(edit)
     document["placement"] = {

@@ -45,6 +45,7 @@ from app.views.debrief.score_words import (
     ending_words,
     facts_of,
     lessons,
+    met_lines,
     proposal_words,
     risk_lines,
     row_texts,
@@ -261,6 +262,7 @@ class DebriefPage(QWidget):
             PlainLabel(self),
         )
         self._problems, self.risks = PlainLabel(self), PlainLabel(self)
+        self.met = PlainLabel(self)
         self.ending, self.lessons, self.proposal = (
             PlainLabel(self),
             PlainLabel(self),
@@ -295,6 +297,9 @@ class DebriefPage(QWidget):
         lines = risk_lines(review)
         self.risks.setText("\n".join((tr("Closest to structures of risk"), *lines)))
         self.risks.setVisible(bool(lines))
+        lines = met_lines(review)
+        self.met.setText("\n".join((tr("What the needle met"), *lines)))
+        self.met.setVisible(bool(lines))
         said = lessons(review)
         self.lessons.setText("\n".join(said))
         self.lessons.setVisible(bool(said))
@@ -467,6 +472,7 @@ class DebriefPage(QWidget):
             self._reason,
             self._problems,
             self.risks,
+            self.met,
             self.ending,
             self.lessons,
             self.proposal,
@@ -515,6 +521,7 @@ class DebriefPage(QWidget):
             column.addWidget(widget)
         column.addWidget(self.table, 3)
         column.addWidget(self.risks)
+        column.addWidget(self.met)
         column.addWidget(self.scans, 2)
         right = QWidget(self)
         self._inner = QSplitter(Qt.Orientation.Horizontal, right)

@@ -37,6 +37,7 @@ from app.views.debrief.path_view import paint_track
 from app.views.debrief.score_words import (
     counting,
     facts_of,
+    met_lines,
     risk_lines,
     row_texts,
     shown_only,
@@ -302,12 +303,19 @@ def _first_page(painter: QPainter, review: Review) -> None:
         y += 24.0
 
 
+_MOST_MET = 8  # lines of a page
+
+
 def _risks(painter: QPainter, review: Review, y: float) -> float:
-    """Return how near the needle came to structures of risk; returns where the page goes on."""
-    lines = risk_lines(review)
+    """Say how near the needle came to risks, and what it met; return where the page goes on."""
+    y = _list(painter, tr("Closest to structures of risk"), risk_lines(review), y)
+    return _list(painter, tr("What the needle met"), met_lines(review)[:_MOST_MET], y)
+
+
+def _list(painter: QPainter, title: str, lines: tuple[str, ...], y: float) -> float:
     if not lines:
         return y
-    _text(painter, MARGIN, y + 6.0, tr("Closest to structures of risk"), font(9.0, bold=True), DIM)
+    _text(painter, MARGIN, y + 6.0, title, font(9.0, bold=True), DIM)
     for number, line in enumerate(lines, 1):
         _text(painter, MARGIN, y + 6.0 + 14.0 * number, line, font(9.5))
     painter.setFont(font(8.5))

@@ -46,6 +46,25 @@ def risk_lines(review: Review) -> tuple[str, ...]:
     return tuple(risk_line(mark, review.origin) for mark in ordered)
 
 
+def met_lines(review: Review) -> tuple[str, ...]:
+    """List what the needle met: first what fails, then what may matter; skin, fat, muscle not."""
+    if review.met is None:
+        return ()
+    forbidden = review.score.rules.forbidden if review.score is not None else ()
+    lines = []
+    for met in review.met:
+        fails = met.is_forbidden(forbidden)
+        if not fails and met.kind in _PLAIN and not met.name:
+            continue
+        when = clock_text(met.time - review.origin)
+        line = tr("{met}, at {when}", met=met.sentence, when=when)
+        lines.append((not fails, f"{'✖' if fails else '·'} {line}"))
+    return tuple(line for _, line in sorted(lines, key=lambda one: one[0]))
+
+
+_PLAIN = ("skin", "fat", "muscle")
+
+
 def kind_word(kind: DeviceKind) -> str:
     """Name of what stood behind the needle, for people."""
     return {
@@ -436,11 +455,13 @@ def verdict(review: Review) -> tuple[str, str, str]:
     if score.passed:
         return theme.GOOD, tr("✔ Passed"), ""
     failures = ", ".join(row.label for row in score.failures)
-    reason = (
-        tr("Required and not met: {names}", names=failures)
-        if failures
-        else tr("{mark:g} points are needed", mark=score.rules.pass_mark)
-    )
+    if score.hard_fails:
+        reason = "; ".join(score.hard_fails)
+        reason = f"{reason[:1].upper()}{reason[1:]}"
+    elif failures:
+        reason = tr("Required and not met: {names}", names=failures)
+    else:
+        reason = tr("{mark:g} points are needed", mark=score.rules.pass_mark)
     return theme.BAD, tr("✖ Not passed"), reason
 
 

@@ -28,7 +28,7 @@ BLOCKED = (150, 150, 150)
 SIZES_PX = (6.5, 5.3, 4.2, 3.4)
 """Radii of the dots by class, so that the colour does not stand alone."""
 
-SHOWN_BLOCKED = ("reach", "bone", "structure", "air", "flat")
+SHOWN_BLOCKED = ("reach", "bone", "structure", "air", "flat", "lung", "vessel", "gut", "heart")
 """Paths that are too long are not drawn: most of the skin is too far away."""
 
 

@@ -39,9 +39,11 @@ from app.views.plan.entry_map import EntryMap, EntryMapLayer, legend
 from app.views.shell.feature import Context, Feature
 
 if TYPE_CHECKING:
+    from app.imaging.field import TissueField
     from app.planning.paths import PathScores
 
 
+_ABOUT_TARGET_MM = 125.0  # no path that is scored is longer
 _WIDTHS = 58, 64, 58
 """Of the columns before the last [px]."""
 
@@ -68,6 +70,8 @@ class PathsPanel(QWidget):
         self.note = PlainLabel(self)
         self.note.setWordWrap(True)
         self.note.setProperty("role", "dim")
+        self.meets = PlainLabel(self)
+        self.meets.setWordWrap(True)
         self.table = _table()
         self._numbers: tuple[int, ...] = ()
         self._key = QWidget(self)
@@ -94,7 +98,8 @@ class PathsPanel(QWidget):
             self.note.setText(
                 tr(
                     "Scores straight paths to the target from all over the skin: length, angle to "
-                    "the skin, bone, distance to structures that warn, and the robot's reach."
+                    "the skin, bone, lung, vessels and gut on the way, distance to structures that "
+                    "warn, and the robot's reach."
                 )
             )
             return
@@ -105,7 +110,7 @@ class PathsPanel(QWidget):
         if not free:
             words = tr("No entry is possible: turn the patient, or choose another target.")
         if not scores.names:
-            words += " " + tr("No structure warns: the scores know only bone and reach.")
+            words += " " + tr("No structure warns: the scores know tissue and reach only.")
         self.note.setText(words)
 
     def suit_text(self) -> None:
@@ -154,6 +159,7 @@ class PathsPanel(QWidget):
         row.addWidget(self.clear)
         column.addLayout(row)
         column.addWidget(self.note)
+        column.addWidget(self.meets)
         grid = QGridLayout(self._key)
         grid.setContentsMargins(0, 0, 0, 0)
         for place, (_, text) in enumerate(legend()):
@@ -205,6 +211,7 @@ class PathsFeature(Feature):
         self.scores: PathScores | None = None
         self._task: BackgroundTask | None = None
         self._stands_on: tuple[object, ...] = ()
+        self._tissues: TissueField | None = None
         self._here = ACCESS.student, ACCESS.instructor
         self._layers = []
         for pane in self._views.slices:
@@ -250,9 +257,22 @@ class PathsFeature(Feature):
         """Take a map away that belongs to another target or position."""
         if self._stands_on and self._stands_on != self._standing():
             self.clear()
+        self._say_what_it_meets()
         ready = self._editor.edit.draft.target_mm is not None and not self._editor.locked
         self.panel.make.setEnabled(ready and self._conductor.profile is not None)
         self.panel.make.setToolTip("" if ready else tr("Place the target first (key T)"))
+
+    def _say_what_it_meets(self) -> None:
+        """Say what the planned path meets, by the field that the map was made with."""
+        draft, tissues = self._editor.edit.draft, self._tissues
+        entry, target = draft.entry_mm, draft.target_mm
+        shown = tissues is not None and entry is not None and target is not None
+        if tissues is not None and entry is not None and target is not None:
+            from app.imaging.field.walking import words
+
+            said = words(tissues, [entry, target])
+            self.panel.meets.setText(tr("The planned path meets: {tissues}.", tissues=said))
+        self.panel.meets.setVisible(shown)
 
     def make(self) -> None:
         """Score the paths to the target, beside the window."""
@@ -265,48 +285,65 @@ class PathsFeature(Feature):
         standing = self._standing()
         limits, target = ReachLimits.of(profile), np.array(edit.draft.target_mm)
 
-        def work(progress: Progress) -> PathScores:
+        def work(progress: Progress) -> tuple[PathScores, TissueField | None]:
             with ONE_AT_A_TIME:  # scipy: behind the window
+                from app.imaging.field.making import field_of
                 from app.imaging.skin import skin_points
                 from app.planning.paths import score_paths
-            skin = skin_points(patient.body, progress=progress.part(0.0, 0.3))
-            return score_paths(
+            skin = skin_points(patient.body, progress=progress.part(0.0, 0.2))
+            tissues: TissueField | None = None
+            if patient.volume.unit == "HU":
+                structures = [structure for structure, _ in fields]
+                tissues = field_of(
+                    patient.volume,
+                    structures,
+                    target,
+                    _ABOUT_TARGET_MM,
+                    progress=progress.part(0.2, 0.7),
+                    body=patient.body,
+                )
+            scores = score_paths(
                 target,
                 skin,
                 patient.body,
                 _warning(fields),
                 edit.placement,
                 limits,
-                progress=progress.part(0.3, 1.0),
+                progress=progress.part(0.7, 1.0),
+                tissues=tissues,
             )
+            return scores, tissues
 
         self.panel.make.setEnabled(False)
         self._task = run_in_background(
             self,
             work,
-            lambda scores: self._show(scores, standing),
+            lambda made: self._show(*made, standing),
             self._failed,
             self._ended,
             title=tr("Scoring paths"),
             indicator=self.context.shell.progress,
         )
 
-    def _show(self, scores: PathScores, standing: tuple[object, ...]) -> None:
+    def _show(
+        self, scores: PathScores, tissues: TissueField | None, standing: tuple[object, ...]
+    ) -> None:
         self._ended()
         if standing != self._standing():
             return
         from app.planning.paths import best
 
-        self.scores, self._stands_on = scores, standing
+        self.scores, self._stands_on, self._tissues = scores, standing, tissues
         self.panel.show_scores(scores, best(scores))
         self._draw(EntryMap.of(scores))
+        self._say_what_it_meets()
 
     def clear(self) -> None:
         """Take map and table away, and one that is being made."""
         if self._task is not None:
             self._task.drop()
             self._task = None
-        self.scores, self._stands_on = None, ()
+        self.scores, self._stands_on, self._tissues = None, (), None
         self.panel.show_scores(None, ())
         self._draw(None)
         self._check()  # another may be made

@@ -55,6 +55,9 @@ class RobotPort:
     title: str
 
 
+_ABOUT_MM = 50.0  # entries of one run whose tissue field is one
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class RunSetup:
     """What a run is made of.
@@ -85,7 +88,10 @@ class RunSetup:
         # A run has the tissue of its path, if the exercise takes it from the CT.
         plan = self.placed.plan if self.exercise.layers_from is LayersFrom.CT else None
         path = None if plan is None else (*plan.entry_mm, *plan.target_mm)
-        return self.exercise, self.ct, self.robot, self.cameras, self.demonstrates, path
+        # A run has the tissue field about its entry, if something in it is forbidden.
+        entry = self.placed.plan.entry_mm if self.exercise.rules.forbidden else None
+        about = None if entry is None else tuple(round(float(one) / _ABOUT_MM) for one in entry)
+        return self.exercise, self.ct, self.robot, self.cameras, self.demonstrates, path, about
 
 
 class OpenRun(Protocol):

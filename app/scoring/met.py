@@ -1,0 +1,145 @@
+"""What the needle met in the patient: tissue after tissue, and what of it an exercise forbids.
+
+Told from the path that the tip really took, bent and redirected, not from the plan. Tissue that
+nobody labelled is none: it is neither safe nor failed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import asdict, dataclass, fields
+from math import isfinite
+from typing import Any, Final
+
+from app.imaging.field.tissue_field import TissueKind
+from app.scoring.errors import TrajectoryError
+
+FORBIDDEN: Final = ("bone", "vessel", "gut", "heart", "lung")
+"""What a new exercise forbids; the lung, as all of them, is allowed where the target lies in it."""
+
+FORBIDDABLE: Final = tuple(
+    kind.value for kind in TissueKind if kind not in (TissueKind.UNKNOWN, TissueKind.AIR)
+)
+
+LEAST_MM: Final = 0.5
+"""Soft tissue that the tip was in for less than this was grazed: told, and no fail."""
+
+LEAST_CONFIDENCE: Final = 0.5
+"""A label less sure than this fails nobody."""
+
+SMALL_VESSELS: Final = frozenset({"small vessel", "lung vessel"})
+"""Names of vessels that a needle may meet; every other vessel is great."""
+
+BY_TIP, BY_SHAFT = "tip", "shaft"
+
+
+@dataclass(frozen=True, slots=True)
+class Met:
+    """One stretch of one tissue that the needle went through, once.
+
+    Attributes:
+        kind: of the tissue, one of `TissueKind`.
+        name: of it, "rib", "liver"; empty where it has none.
+        entered_mm: depth of the tip where it began, from the entry.
+        length_mm: of the way in it; 0 where it was touched alone.
+        points: where it began and ended, LPS [mm].
+        sd_mm: standard deviation of `entered_mm`, from what the cameras left unsure of the tip and
+            how flatly the boundary was met; None if not known.
+        angle_deg: between the way and the boundary's normal, 0 straight in.
+        time: monotonic time at which it began [s].
+        confidence: of the label, 0 to 1.
+        holds_target: whether the target lies in it.
+        before, after: kind of tissue on either side on the way; empty where the way began or ended.
+        by: `tip`, or `shaft` for what the shaft alone was pushed into.
+
+    Raises:
+        TrajectoryError: if a number is not finite, or the kind is none.
+    """
+
+    kind: str
+    name: str
+    entered_mm: float
+    length_mm: float
+    points: tuple[tuple[float, float, float], tuple[float, float, float]]
+    sd_mm: float | None = None
+    angle_deg: float = 0.0
+    time: float = 0.0
+    confidence: float = 1.0
+    holds_target: bool = False
+    before: str = ""
+    after: str = ""
+    by: str = BY_TIP
+
+    def __post_init__(self) -> None:
+        numbers = (self.entered_mm, self.length_mm, self.sd_mm or 0.0, self.angle_deg, self.time)
+        places = (value for point in self.points for value in point)
+        if not all(map(isfinite, (*numbers, self.confidence, *places))) or self.length_mm < 0.0:
+            raise TrajectoryError(f"{self.words} at {self.entered_mm} mm: a number is not finite")
+        if self.kind not in set(TissueKind):
+            raise TrajectoryError(f"{self.kind!r} is no kind of tissue")
+
+    @property
+    def words(self) -> str:
+        """Return what was met, for people: the name, else the kind."""
+        return self.name or self.kind
+
+    @property
+    def is_bone(self) -> bool:
+        """Return whether it is bone, which is touched, not entered."""
+        return self.kind == TissueKind.BONE
+
+    @property
+    def counts(self) -> bool:
+        """Return whether it is sure and long enough to be counted: bone always, if it is sure."""
+        sure = self.confidence >= LEAST_CONFIDENCE
+        return sure and (self.is_bone or self.length_mm >= LEAST_MM)
+
+    def is_forbidden(self, kinds: Collection[str]) -> bool:
+        """Return whether it fails an attempt where some kinds of tissue are forbidden."""
+        small = self.kind == TissueKind.VESSEL and self.name in SMALL_VESSELS
+        return self.counts and self.kind in kinds and not self.holds_target and not small
+
+    @property
+    def sentence(self) -> str:
+        """Say it in one line: "rib touched at 12.0 mm"."""
+        by = " by the shaft" if self.by == BY_SHAFT else ""
+        where = f"at {self.entered_mm:.1f} mm"
+        if self.sd_mm is not None and self.sd_mm >= 0.05:
+            where = f"at {self.entered_mm:.1f} ± {self.sd_mm:.1f} mm"
+        if self.is_bone:
+            crossed = f", {self.length_mm:.1f} mm crossed" if self.length_mm >= 1.0 else ""
+            return f"{self.words} touched{by} {where}{crossed}"
+        grazed = "grazed" if self.length_mm < LEAST_MM else f"{self.length_mm:.1f} mm"
+        return f"{self.words}{by} {where}: {grazed}"
+
+    def document(self) -> dict[str, Any]:
+        """Return it as JSON-ready values."""
+        return asdict(self) | {"points": [list(point) for point in self.points]}
+
+    @classmethod
+    def of(cls, document: dict[str, Any]) -> Met:
+        """Read what `document` wrote; what is not known is left out.
+
+        Raises:
+            TrajectoryError, LookupError, TypeError, ValueError: if it is no such document.
+        """
+        known = {one.name: document[one.name] for one in fields(cls) if one.name in document}
+        (a, b, c), (d, e, f) = ((float(v) for v in point) for point in known["points"])
+        sd = known.get("sd_mm")
+        numbers = ("entered_mm", "length_mm", "angle_deg", "time", "confidence")
+        known |= {name: float(known[name]) for name in numbers if name in known}
+        known |= {name: str(known[name]) for name in ("kind", "name", "before", "after", "by")}
+        return cls(
+            **known
+            | {"points": ((a, b, c), (d, e, f)), "sd_mm": None if sd is None else float(sd)}
+            | {"holds_target": bool(known.get("holds_target", False))}
+        )
+
+
+def fails(met: Collection[Met], kinds: Collection[str]) -> tuple[str, ...]:
+    """Say what was met though it is forbidden, once for each tissue, the first of it."""
+    first: dict[str, Met] = {}
+    for one in met:
+        if one.is_forbidden(kinds):
+            first.setdefault(one.words, one)
+    return tuple(one.sentence for one in first.values())

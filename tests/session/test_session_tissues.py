@@ -1,0 +1,163 @@
+"""What the needle met: from the samples into record, score and replay."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from field_rig import ball, beyond, field_of_shapes
+from session_fakes import Bench
+
+from app.core.events import Event
+from app.imaging.field import TissueKind
+from app.scoring.result import Score, judge
+from app.scoring.rows import ScoreRules
+from app.session.recording import read_recording
+from app.session.replay import contents
+from app.session.tissues import event_of, tissues_met
+from app.session.verify import verify
+
+ENTRY = np.array([-12.5, -98.0, 310.2])
+"""Of the bench's plan, DICOM LPS [mm]; the path runs along +P."""
+
+Kind = TissueKind
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Iterator[Bench]:
+    bench = Bench(tmp_path)
+    yield bench
+    bench.trainer.close()
+
+
+def body(*more):
+    """Skin of 2 mm, fat of 10, muscle of 8, then liver, across the path; and what is laid over."""
+    x, y, z = ENTRY
+    shapes = [
+        (Kind.AIR, "", lambda points: np.full(len(points), -50.0)),
+        (Kind.SKIN, "", beyond((0, 1, 0), y)),
+        (Kind.FAT, "", beyond((0, 1, 0), y + 2.0)),
+        (Kind.MUSCLE, "", beyond((0, 1, 0), y + 12.0)),
+        (Kind.ORGAN, "liver", beyond((0, 1, 0), y + 20.0)),
+        *more,
+    ]
+    return field_of_shapes(shapes, (x - 30.0, y - 20.0, z - 30.0), (61, 110, 61))
+
+
+def rib(depth, beside=0.0, radius=4.0):
+    return (Kind.BONE, "rib", ball(ENTRY + [beside, depth, 0.0], radius))
+
+
+def attempt(bench: Bench, field, depth: float = 0.04):
+    bench.trainer._tissues = field
+    bench.run(0.2)
+    bench.trainer.begin("s")
+    bench.insertion(depth)
+    return bench.trainer.end()
+
+
+def test_layer_after_layer_is_told_where_it_lies(bench: Bench) -> None:
+    result = attempt(bench, body())
+    met = result.trajectory.met
+    assert [one.words for one in met] == ["skin", "fat", "muscle", "liver"]
+    assert [one.entered_mm for one in met] == pytest.approx([0.0, 2.0, 12.0, 20.0], abs=0.15)
+    assert [one.length_mm for one in met] == pytest.approx([2.0, 10.0, 8.0, 20.0], abs=0.6)
+    assert met[3].holds_target
+    assert met[3].angle_deg == pytest.approx(0.0, abs=2.0)
+    values = {row.name: row.value for row in result.score.rows}
+    assert (values["skin_passes"], values["capsule_passes"]) == (1.0, 1.0)
+    assert (values["bone_contacts"], values["lung_crossed"]) == (0.0, 0.0)
+
+
+def test_it_is_in_the_record_and_scored_from_it_again(bench: Bench) -> None:
+    result = attempt(bench, body(rib(30.0)))
+    recording = read_recording(result.record)
+    assert tissues_met(recording.events) == result.trajectory.met
+    assert recording.trajectory().met == result.trajectory.met
+    assert verify(recording).confirmed
+    listed = contents(recording)
+    assert any("rib touched at 26.0" in line for line in listed.sentences())
+    kinds = [row["kind"] for row in listed.document()["tissues_met"]]
+    assert kinds == ["skin", "fat", "muscle", "organ", "bone", "organ"]
+
+
+def test_a_rib_fails_where_it_is_forbidden_and_only_there(bench: Bench) -> None:
+    score = attempt(bench, body(rib(30.0))).score
+    assert score.hard_fails == ()
+    rules = score.rules.model_copy(update={"forbidden": ("bone",), "pass_mark": 0.0})
+    rows = tuple(row for row in score.rows if row.tolerance is None or not row.tolerance.required)
+    judged = judge(rows, rules, "", score.met)
+    (said,) = judged.hard_fails
+    assert said.startswith("rib touched at 26.0")
+    assert judged.total is not None
+    assert not judged.passed
+    assert judge(rows, rules.model_copy(update={"forbidden": ()}), "", score.met).passed
+    again = Score.from_json(judged.to_json())
+    assert again == judged
+    assert again.recomputed(rules=rules).hard_fails == (said,)
+
+
+def test_bone_that_stops_the_tip_at_its_surface_is_touched(bench: Bench) -> None:
+    result = attempt(bench, body(rib(44.1)), depth=0.040)
+    (bone,) = (one for one in result.trajectory.met if one.kind == "bone")
+    assert bone.entered_mm == pytest.approx(40.0, abs=0.3)
+    assert bone.length_mm < 0.3
+    assert bone.is_forbidden(("bone",))
+
+
+def test_a_rib_beside_the_path_is_not_met(bench: Bench) -> None:
+    result = attempt(bench, body(rib(30.0, beside=5.0)))
+    assert "bone" not in [one.kind for one in result.trajectory.met]
+
+
+def test_unknown_tissue_is_neither_met_nor_failed(bench: Bench) -> None:
+    field = body()
+    hole = np.array(field.labels)
+    hole[:, 45:55] = 0
+    from dataclasses import replace
+
+    result = attempt(bench, replace(field, labels=hole))
+    assert "unknown" not in [one.kind for one in result.trajectory.met]
+    assert result.score.hard_fails == ()
+
+
+def test_lung_is_crossed_twice_at_its_pleura_with_vessels_in_it(bench: Bench) -> None:
+    lung = (Kind.LUNG, "", lambda points: np.abs(points[:, 1] - ENTRY[1] - 27.0) - 5.0)
+    vessel = (Kind.VESSEL, "lung vessel", ball(ENTRY + [0.0, 27.0, 0.0], 2.0))
+    result = attempt(bench, body(lung, vessel))
+    values = {row.name: row.value for row in result.score.rows}
+    assert values["pleural_crossings"] == 2.0
+    assert values["pleural_angle"] == pytest.approx(0.0, abs=3.0)
+    assert values["lung_crossed"] == pytest.approx(10.0, abs=0.3)
+    assert values["vessels_touched"] == 0.0
+
+
+def test_without_a_field_nothing_is_told_and_nothing_asked(bench: Bench) -> None:
+    result = attempt(bench, None)
+    assert result.trajectory.met is None
+    assert result.score.met is None
+    assert "bone_contacts" not in [row.name for row in result.score.rows]
+    assert tissues_met(()) is None
+
+
+def test_damaged_events_are_left_out(bench: Bench) -> None:
+    met = attempt(bench, body()).trajectory.met[0]
+    event = event_of(met)
+    assert tissues_met([event]) == (met,)
+    broken = [
+        Event(1.0, event.kind, "", {**event.data, **change})
+        for change in (
+            {"length_mm": -1.0},
+            {"kind": "granite"},
+            {"points": [[0, 0, 0]]},
+            {"entered_mm": "deep"},
+        )
+    ]
+    assert tissues_met(broken) == ()
+
+
+def test_rules_refuse_a_tissue_that_there_is_none_of() -> None:
+    with pytest.raises(ValueError, match="no tissue is called 'granite'"):
+        ScoreRules(forbidden=("granite",))
+    with pytest.raises(ValueError, match="forbidden twice"):
+        ScoreRules(forbidden=("bone", "bone"))
