@@ -18,14 +18,14 @@ from functools import cache
 from hashlib import sha256
 from pathlib import Path
 
-from app.compose.trial import (
+from app.compose.skill_scores import (
     SkillOutcome,
-    Trials,
     ordered_seeds,
     outcome,
     risks_of,
-    trial_plan,
+    tissues_of,
 )
+from app.compose.trial import Trials, trial_plan
 from app.core import paths
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
@@ -65,7 +65,8 @@ def kind_of_attempts(exercise: Exercise) -> str:
 def _prepared(name: str) -> tuple[Exercise, Trials]:
     exercise = load_exercise(name)
     placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
-    return exercise, Trials(exercise, placed, risks_of(exercise))
+    tissues = tissues_of(exercise, placed.plan)
+    return exercise, Trials(exercise, placed, risks_of(exercise), tissues)
 
 
 def one_attempt(job: Job) -> str:

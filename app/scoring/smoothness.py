@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Trajectory
 from app.scoring.uncertainty import first_of_pictures, picture_errors
@@ -192,15 +193,22 @@ def _insertion(trajectory: Trajectory) -> NDArray[np.intp]:
     time = trajectory.time[last]
     if not SHORTEST <= time[-1] - time[0] <= LONGEST:
         raise MetricUnavailableError(
-            f"the insertion was measured for {time[-1] - time[0]:.2f} s; smoothness needs "
-            f"{SHORTEST:g} to {LONGEST:g} s"
+            sentence(
+                "the insertion was measured for {time_last:.2f} s; smoothness needs "
+                "{shortest:g} to {longest:g} s",
+                time_last=time[-1] - time[0],
+                shortest=SHORTEST,
+                longest=LONGEST,
+            )
         )
     return last
 
 
 def _changing(speed: FloatArray) -> FloatArray:
     if float(np.ptp(speed)) <= 1e-9:
-        raise MetricUnavailableError("the tip's speed never changed: it has no smoothness")
+        raise MetricUnavailableError(
+            sentence("the tip's speed never changed: it has no smoothness")
+        )
     return speed
 
 

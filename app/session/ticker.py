@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Final
 
 from app.core.clock import Clock
+from app.core.messages import sentence
 from app.core.paced_clock import PacedClock
 
 LONGEST_S: Final = 2.0
@@ -66,17 +67,19 @@ SLOWED_S: Final = 1.0
 
 def slowed_words(seconds: float) -> str:
     """Say that the computer was slow, and that nothing was judged by it."""
-    return (
-        f"this computer was too slow by {seconds:.0f} s: robot, cameras and hand were slowed with "
-        "it, and the score is what it would have been"
+    return sentence(
+        "this computer was too slow by {seconds:.0f} s: robot, cameras and hand were slowed with "
+        "it, and the score is what it would have been",
+        seconds=seconds,
     )
 
 
 def standstill_words(seconds: float) -> str:
     """Say why the attempt ends."""
-    return (
-        f"the computer or the program slept for {seconds:.1f} s: what the needle did meanwhile is "
-        "not known"
+    return sentence(
+        "the computer or the program slept for {seconds:.1f} s: what the needle did "
+        "meanwhile is not known",
+        seconds=seconds,
     )
 
 
