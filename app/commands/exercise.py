@@ -265,12 +265,19 @@ def trial(
     from app.commands.calibrate_parts import with_progress
     from app.compose.skill_scores import ordered_seeds, ordered_share, risks_of, run_trial
     from app.core.errors import AcusError
+    from app.core.messages import sentence
     from app.exercises.library import load_exercise
     from app.simulation.hands import Script
 
     instructor()
     if script not in (*Script,):
-        raise AcusError(f"there is no script {script!r}; there are {', '.join(Script)}")
+        raise AcusError(
+            sentence(
+                "there is no script {script!r}; there are {scripts}",
+                script=script,
+                scripts=", ".join(Script),
+            )
+        )
     chosen, played = load_exercise(exercise), Script(script)
 
     def work(progress: "Progress") -> "tuple[SkillOutcome, ...]":

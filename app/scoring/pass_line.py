@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
+from app.core.messages import sentence
 from app.scoring.errors import ToleranceError
 
 WISHED_MM: Final = 2.7
@@ -57,7 +58,7 @@ def share_within(limit: float, hands: Hands) -> float:
         ToleranceError: for a limit below 0, or one that is no number.
     """
     if not limit >= 0.0:
-        raise ToleranceError(f"no error lies within {limit}: give 0 or more")
+        raise ToleranceError(sentence("no error lies within {limit}: give 0 or more", limit=limit))
     if limit == float("inf"):
         return 1.0
     from scipy.special import gammainc

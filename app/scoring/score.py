@@ -121,9 +121,11 @@ def _attempt_void(trajectory: Trajectory, rules: ScoreRules) -> str:
         return sentence("the needle never crossed the skin: it was never inserted")
     paused = trajectory.waited
     if paused > rules.maximum_pause and trajectory.computer > 0.5 * paused:
-        return (
-            f"this computer was too slow: the attempt waited {paused:.0f} s for pictures of its "
-            f"own simulated cameras; {rules.maximum_pause:g} s are allowed"
+        return sentence(
+            "this computer was too slow: the attempt waited {paused:.0f} s for pictures of its own "
+            "simulated cameras; {allowed:g} s are allowed",
+            paused=paused,
+            allowed=rules.maximum_pause,
         )
     if paused > rules.maximum_pause:
         return sentence(

@@ -121,9 +121,13 @@ def conditions_of(
 def computer_of(events: Sequence[Event]) -> str:
     """Say how this computer was too slow for an attempt; empty where it was not."""
     if (waited := waited_for_computer(events)) > 0.0:
-        return f"too slow: the attempt waited {waited:.0f} s for its simulated cameras"
+        return sentence(
+            "too slow: the attempt waited {waited:.0f} s for its simulated cameras", waited=waited
+        )
     lost = sum(_seconds(event) for event in events if event.kind == SLOWED)
-    return f"too slow by {lost:.0f} s: the simulated world was slowed with it" if lost else ""
+    if not lost > 0.0:
+        return ""
+    return sentence("too slow by {lost:.0f} s: the simulated world was slowed with it", lost=lost)
 
 
 def _seconds(event: Event) -> float:

@@ -40,6 +40,7 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray, read_only, unit
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.simulation import skills
 from app.simulation.errors import SimulationError
@@ -160,7 +161,11 @@ def find_hand(name: str) -> Hand:
         SimulationError: naming the hands that exist.
     """
     if name not in HANDS:
-        raise SimulationError(f"there is no hand {name!r}; there are {', '.join(HANDS)}")
+        raise SimulationError(
+            sentence(
+                "there is no hand {name!r}; there are {hands}", name=name, hands=", ".join(HANDS)
+            )
+        )
     return HANDS[name]
 
 
@@ -180,7 +185,9 @@ def write_hand_script(
         SimulationError: if the depth is not a finite length above zero.
     """
     if not (np.isfinite(depth) and depth > 0.0):
-        raise SimulationError(f"the target lies at depth {depth} m; it must be above 0")
+        raise SimulationError(
+            sentence("the target lies at depth {depth} m; it must be above 0", depth=depth)
+        )
     axis = unit(axis, "axis")
     random, pieces, slow = (np.random.default_rng([seed, of]) for of in (3, 4, 5))
     basis = tangent_basis(axis)
