@@ -153,7 +153,7 @@ def path(
         str | None, typer.Option(help="SeriesInstanceUID, where several fit.")
     ] = None,
 ) -> Answer:
-    """Print what a straight path meets, tissue after tissue, and how sure that is."""
+    """Print what a straight path meets. Tissue after tissue, and how sure that is."""
     import numpy as np
 
     from app.commands.calibrate_parts import with_progress
