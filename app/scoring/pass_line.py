@@ -81,5 +81,10 @@ def pass_words(metric: str, limit: float) -> str:
     at_least = "at least " if metric in _PARTS else ""
     wish = ""
     if metric not in ("angle_error",) and limit == WISHED_MM:
-        wish = "a wish of 153 respondents (125 radiologists), nobody's measured hand: "
-    return f"{wish}of published hands {at_least}{shares} came so near"
+        wish = sentence("a wish of 153 respondents (125 radiologists), nobody's measured hand: ")
+    return sentence(
+        "{wish}of published hands {at_least}{shares} came so near",
+        wish=wish,
+        at_least=at_least,
+        shares=shares,
+    )

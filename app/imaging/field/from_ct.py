@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.body import SKIN_HU, Body
 from app.imaging.field import band
@@ -112,8 +113,11 @@ def field_of_ct(
     """
     if volume.unit != "HU":
         raise FieldError(
-            f"the values of this volume are in {volume.unit or 'no unit'}, not in HU: tissue is "
-            "told by Hounsfield values; give the layers by hand"
+            sentence(
+                "the values of this volume are in {volume_unit}, not in HU: tissue is "
+                "told by Hounsfield values; give the layers by hand",
+                volume_unit=volume.unit or "no unit",
+            )
         )
     notes = [] if body.coarse.any() else ["there is no body in this CT: all of it is air"]
     progress.report(0.1, "reading the CT on the field's grid")
@@ -253,11 +257,13 @@ def _missing(labels: NDArray[np.uint8], bones: Bones) -> list[str]:
     there = np.bincount(labels.ravel(), minlength=len(TABLE)) > 0
     notes = []
     if there[_SKIN] and not there[_BONE]:
-        notes.append("no bone was found: no needle can be told that it met one")
+        notes.append(sentence("no bone was found: no needle can be told that it met one"))
     if there[_SKIN] and not there[_LUNG]:
-        notes.append("no lung was found within reach")
+        notes.append(sentence("no lung was found within reach"))
     if bones.unsure.any():
-        notes.append("bright tissue without cortex may be bone or contrast: mark it to be sure")
+        notes.append(
+            sentence("bright tissue without cortex may be bone or contrast: mark it to be sure")
+        )
     return notes
 
 

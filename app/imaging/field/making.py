@@ -20,6 +20,7 @@ import numpy as np
 
 from app.core import paths
 from app.core.files import remove, step
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.body import Body, find_body
 from app.imaging.errors import ImagingError
@@ -74,10 +75,10 @@ def field_of(
     progress = progress or Progress()
     progress.report(0.0, "looking for the tissue field in the cache")
     place = _place(volume, structures, entry_mm, reach_mm, spacing_mm)
-    kept = _kept(place)
-    if kept is not None:
+    there = _cached(place)
+    if there is not None:
         progress.report(1.0, "the tissue field was there")
-        return kept
+        return there
     field = make(volume, structures, entry_mm, reach_mm, spacing_mm, progress, body)
     _keep(field, place)
     return field
@@ -133,15 +134,27 @@ def _check_memory(grid: FieldGrid) -> None:
     advice = f"take {coarser[0]:g} mm, or a shorter reach" if coarser else "take a shorter reach"
     if megabytes > MOST_MB:
         raise FieldError(
-            f"a tissue field of {grid.spacing_mm:g} mm takes {megabytes:.0f} MB here; {MOST_MB:g} "
-            f"are allowed: {advice}"
+            sentence(
+                "a tissue field of {grid_spacing_mm:g} mm takes {megabytes:.0f} MB here; "
+                "{most_mb:g} are allowed: {advice}",
+                grid_spacing_mm=grid.spacing_mm,
+                megabytes=megabytes,
+                most_mb=MOST_MB,
+                advice=advice,
+            )
         )
     free = available()
     if free is not None and grid.voxels * _WORKING > free:
         raise FieldError(
-            f"making a tissue field of {grid.spacing_mm:g} mm takes "
-            f"{grid.voxels * _WORKING / 1e9:.1f} GB of memory, and {free / 1e9:.1f} GB are free: "
-            f"{advice}"
+            sentence(
+                "making a tissue field of {grid_spacing_mm:g} mm takes "
+                "{grid_voxels:.1f} GB of memory, and {free:.1f} GB are free: "
+                "{advice}",
+                grid_spacing_mm=grid.spacing_mm,
+                grid_voxels=grid.voxels * _WORKING / 1e9,
+                free=free / 1e9,
+                advice=advice,
+            )
         )
 
 
@@ -149,7 +162,7 @@ def _absent(field: TissueField) -> list[str]:
     """Say which tissues of the table have no voxel though a structure named them."""
     there = np.bincount(field.labels.ravel(), minlength=len(field.tissues)) > 0
     return [
-        f"structure {tissue.words} lies beyond the reach"
+        sentence("structure {tissue_words} lies beyond the reach", tissue_words=tissue.words)
         for tissue in field.tissues
         if tissue.source == "structure" and not there[tissue.code]
     ]
@@ -181,7 +194,7 @@ def _version() -> str:
     return digest.hexdigest()
 
 
-def _kept(place: Path) -> TissueField | None:
+def _cached(place: Path) -> TissueField | None:
     try:
         field = read(place)
         place.touch()
