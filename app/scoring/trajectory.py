@@ -232,7 +232,7 @@ class Trajectory:
             MetricNotAskedError: if nothing could tell: there was no tissue field.
         """
         if self.met is None:
-            raise MetricNotAskedError("no tissue field told what the needle met")
+            raise MetricNotAskedError(sentence("no tissue field told what the needle met"))
         return self.met
 
     def to_touch(self) -> Touches:

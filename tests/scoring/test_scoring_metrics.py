@@ -9,6 +9,7 @@ from scoring_attempts import Attempt, placed_plan
 from app.planning.placement import PatientOrientation, Placement
 from app.scoring import metrics
 from app.scoring.errors import MetricUnavailableError, UnknownMetricError
+from app.scoring.met import Met
 from app.scoring.paths import raw_length, smooth_length
 from app.scoring.risks import RiskMark
 from app.scoring.touches import Touches
@@ -48,6 +49,9 @@ def test_a_file_that_is_no_metric_cannot_be_used_and_says_why(
     assert "half_a_metric.py has no DECLARATION" in fault
 
 
+LUNG = Met("lung", "", 20.0, 15.0, ((0, 0, 0), (0, 15, 0)), 0.3, 12.0, 1.0, before="muscle")
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_every_metric_is_finite_on_a_plain_attempt(name: str) -> None:
     base = Attempt(noise=1e-4, force=1.0).trajectory()
@@ -56,6 +60,7 @@ def test_every_metric_is_finite_on_a_plain_attempt(name: str) -> None:
         "risks": (RiskMark("vessel", 3.0, 2.0, inside_s=0.0),),
         "clamped": np.zeros(len(base), dtype=bool),
         "touches": Touches(2, (float(base.time[-1]),)),
+        "met": (LUNG,),
     }
     trajectory = Attempt(noise=1e-4, force=1.0).trajectory(**facts)
     assert np.isfinite(value(name, trajectory))

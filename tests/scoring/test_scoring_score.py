@@ -83,6 +83,11 @@ def test_a_total_below_the_pass_mark_fails() -> None:
 RISKS = {"risk_breach", "risk_distance", "risk_time"}
 """Metrics of structures that only some exercises have."""
 
+MET = {
+    *("bone_contacts", "vessels_touched", "gut_touched", "skin_passes", "capsule_passes"),
+    *("pleural_crossings", "pleural_angle", "lung_crossed", "organ_crossed"),
+}
+"""Metrics of what the needle met, which need a tissue field."""
 TOUCHES = {"targets_touched", "time_per_target", "economy_of_motion"}
 """Metrics of targets to be touched, which only some exercises have."""
 
@@ -95,7 +100,7 @@ def test_what_the_exercise_does_not_have_is_a_row_only_where_it_has_a_tolerance(
 
 def test_metrics_without_a_tolerance_are_shown_and_not_counted() -> None:
     result = score(PERFECT.trajectory(), {"angle_error": bands(1, 2, 3)})
-    assert {row.name for row in result.rows} == set(available()) - RISKS - TOUCHES
+    assert {row.name for row in result.rows} == set(available()) - RISKS - TOUCHES - MET
     assert result.rows[0].name == "angle_error"
     assert result.row("peak_force").utility is None
     assert result.total == pytest.approx(100.0)

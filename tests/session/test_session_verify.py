@@ -31,9 +31,15 @@ TOTAL = 22.22222222222222
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """Records of a hand that swings, the second with the dial turned; nothing beside them."""
+    """Records of a hand that swings, the second with the dial turned; nothing beside them.
+
+    Their scores are of today's rules, which score them as those of version 5 did.
+    """
     for path in FOLDER.glob("*.mcap"):
         shutil.copyfile(path, tmp_path / path.name)
+        with_score(
+            tmp_path / path.name, '"scoring_version":5', f'"scoring_version":{SCORING_VERSION}'
+        )
     return tmp_path
 
 

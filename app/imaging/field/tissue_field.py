@@ -32,6 +32,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray, frozen
+from app.core.messages import sentence
 from app.imaging.field.errors import FieldError
 
 STEPS_PER_MM: Final = 40.0
@@ -47,6 +48,7 @@ UNKNOWN: Final = 0
 
 MOST_TISSUES: Final = 256
 
+_FAR_MM = 1e12  # beyond every field
 _CHUNK: Final = 20_000  # points that are looked up at a time
 
 
@@ -138,27 +140,50 @@ class TissueField:
         shapes = {self.labels.shape, self.distance.shape}
         if len(shapes) > 1 or self.labels.ndim != 3 or min(self.labels.shape) < 2:
             raise FieldError(
-                f"labels of {self.labels.shape}, distances of {self.distance.shape} voxels: both "
-                "need one shape (nz, ny, nx) of two voxels at least"
+                sentence(
+                    "labels of {labels_shape}, distances of {distance_shape} voxels: both "
+                    "need one shape (nz, ny, nx) of two voxels at least",
+                    labels_shape=self.labels.shape,
+                    distance_shape=self.distance.shape,
+                )
             )
         if self.labels.dtype != np.uint8 or self.distance.dtype != np.int8:
             raise FieldError(
-                f"labels are {self.labels.dtype} and distances {self.distance.dtype}; uint8 and "
-                "int8 are needed"
+                sentence(
+                    "labels are {labels_dtype} and distances {distance_dtype}; uint8 and "
+                    "int8 are needed",
+                    labels_dtype=self.labels.dtype,
+                    distance_dtype=self.distance.dtype,
+                )
             )
         codes = tuple(tissue.code for tissue in self.tissues)
         if codes != tuple(range(len(codes))) or not 1 <= len(codes) <= MOST_TISSUES:
-            raise FieldError(f"the table of tissues has the codes {codes}; row = code is needed")
+            raise FieldError(
+                sentence(
+                    "the table of tissues has the codes {codes}; row = code is needed", codes=codes
+                )
+            )
         if self.tissues[0].kind is not TissueKind.UNKNOWN:
-            raise FieldError(f"code 0 is {self.tissues[0].words}; it must be unknown")
+            raise FieldError(
+                sentence(
+                    "code 0 is {tissues_first_words}; it must be unknown",
+                    tissues_first_words=self.tissues[0].words,
+                )
+            )
         largest = int(self.labels.max())
         if largest >= len(codes):
-            raise FieldError(f"label {largest} has no row in the table of {len(codes)} tissues")
+            raise FieldError(
+                sentence(
+                    "label {largest} has no row in the table of {codes_count} tissues",
+                    largest=largest,
+                    codes_count=len(codes),
+                )
+            )
         if int(self.distance.min()) < 0:
-            raise FieldError("a distance is negative; they have no sign")
+            raise FieldError(sentence("a distance is negative; they have no sign"))
         affine = frozen(self.affine_mm, (4, 4), "affine_mm")
         if abs(np.linalg.det(affine[:3, :3])) < 1e-12:
-            raise FieldError(f"affine_mm {affine.tolist()} is singular")
+            raise FieldError(sentence("affine_mm {affine} is singular", affine=affine.tolist()))
         object.__setattr__(self, "affine_mm", affine)
         for name in ("labels", "distance"):
             array = np.ascontiguousarray(getattr(self, name))
@@ -213,9 +238,10 @@ class TissueField:
         return self.look_up(points_mm).code
 
     def _looked_up(self, points: FloatArray) -> tuple[NDArray[Any], ...]:
+        points = np.where(np.abs(points) < _FAR_MM, points, _FAR_MM)  # NaN and what overflows too
         ijk = points @ self.inverse_mm[:3, :3].T + self.inverse_mm[:3, 3]
         last = np.array(self.labels.shape[::-1]) - 1.0
-        inside = np.asarray(((ijk >= 0.0) & (ijk <= last)).all(axis=1))  # NaN is outside
+        inside = np.asarray(((ijk >= 0.0) & (ijk <= last)).all(axis=1))  # beyond it is outside
         at = np.where(inside[:, None], ijk, 0.0)
         base = np.minimum(np.floor(at), last - 1.0).astype(np.intp)
         labels, distance, weights, slopes = self._corners(base, at - base)

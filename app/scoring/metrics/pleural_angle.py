@@ -5,6 +5,7 @@
 
 from typing import Any, Final
 
+from app.core.messages import sentence
 from app.imaging.field.tissue_field import TissueKind
 from app.scoring.errors import MetricNotAskedError
 from app.scoring.met import BY_TIP
@@ -31,5 +32,5 @@ def compute(trajectory: Trajectory) -> float:
         if one.kind == TissueKind.LUNG and one.before != "" and one.by == BY_TIP and one.counts
     ]
     if not entered:
-        raise MetricNotAskedError("the lung was not entered")
+        raise MetricNotAskedError(sentence("the lung was not entered"))
     return max(entered)
