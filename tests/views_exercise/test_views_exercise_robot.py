@@ -376,7 +376,7 @@ def test_a_real_robot_brings_its_gauge(desk):
     assert not panel.energy.isHidden()
 
 
-def test_bone_that_a_hand_cannot_be_stopped_by_is_shown_as_crossed_never_as_a_stop() -> None:
+def test_bone_that_a_hand_cannot_be_stopped_by_is_shown_as_crossed_never_as_a_stop(qt) -> None:
     gauge = AxialGauge()
     gauge.show_force(12.0, 0.4)
     assert "stands on bone" in gauge.words

@@ -30,7 +30,7 @@ NUMBER_PX: Final = 30
 _QUIET: Final = 0.05
 """Below this force it is said that there is none [N]."""
 STANDS_MM: Final = 2.0
-"""A tip that is no further beyond a bone's surface stands on it; further, it has crossed it [mm]."""
+"""A tip that is no further beyond a bone's surface stands on it; else it has crossed it [mm]."""
 
 _BAR: Final = 16
 _NUMBER_WIDTH: Final = 5.2
@@ -48,7 +48,7 @@ def axial_force(snapshot: Snapshot) -> float | None:
 
 
 def bone_crossed_mm(snapshot: Snapshot) -> float | None:
-    """Return how far the tip is beyond the surface of bone [mm]; None where it does not touch any."""
+    """Return how far the tip is beyond the surface of bone [mm]; None where it touches none."""
     if snapshot.device is None or snapshot.device.row[sv.BONE_CONTACT] <= 0.0:
         return None
     way = float(snapshot.device.row[sv.BONE_CROSSED]) / MILLIMETRE
