@@ -52,7 +52,7 @@ _FOLLOWED_MM: Final = 0.05
 _FINE_MM: Final = 0.25
 _NEAR_MM: Final = 1.0  # of a boundary of the reference: there the place of it is judged
 _TURN: Final = np.radians(2.0)
-_REACH_MM: Final = 110.0
+_REACH_MM: Final = 102.0
 _FELT: Final = 0.1  # [N]
 _PLACED_MM: Final = 0.3
 _COLUMNS: Final = (
@@ -207,7 +207,7 @@ def _patient(seed: int, report: Callable[[float, str], None]) -> dict[str, tuple
     for number, spacing in enumerate(SPACINGS_MM):
         report(0.4 + 0.15 * number, f"patient {seed}: field of {spacing:g} mm")
         start = process_time()
-        field = make(volume, (), entry, _REACH_MM if spacing >= 1.0 else 85.0, spacing)
+        field = make(volume, (), entry, _REACH_MM, spacing)
         made = process_time() - start
         content = to_bytes(field, small=False)
         start = perf_counter()
