@@ -100,6 +100,7 @@ docs-pictures: setup  ## the pictures of README and docs
 
 accuracy: setup  ## docs/accuracy from the tables that `acus study all --write` keeps
 	$(BIN)/python -m tools.accuracy_pages
+	$(BIN)/python -m tools.published_page
 
 promises: setup  ## docs/promises.md from the marks of the tests that hold them
 	$(BIN)/python -m tools.promises

@@ -75,7 +75,8 @@ def try_exercise(exercise: Exercise | str | Path, skill: str = "expert", seed: i
         AcusError: if the skill is none, or the exercise cannot be used; says why.
     """
     from app.compose.exercise_ct import read_ct
-    from app.compose.skill_scores import risks_of
+    from app.compose.exercise_field import resolve_tissue
+    from app.compose.skill_scores import risks_of, tissues_of
     from app.compose.trial import attempt, trial_plan
     from app.exercises.parts import LayersFrom
     from app.exercises.scene import device_of, placed_plan_of
@@ -86,7 +87,9 @@ def try_exercise(exercise: Exercise | str | Path, skill: str = "expert", seed: i
     placed = placed_plan_of(chosen, device_of(chosen), trial_plan(chosen))
     if chosen.layers_from is LayersFrom.CT:
         chosen = with_tissue(chosen, read_ct(chosen), placed.plan)
-    result = attempt(chosen, placed, skill, seed, risks_of(chosen))
+    tissues = tissues_of(chosen, placed.plan)
+    chosen, _ = resolve_tissue(chosen, placed, tissues)
+    result = attempt(chosen, placed, skill, seed, risks_of(chosen), tissues=tissues)
     if result.recording is None:
         raise SessionError(
             sentence(

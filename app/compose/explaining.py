@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from time import perf_counter
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from app.compose.declared_views import declared_views
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
 from app.core.units import MILLIMETRE
-from app.exercises.parts import LayersFrom, OwnPlan
+from app.exercises.parts import LayersFrom, OwnPlan, TissueSource
 from app.exercises.scene import (
     compile_exercise,
     device_of,
@@ -26,6 +26,9 @@ from app.scoring.pass_line import pass_words
 from app.session.pad.hand import Handle
 from app.simulation.plan import SimulationPlan
 
+if TYPE_CHECKING:
+    from app.simulation.bound_field import BoundField
+
 _PICTURES: Final = 15  # that the time of an effect on them is the median of
 
 
@@ -39,8 +42,10 @@ def explanation(exercise: Exercise, simulated: bool = True) -> dict[str, Any]:
     """
     profile = device_of(exercise)
     exercise = _with_tissue(exercise)
-    plan = compile_exercise(exercise, profile, declared_views(), simulated)
+    exercise, bound, tissue = _tissue(exercise, profile)
+    plan = compile_exercise(exercise, profile, declared_views(), simulated, bound=bound)
     document = _document(exercise, simulated, plan)
+    document["tissue"] = tissue
     document["assistance"] = exercise.assistance
     document["laws"] = _laws(law_requests(exercise), profile)
     document["touch"] = _touch(exercise, profile)
@@ -88,6 +93,33 @@ def _with_tissue(exercise: Exercise) -> Exercise:
     return with_tissue(exercise, read_ct(exercise), plan_of(exercise))
 
 
+def _tissue(
+    exercise: Exercise, profile: DeviceProfile
+) -> tuple[Exercise, BoundField | None, dict[str, Any]]:
+    """Return the exercise with its choice made, its field, and what to say of both."""
+    if exercise.tissue is TissueSource.LAYERS:
+        return exercise, None, {"source": "layers", "why": "layers: the exercise has them"}
+    from app.compose.exercise_field import resolve_tissue
+    from app.compose.skill_scores import tissues_of
+    from app.compose.trial import trial_plan
+    from app.simulation.bound_field import BoundField
+
+    placed = placed_plan_of(exercise, profile, trial_plan(exercise))
+    field = tissues_of(exercise, placed.plan)
+    exercise, why = resolve_tissue(exercise, placed, field)
+    said: dict[str, Any] = {"source": exercise.tissue.value, "why": why}
+    if field is None or exercise.tissue is TissueSource.LAYERS:
+        return exercise, None, said
+    said |= {
+        "digest": field.digest,
+        "spacing_mm": float(field.spacing_mm.min()),
+        "megabytes": round(field.megabytes, 1),
+        "tissues": [tissue.words for tissue in field.tissues[1:]],
+        "notes": list(field.notes),
+    }
+    return exercise, BoundField(field, placed.T_world_patient, placed.p_target), said
+
+
 def quick_explanation(exercise: Exercise) -> tuple[dict[str, str], tuple[tuple[str, str], ...]]:
     """Return why each effect is simulated or left out, and what is wrong; compiles nothing.
 
@@ -100,7 +132,12 @@ def quick_explanation(exercise: Exercise) -> tuple[dict[str, str], tuple[tuple[s
     except AcusError as error:
         return {}, (("joint" if exercise.joint else "device", str(error)),)
     try:
-        plan = compile_exercise(exercise, profile, declared_views())
+        bound = None
+        if exercise.tissue is TissueSource.FIELD:
+            from app.simulation.bound_field import stand_in
+
+            bound = stand_in()
+        plan = compile_exercise(exercise, profile, declared_views(), bound=bound)
         why = {
             kept.name: "; ".join((f"✔ {kept.why}", *(f"note: {text}" for text in kept.warnings)))
             for kept in plan.kept

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.compose.exercise_ct import load_field, load_risks, read_ct
+from app.compose.exercise_field import resolve_tissue
 from app.compose.trial import Trials, trial_plan
 from app.core.progress import Progress
-from app.exercises.parts import LayersFrom
+from app.exercises.parts import LayersFrom, TissueSource
 from app.exercises.scene import device_of, placed_plan_of
 from app.exercises.tissue import with_tissue
 from app.simulation.hands import Script
@@ -43,13 +44,15 @@ def risks_of(exercise: Exercise, progress: Progress | None = None) -> tuple[Risk
 def tissues_of(
     exercise: Exercise, plan: Plan, progress: Progress | None = None
 ) -> TissueField | None:
-    """Make the tissue field of an exercise that forbids something; None where it forbids nothing.
+    """Make the tissue field of an exercise that looks into it; None where it does not.
+
+    It does where it forbids something, or does not say that its tissue lies in layers.
 
     Raises:
         AcusError: if the CT or a file of structures cannot be read.
         Cancelled: if `progress` was cancelled.
     """
-    if not exercise.rules.forbidden:
+    if not exercise.rules.forbidden and exercise.tissue is TissueSource.LAYERS:
         return None
     progress = progress or Progress()
     volume = read_ct(exercise, progress.part(0.0, 0.4))
@@ -124,6 +127,7 @@ def run_trial(
     if exercise.layers_from is LayersFrom.CT:
         exercise = with_tissue(exercise, read_ct(exercise), placed.plan)
     tissues = tissues_of(exercise, placed.plan)
+    exercise, _ = resolve_tissue(exercise, placed, tissues)
     trials, outcomes = Trials(exercise, placed, risks, tissues, script), []
     for number, skill in enumerate(skills):
         part = progress.part(number / len(skills), (number + 1) / len(skills))

@@ -5,15 +5,17 @@ A recorded attempt's trainer is built again from what its record has attached, t
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from app.compose import effect_models
 from app.compose.cameras import AttachedCameras, real_cameras, simulated_on
 from app.compose.declared_views import declared_views
+from app.compose.exercise_field import recorded_field, with_field
 from app.compose.needle import UPRIGHT, felt_force, measured_axis, needle_scene
 from app.compose.needle_sources import NeedleSource, recorded_table
 from app.compose.robot import Robot, connect
@@ -30,6 +32,7 @@ from app.device.control import Loop, Table, laws, machine_stages
 from app.device.links.link import Link
 from app.device.links.simulated import simulated_link
 from app.exercises.errors import ExerciseError
+from app.exercises.parts import TissueSource
 from app.exercises.scene import compile_exercise, device_of, law_requests
 from app.exercises.schema import Exercise
 from app.exercises.touching import check_touch
@@ -58,6 +61,10 @@ from app.tracking.optics.rig import load_rig
 from app.tracking.simulated.paced import PacedFixes
 from app.tracking.tracker import Tracker
 
+if TYPE_CHECKING:
+    from app.simulation.bound_field import BoundField
+
+
 START_DEPTH: Final = -0.015
 """Where the needle waits: tip 15 mm above the skin [m]."""
 
@@ -84,7 +91,8 @@ class TrainerSetup:
         source: builds, of the exercise's device, what is in place of robot and cameras; no force
             then. None for a robot.
         risks: structures that the needle has to keep away from.
-        tissues: field of the patient that tells what the needle met; None for none.
+        tissues: field of the patient: tells what the needle met, and is what the loop looks into
+            where the exercise's tissue is the field; None for none.
     """
 
     exercise: Exercise
@@ -92,8 +100,8 @@ class TrainerSetup:
     ct: CtFacts = UNKNOWN_CT
     skill: str | None = None
     seed: int = 0
-    sessions: Path = field(default_factory=paths.sessions)
-    clock: Clock = field(default_factory=SystemClock)
+    sessions: Path = dataclasses.field(default_factory=paths.sessions)
+    clock: Clock = dataclasses.field(default_factory=SystemClock)
     held_arming: bool = False
     port: str | None = None
     cameras: CameraSettings | None = None
@@ -101,6 +109,27 @@ class TrainerSetup:
     risks: tuple[Risk, ...] = ()
     tissues: TissueField | None = None
     script: TraineeScript | None = None
+
+    def bound_field(self) -> BoundField | None:
+        """Return the field in the robot's frame; None of an exercise whose tissue lies in layers.
+
+        Raises:
+            ExerciseError: if the exercise looks into a field, and there is none.
+        """
+        if self.exercise.tissue is TissueSource.LAYERS:
+            return None
+        if self.tissues is None or self.exercise.tissue is TissueSource.AUTO:
+            raise ExerciseError(
+                sentence(
+                    "exercise {exercise_id} has tissue: {exercise_tissue}, and its"
+                    " field has not been made: make it first, or set tissue: layers",
+                    exercise_id=self.exercise.id,
+                    exercise_tissue=self.exercise.tissue.value,
+                )
+            )
+        from app.simulation.bound_field import BoundField
+
+        return BoundField(self.tissues, self.placed.T_world_patient, self.placed.p_target)
 
 
 def build_trainer(setup: TrainerSetup) -> Trainer:
@@ -352,7 +381,10 @@ def loop_table(
         before = [trainee, *before]
     requests = law_requests(exercise)
     # Of pictures nothing is computed in a tick: a replay needs no rig.
-    plan = compile_exercise(exercise, profile, declared_views(), simulated, pictures=False)
+    tissue = setup.bound_field()
+    plan = compile_exercise(
+        exercise, profile, declared_views(), simulated, pictures=False, bound=tissue
+    )
     bound = laws.energy_bound(requests, profile) + plan.energy_bound()
     forces = laws.stages_of(requests, profile)
     return machine_stages(
@@ -380,7 +412,11 @@ def _context(
     documents = {"device": profile, "cameras": cameras.rig}
     calibration, rig = cameras.metadata.get("calibration", ""), cameras.rig.name
     agreement = agreement_of(calibration, rig, robot is None, setup.ct)
-    return run_context(setup.exercise, setup.sessions, setup.seed, metadata, documents, agreement)
+    context = run_context(
+        setup.exercise, setup.sessions, setup.seed, metadata, documents, agreement
+    )
+    looks = setup.exercise.tissue is TissueSource.FIELD and setup.tissues is not None
+    return with_field(context, setup.tissues) if looks and setup.tissues else context
 
 
 def replay_recording(recording: Recording) -> ReplayReport:
@@ -415,6 +451,7 @@ def replay_table(recording: Recording, choices: Sequence[ModelChoice] = ()) -> T
         recording.placed_plan(),
         skill=recording.metadata.get("trainee", {}).get("scripted") or None,
         seed=_seed(recording),
+        tissues=recorded_field(recording),
     )
     of_source = recorded_table(
         recording.metadata, exercise, setup.placed, profile, setup.skill, setup.seed

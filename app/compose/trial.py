@@ -179,7 +179,7 @@ def attempt(
     """
     profile, clock = device_of(exercise), VirtualClock(BEGIN)
     played = named(find_skill(skill).name, script)
-    setup = TrainerSetup(exercise, placed, skill=played, seed=seed, clock=clock)
+    setup = TrainerSetup(exercise, placed, skill=played, seed=seed, clock=clock, tissues=tissues)
     loop, rig = build_loop(setup, profile), load_rig(exercise.rig)
     scene = needle_scene(loop, profile, rig.needle.marker_offset)
     fulcrum = profile.fulcrum
@@ -274,7 +274,7 @@ class Trials:
         self._task = exercise.touch_task(placed)
         # What pulls towards the target follows the touches, which the loop alone does not know.
         self._pulled = self._task is not None and bool(exercise.laws) and exercise.assistance != 0.0
-        setup = TrainerSetup(exercise, placed, clock=VirtualClock(BEGIN))
+        setup = TrainerSetup(exercise, placed, clock=VirtualClock(BEGIN), tissues=tissues)
         table = loop_table(setup, self._profile)
         # What stages remember is in their arrays: each attempt takes copies, shared ones once.
         self._stages, self._write = table.compute, table.write

@@ -66,11 +66,15 @@ class Parameter:
 
 
 class Published(NamedTuple):
-    """Range of a parameter in the literature: lower and upper end, in its unit, and who says so."""
+    """Range of a parameter in the literature: lower and upper end, in its unit, and who says so.
+
+    `measured` are the numbers that the source gives, in the same unit; all lie in the range.
+    """
 
     least: float
     most: float
     source: str
+    measured: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -660,8 +664,8 @@ def _published(value: Any) -> Mapping[str, Published]:
 
 def _range(name: str, row: Any) -> Published:
     try:
-        least, most, source = row
-        found = Published(float(least), float(most), _text(source))
+        least, most, source, *measured = row
+        found = Published(float(least), float(most), _text(source), *map(_numbers, measured))
         usable = math.isfinite(found.least) and found.least <= found.most < math.inf
     except (TypeError, ValueError):
         usable = False
@@ -670,7 +674,24 @@ def _range(name: str, row: Any) -> Published:
             sentence("published {name!r}", name=name),
             sentence("published {name!r} is {row!r}", name=name, row=row),
         )
+    for value in found.measured:
+        if not found.least <= value <= found.most:
+            raise _WrongPartError(
+                sentence("published {name!r}", name=name),
+                sentence(
+                    "published {name!r} is {least:g} to {most:g}, and {value:g} was measured,"
+                    " which lies outside",
+                    name=name,
+                    least=found.least,
+                    most=found.most,
+                    value=value,
+                ),
+            )
     return found
+
+
+def _numbers(values: Any) -> tuple[float, ...]:
+    return tuple(float(value) for value in values)
 
 
 TEXT: Final = Field("a text that is not empty", _text)
@@ -695,7 +716,7 @@ PARAMETERS: Final = Field(
 )
 PUBLISHED: Final = Field(
     "{name of a parameter: (least, most, source), ...}, the range in the literature and who says"
-    " so",
+    " so; behind the source may stand a tuple of what was measured, which the range must hold",
     _published,
 )
 

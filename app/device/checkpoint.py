@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Final, Protocol
 
 import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, read_only
+
+ADDRESSED: Final = {"tissue_field": 3, "keep_bend": 3}
+"""Stage -> how many numbers at the beginning of its array are a slot's place and addresses of this
+process: no checkpoint holds an address, and no run goes on with that of another."""
 
 
 class NamedStage(Protocol):
@@ -47,8 +51,8 @@ class Checkpoint:
     @classmethod
     def of(cls, buffer: FloatArray, stages: Iterable[NamedStage]) -> Checkpoint:
         """Copy what the kernel wrote: the state, then the stages' arrays, shape (SLOTS + n,)."""
-        copy = read_only(np.array(buffer, dtype=np.float64))
         table: list[Any] = list(stages)
+        copy = read_only(_without_addresses(np.array(buffer, dtype=np.float64), table))
         return cls(
             tick=int(copy[sv.TICK]),
             state=copy[: sv.SLOTS],
@@ -56,3 +60,11 @@ class Checkpoint:
             sizes=tuple(len(stage.parameters) for stage in table),
             names=tuple(stage.name for stage in table),
         )
+
+
+def _without_addresses(copy: FloatArray, stages: Iterable[NamedStage]) -> FloatArray:
+    place = sv.SLOTS
+    for stage in stages:
+        copy[place + 1 : place + ADDRESSED.get(stage.name, 1)] = 0.0
+        place += len(stage.parameters)
+    return copy

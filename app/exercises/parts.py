@@ -259,6 +259,17 @@ class LayersFrom(StrEnum):
     """From the CT along the path, when the attempt begins."""
 
 
+class TissueSource(StrEnum):
+    """How the simulation knows the tissue that the needle meets."""
+
+    AUTO = "auto"
+    """Layers where every needle within reach would meet the same, else the field."""
+    LAYERS = "layers"
+    """In layers along the planned path, wherever the needle goes."""
+    FIELD = "field"
+    """Where the needle is, in the patient in three dimensions."""
+
+
 class LayerPart(Strict):
     """A slab of tissue along the path, counted from the skin.
 
@@ -275,6 +286,7 @@ class LayerPart(Strict):
         toughness: fracture toughness [J/m²]; cutting costs it times the outer diameter.
         indentation_stiffness: of the membrane pushed in by the tip, linear part [N/m].
         indentation_hardening: quadratic part of it [N/m²].
+        pressing: of an 18 G tip on what it goes into, beside cutting [N].
         relaxation_share: of a quick indentation's resistance that relaxes.
         relaxation_time: time constant of that [s].
         rigid: bone; the last layer, where the needle stops.
@@ -294,6 +306,7 @@ class LayerPart(Strict):
     relaxation_share: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.0
     relaxation_time: Annotated[float, Field(gt=0.0)] = 0.5
     rigid: bool = False
+    pressing: NotNegative = 0.0
 
     @property
     def thickness(self) -> float:

@@ -21,12 +21,15 @@ from app.planning.plan import Plan
 from app.scoring import metrics
 from app.simulation.consumers import Consumer, DevicePort
 from app.simulation.needles import OUTER_DIAMETER
-from app.simulation.plan import SimulationPlan
+from app.simulation.plan import TISSUE_FIELD, SimulationPlan
 from app.simulation.plan import compile as compile_scene
 from app.simulation.scene import DEFAULT_LAYERS, EffectRequest, Needle, Scene
+from app.simulation.tissue_values import tissue_values
+from app.simulation.tissues import MODELS, PUBLISHED
 
 if TYPE_CHECKING:
     from app.imaging.phantom.anatomy import Anatomy
+    from app.simulation.bound_field import BoundField
 
 
 CONTROL_SCAN: Final = "control_scan"
@@ -91,22 +94,52 @@ def placed_plan_of(
     return PlacedPlan.of(chosen, exercise.placement.placement(), profile.fulcrum)
 
 
-def scene_of(exercise: Exercise, profile: DeviceProfile) -> Scene:
-    """Return what the simulation has to know about an exercise."""
+IN_FIELD: Final[Mapping[str, str]] = {
+    "lateral_tissue": "field",
+    "bone_contact": "field",
+    **MODELS[PUBLISHED],
+}
+"""Effect -> model that it has in a field of tissue where the exercise names none."""
+
+
+def _requests(exercise: Exercise, in_field: bool) -> tuple[EffectRequest, ...]:
+    """List what is asked for; in a field with what looks into it, and bone that turns aside."""
+    models = IN_FIELD if in_field else {}
+    asked = tuple(
+        EffectRequest(name, part.parameters, part.model or models.get(name, ""), part.organ)
+        for name, part in exercise.effects.items()
+    )
+    if not in_field:
+        return asked
+    slides = (EffectRequest("bone_slide"),) if "bone_contact" in exercise.effects else ()
+    named = exercise.effects.keys()
+    more = (EffectRequest(TISSUE_FIELD), *slides)
+    return (*asked, *(request for request in more if request.name not in named))
+
+
+def scene_of(exercise: Exercise, profile: DeviceProfile, bound: BoundField | None = None) -> Scene:
+    """Return what the simulation has to know about an exercise.
+
+    Args:
+        exercise: the exercise.
+        profile: its device.
+        bound: the patient's tissue in the robot's frame; None: tissue lies in layers.
+    """
     return Scene(
-        effects=tuple(
-            EffectRequest(name, part.parameters, part.model, part.organ)
-            for name, part in exercise.effects.items()
-        ),
+        effects=_requests(exercise, bound is not None),
         layers=tuple(part.layer() for part in exercise.layers) or DEFAULT_LAYERS,
         needle=Needle(profile.needle_length, OUTER_DIAMETER[exercise.needle.gauge]),
         R_world_patient=exercise.placement.placement().rotation,
         target_organ=exercise.target_organ,
         joint=profile.workspace.joint,
+        tissues=() if bound is None else tissue_values(bound.tissue.tissues),
+        field=bound,
     )
 
 
-def delivered_scene_of(exercise: Exercise, profile: DeviceProfile) -> Scene:
+def delivered_scene_of(
+    exercise: Exercise, profile: DeviceProfile, bound: BoundField | None = None
+) -> Scene:
     """Return the same where cameras are simulated: with what the rig's own do to their pictures.
 
     An effect that the exercise asks for itself is as it asks for it.
@@ -116,7 +149,7 @@ def delivered_scene_of(exercise: Exercise, profile: DeviceProfile) -> Scene:
     """
     from app.tracking.optics.rig import load_rig  # only for the cameras: it takes OpenCV along
 
-    scene = scene_of(exercise, profile)
+    scene = scene_of(exercise, profile, bound)
     usual = load_rig(exercise.rig).pictures
     more = (
         EffectRequest(name, part.parameters, part.model)
@@ -138,6 +171,7 @@ def compile_exercise(
     views: Mapping[str, Consumer],
     simulated: bool = True,
     pictures: bool | None = None,
+    bound: BoundField | None = None,
 ) -> SimulationPlan:
     """Decide what an exercise simulates on a device, and why: what `acus explain` prints.
 
@@ -147,6 +181,7 @@ def compile_exercise(
         views: what every view reads, by its name (`compose.declared_views.declared_views`).
         simulated: whether robot and hand are simulated too.
         pictures: whether cameras are simulated; None: as the robot.
+        bound: the patient's tissue in the robot's frame; None: tissue lies in layers.
 
     Raises:
         SimulationError: for an unknown effect, model or parameter; names what is valid.
@@ -156,7 +191,7 @@ def compile_exercise(
     renders = frozenset(axis.value for axis in profile.renders)
     port = DevicePort(profile.name, renders, simulated, pictures)
     return compile_scene(
-        (delivered_scene_of if port.takes_pictures else scene_of)(exercise, profile),
+        (delivered_scene_of if port.takes_pictures else scene_of)(exercise, profile, bound),
         port,
         _watching(exercise, views),
         metric_consumers(exercise),

@@ -31,6 +31,7 @@ from app.exercises.parts import (
     PlanChoice,
     PlanPoints,
     StructurePart,
+    TissueSource,
     ViewName,
 )
 from app.exercises.reading import ReadingPart
@@ -70,6 +71,8 @@ class Exercise(Strict):
         layers: tissue along the path, from the skin inwards; empty for the simulation's own.
         layers_from: `file` takes them as they are given; `ct` finds them in the CT along the path
             when the attempt begins, in place of those given.
+        tissue: `layers` along the path; `field`, what the needle meets where it is, in the patient
+            in three dimensions; `auto` takes layers where that makes no difference.
         needle: gauge, and length where it is not the device's own.
         target_organ: where the target lies; an effect on another organ is dropped.
         tolerances: metric -> bands and weight.
@@ -106,6 +109,7 @@ class Exercise(Strict):
     effects: Mapping[str, EffectPart] = Field(default_factory=dict)
     layers: tuple[LayerPart, ...] = ()
     layers_from: LayersFrom = LayersFrom.FILE
+    tissue: TissueSource = TissueSource.LAYERS
     needle: NeedlePart = NeedlePart()
     target_organ: str = ""
     tolerances: Mapping[str, Tolerance] = Field(default_factory=lambda: dict(DEFAULT_TOLERANCES))

@@ -23,6 +23,10 @@ LONGEST_PSEUDONYM: Final = 64
 """Characters."""
 
 
+TISSUE_FILE: Final = "tissue-field.bin"
+"""Attachment with the patient's tissue field, of an attempt that looked into it; patient data."""
+
+
 @dataclass(frozen=True, slots=True)
 class Attachment:
     """A file inside the record.

@@ -34,7 +34,11 @@ from app.core.configuration import LARGEST_FILE
 from app.core.messages import sentence
 from app.session.budget import OBJECT_BYTES, RECORD_BYTES, ReadingBudget, decompressed
 from app.session.errors import BrokenRecordingError
+from app.session.header import TISSUE_FILE
 from app.session.sample_columns import SAMPLES_FILE
+
+LARGEST_FIELD: Final = 16 << 20
+"""No attached tissue field is larger, packed [bytes]."""
 
 _FRAME: Final = struct.Struct("<BQ")
 _FOOTER: Final = 9 + 20
@@ -316,11 +320,12 @@ def _sort(record: McapRecord, topics: dict[int, str], result: FileContents) -> N
     elif isinstance(record, Metadata):
         result.metadata[record.name] = record.metadata
     elif isinstance(record, Attachment):
-        if len(record.data) > LARGEST_FILE and record.name != SAMPLES_FILE:
+        most = LARGEST_FIELD if record.name == TISSUE_FILE else LARGEST_FILE
+        if len(record.data) > most and record.name != SAMPLES_FILE:
             name, size = record.name[:40], len(record.data) / 1e6
             result.problems.append(
                 f"the attached file {name} is left out: it has {size:.1f} MB, "
-                f"{LARGEST_FILE >> 20} MB are the most"
+                f"{most >> 20} MB are the most"
             )
         else:
             result.attachments[record.name] = record.data

@@ -1,4 +1,8 @@
-"""What the effects along the needle share: layers by depth, and the speed of a depth."""
+"""What the effects along the needle share: tissue at the tip, and the speed of a depth.
+
+Tissue lies in layers by depth or, where the scene has a field, where the field's stage finds the
+tip: one row of values for each layer or each of the field's codes, and one law for both.
+"""
 
 from typing import Final, NamedTuple
 
@@ -25,6 +29,17 @@ def layer_rows(binding: Binding, *quantities: str) -> FloatArray:
     return np.column_stack([ends, *columns])
 
 
+def tissue_rows(binding: Binding, *quantities: str) -> FloatArray:
+    """Return (depth of its end [m], the quantities) of each tissue, shape (n, 1 + quantities).
+
+    Of a scene with a field a row per code, whose ends mean nothing; else a row per layer.
+    """
+    met = binding.scene.met
+    ends = np.cumsum([tissue.thickness for tissue in met])
+    columns = [[float(getattr(tissue, name)) for tissue in met] for name in quantities]
+    return np.column_stack([ends, *columns])
+
+
 def smoothing_of(binding: Binding, measured: float) -> float:
     """Time constant of the depth's speed [s]: `measured`, or 0 for a simulated needle's own depth.
 
@@ -47,6 +62,49 @@ def layer_at(p: FloatArray, first: int, width: int, layers: int, depth: float) -
         if depth < p[first + i * width]:
             return first + i * width
     return first + (layers - 1) * width
+
+
+@njit
+def tissue_row(
+    p: FloatArray,
+    state: FloatArray,
+    first: int,
+    width: int,
+    rows: int,
+    by_field: float,
+    place: float,
+) -> int:
+    """Place of the row of the tissue at the tip: by TISSUE in a field, else by the depth `place`.
+
+    A code that the table does not have is that of what nobody labelled, 0.
+    """
+    if by_field > 0.0:
+        code = state[sv.TISSUE]
+        return first + width * (int(code) if 0.0 <= code < rows else 0)
+    return layer_at(p, first, width, rows, place)
+
+
+@njit
+def in_tissue(p: FloatArray, at: int, state: FloatArray, by_field: float, depth: float) -> float:
+    """Depth of the tip as the tissue sees it [m]: less what breathing has carried it since.
+
+    Only while the tip stays in one tissue: where another one begins it is carried otherwise, and
+    the step between both moves nothing. Memory of three places from `at` on: what is taken off,
+    what CARRIED along the needle was, and in which tissue; the last begins as NaN. Without a field
+    it is the depth itself.
+    """
+    if by_field == 0.0:
+        return depth
+    along = (
+        state[sv.CARRIED_X] * state[sv.AXIS_X]
+        + state[sv.CARRIED_Y] * state[sv.AXIS_Y]
+        + state[sv.CARRIED_Z] * state[sv.AXIS_Z]
+    )
+    if np.isfinite(along):
+        if p[at + 2] == state[sv.TISSUE]:
+            p[at] += along - p[at + 1]
+        p[at + 1], p[at + 2] = along, state[sv.TISSUE]
+    return depth - p[at]
 
 
 @njit

@@ -8,6 +8,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from graphlib import CycleError, TopologicalSorter
+from typing import Final
 
 import numpy as np
 
@@ -19,6 +20,9 @@ from app.simulation.consumers import IN_WORDS, Consumer, DevicePort
 from app.simulation.effects import Effect, array_of, declaration, load
 from app.simulation.errors import SimulationError
 from app.simulation.scene import Binding, EffectRequest, Scene
+
+TISSUE_FIELD: Final = "tissue_field"
+"""Effect that looks the tissue up where the scene has a field of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +82,8 @@ class SimulationPlan:
         from app.simulation.clearing import clear  # compiled; the plan itself is needed sooner
 
         first = Stage("clear_effects", clear, np.zeros(1))
-        return [first, *(self.stage(kept) for kept in ticking)]
+        stages = [first, *(self.stage(kept) for kept in ticking)]
+        return [*stages, *(_behind(stage) for stage in stages if stage.name == TISSUE_FIELD)]
 
     def pictures(self) -> dict[str, FloatArray]:
         """Return what acts on the pictures of simulated cameras, in order: name -> parameters.
@@ -163,8 +168,9 @@ def compile(
             effects that need each other's results in a circle.
     """
     consumers = (*device.consumers(), *views, *scoring)
-    declared = {request.name: declaration(request.name) for request in scene.effects}
-    checked = {r.name: _checked(r, declared[r.name]) for r in scene.effects}
+    read = {request.name: declaration(request.name) for request in scene.effects}
+    checked = {r.name: _checked(r, read[r.name]) for r in scene.effects}
+    declared = {name: one.by(checked[name][0]) for name, one in read.items()}
     dropped = {
         request.name: why
         for request in scene.effects
@@ -189,6 +195,13 @@ def compile(
         ),
         depth_slot=sv.PLANT_DEPTH if device.simulated else sv.DEPTH,
     )
+
+
+def _behind(stage: Stage) -> Stage:
+    """Return what keeps the bend of a tick for the next one's look into the field."""
+    from app.simulation.effects.tissue_field import keep_bend  # compiled
+
+    return Stage("keep_bend", keep_bend, stage.parameters)
 
 
 def _checked(request: EffectRequest, declared: Effect) -> tuple[str, dict[str, float]]:

@@ -1,7 +1,8 @@
 """The scene: what stands in the simulated world, as frozen values; all that the compiler reads."""
 
+import dataclasses
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Final
 
@@ -29,7 +30,7 @@ class EffectRequest:
     """
 
     name: str
-    parameters: Mapping[str, float] = field(default_factory=dict)
+    parameters: Mapping[str, float] = dataclasses.field(default_factory=dict)
     model: str = ""
     organ: str = ""
 
@@ -55,6 +56,8 @@ class TissueLayer:
         toughness: fracture toughness J [J/m²]; cutting costs J times the outer diameter.
         indentation_stiffness: linear part [N/m].
         indentation_hardening: quadratic part [N/m²].
+        pressing: of an 18 G tip on what it goes into, beside cutting [N]; grows with the outer
+            diameter.
         relaxation_share: of the resistance to a quick indentation that relaxes, 0 to below 1.
         relaxation_time: time constant of that [s], above 0.
         rigid: bone: the needle goes no further.
@@ -77,6 +80,7 @@ class TissueLayer:
     relaxation_share: float = 0.0
     relaxation_time: float = 0.5
     rigid: bool = False
+    pressing: float = 0.0
     moves: float | None = None
 
     def __post_init__(self) -> None:
@@ -260,14 +264,19 @@ class Scene:
         R_world_patient: columns are the patient's L, P and S directions in world, shape (3, 3).
         target_organ: organ in which the target lies; empty if not known.
         joint: name of the ball joint that is mounted on the device; empty if not known.
+        tissues: values of the field's tissues by code, their thickness unused; row 0 is what nobody
+            labelled. Empty without a field.
+        field: the bound field, which only what binds it looks into; None: tissue is in layers.
     """
 
     effects: tuple[EffectRequest, ...] = ()
     layers: tuple[TissueLayer, ...] = DEFAULT_LAYERS
-    needle: Needle = field(default_factory=Needle)
-    R_world_patient: FloatArray = field(default_factory=lambda: np.eye(3))
+    needle: Needle = dataclasses.field(default_factory=Needle)
+    R_world_patient: FloatArray = dataclasses.field(default_factory=lambda: np.eye(3))
     target_organ: str = ""
     joint: str = ""
+    tissues: tuple[TissueLayer, ...] = ()
+    field: object | None = None
 
     def __post_init__(self) -> None:
         rotation = frozen(self.R_world_patient, (3, 3), "R_world_patient")
@@ -277,6 +286,13 @@ class Scene:
             )
         object.__setattr__(self, "R_world_patient", rotation)
         check_order(self.layers)
+        if self.has_field and not self.tissues:
+            raise SimulationError(
+                sentence(
+                    "the scene has a field of tissue and no values for it; give a row of "
+                    "`tissues` for each of its codes, the first for what nobody labelled"
+                )
+            )
         names = [request.name for request in self.effects]
         twice = sorted({name for name in names if names.count(name) > 1})
         if twice:
@@ -307,14 +323,24 @@ class Scene:
         )
 
     @property
+    def has_field(self) -> bool:
+        """Return whether tissue is looked up where the needle is, instead of by depth."""
+        return self.field is not None
+
+    @property
+    def met(self) -> tuple[TissueLayer, ...]:
+        """Return what the needle can meet: the field's tissues by code, or layers in order."""
+        return self.tissues if self.has_field else self.layers
+
+    @property
     def membranes(self) -> tuple[TissueLayer, ...]:
-        """Layers that begin with a membrane."""
-        return tuple(layer for layer in self.layers if layer.puncture_force > 0.0)
+        """Return the tissues that begin with a membrane."""
+        return tuple(tissue for tissue in self.met if tissue.puncture_force > 0.0)
 
     @property
     def bones(self) -> tuple[TissueLayer, ...]:
-        """Layers that the needle cannot enter; one at most, the last."""
-        return tuple(layer for layer in self.layers if layer.rigid)
+        """Return the tissues that the needle cannot enter; of layers one at most, the last."""
+        return tuple(tissue for tissue in self.met if tissue.rigid)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -15,7 +15,7 @@ def test_a_page_is_what_its_kept_table_says(file):
 
 def test_no_page_and_no_diagram_is_of_a_study_that_is_not_there():
     names = set(kept_names())
-    assert {path.stem for path in FOLDER.glob("*.md")} == {*names, "index", "hard"}
+    assert {path.stem for path in FOLDER.glob("*.md")} == {*names, "index", "hard", "published"}
     assert {path.stem for path in FOLDER.glob("*.svg")} == names
 
 

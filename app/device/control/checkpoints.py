@@ -18,7 +18,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray, IntArray
 from app.core.messages import sentence
 from app.core.parameters import Stage
-from app.device.checkpoint import Checkpoint
+from app.device.checkpoint import ADDRESSED, Checkpoint
 from app.device.control import kernel
 from app.device.control.earlier import as_now
 from app.device.control.kernel import (
@@ -128,6 +128,7 @@ class Rerun:
     """
 
     def __init__(self, table: Table, checkpoint: Checkpoint, slots: Sequence[str]) -> None:
+        self._given = [table]  # keeps what arrays say the address of
         self._slots = np.array([_slot(name) for name in slots], dtype=np.int64)
         self._state = np.array(checkpoint.state, dtype=np.float64)
         if self._state.shape != (sv.SLOTS,):
@@ -147,6 +148,7 @@ class Rerun:
     def exchange(self, table: Table, carry: Callable[[], None]) -> None:
         """Go on with another table, as `Loop.exchange` does."""
         carry()
+        self._given.append(table)
         self.table = table
         self._pack()
 
@@ -218,5 +220,6 @@ def _memories(table: Table, checkpoint: Checkpoint) -> list[tuple[Stage, FloatAr
                     stage_parameters_count=len(stage.parameters),
                 )
             )
+        values[: ADDRESSED.get(stage.name, 0)] = stage.parameters[: ADDRESSED.get(stage.name, 0)]
         pairs.append((stage, shared.setdefault(id(stage.parameters), values)))
     return pairs

@@ -5,10 +5,10 @@ plan keeps is imported. One that is not the program's own is tried before (`effe
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from types import ModuleType
-from typing import Final
+from types import MappingProxyType, ModuleType
+from typing import Any, Final
 
 import numpy as np
 
@@ -24,6 +24,7 @@ from app.core.plugins import (
     TEXT,
     TEXTS,
     WRITES,
+    Field,
     PluginKind,
     StageDeclaration,
     complete,
@@ -41,6 +42,7 @@ class Effect(StageDeclaration):
         consumers: kinds of consumer that could use it, for display; the compiler looks at slots.
         needs: parts of the scene that must not be empty (`layers`).
         models: way to compute it -> what that way is; the first is the default.
+        model_reads: way -> what it reads beyond `reads`, where it reads more than the others.
         cost_class: A (< 50 ns), B (1-5 µs), C (frame or event rate), D (offline).
         pictures: whether it acts on the pictures of simulated cameras and not in the tick: its file
             declares it, and `tracking.simulated.picture_effects` makes it, found by its name.
@@ -51,6 +53,12 @@ class Effect(StageDeclaration):
     models: Mapping[str, str]
     cost_class: str
     pictures: bool = False
+    model_reads: Mapping[str, tuple[str, ...]] = field(default_factory=lambda: MappingProxyType({}))
+
+    def by(self, model: str) -> "Effect":
+        """Return it as it is by one of its models: with all that this one reads."""
+        more = self.model_reads.get(model, ())
+        return replace(self, reads=tuple(dict.fromkeys((*self.reads, *more)))) if more else self
 
     @property
     def gives(self) -> tuple[str, ...]:
@@ -198,6 +206,12 @@ def _shortest(effect: Effect) -> int:
     return 0 if KIND.trial is None else int(KIND.trial.verdict(effect.path).get("shortest", 0))
 
 
+def _model_reads(value: Any) -> Mapping[str, tuple[str, ...]]:
+    return MappingProxyType({TEXT.read(name): SLOTS.read(slots) for name, slots in value.items()})
+
+
+_MODEL_READS: Final = Field(f"{{model: {SLOTS.valid}, ...}}", _model_reads)
+
 KIND: Final[PluginKind[Effect]] = PluginKind(
     noun="an effect",
     declares=Effect,
@@ -212,7 +226,7 @@ KIND: Final[PluginKind[Effect]] = PluginKind(
         "cost_class": TEXT,
         "parameters": PARAMETERS,
     },
-    optional={"published": PUBLISHED, "pictures": FLAG},
+    optional={"published": PUBLISHED, "pictures": FLAG, "model_reads": _MODEL_READS},
     error=SimulationError,
     package=__name__,
     folder="effects",

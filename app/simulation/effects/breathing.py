@@ -45,7 +45,7 @@ from app.simulation.scene import SETTLING, Binding
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Breathing moves the target",
     "reads": ("time", "dt", "hold_breath"),
-    "writes": ("target_shift",),
+    "writes": ("target_shift", "breath"),
     "consumers": ("view target_motion", "score of tip to target"),
     "needs": (),
     "models": {
@@ -78,11 +78,26 @@ DECLARATION: Final[dict[str, Any]] = {
         "likeness": (0.3, "-", 0.0, 0.99, "correlation of a breath with the one before (varying)"),
     },
     "published": {
-        "superior_inferior": (0.0051, 0.0171, "liver tracked in 14 patients, PMC5978939"),
-        "anterior_posterior": (0.0009, 0.0077, "liver tracked in 14 patients, PMC5978939"),
-        "left_right": (0.0004, 0.004, "liver tracked in 14 patients, PMC5978939"),
-        "period": (2.18, 6.67, "9 to 27.5 breaths a minute, doi 10.1186/1748-717X-8-248"),
-        "shape": (1.0, 3.0, "Lujan 1999"),
+        "superior_inferior": (
+            0.0051,
+            0.0171,
+            "liver tracked in 14 patients, PMC5978939",
+            (0.0119,),
+        ),
+        "anterior_posterior": (
+            0.0009,
+            0.0077,
+            "liver tracked in 14 patients, PMC5978939",
+            (0.0038,),
+        ),
+        "left_right": (0.0004, 0.004, "liver tracked in 14 patients, PMC5978939", (0.0013,)),
+        "period": (
+            2.18,
+            6.67,
+            "9 to 27.5 breaths a minute, 17.3 in the mean, doi 10.1186/1748-717X-8-248",
+            (2.182, 3.468, 6.667),
+        ),
+        "shape": (1.0, 3.0, "Lujan 1999", (1.0, 3.0)),
         "depth_variation": (0.15, 0.33, "PMC6549521; 65 people at rest, Tobin 1988"),
         "period_variation": (0.08, 0.21, "PMC6549521; 65 people at rest, Tobin 1988"),
         "likeness": (0.147, 0.443, "33 people at rest, doi 10.1164/ajrccm.152.6.8520764"),
@@ -277,9 +292,8 @@ def _varying(state: FloatArray, p: FloatArray, since: float) -> None:
         )
 
 
-@stage
-def step(state: FloatArray, parameters: FloatArray) -> None:
-    """Add the displacement of the target to TARGET_SHIFT_*."""
+@njit
+def _displace(state: FloatArray, parameters: FloatArray) -> None:
     if len(parameters) == _DRAWS + _PLACES:
         _on_command(state, parameters)
         return
@@ -300,3 +314,12 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
             in_phase * parameters[_AT.in_phase_x + axis]
             + lagging * parameters[_AT.lagging_x + axis]
         )
+
+
+@stage
+def step(state: FloatArray, parameters: FloatArray) -> None:
+    """Add the displacement of the target to TARGET_SHIFT_*, and say it in BREATH_*."""
+    before = (state[sv.TARGET_SHIFT_X], state[sv.TARGET_SHIFT_Y], state[sv.TARGET_SHIFT_Z])
+    _displace(state, parameters)
+    for axis in range(3):
+        state[sv.BREATH_X + axis] = state[sv.TARGET_SHIFT_X + axis] - before[axis]

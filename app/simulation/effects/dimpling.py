@@ -9,7 +9,8 @@ some millimetres near the tip.
 
 Models. `membrane`: w is the dimple of what is not yet punctured (INDENTATION). `drag`: w is how far
 the layer at the tip gives way to the whole force along the needle, a₁ w + a₂ w² = |F|, so that
-friction drags the target along too, in both directions.
+friction drags the target along too, in both directions. In a scene with a field the layer is the
+tissue of the field at the tip.
 
 It has no force of its own.
 """
@@ -23,7 +24,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import stage
 from app.core.parameters import numbered, packed
-from app.simulation.along_needle import approach, keep_memory, layer_at, layer_rows
+from app.simulation.along_needle import approach, keep_memory, tissue_row, tissue_rows
 from app.simulation.scene import Binding
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -46,6 +47,7 @@ DECLARATION: Final[dict[str, Any]] = {
         "membrane": "moves with the dimple of what is not yet punctured",
         "drag": "moves with all that the needle pushes along its axis, friction too",
     },
+    "model_reads": {"drag": ("tissue",)},
     "energy": ("dissipative", "it moves the target and has no force of its own"),
     "cost_class": "A",
     "parameters": {
@@ -60,6 +62,7 @@ DECLARATION: Final[dict[str, Any]] = {
             0.0103,
             "targets moved 6.4 ± 3.9 mm in the liver, 3.5 ± 2.1 mm behind the peritoneum: robot"
             " study of the Hebrew University of Jerusalem",
+            (0.0064, 0.0035),
         ),
     },
 }
@@ -75,6 +78,7 @@ class _DimplingPlaces(NamedTuple):
     settling: int
     furthest: int
     layers: int
+    by_field: int
     given: int = 0
 
 
@@ -84,7 +88,7 @@ _ROW: Final = 3  # depth of its end [m], a₁ [N/m], a₂ [N/m²]
 
 def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
     """Return a fresh array of parameters: tissue at rest."""
-    rows = layer_rows(binding, "indentation_stiffness", "indentation_hardening")
+    rows = tissue_rows(binding, "indentation_stiffness", "indentation_hardening")
     return packed(
         _AT,
         rows.ravel(),
@@ -95,6 +99,7 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
         settling=values["settling"],
         furthest=values["furthest"],
         layers=len(rows),
+        by_field=float(binding.scene.has_field),
     )
 
 
@@ -110,7 +115,8 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
     depth, way = state[int(p[_AT.slot])], state[sv.INDENTATION]
     if p[_AT.drag] > 0.0:
         force = state[sv.AXIAL_FORCE]
-        at = layer_at(p, len(_AT), _ROW, int(p[_AT.layers]), depth - way)
+        count, by_field = int(p[_AT.layers]), p[_AT.by_field]
+        at = tissue_row(p, state, len(_AT), _ROW, count, by_field, depth - way)
         linear, quadratic = p[at + 1], p[at + 2]
         slope = linear + np.sqrt(linear * linear + 4.0 * quadratic * abs(force))
         way = 2.0 * force / slope if slope > 0.0 and depth > 0.0 else 0.0

@@ -69,6 +69,13 @@ A bin of two layers moves with their mean share. Where no layer moves, the array
 
 Array: heads, layers (end, k), then per edge: S, G and a, which no history changes; y, m, c; and the
 q of the bin below the edge; where layers move, δ, then per edge R, D, b, w and e.
+
+The model `field` has no layers: a bin keeps the stiffness of the tissue that it was cut in, of the
+patient's field, and is forgotten with it as the needle withdraws. Its tissue is the one that the
+tip met in the middle of the bin, its share w that of the tissue there (CARRIED_SHARE), δ is
+BREATH. S, G, a, R, D and b are tabulated as bins are laid; stiffness never changes under a needle
+that is there, so all that is said of energy holds. Behind the edges: the true depth's slot, how far
+it was followed, the table k by code, then per bin k, and tissue and share that were met.
 """
 
 from collections.abc import Mapping
@@ -145,7 +152,21 @@ class _DraggedPlaces(NamedTuple):
     e_z: int
 
 
+class _MetPlaces(NamedTuple):
+    """Of a field: 1 where the true depth is a simulated needle's; how many tissues; those now.
+
+    Now are the depth [m], the tissue and its share.
+    """
+
+    simulated: int
+    codes: int
+    depth: int = 0
+    code: int = 0
+    share: int = 0
+
+
 AT: Final = numbered(_BuriedPlaces)
+_MET: Final = numbered(_MetPlaces)
 _EDGE: Final = numbered(_EdgePlaces)
 _DRAG: Final = numbered(_DraggedPlaces)
 FURTHEST: Final = 0.1
@@ -181,6 +202,24 @@ def empty(
     return p
 
 
+def _empty_field(
+    length: float, stiffness: FloatArray, flexibility: float, lever: float, slot: int
+) -> FloatArray:
+    """Return the array of a field not yet pierced, `stiffness` [N/m²] by code, shape (codes,)."""
+    bins = int(np.ceil(length / BIN)) + 1
+    edges = np.zeros(len(_EDGE) * (bins + 1) + 3 + len(_DRAG) * (bins + 1))
+    met = packed(
+        _MET,
+        stiffness,
+        np.zeros(3 * bins),
+        simulated=float(slot == sv.PLANT_DEPTH),
+        codes=len(stiffness),
+    )
+    p = packed(AT, edges, met, layers=0, bins=bins, lever=lever, flexibility=flexibility)
+    p[_edge(p, 0) + _EDGE.g1] = 1.0
+    return p
+
+
 def _mean_share(ends: FloatArray, stiffness: FloatArray, shares: FloatArray, j: int) -> float:
     """Share of bin j: the mean over its tissue by stiffness; 0 without any."""
     starts = np.concatenate([[0.0], ends[:-1]])
@@ -212,9 +251,35 @@ def _drag(p: FloatArray, j: int) -> int:
 
 
 @njit
+def _in_field(p: FloatArray) -> bool:
+    """Return whether bins keep the tissue that they were cut in."""
+    return p[AT.layers] == 0.0
+
+
+@njit
+def _met(p: FloatArray) -> int:
+    """Return where `_MET` stands in an array of a field."""
+    return _drag(p, int(p[AT.bins]) + 1)
+
+
+@njit
+def _of_bin(p: FloatArray, row: int, j: int) -> int:
+    """Return where the k (0), the tissue (1) and the share (2) of bin j stand, of a field."""
+    met = _met(p)
+    return met + len(_MET) + int(p[met + _MET.codes]) + row * int(p[AT.bins]) + j
+
+
+@njit
 def _tissue(p: FloatArray, j: int, begin: float, end: float) -> Any:
     """∫ k, ∫ k t and ∫ k t² over the part of bin j from `begin` to `end`, t from its upper edge."""
     f0 = f1 = f2 = 0.0
+    if _in_field(p):
+        if end > begin:
+            k = p[_of_bin(p, 0, j)]
+            f0 = k * (end - begin)
+            f1 = k * (end * end - begin * begin) / 2.0
+            f2 = k * (end * end * end - begin * begin * begin) / 3.0
+        return f0, f1, f2
     upper = j * BIN
     start = 0.0
     for i in range(int(p[AT.layers])):
@@ -286,27 +351,32 @@ def _tabulate_drag(p: FloatArray, j: int, f: Any, held: Any) -> None:
 
 
 @njit
+def _tabulate_bin(p: FloatArray, j: int) -> None:
+    """Fill what depends on tissue and needle alone at the edge below bin j: S, G, a; R, D, b."""
+    e, below = _edge(p, j), _edge(p, j + 1)
+    f0, f1, f2 = _tissue(p, j, 0.0, BIN)
+    held = _held(p, e, f0, f1, f2)
+    i11, i12, i21, i22, c11, c12, c22 = held
+    if moves(p):
+        _tabulate_drag(p, j, (f0, f1, f2), held)
+    p[below + _EDGE.a] = _unit_moment(p, e, (f0, f1, f2), (c11, c12, c22))
+    g0, g1 = p[e + _EDGE.g0], p[e + _EDGE.g1]
+    turn = i21 * g0 + i22 * g1
+    p[below + _EDGE.g0], p[below + _EDGE.g1] = i11 * g0 + i12 * g1 + BIN * turn, turn
+    flexibility = p[AT.flexibility]
+    p[below + _EDGE.s11] = (
+        c11 + 2.0 * BIN * c12 + BIN * BIN * c22 + flexibility * BIN * BIN * BIN / 3.0
+    )
+    p[below + _EDGE.s12] = c12 + BIN * c22 + flexibility * BIN * BIN / 2.0
+    p[below + _EDGE.s22] = c22 + flexibility * BIN
+
+
+@njit
 def _tabulate(p: FloatArray) -> None:
-    """Fill what depends on layers and needle alone: S, G and a at every edge; R, D and b."""
-    dragged = moves(p)
+    """Fill it at every edge."""
     p[_edge(p, 0) + _EDGE.g1] = 1.0
     for j in range(int(p[AT.bins])):
-        e, below = _edge(p, j), _edge(p, j + 1)
-        f0, f1, f2 = _tissue(p, j, 0.0, BIN)
-        held = _held(p, e, f0, f1, f2)
-        i11, i12, i21, i22, c11, c12, c22 = held
-        if dragged:
-            _tabulate_drag(p, j, (f0, f1, f2), held)
-        p[below + _EDGE.a] = _unit_moment(p, e, (f0, f1, f2), (c11, c12, c22))
-        g0, g1 = p[e + _EDGE.g0], p[e + _EDGE.g1]
-        turn = i21 * g0 + i22 * g1
-        p[below + _EDGE.g0], p[below + _EDGE.g1] = i11 * g0 + i12 * g1 + BIN * turn, turn
-        flexibility = p[AT.flexibility]
-        p[below + _EDGE.s11] = (
-            c11 + 2.0 * BIN * c12 + BIN * BIN * c22 + flexibility * BIN * BIN * BIN / 3.0
-        )
-        p[below + _EDGE.s12] = c12 + BIN * c22 + flexibility * BIN * BIN / 2.0
-        p[below + _EDGE.s22] = c22 + flexibility * BIN
+        _tabulate_bin(p, j)
 
 
 @njit
@@ -379,6 +449,8 @@ def stored(p: FloatArray, x: float, y: float, z: float) -> float:
 @njit
 def _finish_bin(p: FloatArray, j: int) -> None:
     """Lead the solution of the full bin j on to the next edge, and begin the next bin."""
+    if _in_field(p):
+        _tabulate_bin(p, j)
     e, below = _edge(p, j), _edge(p, j + 1)
     f0, f1, f2 = _tissue(p, j, 0.0, BIN)
     i11, i12, i21, i22, c11, c12, c22 = _held(p, e, f0, f1, f2)
@@ -417,6 +489,32 @@ def _finish_bin(p: FloatArray, j: int) -> None:
 
 
 @njit
+def _cut_in(p: FloatArray, j: int) -> None:
+    """Let a bin that is begun keep the tissue that the tip met in its middle, or is in now."""
+    met = _met(p)
+    passed = (j + 0.5) * BIN <= p[met + _MET.depth]
+    code = p[_of_bin(p, 1, j)] if passed else p[met + _MET.code]
+    p[_of_bin(p, 0, j)] = p[met + len(_MET) + int(code)]
+    share = p[_of_bin(p, 2, j)] if passed else p[met + _MET.share]
+    p[_drag(p, j) + _DRAG.share] = share
+
+
+@njit
+def _meet(state: FloatArray, p: FloatArray) -> None:
+    """Keep what the tip meets now, and for each bin whose middle it has passed since."""
+    met = _met(p)
+    depth = state[sv.PLANT_DEPTH] if p[met + _MET.simulated] > 0.0 else state[sv.DEPTH]
+    code, share = state[sv.TISSUE], state[sv.CARRIED_SHARE]
+    if not (np.isfinite(depth + share) and 0.0 <= code < p[met + _MET.codes]):
+        return
+    depth = min(max(depth, 0.0), p[AT.bins] * BIN)
+    first, last = int(p[met + _MET.depth] / BIN + 0.5), int(depth / BIN + 0.5)
+    for j in range(first, min(last, int(p[AT.bins]))):
+        p[_of_bin(p, 1, j)], p[_of_bin(p, 2, j)] = code, share
+    p[met + _MET.depth], p[met + _MET.code], p[met + _MET.share] = depth, code, share
+
+
+@njit
 def _lay(p: FloatArray, j: int, begin: float, end: float, axis: int, at: float, on: float) -> None:
     """Lay one coordinate of the tissue of bin j down on the line at + on t."""
     f0, f1, f2 = _tissue(p, j, begin, end)
@@ -434,6 +532,8 @@ def advance(p: FloatArray, depth: float, x: float, y: float, z: float) -> None:
     for j in range(int(old / BIN), int(p[AT.bins])):
         upper = j * BIN
         begin, end = max(old - upper, 0.0), min(depth - upper, BIN)
+        if begin == 0.0 and _in_field(p):
+            _cut_in(p, j)
         for axis in range(3):
             place, slope = tip[axis][0], tip[axis][1]
             if dragged:
@@ -479,6 +579,10 @@ def carry(old: FloatArray, new: FloatArray) -> None:
     for j in range(tip + 1):
         e, end = _edge(old, j), (depth - tip * BIN if j == tip else BIN)
         f0, f1, f2 = _tissue(old, j, 0.0, end)
+        if _in_field(new):
+            new[_of_bin(new, 0, j)] = f0 / end if end > 0.0 else 0.0
+            share = old[_drag(old, j) + _DRAG.share] if moves(old) else 0.0
+            new[_drag(new, j) + _DRAG.share] = share
         det = f0 * f2 - f1 * f1
         for axis in range(3):
             q0 = old[AT.q0 + axis] if j == tip else old[e + _EDGE.q0 + axis]
@@ -496,9 +600,20 @@ def carry(old: FloatArray, new: FloatArray) -> None:
 
 
 @njit
+def _has_moved(state: FloatArray, p: FloatArray) -> bool:
+    """Return whether δ is another than it was, where layers move."""
+    if not _in_field(p):
+        return moves(p)
+    at = _shift(p)
+    x, y, z = state[sv.BREATH_X], state[sv.BREATH_Y], state[sv.BREATH_Z]
+    return x != p[at] or y != p[at + 1] or z != p[at + 2]
+
+
+@njit
 def _follow(state: FloatArray, p: FloatArray) -> None:
     """Take the displacement δ from the state where layers move; what is no number moves nothing."""
-    x, y, z = state[sv.TARGET_SHIFT_X], state[sv.TARGET_SHIFT_Y], state[sv.TARGET_SHIFT_Z]
+    first = sv.BREATH_X if _in_field(p) else sv.TARGET_SHIFT_X
+    x, y, z = state[first], state[first + 1], state[first + 2]
     length = np.sqrt(x * x + y * y + z * z)
     if not moves(p) or not np.isfinite(length):
         return
@@ -535,7 +650,9 @@ DECLARATION: Final[dict[str, Any]] = {
     "models": {
         "beam": "needle that bends on the layers, with its shape",
         "winkler": "rigid needle, closed form per layer; far too stiff beyond some 40 mm",
+        "field": "as beam, each millimetre in the tissue of the patient's field that it was cut in",
     },
+    "model_reads": {"field": ("plant_depth", "tissue", "carried_share", "breath")},
     "energy": (
         "potential",
         "stored energy is never negative; advancing adds none, retreating loses it, and what"
@@ -554,10 +671,19 @@ _LONGEST: Final = 1.0  # [m] of layers; longer than any needle
 def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
     """Return a fresh parameters array: tissue not yet pierced.
 
+    Where the scene has no field, `field` is `beam`.
+
     Raises:
         SimulationError: if the layers together are thicker than a metre.
     """
     scene, scale = binding.scene, values["stiffness_scale"]
+    if binding.model == "field" and scene.has_field:
+        stiffness = np.array([scale * tissue.side_stiffness for tissue in scene.tissues])
+        flexibility = 1.0 / bending_stiffness(scene.needle.outer_diameter)
+        length = scene.needle.length + 2.0 * BIN
+        return _empty_field(
+            length, stiffness, flexibility, values["shortest_lever"], binding.depth_slot
+        )
     ends = np.cumsum([layer.thickness for layer in scene.layers])
     if ends[-1] > _LONGEST:
         raise SimulationError(
@@ -587,9 +713,11 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
         return
     if state[sv.DEPTH_SOURCE] == 0.0:
         depth = parameters[AT.depth]
+    if _in_field(parameters):
+        _meet(state, parameters)
     depth = min(max(depth, 0.0), parameters[AT.bins] * BIN - 0.5 * BIN)
     change = 0.0
-    if depth != parameters[AT.depth] or moves(parameters):
+    if depth != parameters[AT.depth] or _has_moved(state, parameters):
         change = -stored(parameters, x, y, z)
         _follow(state, parameters)
         if depth > parameters[AT.depth]:
@@ -635,10 +763,21 @@ def energy_bound(parameters: FloatArray) -> float:
 
     With the channel's mean direction m / a, no longer than 1, U is ½ a |n - m / a|² and what the
     channel's own windings hold, which no turning gives back. Where layers move, m - D δ is longer:
-    by 2 |D| δ at most, for tissue was laid with a displacement, too; and D² <= a b.
+    by 2 |D| δ at most, for tissue was laid with a displacement, too; and D² <= a b. Of a field:
+    with all of it as stiff as the stiffest, moved by all of the displacement.
     """
+    if parameters[AT.layers] == 0.0:
+        parameters = _stiffest(parameters)
     a = float(rotational_stiffness(parameters, parameters[AT.bins] * BIN - 0.5 * BIN))
     if not moves(parameters):
         return 2.0 * a
     b = float(parameters[_drag(parameters, int(parameters[AT.bins])) + _DRAG.b])
     return 2.0 * (a**0.5 + FURTHEST * b**0.5) ** 2
+
+
+def _stiffest(p: FloatArray) -> FloatArray:
+    """Return one layer of the stiffest tissue of a field, that all of breathing moves."""
+    met = int(_met(p))
+    table = p[met + len(_MET) :][: int(p[met + _MET.codes])]
+    ends = np.array([p[AT.bins] * BIN])
+    return empty(ends, table.max(keepdims=True), p[AT.flexibility], p[AT.lever], np.ones(1))

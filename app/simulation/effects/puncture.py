@@ -18,7 +18,11 @@ Models. `instant`: the force falls within a tick, nearly all of it. `snap`: the 
 along the shaft and drags it, with a time constant; as it shrinks by at least what the needle is
 drawn out, it gives back no more than it held.
 
-Array: these places, then a row per membrane.
+`rate`: a membrane that relaxes and tears at less force the faster it is pushed, in layers or where
+the scene's field has its walls; see `simulation.rupture`. Its stated force is all that a load cell
+reads at the stated speed, so nothing else of the dimple may be added: `relaxation` by `standing`.
+
+Array: these places, then a row per membrane; of `rate` its own.
 """
 
 from collections.abc import Mapping
@@ -31,6 +35,7 @@ from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
 from app.core.parameters import numbered, packed
 from app.simulation.along_needle import GAUGE_18, approach, keep_memory
+from app.simulation.rupture import held_energy, membranes, most_energy, push_membranes
 from app.simulation.scene import Binding
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -42,24 +47,39 @@ DECLARATION: Final[dict[str, Any]] = {
     "models": {
         "instant": "quadratic spring; punctured, its force falls within a tick",
         "snap": "the same; punctured, the dimple springs back in some milliseconds",
+        "rate": "relaxes, tears at less force the faster it is pushed; snaps back as it tears",
     },
+    "model_reads": {"rate": ("axis", "tissue", "wall", "channel", "carried")},
     "energy": ("potential", "stores a₁x²/2 + a₂x³/3 of the dimple; a puncture loses it"),
     "cost_class": "A",
     "parameters": {
         "force_scale": (1.0, "-", 0.0, 10.0, "factor on the force that punctures every membrane"),
         "reopening": (0.3, "-", 0.0, 1.0, "share of that force which a hole takes to be opened"),
-        "snap_time": (0.01, "s", 0.001, 0.2, "in which a free dimple springs back (snap)"),
+        "snap_time": (0.01, "s", 0.001, 0.2, "in which a free dimple springs back (snap, rate)"),
+        "stated_speed": (0.005, "m/s", 1e-4, 1.0, "at which the stated forces hold (rate)"),
+        "critical_speed": (0.02, "m/s", 1e-4, 1.0, "over which the force falls (rate)"),
+        "floor": (0.6, "-", 0.05, 1.0, "share of the slow force that fast needles need (rate)"),
+        "speed_smoothing": (0.03, "s", 0.0, 1.0, "of a measured depth's speed (rate)"),
     },
     "published": {
-        "force_scale": (0.5, 2.0, "skin 2-3 N, fascia 1-3 N, capsule 0.3-1 N: Maurin 2004"),
+        "force_scale": (
+            0.5,
+            3.0,
+            "skin 2-3 N of 1.5, fascia 1-3 N of 1, capsule 0.3-1 N of 0.6: Maurin 2004",
+            (1.33, 2.0, 1.0, 3.0, 0.5, 1.67),
+        ),
     },
 }
 
 
 class _PuncturePlaces(NamedTuple):
-    """Constants, then the depth before [m], the free dimple [m] with its spring, and the count."""
+    """Constants, then the depth before [m], the free dimple [m] with its spring, and the count.
+
+    `rate` is 1 in the array of that model, which has places of its own behind it.
+    """
 
     slot: int
+    rate: int
     reopening: int
     snap_time: int
     membranes: int
@@ -88,6 +108,8 @@ _INTACT, _PIERCED, _HOLE = 0.0, 1.0, 2.0
 
 def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
     """Return a fresh array of parameters: all membranes intact."""
+    if binding.model == "rate":
+        return membranes(values, binding)
     scale = values["force_scale"] * binding.scene.needle.outer_diameter / GAUGE_18
     rows, depth = [], 0.0
     for layer in binding.scene.layers:
@@ -100,6 +122,7 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
         _AT,
         np.ravel(rows),
         slot=binding.depth_slot,
+        rate=0.0,
         reopening=values["reopening"],
         snap_time=values["snap_time"] if binding.model == "snap" else 0.0,
         membranes=len(rows),
@@ -152,7 +175,11 @@ def _push(p: FloatArray, depth: float) -> tuple[float, float]:
 
 
 def carry(old: FloatArray, new: FloatArray) -> None:
-    """Go on by another model with the same membranes punctured."""
+    """Go on by another model with the same membranes punctured; `rate` goes on as itself alone."""
+    if old[_AT.rate] > 0.0 or new[_AT.rate] > 0.0:
+        if len(old) == len(new) and old[_AT.rate] == new[_AT.rate]:
+            new[:] = old
+        return
     keep_memory(_AT, old, new)
     for at in range(len(_AT), len(new), len(_ROW)):
         new[at + _ROW.met], new[at + _ROW.state] = old[at + _ROW.met], old[at + _ROW.state]
@@ -161,6 +188,9 @@ def carry(old: FloatArray, new: FloatArray) -> None:
 @stage
 def step(state: FloatArray, parameters: FloatArray) -> None:
     """Add the membranes' force to AXIAL_FORCE; write INDENTATION and PUNCTURES."""
+    if parameters[_AT.rate] > 0.0:
+        push_membranes(state, parameters)
+        return
     depth, dt = state[int(parameters[_AT.slot])], state[sv.DT]
     if not np.isfinite(depth):
         depth = parameters[_AT.depth]
@@ -187,6 +217,8 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
 def stored_energy(parameters: FloatArray) -> float:
     """Return what the membrane in front and the free dimple hold [J]."""
     p = parameters
+    if p[_AT.rate] > 0.0:
+        return held_energy(p)
     held = p[_AT.dimple] ** 2 * (p[_AT.linear] / 2.0 + p[_AT.quadratic] * p[_AT.dimple] / 3.0)
     for row in p[len(_AT) :].reshape(-1, len(_ROW)):
         if row[_ROW.state] != _PIERCED:
@@ -197,6 +229,8 @@ def stored_energy(parameters: FloatArray) -> float:
 
 def axial_energy_bound(parameters: FloatArray) -> float:
     """Return the most that the membranes can hold [J]: each pushed in to where it is punctured."""
+    if parameters[_AT.rate] > 0.0:
+        return most_energy(parameters)
     bound = 0.0
     for row in parameters[len(_AT) :].reshape(-1, len(_ROW)):
         linear, quadratic = row[_ROW.linear], row[_ROW.quadratic]

@@ -729,7 +729,7 @@ class EffectsPage(Form):
 LAYER_NUMBERS = (
     *("thickness_mm", "side_stiffness_kpa", "friction", "static_friction", "viscous_friction"),
     *("puncture_force", "toughness", "indentation_stiffness", "indentation_hardening"),
-    *("relaxation_share", "relaxation_time", "rigid"),
+    *("relaxation_share", "relaxation_time", "pressing", "rigid"),
 )
 """Columns of the table of layers after the name, as `LayerPart` has them."""
 

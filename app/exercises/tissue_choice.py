@@ -1,0 +1,124 @@
+"""Layers or the field: which of both an exercise with `tissue: auto` needs, and why.
+
+Every needle that the machine can hold at the entry, to the end of its reach, is followed through
+the field. Layers along the plan stand for all of them only where each meets the same tissues in the
+same order and, at every depth, the same force along the needle to a tenth of a newton, which is
+what a hand tells apart. One that meets another tissue, or the same ones elsewhere, needs the field.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.core.rotation import rotation_exp
+from app.core.units import MILLIMETRE
+from app.exercises.parts import TissueSource
+from app.simulation.needles import OUTER_DIAMETER
+from app.simulation.scene import TissueLayer
+from app.simulation.tissue_values import tissue_values
+
+if TYPE_CHECKING:
+    from app.exercises.schema import Exercise
+    from app.imaging.field import TissueField
+    from app.imaging.field.walking import Crossed
+    from app.mechanisms.profile import DeviceProfile
+    from app.planning.placement import PlacedPlan
+
+FELT: Final = 0.1
+"""Difference of force that a hand tells [N]."""
+
+_RINGS: Final = 6
+_AROUND: Final = 16
+_STEP_MM: Final = 0.5
+_BEFORE_MM: Final = 5.0  # outside the entry that a way begins
+_LEAST_MM: Final = 0.7  # shorter stretches are edges of voxels
+
+
+@dataclass(frozen=True, slots=True)
+class TissueChoice:
+    """Which of both, and why in one sentence."""
+
+    source: TissueSource
+    reason: str
+
+
+def choose(
+    exercise: Exercise, placed: PlacedPlan, profile: DeviceProfile, field: TissueField
+) -> TissueChoice:
+    """Return what an exercise needs on a machine; see the top of the file."""
+    values = tissue_values(field.tissues)
+    diameter = OUTER_DIAMETER[exercise.needle.gauge]
+    reach_mm = profile.depth_range[1] / MILLIMETRE
+    depths = np.arange(0.0, reach_mm, _STEP_MM)
+    planned = _met(field, placed, placed.axis, reach_mm)
+    names = [field.tissues[part.code].words for part in planned]
+    force = _force(planned, depths, values, diameter)
+    limit = np.radians(profile.workspace.tilt_limit_deg[profile.workspace.joint])
+    most = 0.0
+    for angle, way in _ways(limit):
+        met = _met(field, placed, way, reach_mm)
+        others = [field.tissues[part.code].words for part in met]
+        where = f"a needle {np.degrees(angle):.0f}° from upright"
+        if new := [part for part in met if field.tissues[part.code].words not in names]:
+            name = field.tissues[new[0].code].words
+            why = f"{where} meets {name} at {new[0].begin_mm:.0f} mm, which the path does not"
+            return TissueChoice(TissueSource.FIELD, f"the field: {why}")
+        if others != names:
+            why = f"{where} meets {_listed(others)}, the path {_listed(names)}"
+            return TissueChoice(TissueSource.FIELD, f"the field: {why}")
+        off = np.abs(_force(met, depths, values, diameter) - force)
+        most = max(most, float(off.max()))
+        if most > FELT:
+            depth = depths[int(off.argmax())]
+            why = f"{where} feels {most:.1f} N more or less at {depth:.0f} mm than the path"
+            return TissueChoice(TissueSource.FIELD, f"the field: {why}")
+    return TissueChoice(
+        TissueSource.LAYERS,
+        f"layers: every needle within reach meets {_listed(names)} with the same force to"
+        f" {most:.2f} N",
+    )
+
+
+def _ways(limit: float) -> list[tuple[float, FloatArray]]:
+    """Directions that a machine can hold, in world: (angle from upright [rad], unit vector)."""
+    down = np.array([0.0, 0.0, -1.0])
+    ways = [(0.0, down)]
+    for ring in range(1, _RINGS + 1):
+        angle = limit * ring / _RINGS
+        for turn in np.linspace(0.0, 2.0 * np.pi, _AROUND, endpoint=False):
+            axis = np.array([np.cos(turn), np.sin(turn), 0.0])
+            ways.append((angle, rotation_exp(angle * axis) @ down))
+    return ways
+
+
+def _met(field: TissueField, placed: PlacedPlan, way: FloatArray, reach_mm: float) -> list[Crossed]:
+    """Return what a straight needle from the entry meets, from the skin on; depths from there."""
+    from app.imaging.field.walking import walk
+
+    direction = placed.T_world_patient.rotation.T @ way
+    entry = np.asarray(placed.plan.entry_mm, np.float64)
+    crossed = walk(field, [entry, entry + reach_mm * direction], _STEP_MM)
+    return [part for part in crossed if part.length_mm >= _LEAST_MM]
+
+
+def _force(
+    met: Sequence[Crossed], depths: FloatArray, values: Sequence[TissueLayer], diameter: float
+) -> FloatArray:
+    """Force along a needle that is pushed slowly, without membranes, at depths [mm] -> [N]."""
+    total = np.zeros_like(depths)
+    for part in met:
+        tissue = values[part.code]
+        within = np.clip(depths - part.begin_mm, 0.0, part.length_mm) * MILLIMETRE
+        total += within * tissue.friction
+        here = (depths >= part.begin_mm) & (depths < part.end_mm)
+        total += here * tissue.toughness * diameter
+    return total
+
+
+def _listed(names: Sequence[str]) -> str:
+    return ", ".join(names) if names else "nothing"
