@@ -397,7 +397,7 @@ def test_the_command_prints_a_row_for_each_skill_and_the_same_as_json(monkeypatc
     from app.commands import exercise as command
     from app.compose import skill_scores
 
-    def quick(exercise, seeds, risks=(), progress=None):
+    def quick(exercise, seeds, risks=(), progress=None, script="hand"):
         one = SkillOutcome("novice", (40.0, 50.0, 60.0), (False, False, True), 24.0)
         return one, SkillOutcome("expert", (90.0, 95.0, 99.0), (True, True, True), 12.0)
 

@@ -18,13 +18,21 @@ from functools import cache
 from hashlib import sha256
 from pathlib import Path
 
-from app.compose.skill_scores import SkillOutcome, ordered_seeds, outcome, risks_of
+from app.compose.skill_scores import (
+    SkillOutcome,
+    ordered_seeds,
+    outcome,
+    risks_of,
+    tissues_of,
+)
 from app.compose.trial import Trials, trial_plan
 from app.core import paths
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
 from app.exercises.schema import Exercise
-from app.scoring.result import SCORING_VERSION, Score
+from app.scoring.result import Score
+from app.scoring.version import SCORING_VERSION
+from app.simulation.hands import HANDS
 from app.simulation.skills import SKILLS
 
 DOCS = Path(__file__).resolve().parents[1] / "docs" / "exercises.md"
@@ -49,7 +57,7 @@ def kind_of_attempts(exercise: Exercise) -> str:
     for field in ("version", "title", "description", "level", "rules"):
         document.pop(field)
     document["tolerances"] = sorted(document["tolerances"])  # an effect may live by a metric
-    text = json.dumps([document, SCORING_VERSION], sort_keys=True)
+    text = json.dumps([document, SCORING_VERSION, repr(HANDS)], sort_keys=True)
     return sha256(text.encode()).hexdigest()[:16]
 
 
@@ -57,7 +65,8 @@ def kind_of_attempts(exercise: Exercise) -> str:
 def _prepared(name: str) -> tuple[Exercise, Trials]:
     exercise = load_exercise(name)
     placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
-    return exercise, Trials(exercise, placed, risks_of(exercise))
+    tissues = tissues_of(exercise, placed.plan)
+    return exercise, Trials(exercise, placed, risks_of(exercise), tissues)
 
 
 def one_attempt(job: Job) -> str:

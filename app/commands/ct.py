@@ -158,7 +158,7 @@ def path(
         str | None, typer.Option(help="SeriesInstanceUID, where several fit.")
     ] = None,
 ) -> Answer:
-    """Print what a straight path meets, tissue after tissue, and how sure that is."""
+    """Print what a straight path meets. Tissue after tissue, and how sure that is."""
     import numpy as np
 
     from app.commands.calibrate_parts import with_progress
@@ -208,7 +208,9 @@ def _numbers(text: str, option: str) -> list[float]:
     try:
         x, y, z = (float(part) for part in text.split(","))
     except ValueError as error:
-        raise ConfigurationError(f"{option} {text!r}: three numbers X,Y,Z in mm") from error
+        raise ConfigurationError(
+            sentence("{option} {text!r}: three numbers X,Y,Z in mm", option=option, text=text)
+        ) from error
     return [x, y, z]
 
 

@@ -186,7 +186,7 @@ def _show(
     application = start(offscreen=hidden)
     sessions = None if out is None else out / "sessions"
     trainee = skill.value if leader is None else None
-    window = open_window(Desktop(trainee, seed, sessions, (shown,)))
+    window = open_window(Desktop(trainee, seed, sessions, (shown,), led=leader is not None))
     if pen:
         window.equipment.take_pen("simulated")
     else:
@@ -199,8 +199,7 @@ def _show(
     void: list[str] = []
     show.told.connect(lambda text: typer.echo(f"{text} …"))
     show.failed.connect(failures.append)
-    simulated = pen or cameras == "simulated"
-    show.finished.connect(lambda result: void.extend(_tell(result, script, simulated)))
+    show.finished.connect(lambda result: void.extend(_tell(result, script, pen)))
     if hidden:
         window.resize(1400, 900)
         show.failed.connect(lambda _: application.exit(2))
@@ -210,13 +209,19 @@ def _show(
     code = application.exec()
     window.close()
     collector.close()
+    if show.aborted and hidden:
+        typer.echo(f"  void: {show.aborted}")
+        raise typer.Exit(Exit.NO)
     if failures and hidden:
         raise AcusError(failures[0])
     raise typer.Exit(Exit.NO if void and hidden else code)
 
 
-def _tell(result: AttemptResult, script: DemonstrationScript, simulated: bool) -> list[str]:
-    """Print how the attempt ended; return why it is void, nothing if it is not."""
+def _tell(result: AttemptResult, script: DemonstrationScript, hurried: bool) -> list[str]:
+    """Print how the attempt ended; return why it is void, nothing if it is not.
+
+    Time waits for simulated cameras, but not for a `hurried` pen's.
+    """
     score, void = result.score, []
     if score is not None:
         for row in score.rows:
@@ -229,7 +234,7 @@ def _tell(result: AttemptResult, script: DemonstrationScript, simulated: bool) -
         if score.void_reason:
             void.append(score.void_reason)
             typer.echo(f"  void: {score.void_reason}")
-        if score.unseen and simulated:
+        if score.unseen and hurried:
             typer.echo(f"  {TOO_BUSY}")
     if script.pictures is not None:
         typer.echo(f"pictures, report and session are in {script.pictures}")

@@ -294,18 +294,37 @@ def unpack(
 def trial(
     exercise: Name,
     seeds: Annotated[int, typer.Option(min=1, help="Attempts of each skill.")] = 20,
+    script: Annotated[
+        str,
+        typer.Option(
+            help="hand: as slow, uneven and far off as people are; quick: as in a demonstration.",
+        ),
+    ] = "hand",
 ) -> Answer:
     """Try an exercise: what five scripted skills score (instructor). Nothing is recorded."""
     from app.commands.calibrate_parts import with_progress
     from app.compose.skill_scores import ordered_seeds, ordered_share, risks_of, run_trial
+    from app.core.errors import AcusError
+    from app.core.messages import sentence
     from app.exercises.library import load_exercise
+    from app.simulation.hands import Script
 
     instructor()
-    chosen = load_exercise(exercise)
+    if script not in (*Script,):
+        raise AcusError(
+            sentence(
+                "there is no script {script!r}; there are {scripts}",
+                script=script,
+                scripts=", ".join(Script),
+            )
+        )
+    chosen, played = load_exercise(exercise), Script(script)
 
     def work(progress: "Progress") -> "tuple[SkillOutcome, ...]":
         risks = risks_of(chosen, progress.part(0.0, 0.2))
-        return run_trial(chosen, seeds, risks=risks, progress=progress.part(0.2, 1.0))
+        return run_trial(
+            chosen, seeds, risks=risks, progress=progress.part(0.2, 1.0), script=played
+        )
 
     outcomes = with_progress(work)
     rows: list[dict[str, Any]] = []
@@ -324,6 +343,7 @@ def trial(
             }
         )
     facts = {"id": chosen.id, "version": chosen.version, "seeds": seeds, "skills": rows}
+    facts["script"] = played.value
     facts |= {"ordered_seeds": ordered_seeds(outcomes), "ordered_share": ordered_share(outcomes)}
     row = (
         "{skill:<12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|"

@@ -93,6 +93,8 @@ def _lines(document: dict[str, Any]) -> list[str]:
                 f"    {number}  at ({place}) mm LPS, {depth:.0f} mm deep:"
                 f" 1 mm of hand moves the tip {-scale:.2f} mm the other way"
             )
+    for line in document["pass_lines"]:
+        lines.append(f"\n  {line['metric']} passes to {line['pass']:g}: {line['words']}")
     for file in document["refused"]:
         lines.append(f"\n  refused {file['kind']}: {file['reason']}")
     return lines

@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Any, Final
 
 from app.compose.first_start import TrackerKernels
 from app.core import paths
+from app.core.clock import SystemClock
 from app.core.loading import load_modules, turn
 from app.core.messages import sentence
+from app.core.paced_clock import PacedClock
 from app.core.progress import Progress
 from app.device.errors import LoopError
 from app.exercises.library import library
@@ -67,6 +69,7 @@ class Desktop:
         seed: of everything random; None takes each exercise's own.
         sessions: folder of the records.
         besides: exercises of other files; each stands for one of its name in the library.
+        led: whether a program leads the hand in every run, and time can wait for it.
     """
 
     def __init__(
@@ -75,8 +78,10 @@ class Desktop:
         seed: int | None = None,
         sessions: Path | None = None,
         besides: tuple[Exercise, ...] = (),
+        led: bool = False,
     ) -> None:
         self._skill, self._seed, self._besides = skill, seed, besides
+        self._led = led
         self._sessions = sessions or paths.sessions()
         self._kernels = TrackerKernels()
 
@@ -203,6 +208,9 @@ class Desktop:
         kept = temporary_folder("demonstration") if shows else self._sessions
         exercise = with_tissue(exercise, setup.volume, setup.placed.plan)
         shown = ShownMotion.kept(exercise.id, exercise.version) if shows else None
+        led = self._led or skill is not None
+        simulated = setup.cameras is None or setup.cameras.simulated
+        paced = led and simulated and not setup.robot.port and not setup.robot.pen
         trainer = TrainerSetup(
             exercise,
             setup.placed,
@@ -210,6 +218,7 @@ class Desktop:
             skill,
             seed,
             kept,
+            PacedClock() if paced else SystemClock(),
             held_arming=setup.robot.held_arming and skill is None,
             port=setup.robot.port or None,
             cameras=setup.cameras,
@@ -233,7 +242,7 @@ def _wait_until_alive(rig: Rig, progress: Progress) -> None:
 
     A tracker without a picture is no reason not to begin; the status strip says what it lacks.
     """
-    clock = rig.setup.clock
+    clock = SystemClock()  # another's time may stand until the loop ticks
     begin = clock.now()
     while (waited := clock.now() - begin) < _PATIENCE:
         progress.report(0.8, "starting robot and cameras")

@@ -16,6 +16,7 @@ from app.core.progress import Progress
 from app.exercises.parts import LayersFrom, TissueSource
 from app.exercises.scene import device_of, placed_plan_of
 from app.exercises.tissue import with_tissue
+from app.simulation.hands import Script
 from app.simulation.skills import SKILLS
 
 if TYPE_CHECKING:
@@ -111,6 +112,7 @@ def run_trial(
     skills: Sequence[str] = tuple(SKILLS),
     risks: tuple[Risk, ...] = (),
     progress: Progress | None = None,
+    script: Script = Script.HAND,
 ) -> tuple[SkillOutcome, ...]:
     """Let every skill do the exercise once per seed; the least skilled first.
 
@@ -126,7 +128,7 @@ def run_trial(
         exercise = with_tissue(exercise, read_ct(exercise), placed.plan)
     tissues = tissues_of(exercise, placed.plan)
     exercise, _ = resolve_tissue(exercise, placed, tissues)
-    trials, outcomes = Trials(exercise, placed, risks, tissues), []
+    trials, outcomes = Trials(exercise, placed, risks, tissues, script), []
     for number, skill in enumerate(skills):
         part = progress.part(number / len(skills), (number + 1) / len(skills))
         results = []

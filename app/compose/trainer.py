@@ -26,6 +26,7 @@ from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
 from app.core.configuration import parse
 from app.core.messages import sentence
+from app.core.paced_clock import PacedClock
 from app.core.parameters import Stage
 from app.device.control import Loop, Table, laws, machine_stages
 from app.device.links.link import Link
@@ -57,6 +58,7 @@ from app.tracking.errors import TrackingError
 from app.tracking.motion.depth_filter import FASTEST
 from app.tracking.needle_tracker import NeedleTracker, StereoAbilities
 from app.tracking.optics.rig import load_rig
+from app.tracking.simulated.paced import PacedFixes
 from app.tracking.tracker import Tracker
 
 if TYPE_CHECKING:
@@ -80,7 +82,8 @@ class TrainerSetup:
         script: what the scripted trainee does, in place of what his skill would; None for that.
         seed: of everything random in the run.
         sessions: folder of the records.
-        clock: monotonic clock; a virtual one for runs faster than real time.
+        clock: monotonic clock; a virtual one for runs faster than real time; a paced one where
+            robot, cameras and hand are simulated, so that a slow computer slows all of it.
         held_arming: whether the forces are on only while a key or pedal is held; on a real robot
             they always are.
         port: serial port of a real robot; None simulates one.
@@ -280,6 +283,7 @@ def _build_rig(
         on_fix=lambda fix: trainer.on_fix(fix),
         force=felt_force(loop),
         colour=cameras.colour,
+        paced=PacedFixes(setup.clock, cameras.rig) if isinstance(setup.clock, PacedClock) else None,
     )
     trainer = Trainer(
         loop,

@@ -56,7 +56,9 @@ from app.session.touching import Touching
 from app.session.trainer import Trainer
 from app.session.transitions import LOST, Classifier, classify
 from app.session.withdrawal import Start
+from app.simulation.hands import Script, named
 from app.simulation.plant import initial_plant
+from app.simulation.skills import find_skill
 from app.simulation.trainee import ScriptPhase
 from app.tracking.optics.rig import RigProfile, load_rig
 from app.tracking.simulated.cameras import simulated_cameras
@@ -86,7 +88,7 @@ STEP_TICKS: Final = 20
 
 BEGIN: Final = 10.0
 SETTLED: Final = 0.6
-LONGEST: Final = 300.0
+LONGEST: Final = 900.0
 """Virtual time [s]: of the beginning, for the cameras to be believed, and of an attempt at most."""
 
 STEP: Final = 1.0 * MILLIMETRE
@@ -158,6 +160,7 @@ def attempt(
     risks: tuple[Risk, ...] = (),
     pictures: bool = False,
     tissues: TissueField | None = None,
+    script: Script = Script.HAND,
 ) -> AttemptResult:
     """Let a scripted trainee do one attempt in virtual time; nothing is written.
 
@@ -169,12 +172,14 @@ def attempt(
         risks: structures that the needle has to keep away from.
         tissues: field of the patient that tells what the needle met.
         pictures: whether both cameras' pictures are rendered and tracked: seven times the work.
+        script: how the trainee behaves: as people do, or as in a demonstration.
 
     Raises:
         AcusError: if a profile, an effect or the path cannot be used; says which and why.
     """
     profile, clock = device_of(exercise), VirtualClock(BEGIN)
-    setup = TrainerSetup(exercise, placed, skill=skill, seed=seed, clock=clock, tissues=tissues)
+    played = named(find_skill(skill).name, script)
+    setup = TrainerSetup(exercise, placed, skill=played, seed=seed, clock=clock, tissues=tissues)
     loop, rig = build_loop(setup, profile), load_rig(exercise.rig)
     scene = needle_scene(loop, profile, rig.needle.marker_offset)
     fulcrum = profile.fulcrum
@@ -247,6 +252,7 @@ class Trials:
         placed: its plan in the robot's frame.
         risks: structures that the needle has to keep away from.
         tissues: field of the patient that tells what the needle met.
+        script: how the trainees behave: as people do, or as in a demonstration.
 
     Raises:
         AcusError: if a profile, an effect or the path cannot be used; says which and why.
@@ -258,7 +264,9 @@ class Trials:
         placed: PlacedPlan,
         risks: tuple[Risk, ...] = (),
         tissues: TissueField | None = None,
+        script: Script = Script.HAND,
     ) -> None:
+        self._script = script
         self._exercise, self._placed, self._risks = exercise, placed, risks
         self._tissues = tissues
         self._profile = device_of(exercise)
@@ -288,7 +296,13 @@ class Trials:
         went = _Course.of(samples, begin, touching)
         if faults.any() or went.unseen >= LOST or self._pulled:
             result = attempt(
-                self._exercise, self._placed, skill, seed, self._risks, tissues=self._tissues
+                self._exercise,
+                self._placed,
+                skill,
+                seed,
+                self._risks,
+                tissues=self._tissues,
+                script=self._script,
             )
             return Trial(result.score, result.duration)
         samples = replace(samples, state=went.states, target=went.target)
@@ -306,7 +320,8 @@ class Trials:
             values = own.setdefault(id(stage.parameters), stage.parameters.copy())
             return stage._replace(parameters=values)
 
-        trainee = trainee_of(self._exercise, placed, skill, seed)
+        played = named(find_skill(skill).name, self._script)
+        trainee = trainee_of(self._exercise, placed, played, seed)
         before = trainee, self._cameras.stage(seed, self._spoiled)
         table = Table.of([*before, *map(fresh, self._stages)], map(fresh, self._write))
         initial = initial_plant(profile, UPRIGHT, START_DEPTH)

@@ -74,6 +74,7 @@ class Conditions:
         models: `effect: model`, each that was chosen while the attempt ran, sorted.
         taken_over: what held the needle from some moment on, after the arm; empty where nobody took
             it over.
+        computer: how the computer was too slow, and what came of it; empty where it was not.
     """
 
     exercise: str
@@ -94,6 +95,7 @@ class Conditions:
     scoring_version: int = field(default=0)
     models: tuple[str, ...] = ()
     taken_over: str = ""
+    computer: str = ""
 
     @property
     def by_person(self) -> bool:
@@ -143,7 +145,7 @@ class Conditions:
 
 _TEXTS: Final = (
     *("content", "hand", "scripted", "device", "ct", "software", "calibration"),
-    "taken_over",
+    *("taken_over", "computer"),
 )
 
 
@@ -171,7 +173,7 @@ def comparison_groups(attempts: Sequence[Conditions | None]) -> list[int | None]
         if own is None:
             found.append(None)
             continue
-        alike = replace(own, seed=None, software="", calibration="", agreement_mm=None)
+        alike = replace(own, seed=None, software="", calibration="", agreement_mm=None, computer="")
         number = known.get(alike)
         if number is None:
             fits = (k for k, other in enumerate(first, 1) if not comparable(other, own))

@@ -109,7 +109,7 @@ class Met:
     @property
     def sentence(self) -> str:
         """Say it in one line: "rib touched at 12.0 mm"."""
-        by = " by the shaft" if self.by == BY_SHAFT else ""
+        by = sentence(" by the shaft") if self.by == BY_SHAFT else ""
         where = f"at {self.entered_mm:.1f} mm"
         if self.sd_mm is not None and self.sd_mm >= 0.05:
             where = f"at {self.entered_mm:.1f} ± {self.sd_mm:.1f} mm"

@@ -15,15 +15,10 @@ from app.scoring.errors import ScoreFormatError, UnknownMetricError
 from app.scoring.met import Met, fails
 from app.scoring.rows import Row, ScoreRules
 from app.scoring.tolerance import Tolerance
+from app.scoring.version import SCORING_VERSION
 
 FORMAT = "acus-score/1"
 """Name and version of the stored form."""
-
-SCORING_VERSION = 6
-"""Of the rules that make a score: it grows whenever a metric, the judging, or what makes an attempt
-void gives another answer to the same attempt. Scores of two versions are not comparable. Rules of
-earlier versions were never released; whoever raises the number after a release keeps those of
-before, so that a score can be checked by its own."""
 
 TRACKING = "tracking_valid"
 """Metric that decides whether a score is void."""

@@ -15,6 +15,7 @@ from app.scoring.result import Score, judge
 from app.scoring.rows import Row, ScoreRules
 from app.scoring.tolerance import Tolerance
 from app.scoring.trajectory import Trajectory
+from app.scoring.version import SCORING_VERSION
 
 __all__ = ["DEFAULT_TOLERANCES", "Row", "Score", "ScoreRules", "check_names", "score", "with_shown"]
 
@@ -23,21 +24,27 @@ def score(
     trajectory: Trajectory,
     tolerances: Mapping[str, Tolerance] = DEFAULT_TOLERANCES,
     rules: ScoreRules | None = None,
+    version: int = SCORING_VERSION,
 ) -> Score:
     """Compute every metric of the program's own, and those that count, and judge the attempt.
+
+    `version` is one of `scoring.version.KNOWN_VERSIONS`: an older score is made by its own rules.
 
     Raises:
         UnknownMetricError: for a tolerance of a metric that does not exist; lists those that do.
     """
     metrics = available()
     check_names(tolerances, metrics)
+    if version != trajectory.scoring_version:
+        trajectory = replace(trajectory, scoring_version=version)
     own = [name for name, metric in metrics.items() if metric.is_own]
     names = [*tolerances, *(name for name in own if name not in tolerances)]
     rows = tuple(
         row for name in names if (row := _row(metrics[name], trajectory, tolerances.get(name)))
     )
     rules = rules or ScoreRules()
-    return judge(rows, rules, _attempt_void(trajectory, rules), trajectory.met)
+    judged = judge(rows, rules, _attempt_void(trajectory, rules), trajectory.met)
+    return replace(judged, version=version)
 
 
 def with_shown(scored: Score, trajectory: Trajectory) -> Score:
@@ -113,6 +120,13 @@ def _attempt_void(trajectory: Trajectory, rules: ScoreRules) -> str:
     if not trajectory.inserted.any():
         return sentence("the needle never crossed the skin: it was never inserted")
     paused = trajectory.waited
+    if paused > rules.maximum_pause and trajectory.computer > 0.5 * paused:
+        return sentence(
+            "this computer was too slow: the attempt waited {paused:.0f} s for pictures of its own "
+            "simulated cameras; {allowed:g} s are allowed",
+            paused=paused,
+            allowed=rules.maximum_pause,
+        )
     if paused > rules.maximum_pause:
         return sentence(
             "the attempt waited {paused:.0f} s for the cameras; {rules_maximum_pause:g} s "

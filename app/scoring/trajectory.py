@@ -19,6 +19,7 @@ from app.scoring.met import Met
 from app.scoring.risks import RiskMark
 from app.scoring.scans import ScanMark
 from app.scoring.touches import Touches
+from app.scoring.version import SCORING_VERSION
 
 LAST_SEEN = 1.0
 """The tip counts as known at the end if the cameras saw it within this time before [s]."""
@@ -72,6 +73,8 @@ class Trajectory:
         clamped: whether the force was at the robot's limit, shape (n,); None if not known.
         touches: targets that were to be touched; None where there were none.
         met: what the needle met in the patient; None where nothing could tell.
+        computer: time of pauses because the computer was too slow for its simulated cameras [s].
+        scoring_version: of the rules that it is measured by (`scoring.version`).
 
     Raises:
         TrajectoryError: naming the array and the first bad sample.
@@ -97,6 +100,8 @@ class Trajectory:
     clamped: NDArray[np.bool_] | None = None
     touches: Touches | None = None
     met: tuple[Met, ...] | None = None
+    computer: float = 0.0
+    scoring_version: int = SCORING_VERSION
 
     def __post_init__(self) -> None:
         time = _samples(self.time, "time", None, ())

@@ -183,6 +183,13 @@ def _speed(trajectory: Trajectory, index: int) -> float:
     return abs(float(trajectory.depth[index] - trajectory.depth[start])) / span
 
 
+def first_of_pictures(trajectory: Trajectory, samples: NDArray[np.intp]) -> NDArray[np.intp] | None:
+    """Return where among some samples each picture begins; None where it is not known of all."""
+    if trajectory.spread is None or not np.isfinite(trajectory.spread[samples]).all():
+        return None
+    return _pictures(trajectory, samples)
+
+
 def _pictures(trajectory: Trajectory, samples: NDArray[np.intp]) -> NDArray[np.intp]:
     """Return where among `samples` each picture begins, by the moment that it was taken."""
     taken = trajectory.time[samples] - _spread(trajectory)[samples, 2]

@@ -35,7 +35,7 @@ from app.session.station import StationKey
 from app.session.summary import Summary
 from app.session.tissues import events_of, tissues_met_of
 from app.session.touching import touches_of
-from app.session.transitions import excused
+from app.session.transitions import excused, waited_for_computer
 from app.session.verify import SCORE_FILE
 
 Scorer = Callable[[Trajectory], Score]
@@ -110,6 +110,7 @@ class AttemptLog:
                 agreement_of(self.recorder.header.metadata),
                 touches_of(self.events),
                 met,
+                computer=waited_for_computer(self.events),
             )
             score = self.scorer(path)
         except AcusError as error:

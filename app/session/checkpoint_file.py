@@ -22,7 +22,15 @@ MAGIC: Final = b"ACUC"
 VERSION: Final = 1
 _HEADER: Final = struct.Struct("<4sHI")
 _BY_SLOT: Final = frozenset(
-    {"shaft_friction", "puncture", "cutting", "dimpling", "relaxation", "bone_contact"}
+    {
+        "shaft_friction",
+        "puncture",
+        "cutting",
+        "dimpling",
+        "relaxation",
+        "bone_contact",
+        "bone_slide",
+    }
 )
 """Stages whose first number is the place of a slot, the depth that they take."""
 

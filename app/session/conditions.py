@@ -16,6 +16,8 @@ from app.session.effect_models import choices_of
 from app.session.errors import SessionError
 from app.session.machine import State
 from app.session.samples import Samples
+from app.session.ticker import SLOWED
+from app.session.transitions import waited_for_computer
 
 TRAINEE: Final = "trainee"
 """Name of the metadata record; its key `hand` holds one of `HANDS`."""
@@ -112,7 +114,26 @@ def conditions_of(
         scoring_version=scoring_version,
         models=tuple(sorted({f"{c.effect}: {c.model}" for c in choices_of(events)})),
         taken_over=_taken_over(events),
+        computer=computer_of(events),
     )
+
+
+def computer_of(events: Sequence[Event]) -> str:
+    """Say how this computer was too slow for an attempt; empty where it was not."""
+    if (waited := waited_for_computer(events)) > 0.0:
+        return sentence(
+            "too slow: the attempt waited {waited:.0f} s for its simulated cameras", waited=waited
+        )
+    lost = sum(_seconds(event) for event in events if event.kind == SLOWED)
+    if not lost > 0.0:
+        return ""
+    return sentence("too slow by {lost:.0f} s: the simulated world was slowed with it", lost=lost)
+
+
+def _seconds(event: Event) -> float:
+    seconds = event.data.get("seconds")
+    sound = isinstance(seconds, int | float) and math.isfinite(seconds)
+    return max(0.0, float(seconds)) if sound and isinstance(seconds, int | float) else 0.0
 
 
 def assistance_of(samples: Samples, start: float | None = None) -> Assistance | None:

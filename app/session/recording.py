@@ -29,7 +29,7 @@ from app.session.scored import agreement_of, renders_force, trajectory
 from app.session.ticks import Inputs, read_inputs
 from app.session.tissues import tissues_met
 from app.session.touching import touches_of
-from app.session.transitions import excused
+from app.session.transitions import excused, waited_for_computer
 
 Metadata = MappingProxyType[str, dict[str, str]]
 
@@ -105,6 +105,7 @@ class Recording:
             agreement_of(self.metadata),
             touches_of(self.events),
             tissues_met(self.events),
+            computer=waited_for_computer(self.events),
         )
 
     def placed_plan(self) -> PlacedPlan:

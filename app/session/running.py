@@ -185,7 +185,7 @@ class RunningAttempt:
         )
         silence = inputs.silence(seen.time)
         pause = self._pauses.judge(
-            attempt.state, seen.pose, seen.fix_status, silence, simulated and seen.swings
+            attempt.state, seen.pose, seen.fix_status, silence, simulated and seen.swings, simulated
         )
         event = pause or event
         if event is not None:

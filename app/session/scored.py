@@ -58,6 +58,7 @@ def trajectory(
     agreement: float = 0.0,
     touches: Touches | None = None,
     met: tuple[Met, ...] | None = None,
+    computer: float = 0.0,
 ) -> Trajectory:
     """Turn samples into what scoring wants.
 
@@ -77,6 +78,7 @@ def trajectory(
         agreement: see `agreement_of` [m].
         touches: targets that were to be touched; None where there were none.
         met: what the needle met; None where nothing could tell.
+        computer: time of pauses for simulated pictures that came late [s].
 
     Raises:
         SessionError: if no sample has a direction of the needle.
@@ -113,6 +115,7 @@ def trajectory(
         agreement=agreement,
         touches=touches,
         met=met,
+        computer=computer,
         clamped=samples.clamped[rising] if renders and samples.clamped is not None else None,
     )
 

@@ -5,7 +5,9 @@ import time
 from collections.abc import Callable
 from typing import Final
 
+from app.core.clock import Clock
 from app.core.messages import sentence
+from app.core.paced_clock import PacedClock
 
 LONGEST_S: Final = 2.0
 """From here on [s] an attempt cannot go on: nobody knows what the needle did meanwhile."""
@@ -56,6 +58,22 @@ class Standstill:
         return max(stopped, away if away >= LONGEST_S else 0.0)
 
 
+SLOWED: Final = "slowed"
+"""Kind of the event that tells by how much virtual time was slower than the wall's: `seconds`."""
+
+SLOWED_S: Final = 1.0
+"""Less than this is not told of [s]."""
+
+
+def slowed_words(seconds: float) -> str:
+    """Say that the computer was slow, and that nothing was judged by it."""
+    return sentence(
+        "this computer was too slow by {seconds:.0f} s: robot, cameras and hand were slowed with "
+        "it, and the score is what it would have been",
+        seconds=seconds,
+    )
+
+
 def standstill_words(seconds: float) -> str:
     """Say why the attempt ends."""
     return sentence(
@@ -68,12 +86,19 @@ def standstill_words(seconds: float) -> str:
 class Ticker:
     """Calls `tick` every `period` [s] until closed; a late call is not caught up.
 
+    The time of a `PacedClock` does not go on past a call that is still to be made.
+
     If `tick` raises, the thread ends after it has told `on_error`, and `failed` is True.
     """
 
     def __init__(
-        self, tick: Callable[[], object], period: float, on_error: Callable[[Exception], None]
+        self,
+        tick: Callable[[], object],
+        period: float,
+        on_error: Callable[[Exception], None],
+        clock: Clock | None = None,
     ) -> None:
+        self._paced = clock if isinstance(clock, PacedClock) else None
         self._tick = tick
         self._period = period
         self._on_error = on_error
@@ -96,13 +121,31 @@ class Ticker:
             thread.join()
 
     def _run(self) -> None:
+        if self._paced is not None:
+            self._run_paced(self._paced)
+            return
         deadline = time.monotonic()
         while not self._stop.is_set():
-            try:
-                self._tick()
-            except Exception as error:
-                self.failed = True
-                self._on_error(error)
-                raise
+            self._look()
             deadline = max(deadline + self._period, time.monotonic())
             self._stop.wait(deadline - time.monotonic())
+
+    def _run_paced(self, clock: PacedClock) -> None:
+        hold = clock.hold("trainer")
+        try:
+            while not self._stop.is_set():
+                self._look()
+                due = clock.now() + self._period
+                hold.until(due)
+                while not self._stop.is_set() and clock.now() < due - 1e-9:
+                    clock.sleep(due - clock.now())
+        finally:
+            hold.release()
+
+    def _look(self) -> None:
+        try:
+            self._tick()
+        except Exception as error:
+            self.failed = True
+            self._on_error(error)
+            raise

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from math import inf
 from typing import TYPE_CHECKING, Final
 
 from app.core.clock import Clock, SystemClock
@@ -11,6 +12,7 @@ from app.core.errors import AcusError
 from app.core.events import EventQueue
 from app.core.latest import Latest
 from app.core.messages import sentence
+from app.core.paced_clock import PacedClock
 from app.core.units import MILLIMETRE
 from app.exercises.locks import Lock
 from app.imaging.field import TissueField
@@ -30,7 +32,14 @@ from app.session.risks import Risk
 from app.session.running import RunningAttempt
 from app.session.scored import scorer
 from app.session.snapshot import Snapshot, advice
-from app.session.ticker import Standstill, Ticker, standstill_words
+from app.session.ticker import (
+    SLOWED,
+    SLOWED_S,
+    Standstill,
+    Ticker,
+    slowed_words,
+    standstill_words,
+)
 from app.session.touching import KIND as TOUCH
 from app.session.touching import TASK, Touching, begin_words, measured_at, touch_words
 from app.session.withdrawal import KIND as WITHDRAWAL
@@ -113,6 +122,9 @@ class Trainer:
         self._standstill = Standstill() if real else Standstill(lambda: 0.0)
         self._lock = threading.RLock()
         self._ticker: Ticker | None = None
+        paced = self._clock if isinstance(self._clock, PacedClock) else None
+        self._paced, self._led_at, self._lost_before = paced, inf, 0.0
+        self._leading = None if paced is None else paced.hold("hand")
 
     # --- life -------------------------------------------------------------------------------------
     def open(self) -> None:
@@ -129,11 +141,13 @@ class Trainer:
         except BaseException:
             self._sources.close()
             raise
-        self._ticker = Ticker(lambda: self.tick(self._clock.now()), TICK_PERIOD, self._crashed)
+        self._ticker = Ticker(self._look, TICK_PERIOD, self._crashed, self._clock)
         self._ticker.open()
 
     def close(self) -> None:
         """Abort a running attempt, stop everything at zero force; idempotent."""
+        if self._paced is not None:
+            self._paced.stop()  # nobody waits any more for whoever holds time
         if self._ticker is not None:
             self._ticker.close()
         self.abort("the trainer was closed")
@@ -201,6 +215,7 @@ class Trainer:
             seen = self._sources.newest(self._aim, now)
             out = self._withdrawal.begin(seen.device, seen.pose, now, led=hand == ARM)
             self._running.begin(log, now, failure, out)
+            self._lost_before = 0.0 if self._paced is None else self._paced.lost
             if self._touching is not None:
                 words, data = begin_words(self._touching.state)
                 self._running.say(TASK, words, now, data)
@@ -254,6 +269,24 @@ class Trainer:
         """
         if not self._withdrawal.moves_hand:
             self._inputs.hand(x, y, depth, holds)
+
+    def lead(self, within: float) -> float | None:
+        """Hear from a program that leads the hand step by step in a run whose time is paced.
+
+        Args:
+            within: time goes on for so long at most until it is heard again [s]; inf if it leaves.
+
+        Returns:
+            Time since it was heard last [s], 0 at first; None where time goes on by itself.
+        """
+        if self._paced is None or self._leading is None:
+            return None
+        now = self._paced.now()
+        passed, self._led_at = max(now - self._led_at, 0.0), now
+        self._leading.until(now + within)
+        if not self._running.attempt.running:  # it ended meanwhile: nobody leads any more
+            self._leading.release()
+        return passed
 
     def take_over(self, hand: str) -> None:
         """Let another hand go on with the needle of a running attempt: told and recorded.
@@ -426,6 +459,12 @@ class Trainer:
             self._running.say(TOUCH, words, seen.time, data)
             self._take_aim()
 
+    def _look(self) -> None:
+        """Do one tick; a hand that the program leads needs no window that lives."""
+        if self._paced is not None:
+            self.heartbeat()
+        self.tick(self._clock.now())
+
     # --- one tick ---------------------------------------------------------------------------------
     def tick(self, now: float) -> Snapshot:
         """Pull the latest values, move the attempt, record, publish; `now` is the time [s]."""
@@ -535,8 +574,11 @@ class Trainer:
         self.disarm()
         self._withdrawal.stop()
         now = self._clock.now()
+        if self._paced is not None and (lost := self._paced.lost - self._lost_before) > SLOWED_S:
+            self._running.say(SLOWED, slowed_words(lost), now, {"seconds": lost})
         result = self._running.finish(event, self._sources.seen, self._inputs, now, reason)
         self.disarm()  # a key that was pressed while the attempt was ending
+        self.lead(inf)
         self.result = result
         self._publish(now)
         return result

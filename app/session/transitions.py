@@ -16,7 +16,7 @@ simulated hand are the program's own trouble and cost nothing.
 """
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Final
@@ -149,6 +149,7 @@ class PauseCause(StrEnum):
     """Why an attempt waits."""
 
     CAMERAS = "cameras"
+    COMPUTER = "computer"
     WINDOW = "window"
     HAND = "hand"
 
@@ -158,6 +159,10 @@ PAUSED_WORDS: Final = {
         "paused: for a second no picture has told how deep the needle is in the body; forces are "
         "off and the clock stands still; show the marker to the cameras, or let the computer catch "
         "up"
+    ),
+    PauseCause.COMPUTER: (
+        "paused: this computer was too slow to draw what its own simulated cameras see; forces are "
+        "off and the clock stands still; close other programs"
     ),
     PauseCause.WINDOW: (
         "paused: the window was busy for a second; forces are off and the clock stands still; the "
@@ -172,6 +177,10 @@ RESUMED_WORDS: Final = {
     PauseCause.CAMERAS: (
         "the cameras see the marker again: the attempt goes on, forces come back; a switch that "
         "must be held has to be pressed again"
+    ),
+    PauseCause.COMPUTER: (
+        "the simulated cameras' pictures come again: the attempt goes on, forces come back; a "
+        "switch that must be held has to be pressed again"
     ),
     PauseCause.WINDOW: (
         "the window answers again: the attempt goes on, forces come back; a switch that must be "
@@ -220,17 +229,20 @@ class Pauses:
         fix_status: str,
         silence: float = 0.0,
         swings: bool = False,
+        simulated: bool = False,
     ) -> AttemptEvent | None:
         """Return what a moment means for the attempt, if anything.
 
         A pose that is not valid is the robot's trouble, and no reason to blame the cameras.
         `silence`: since the window's last sign of life [s]; `swings`: whether the force was cut
-        though the simulated hand holds the needle.
+        though the simulated hand holds the needle. `simulated` cameras always deliver: pictures
+        that do not come are the computer's trouble.
         """
         now = pose.time
         blamed = pose.valid and fix_status != FixStatus.NOT_YET_VISIBLE
         cameras = self._watched[PauseCause.CAMERAS]
         cameras.note(not pose.measured and blamed, pose.measured, now)
+        self._watched[PauseCause.COMPUTER].note(False, pose.measured, now)
         busy = silence > HEARTBEAT
         own = {PauseCause.WINDOW: busy, PauseCause.HAND: swings}
         for cause, there in own.items():
@@ -245,7 +257,9 @@ class Pauses:
                 if there:
                     return self._pause(cause, inside, now)
         if inside and cameras.lasts(now, LOST):
-            return self._pause(PauseCause.CAMERAS, inside, now)
+            late = simulated and fix_status == FixStatus.NO_PICTURE
+            cause = PauseCause.COMPUTER if late else PauseCause.CAMERAS
+            return self._pause(cause, inside, now)
         return None
 
     def lasted(self, now: float) -> float:
@@ -259,12 +273,21 @@ class Pauses:
 
 def excused(events: Iterable[Told]) -> float:
     """Time that an attempt waited for the program itself [s], from its events."""
+    return _waited(events, _OWN_TROUBLE)
+
+
+def waited_for_computer(events: Iterable[Told]) -> float:
+    """Time that an attempt waited for pictures that this computer had to draw [s]."""
+    return _waited(events, (PauseCause.COMPUTER,))
+
+
+def _waited(events: Iterable[Told], causes: Sequence[PauseCause]) -> float:
     total = 0.0
     for event in events:
         duration = event.data.get("duration_s")
         if (
             event.kind == KIND
-            and event.data.get("cause") in _OWN_TROUBLE
+            and event.data.get("cause") in causes
             and isinstance(duration, int | float)
         ):
             total += max(0.0, float(duration))

@@ -6,7 +6,7 @@ sessions takes it from here. Deliberate forgery of the samples themselves is not
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -17,10 +17,11 @@ from app.core.messages import sentence
 from app.scoring.conditions import Conditions
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import ScoreFormatError
-from app.scoring.result import SCORING_VERSION, Score
+from app.scoring.result import Score
 from app.scoring.rows import ScoreRules
 from app.scoring.score import score
 from app.scoring.tolerance import Tolerance
+from app.scoring.version import KNOWN_VERSIONS, SCORING_VERSION
 from app.session.conditions import EXERCISE_FILE, conditions_of
 from app.session.machine import FINAL
 from app.session.recording import Recording
@@ -64,7 +65,8 @@ class Verification:
     Attributes:
         session: id.
         written: the score as it was written; None without one.
-        recomputed: by today's rules; None where they give none.
+        recomputed: by the rules of the written score's version, by today's where this program does
+            not have those; None where they give none.
         unscored: why today's rules give no score; empty if they do.
         changes: what differs, one each; empty if nothing does.
         finished: whether the attempt was ended or aborted; only then a score is expected.
@@ -82,10 +84,10 @@ class Verification:
 
     @property
     def same_rules(self) -> bool:
-        """Return whether the score was written under today's scoring version; without one it
-        was.
+        """Return whether the rules that the score was written under are known; without one they
+        are.
         """
-        return self.written is None or self.written.version == SCORING_VERSION
+        return self.written is None or self.written.version in KNOWN_VERSIONS
 
     @property
     def confirmed(self) -> bool:
@@ -141,8 +143,8 @@ class Verification:
         remarks = [] if self.same_rules and not self.cut else [*self.remarks()]
         if not self.same_rules:
             known = sentence(
-                "this program has the rules of version {scoring_version} only",
-                scoring_version=SCORING_VERSION,
+                "this program has the rules of versions {versions}",
+                versions=_names(KNOWN_VERSIONS),
             )
             remarks.append(sentence("it cannot be checked: {known}", known=known))
         if not self.confirmed:
@@ -186,7 +188,7 @@ def verify(recording: Recording) -> Verification:
         return Verification(recording.id, written, None, "", (), finished, cut)
     now, unscored = _recomputed(recording, written)
     changes = [Change(SCORE_FILE, unreadable, "a score")] if unreadable else []
-    comparable = written is None or written.version == SCORING_VERSION
+    comparable = written is None or written.version in KNOWN_VERSIONS
     if comparable and (written is not None or now is not None):
         changes += _changes(written, now, unscored)
     return Verification(recording.id, written, now, unscored, tuple(changes), finished)
@@ -221,9 +223,19 @@ def written_score(recording: Recording) -> tuple[Score | None, str]:
 def _recomputed(recording: Recording, written: Score | None) -> tuple[Score | None, str]:
     tolerances, rules = judged_by(recording, written)
     try:
-        return score(recording.trajectory(), tolerances, rules), ""
+        return score(recording.trajectory(), tolerances, rules, _version_of(written)), ""
     except AcusError as error:
         return None, str(error)
+
+
+def _version_of(written: Score | None) -> int:
+    """Version of the rules to compute a score again by: its own, if this program has them."""
+    own = written is not None and written.version in KNOWN_VERSIONS
+    return written.version if own and written is not None else SCORING_VERSION
+
+
+def _names(versions: Iterable[int]) -> str:
+    return " and ".join(map(str, versions))
 
 
 def judged_by(

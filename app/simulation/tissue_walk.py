@@ -352,3 +352,12 @@ def first_wall(
             return high, beyond
         low, inside = high, seen[2]
     return -1.0, code
+
+
+@njit
+def look_often(p: FloatArray, labels: Any, distance: Any, points: FloatArray) -> int:
+    """Look points of the world up, shape (n, 3), for their cost; returns the sum of the codes."""
+    total = 0
+    for n in range(len(points)):
+        total += at_rest(p, labels, distance, points[n, 0], points[n, 1], points[n, 2])[0]
+    return total

@@ -60,19 +60,21 @@ class TraineeScript:
     """An attempt at speed one.
 
     Attributes:
-        rows: e1, e2 [rad], depth [m], phase every `STEP` seconds, shape (n, 4), read-only.
+        rows: e1, e2 [rad], depth [m], phase every `row` seconds, shape (n, 4), read-only.
         tremor: e1, e2 [rad], depth [m] every `TREMOR_STEP` seconds, shape (TREMOR_ROWS, 3).
         basis: two world directions that span the tangent plane of the path, shape (2, 3).
+        row: time between two rows [s].
     """
 
     rows: FloatArray
     tremor: FloatArray
     basis: FloatArray
+    row: float = STEP
 
     @property
     def duration(self) -> float:
         """Until the phase `DONE` [s]."""
-        return (len(self.rows) - 1) * STEP
+        return (len(self.rows) - 1) * self.row
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,13 +114,7 @@ def tangent_basis(axis: FloatArray) -> FloatArray:
 def _moves(
     axis: FloatArray, basis: FloatArray, depth: float, skill: Skill, random: np.random.Generator
 ) -> list[Move]:
-    start = polar(random.uniform(*skill.start_error), _towards_vertical(axis, basis, random))
-    around = float(random.uniform(0.0, 2.0 * np.pi))
-    aim = polar(random.uniform(*skill.aim_error), around)
-    moves = [
-        Move(ScriptPhase.HOVER, skill.hover, start, ABOVE_SKIN),
-        Move(ScriptPhase.ALIGN, skill.align, aim, ABOVE_SKIN),
-    ]
+    moves, around = first_moves(axis, basis, skill, random)
     for _ in range(skill.redirects):
         aim = polar(random.uniform(*skill.final_error), around + random.normal(0.0, 0.5))
         moves += _redirect(moves[-1], aim, depth, skill, random)
@@ -131,6 +127,17 @@ def _moves(
     moves.append(Move(ScriptPhase.HOLD, skill.hold - WAITING, final, left))
     moves.append(Move(ScriptPhase.WAIT, WAITING, final, left))
     return moves
+
+
+def first_moves(
+    axis: FloatArray, basis: FloatArray, skill: Skill, random: np.random.Generator
+) -> tuple[list[Move], float]:
+    """Return hovering and aligning, and in which direction the aim is off [rad]."""
+    start = polar(random.uniform(*skill.start_error), _towards_vertical(axis, basis, random))
+    around = float(random.uniform(0.0, 2.0 * np.pi))
+    aim = polar(random.uniform(*skill.aim_error), around)
+    hover = Move(ScriptPhase.HOVER, skill.hover, start, ABOVE_SKIN)
+    return [hover, Move(ScriptPhase.ALIGN, skill.align, aim, ABOVE_SKIN)], around
 
 
 def _redirect(
@@ -165,9 +172,11 @@ def rows_of(moves: Sequence[Move]) -> FloatArray:
     return np.vstack([*parts, [*here, float(ScriptPhase.DONE)]])
 
 
-def drift(rows: FloatArray, skill: Skill, random: np.random.Generator) -> FloatArray:
+def drift(
+    rows: FloatArray, skill: Skill, random: np.random.Generator, row: float = STEP
+) -> FloatArray:
     """Slow wander of the direction that grows in as the needle enters, shape (n, 2)."""
-    time = np.arange(len(rows)) * STEP
+    time = np.arange(len(rows)) * row
     frequencies = random.uniform(0.05, 0.3, (3, 2))
     phases = random.uniform(0.0, 2.0 * np.pi, (3, 2))
     waves = np.sin(2.0 * np.pi * frequencies * time[:, None, None] + phases).mean(axis=1)
@@ -279,9 +288,15 @@ def trainee_stage(
     return Stage("trainee", step, _parameters(script, unit(axis, "axis"), speed, told))
 
 
-def script_stage(script: TraineeScript, axis: FloatArray, speed: float = 1.0) -> Stage:
-    """Build the stage that plays a script about the path along `axis` (hub to tip, shape (3,))."""
-    return Stage("trainee", step, _parameters(script, unit(axis, "axis"), speed, np.zeros(0)))
+def script_stage(
+    script: TraineeScript, axis: FloatArray, speed: float = 1.0, holds_at: float | None = None
+) -> Stage:
+    """Build the stage that plays a script about the path along `axis` (hub to tip, shape (3,)).
+
+    With `holds_at`, depth of the target [m], the patient is told to hold the breath.
+    """
+    told = np.zeros(0) if holds_at is None else packed(_HOLDS, depth=holds_at)
+    return Stage("trainee", step, _parameters(script, unit(axis, "axis"), speed, told))
 
 
 def traced_script(
@@ -335,7 +350,7 @@ def _parameters(
         script.rows.ravel(),
         answer,
         start=np.nan,
-        speed=speed,
+        speed=speed * (STEP / script.row),
         rows=len(script.rows),
         from_1=0.0,
         from_2=0.0,

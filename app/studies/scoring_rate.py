@@ -12,7 +12,9 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
+from app.scoring import smoothness as arc
 from app.scoring.smoothness import (
+    SMOOTHING,
     even_speed,
     insertion_speed,
     log_dimensionless_jerk,
@@ -70,8 +72,8 @@ def points(motion: Motion, time: FloatArray) -> FloatArray:
 
 def measures(time: FloatArray, tips: FloatArray, rate: float) -> Measures:
     """Spectral arc length and log dimensionless jerk of a path at a rate [Hz]."""
-    speed = even_speed(time, tips, rate)
-    return spectral_arc_length(speed, rate), log_dimensionless_jerk(speed, rate)
+    speed, smooth = (even_speed(time, tips, rate, width) for width in (arc.FINEST, SMOOTHING))
+    return spectral_arc_length(speed, rate), log_dimensionless_jerk(smooth, rate)
 
 
 def _case(setting: Setting) -> Case:

@@ -11,6 +11,7 @@ from typing import Any, Final
 
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
+from app.simulation.hands import Script
 from app.studies.in_use import called
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 
@@ -38,7 +39,8 @@ def _whole(lent: Lent, skill: str) -> tuple[float, ...]:
     """Totals of the reference."""
     _, attempt, plan = lent
     return tuple(
-        attempt(*_exercise(plan), skill, seed, pictures=True).score.total for seed in _SEEDS
+        attempt(*_exercise(plan), skill, seed, pictures=True, script=Script.QUICK).score.total
+        for seed in _SEEDS
     )
 
 
@@ -54,7 +56,7 @@ def _case(setting: Setting, *lent: Callable[..., Any]) -> Case:
 
 def _alone(case: Case) -> Prepared:
     skill, trials, _, plan = case.data
-    ready = trials(*_exercise(plan))
+    ready = trials(*_exercise(plan), script=Script.QUICK)
     return Prepared(lambda: [ready.score(skill, seed).score.total for seed in _SEEDS], len(_SEEDS))
 
 
@@ -63,7 +65,9 @@ def _trainer(pictures: bool) -> Callable[[Case], Prepared]:
         skill, _, attempt, plan = case.data
         return Prepared(
             lambda: [
-                attempt(*_exercise(plan), skill, seed, pictures=pictures).score.total
+                attempt(
+                    *_exercise(plan), skill, seed, pictures=pictures, script=Script.QUICK
+                ).score.total
                 for seed in _SEEDS
             ],
             len(_SEEDS),

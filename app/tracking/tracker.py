@@ -33,6 +33,7 @@ from app.tracking.markers.colour import RED, ColourModel, learn
 from app.tracking.markers.extractor import Centre, Extractor, Hint, MarkerFix, Miss, MissReason
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape, RigProfile
+from app.tracking.simulated.paced import PacedFixes
 from app.tracking.solver import FixSolver, SeenMarker
 from app.tracking.statistics import TrackerMeter, TrackerStatistics
 from app.tracking.track import Markers
@@ -210,6 +211,8 @@ class Tracker:
             and of kind `fault` when the tracker itself fails.
         extractors: how the marker is found in each picture; by default `markers.choice.DEFAULT`.
         colour: of the marker, for the default extractors.
+        paced: by which fixes of simulated pictures are handed on in virtual time; None for real
+            ones, as soon as they are there.
         force: of the robot on the needle at a time [N], shape (3,), to tell a needle that bends
             under it; None while it is not known.
 
@@ -229,6 +232,7 @@ class Tracker:
         extractors: tuple[Extractor, Extractor] | None = None,
         force: Axis = _unknown,
         colour: ColourModel = RED,
+        paced: PacedFixes | None = None,
     ) -> None:
         if len(cameras) != 2:
             raise TrackingError(
@@ -241,6 +245,7 @@ class Tracker:
         self._clock = clock
         self._axis = axis
         self._on_fix = on_fix
+        self._paced = paced
         self._names = tuple(model.name for model in rig.models)
         self._fulcrum = fulcrum
         self._solver = FixSolver(rig, fulcrum)
@@ -276,6 +281,8 @@ class Tracker:
         for memory in (self._health, self._hiding, self._continuity):
             memory.clear()  # needle, cameras and robot may be others than before
         rehearse(self.rig, self._fulcrum, self.extractors, self._solver)
+        if self._paced is not None:
+            self._paced.begin()
         self._feed.open()
         self._worker.open()
 
@@ -288,6 +295,8 @@ class Tracker:
         self._worker.stop()
         self._feed.close()
         self._worker.join()
+        if self._paced is not None:
+            self._paced.release()
 
     def process(self, left: CameraFrame | None, right: CameraFrame | None) -> NeedleFix:
         """Fix of one pair of pictures, of whatever capture times; None for a camera without one.
@@ -406,12 +415,16 @@ class Tracker:
         began = self._clock.now()
         fix = self.process(*frames)
         now = self._clock.now()
+        if self._paced is not None:
+            self._paced.wait(fix)
         if stopped():  # closed meanwhile
             return
         self.latest.publish(fix, fix.time)
         self._meter.count(fix, now, now - began)
         if self._on_fix is not None:
             self._on_fix(fix)
+        if self._paced is not None:
+            self._paced.go_on(fix)
         self._worker.fault = ""
 
     def _put(self, kind: str, message: str) -> None:

@@ -10,11 +10,20 @@ import pytest
 from session_fakes import Bench
 
 from app.core.arrays import read_only
+from app.core.events import Event
+from app.session.conditions import computer_of
 from app.session.fusion import DISPLAY_LATENCY, FARTHEST, moment, predicted
 from app.session.machine import AttemptEvent, State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.recording import read_recording
-from app.session.transitions import BACK, LOST, Pauses
+from app.session.transitions import (
+    BACK,
+    LOST,
+    PauseCause,
+    Pauses,
+    excused,
+    waited_for_computer,
+)
 from app.session.verify import verify
 from app.tracking.motion.depth_filter import HAND_SPEED, DepthMotion
 
@@ -305,3 +314,46 @@ def test_the_window_sees_the_prediction_and_the_record_the_measurement(bench: Be
     assert read_recording(result.record).samples.tip_radius() == pytest.approx(np.median(known))
     assert known[-1] == pytest.approx(snapshot.measured_pose.radius, rel=0.01)
     assert result.trajectory.depth[-1] == pytest.approx(snapshot.measured_pose.depth)
+
+
+# --- a computer that is too slow ----------------------------------------------------------------
+@pytest.mark.parametrize(
+    ("simulated", "status", "cause"),
+    [
+        (True, "no_picture", PauseCause.COMPUTER),
+        (True, "out_of_view", PauseCause.CAMERAS),
+        (False, "no_picture", PauseCause.CAMERAS),
+    ],
+)
+def test_pictures_of_simulated_cameras_that_do_not_come_are_the_computer_s_trouble(
+    simulated: bool, status: str, cause: PauseCause
+) -> None:
+    pauses = Pauses()
+    events = [
+        pauses.judge(
+            State.INSERTING, pose(0.02 * k, DepthSource.MODEL), status, simulated=simulated
+        )
+        for k in range(60)
+    ]
+    assert AttemptEvent.PAUSE in events
+    assert pauses.cause is cause
+    seen = [
+        pauses.judge(State.PAUSED, pose(2.0 + 0.02 * k), "valid", simulated=simulated)
+        for k in range(40)
+    ]
+    assert AttemptEvent.RESUME in seen
+
+
+def test_what_the_computer_could_not_do_is_named_in_the_conditions_and_excuses_nothing() -> None:
+    def told(cause: str, seconds: object) -> Event:
+        return Event(1.0, "pause", "", {"cause": cause, "duration_s": seconds})
+
+    slow = [told("computer", 21.0), told("computer", 4.0), told("window", 3.0)]
+    assert waited_for_computer(slow) == 25.0
+    assert excused(slow) == 3.0
+    assert computer_of(slow) == "too slow: the attempt waited 25 s for its simulated cameras"
+    assert computer_of([told("cameras", 25.0)]) == ""
+    slowed = [Event(1.0, "slowed", "", {"seconds": 40.0})]
+    assert computer_of(slowed) == "too slow by 40 s: the simulated world was slowed with it"
+    for bad in (float("nan"), "40", None, -3.0):
+        assert computer_of([Event(1.0, "slowed", "", {"seconds": bad})]) == ""

@@ -2,9 +2,6 @@
 
 import json
 import os
-import shutil
-import struct
-import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -16,13 +13,14 @@ from app.commands import build as command_line
 from app.core.exits import Exit
 from app.exchange.csv_export import score_table
 from app.scoring.conditions import DeviceKind, comparable
-from app.scoring.result import SCORING_VERSION
+from app.scoring.version import KNOWN_VERSIONS, SCORING_VERSION
 from app.session.recording import read_recording
 from app.session.review import review
 from app.session.sidecar import cached, fresh_summary, read_summary, sidecar, verify_record
 from app.session.station import StationKey
 from app.session.store import computed, list_sessions
 from app.session.verify import verify
+from tests.kept_records import of_today, with_score
 
 FOLDER = Path(__file__).parents[1] / "data" / "records"
 TOTAL = 22.22222222222222
@@ -36,27 +34,8 @@ def folder(tmp_path: Path) -> Path:
     Their scores are of today's rules, which score them as those of version 5 did.
     """
     for path in FOLDER.glob("*.mcap"):
-        shutil.copyfile(path, tmp_path / path.name)
-        with_score(
-            tmp_path / path.name, '"scoring_version":5', f'"scoring_version":{SCORING_VERSION}'
-        )
+        of_today(path, tmp_path)
     return tmp_path
-
-
-def with_score(path: Path, change: str, to: str) -> None:
-    """Rewrite the score inside a record as an editor would: same length, right CRC."""
-    data = bytearray(path.read_bytes())
-    name = data.index(b"score.json")
-    start = name - 4 - 16 - 9  # opcode and length, two times, length of the name
-    size = struct.unpack_from("<Q", data, start + 1)[0]
-    body = start + 9
-    old, new = change.encode(), to.encode()
-    assert len(old) == len(new)
-    at = data.index(old, body, body + size)
-    data[at : at + len(old)] = new
-    crc = zlib.crc32(data[body : body + size - 4])
-    struct.pack_into("<I", data, body + size - 4, crc)
-    path.write_bytes(data)
 
 
 def run(*words: str) -> tuple[int, str]:
@@ -160,7 +139,7 @@ def test_a_score_rewritten_inside_the_record_is_found_out(folder: Path) -> None:
 
 def test_a_score_of_another_version_is_kept_said_and_not_comparable(folder: Path) -> None:
     path = next(folder.glob("*a001.mcap"))
-    now, then = SCORING_VERSION, SCORING_VERSION - 1
+    now, then = KNOWN_VERSIONS[0], KNOWN_VERSIONS[0] - 1  # the records are of the first
     with_score(path, f'"total":{TOTAL}', f'"total":{TOTAL + 70.0:.14f}')
     with_score(path, f'"scoring_version":{now}', f'"scoring_version":{then}')
     shown = review(read_recording(path))
@@ -170,10 +149,8 @@ def test_a_score_of_another_version_is_kept_said_and_not_comparable(folder: Path
     found = verify(read_recording(path))
     assert not found.confirmed
     assert found.changes == ()
-    assert (
-        f"it cannot be checked: this program has the rules of version {now} only"
-        in found.sentences()
-    )
+    only = "it cannot be checked: this program has the rules of versions 5 and 6"
+    assert only in found.sentences()
     assert run("session", "verify", path.stem, "--folder", str(folder))[0] == Exit.NO
     old = fresh_summary(path).conditions
     assert old is not None

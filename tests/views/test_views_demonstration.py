@@ -110,3 +110,35 @@ def test_its_patience_is_measured_in_this_computers_work_not_in_time_lost_to_oth
     used[0] = demonstration.PATIENCE_S + 1.0
     show._poll()
     assert "nothing has happened" in failed[0]
+
+
+def test_a_slow_attempt_that_goes_on_is_waited_for_and_one_without_end_is_not(
+    window, patient, monkeypatch
+) -> None:
+    """At a computer 20 times as slow an attempt of 20 s takes more than its patience."""
+    window.show_patient(patient)
+    used = [0.0]
+    monkeypatch.setattr(demonstration, "process_time", lambda: used[0])
+    show, failed = Demonstration(window, DemonstrationScript()), []
+    show.failed.connect(failed.append)
+    show._timer.start()
+    show._timer.setInterval(10**6)
+    elapsed = [0.0]
+
+    def goes_on() -> bool:
+        show._note_progress(elapsed[0])
+        return False
+
+    show._step = goes_on
+    for _ in range(30):
+        elapsed[0] += 1.0
+        used[0] += 0.5 * demonstration.PATIENCE_S
+        show._poll()
+    assert failed == []
+    used[0] += demonstration.PATIENCE_S + 1.0  # no second more of the attempt has passed
+    show._poll()
+    assert "nothing has happened" in failed[0]
+    show._timer.start()
+    elapsed[0] = demonstration.LONGEST_S + 1.0
+    show._poll()
+    assert "the attempt is not over after" in failed[1]

@@ -374,3 +374,14 @@ def test_a_real_robot_brings_its_gauge(desk):
     board = BoardInfo("icube", "A1", "1.0", "1", 7)
     controller.attach(run(FakeTrainer(), board=board))
     assert not panel.energy.isHidden()
+
+
+def test_bone_that_a_hand_cannot_be_stopped_by_is_shown_as_crossed_never_as_a_stop(qt) -> None:
+    gauge = AxialGauge()
+    gauge.show_force(12.0, 0.4)
+    assert "stands on bone" in gauge.words
+    gauge.show_force(50.0, 8.53)
+    assert gauge.words == "Bone crossed by 8.5 mm"
+    assert "8.5 mm" in gauge.accessibleName()
+    gauge.show_force(0.2)
+    assert "bone" not in gauge.words.casefold()

@@ -33,6 +33,9 @@ if TYPE_CHECKING:
     from app.arm.scene.performance import ArmPerformance
 
 PERIOD_MS: Final = 20
+LEADS_S: Final = 0.04
+"""In an attempt whose time is paced, time waits for the arm's next step after this [s]."""
+
 LONGEST_S: Final = 0.1
 """A window that was busy makes up for no more than this [s]: nothing leaps."""
 
@@ -217,6 +220,7 @@ class ArmPlay(QObject):
         except AcusError as error:  # it has just ended
             self._conductor.failed.emit(error)
             return
+        run.trainer.lead(np.inf)
         self.state = PlayState.TAKEN
         self._timer.stop()
         self._controller.lead("")
@@ -263,6 +267,9 @@ class ArmPlay(QObject):
             self.stop(why)
             return
         snapshot = run.trainer.snapshot()
+        if self.state in (PlayState.INSERTING, PlayState.HOLDING):
+            led = run.trainer.lead(LEADS_S)
+            passed = passed if led is None else led
         if self.state is PlayState.FETCHING:
             self._bring(run, snapshot, passed)
         elif self.state in (PlayState.INSERTING, PlayState.HOLDING):

@@ -14,6 +14,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock, VirtualClock
 from app.core.messages import sentence
+from app.core.paced_clock import PacedClock
 from app.core.parameters import Stage
 from app.device.checkpoint import Checkpoint
 from app.device.control import kernel
@@ -36,11 +37,13 @@ class Host(StrEnum):
 
     `COMPILED`: a compiled kernel with absolute deadlines, without the interpreter lock (Linux).
     `THREAD`: a plain thread, at most `THREAD_RATE_HZ`. `STEPPED`: `Loop.step` on a virtual clock.
+    `PACED`: a thread that lets the time of a `PacedClock` pass, with every tick in it.
     """
 
     COMPILED = "compiled"
     THREAD = "thread"
     STEPPED = "stepped"
+    PACED = "paced"
 
 
 class Priority(StrEnum):
@@ -54,6 +57,8 @@ def default_host(clock: Clock) -> Host:
     """Host for a clock on this platform."""
     if isinstance(clock, VirtualClock):
         return Host.STEPPED
+    if isinstance(clock, PacedClock):
+        return Host.PACED
     return Host.COMPILED if sys.platform == "linux" else Host.THREAD
 
 
@@ -315,6 +320,8 @@ class Loop(Lifetime):
         try:
             if self.host is Host.COMPILED:
                 self._run_compiled()
+            elif isinstance(self.clock, PacedClock):
+                self._run_paced(self.clock)
             else:
                 self._run_thread()
         except BaseException as error:  # handed on by latest(); the torques go to zero first
@@ -333,6 +340,24 @@ class Loop(Lifetime):
             deadline = realtime.run(*self._arguments(), round(1e9 / self.rate_hz), deadline)
             if self._exchange is not None:
                 self._take(self._exchange)
+
+    def _run_paced(self, clock: PacedClock) -> None:
+        """Tick whenever time may pass; while it is held, answer as between two ticks."""
+        counters, period = self._history.counters, 1.0 / self.rate_hz
+        clock.start()
+        try:
+            while not counters[STOP]:
+                ticks = int(clock.grant(period) / period)
+                if ticks:
+                    self._tick(clock.now(), ticks)
+                    clock.advance(ticks * period)
+                else:
+                    buffer = self._requests.buffer
+                    kernel.answer_now(self._state, self._packed[1], counters, buffer)
+                if self._exchange is not None:
+                    self._take(self._exchange)
+        finally:
+            clock.stop()
 
     def _run_thread(self) -> None:
         period, counters = 1.0 / self.rate_hz, self._history.counters

@@ -257,11 +257,13 @@ def _missing(labels: NDArray[np.uint8], bones: Bones) -> list[str]:
     there = np.bincount(labels.ravel(), minlength=len(TABLE)) > 0
     notes = []
     if there[_SKIN] and not there[_BONE]:
-        notes.append("no bone was found: no needle can be told that it met one")
+        notes.append(sentence("no bone was found: no needle can be told that it met one"))
     if there[_SKIN] and not there[_LUNG]:
-        notes.append("no lung was found within reach")
+        notes.append(sentence("no lung was found within reach"))
     if bones.unsure.any():
-        notes.append("bright tissue without cortex may be bone or contrast: mark it to be sure")
+        notes.append(
+            sentence("bright tissue without cortex may be bone or contrast: mark it to be sure")
+        )
     return notes
 
 

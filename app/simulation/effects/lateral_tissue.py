@@ -153,9 +153,12 @@ class _DraggedPlaces(NamedTuple):
 
 
 class _MetPlaces(NamedTuple):
-    """Of a field: the true depth's slot, how many tissues; the depth [m], tissue and share now."""
+    """Of a field: 1 where the true depth is a simulated needle's; how many tissues; those now.
 
-    slot: int
+    Now are the depth [m], the tissue and its share.
+    """
+
+    simulated: int
     codes: int
     depth: int = 0
     code: int = 0
@@ -205,7 +208,13 @@ def _empty_field(
     """Return the array of a field not yet pierced, `stiffness` [N/m²] by code, shape (codes,)."""
     bins = int(np.ceil(length / BIN)) + 1
     edges = np.zeros(len(_EDGE) * (bins + 1) + 3 + len(_DRAG) * (bins + 1))
-    met = packed(_MET, stiffness, np.zeros(3 * bins), slot=slot, codes=len(stiffness))
+    met = packed(
+        _MET,
+        stiffness,
+        np.zeros(3 * bins),
+        simulated=float(slot == sv.PLANT_DEPTH),
+        codes=len(stiffness),
+    )
     p = packed(AT, edges, met, layers=0, bins=bins, lever=lever, flexibility=flexibility)
     p[_edge(p, 0) + _EDGE.g1] = 1.0
     return p
@@ -494,7 +503,8 @@ def _cut_in(p: FloatArray, j: int) -> None:
 def _meet(state: FloatArray, p: FloatArray) -> None:
     """Keep what the tip meets now, and for each bin whose middle it has passed since."""
     met = _met(p)
-    depth, code, share = state[int(p[met + _MET.slot])], state[sv.TISSUE], state[sv.CARRIED_SHARE]
+    depth = state[sv.PLANT_DEPTH] if p[met + _MET.simulated] > 0.0 else state[sv.DEPTH]
+    code, share = state[sv.TISSUE], state[sv.CARRIED_SHARE]
     if not (np.isfinite(depth + share) and 0.0 <= code < p[met + _MET.codes]):
         return
     depth = min(max(depth, 0.0), p[AT.bins] * BIN)

@@ -14,6 +14,7 @@ import numpy as np
 
 from app.core.clock import Clock
 from app.core.messages import sentence
+from app.core.paced_clock import PacedClock
 from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.cameras.watch import STALL, CameraHealth, CameraReader, CameraState
 from app.tracking.fix import FixStatus, NeedleFix
@@ -171,7 +172,7 @@ class CameraFeed:
         with self._arrived:
             self._arrived.wait_for(lambda: self._stopped or any(self._fresh()), _WAIT)
             if any(self._fresh()):
-                self._arrived.wait_for(lambda: self._stopped or self._complete(), self._patience())
+                self._await(lambda: self._stopped or self._complete(), self._patience())
             fresh = self._fresh()
             frames = [reader.newest() for reader in self._readers]
         self._watch()
@@ -192,6 +193,13 @@ class CameraFeed:
         """Return how far apart the last pairs were captured; None before there was one."""
         apart = np.array(self._apart.copy())
         return Skew(float(np.median(apart)), float(apart.std())) if apart.size else None
+
+    def _await(self, predicate: Callable[[], bool], duration: float) -> None:
+        """Wait for at most `duration` [s] of the clock that the cameras run by."""
+        if isinstance(self._clock, PacedClock):
+            self._clock.wait_for(self._arrived, predicate, duration)
+        else:
+            self._arrived.wait_for(predicate, duration)
 
     def _fresh(self) -> list[bool]:
         newest = [reader.newest() for reader in self._readers]

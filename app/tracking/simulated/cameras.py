@@ -20,6 +20,7 @@ from app.core.arrays import FloatArray
 from app.core.clock import Clock
 from app.core.compiled import njit
 from app.core.messages import sentence
+from app.core.paced_clock import PacedClock
 from app.core.units import MILLISECOND
 from app.tracking.cameras.camera import Camera, CameraFrame, Image
 from app.tracking.errors import CameraError
@@ -427,7 +428,8 @@ class SimulatedCamera(Camera):
     """A camera whose pictures are rendered at the moment they are asked for.
 
     Picture k is captured at `skew + k / rate_hz` on the clock and delivered `latency` later. Who
-    reads too slowly misses pictures, as with a real camera.
+    reads too slowly misses pictures, as with a real camera. By a `PacedClock` a picture is drawn
+    as soon as it is captured, and time waits for whoever is late.
     """
 
     simulated = True
@@ -472,11 +474,14 @@ class SimulatedCamera(Camera):
             )
         number = max(self._last + 1, self._due())
         time = self.skew + number / self._rate
-        self._clock.sleep(time + self.latency - self._clock.now())
+        ahead = self.latency if isinstance(self._clock, PacedClock) else 0.0
+        self._clock.sleep(time + self.latency - ahead - self._clock.now())
         self._last = number
         image = self._renderer.render(self.scene(time))
         for effect, parameters in self._chain:
             image = effect(image, parameters, self._rng)
+        if ahead > 0.0:
+            self._clock.sleep(time + ahead - self._clock.now())
         return CameraFrame(image, time)
 
     def close(self) -> None:

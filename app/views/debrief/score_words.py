@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from app.core.units import MILLIMETRE
 from app.core.words import counted
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
+from app.scoring.pass_line import pass_words
 from app.scoring.result import Score
 from app.scoring.risks import RiskMark
 from app.scoring.rows import Row, shown_sd
@@ -154,6 +155,7 @@ def facts_of(conditions: Conditions) -> tuple[tuple[str, str], ...]:
         (tr("Views"), _views(c)),
         (tr("Hand and robot"), f"{hands_word(c) or tr('not recorded')}, {_robot(c)}"),
         (tr("Screen and needle"), agreement_words(c)),
+        *(((tr("Computer"), c.computer),) if c.computer else ()),
         *(((tr("Models changed meanwhile"), models_text(c)),) if c.models else ()),
         (tr("Software"), _software(c)),
     )
@@ -502,4 +504,5 @@ def _limits(row: Row) -> str:
         passing=passing,
         unit=row.unit,
     )
-    return text + ("; " + tr("* required to pass") if row.tolerance.required else "")
+    required = tr("* required to pass") if row.tolerance.required else ""
+    return "; ".join(filter(None, (text, required, pass_words(row.name, passing))))

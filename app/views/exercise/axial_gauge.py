@@ -10,6 +10,7 @@ from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.core import state_vector as sv
+from app.core.units import MILLIMETRE
 from app.session.snapshot import Snapshot
 from app.views.kit import theme
 from app.views.kit.text import tr
@@ -17,7 +18,7 @@ from app.views.kit.text import tr
 DECLARATION: Final[dict[str, Any]] = {
     "view": "force_gauge",
     "title": "Force along the needle",
-    "reads": ("axial_force",),
+    "reads": ("axial_force", "bone_contact", "bone_crossed"),
 }
 
 FULL_N: Final = 8.0
@@ -28,6 +29,9 @@ NUMBER_PX: Final = 30
 
 _QUIET: Final = 0.05
 """Below this force it is said that there is none [N]."""
+STANDS_MM: Final = 2.0
+"""A tip that is no further beyond a bone's surface stands on it; else it has crossed it [mm]."""
+
 _BAR: Final = 16
 _NUMBER_WIDTH: Final = 5.2
 """Width that the number keeps, in its own heights."""
@@ -43,12 +47,21 @@ def axial_force(snapshot: Snapshot) -> float | None:
     return force if isfinite(force) else None
 
 
+def bone_crossed_mm(snapshot: Snapshot) -> float | None:
+    """Return how far the tip is beyond the surface of bone [mm]; None where it touches none."""
+    if snapshot.device is None or snapshot.device.row[sv.BONE_CONTACT] <= 0.0:
+        return None
+    way = float(snapshot.device.row[sv.BONE_CROSSED]) / MILLIMETRE
+    return way if isfinite(way) else None
+
+
 class AxialGauge(QWidget):
     """A large number and a bar from its middle: to the right the tissue pushes the needle out."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._force: float | None = None
+        self._bone_mm: float | None = None
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setToolTip(
             tr(
@@ -79,6 +92,10 @@ class AxialGauge(QWidget):
     @property
     def words(self) -> str:
         """Return what the force does."""
+        if self._bone_mm is not None and self._bone_mm > STANDS_MM:
+            return tr("Bone crossed by {way:.1f} mm", way=self._bone_mm)
+        if self._bone_mm is not None:
+            return tr("Along the needle: the tip stands on bone ▶")
         if self._force is None:
             return tr("Force along the needle: not known")
         if abs(self._force) < _QUIET:
@@ -87,12 +104,16 @@ class AxialGauge(QWidget):
             return tr("Along the needle: tissue pushes it out ▶")
         return tr("Along the needle: tissue holds it back ◀")
 
-    def show_force(self, force: float | None) -> None:
-        """Show a force [N], positive outwards; None where nobody knows."""
+    def show_force(self, force: float | None, bone_mm: float | None = None) -> None:
+        """Show a force [N], positive outwards, and how far the tip is beyond the surface of bone.
+
+        None where nobody knows, and where it touches none.
+        """
         rounded = None if force is None else round(force, 2)
-        if rounded == self._force and self.accessibleName():
+        bone = None if bone_mm is None else round(bone_mm, 1)
+        if (rounded, bone) == (self._force, self._bone_mm) and self.accessibleName():
             return
-        self._force = rounded
+        self._force, self._bone_mm = rounded, bone
         self.setAccessibleName(f"{self.words}, {self.number}")
         self.update()
 

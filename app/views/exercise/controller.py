@@ -20,7 +20,7 @@ from app.session.pad.hand import HandPose
 from app.session.result import AttemptResult
 from app.session.shown_views import without_needle
 from app.session.snapshot import Snapshot
-from app.views.exercise.axial_gauge import AxialGauge, axial_force
+from app.views.exercise.axial_gauge import AxialGauge, axial_force, bone_crossed_mm
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.enable_switch import enabling
 from app.views.exercise.energy_gauge import energy_figures
@@ -168,7 +168,7 @@ class ExerciseDisplay:
         if view is not None:
             bullseye.show_view(view)
         if run.shown.shows(ViewName.FORCE_GAUGE):
-            self._views.gauge.show_force(axial_force(snapshot))
+            self._views.gauge.show_force(axial_force(snapshot), bone_crossed_mm(snapshot))
 
     def _show_tracker(self, run: ExerciseRun, snapshot: Snapshot, now: float) -> None:
         tracker = self._views.tracker
@@ -390,7 +390,7 @@ class ExerciseController(QObject):
             return
         self.beginning.emit()
         self._views.messages.clear()
-        self._views.messages.start_clock(self._clock.now())
+        self._views.messages.start_clock(run.trainer.snapshot().time)
         try:
             by_hand = self._views.bullseye.source.name if run.interactive else ""
             hand = self._led_as or by_hand

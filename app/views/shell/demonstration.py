@@ -96,7 +96,11 @@ def _draw_what_is_due(widget: QWidget) -> None:
 PERIOD_MS: Final = 50
 PATIENCE_S: Final = 300.0
 """A step that takes more processor time than this has failed (a first start compiles every kernel).
-The clock counts a quarter: beside other programs it says little of what this one could do."""
+The clock counts a quarter: beside other programs it says little of what this one could do. A second
+of the attempt that has passed is progress: from it on patience begins anew."""
+
+LONGEST_S: Final = 900.0
+"""An attempt that takes longer than this by its own clock has failed [s]."""
 
 SETTLE_S: Final = 1.5
 """Time for the first picture in 3D after everything stands [s]."""
@@ -189,6 +193,9 @@ def has_fresh_fix(snapshot: Snapshot) -> bool:
 class Demonstration(QObject):
     """Leads a window through one attempt.
 
+    Attributes:
+        aborted: why the attempt was aborted; empty if it was not.
+
     Signals:
         told(str): what is happening, one line.
         finished(AttemptResult): the debrief is on screen, everything is written.
@@ -208,7 +215,8 @@ class Demonstration(QObject):
         self._timer.timeout.connect(self._poll)
         self._step: Callable[[], bool] = self._patient_is_open
         self._waited = self._settled_at = 0.0
-        self._begun = process_time()
+        self._begun, self._went = process_time(), 0.0
+        self.aborted = ""
         self._pictures = StillPictures(window, script.pictures)
         self._result: AttemptResult | None = None
         self._debrief = window.feature(DebriefFeature)
@@ -297,11 +305,13 @@ class Demonstration(QObject):
 
     def _needle_is_in(self) -> bool:
         if self._result is not None:  # broken off, by a fault
-            self._stop(f"the attempt was aborted: {self._result.reason}")
+            self.aborted = f"the attempt was aborted: {self._result.reason}"
+            self._stop(self.aborted)
             return True
         snapshot = self._snapshot()
         if snapshot is None or snapshot.device is None:
             return False
+        self._note_progress(snapshot.elapsed)
         self._picture_on_the_way(snapshot)
         if snapshot.device.row[sv.TRAINEE_PHASE] != TRAINEE_DONE:
             return False
@@ -313,6 +323,18 @@ class Demonstration(QObject):
             return self._then("control scan", self._scan_is_shown)
         self._pictures_missed()
         return self._at_the_target()
+
+    def _note_progress(self, elapsed: float) -> None:
+        """Begin the patience anew with each second of the attempt [s], however long it took.
+
+        Raises:
+            DemonstrationError: if the attempt takes longer by its own clock than any does.
+        """
+        if elapsed > LONGEST_S:
+            raise DemonstrationError(f"the attempt is not over after {elapsed:.0f} s of its time")
+        if elapsed >= self._went + 1.0:
+            self._went = elapsed
+            self._go_on()
 
     def _scan_is_shown(self) -> bool:
         scans, view = self._window.conductor.scans, self._window.workspace.scan_view

@@ -1,0 +1,90 @@
+"""What a pass line of an error is, and how many of the hands that were measured came so near.
+
+2.7 mm is no measurement of anybody's hand: it is the mean of what the respondents of a survey would
+allow at most (153, of whom 125 were radiologists; de Jong 2018, doi 10.2147/MDER.S160444). Hands
+were measured by Gruber-Rouh (2015, PMC4499536). A share is that of a gamma distribution with the
+published mean and standard deviation: errors are never negative, and no list of them is published.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+from app.core.messages import sentence
+from app.scoring.errors import ToleranceError
+
+WISHED_MM: Final = 2.7
+"""Mean largest error that the respondents would allow [mm]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Hands:
+    """Errors of many hands: mean and standard deviation [mm] or [°]."""
+
+    words: str
+    mean: float
+    sd: float
+
+
+DISTANCES: Final = (
+    Hands("freehand", 6.3, 3.6),
+    Hands("guided", 4.0, 2.7),
+    Hands("guided in patients", 5.0, 1.2),
+)
+"""From tip to target in space [mm]."""
+
+ANGLES: Final = (Hands("freehand", 3.4, 3.1), Hands("guided", 1.3, 0.9))
+"""Between needle and planned path [°]."""
+
+_MEASURED: Final = {
+    "target_error": DISTANCES,
+    "planned_target_error": DISTANCES,
+    "lateral_error": DISTANCES,
+    "depth_error": DISTANCES,
+    "angle_error": ANGLES,
+}
+_PARTS: Final = ("lateral_error", "depth_error")
+
+
+def share_within(limit: float, hands: Hands) -> float:
+    """Return the share of hands with no larger an error, 0 to 1.
+
+    Args:
+        limit: in the unit of `hands`, 0 or more.
+        hands: what was measured.
+
+    Raises:
+        ToleranceError: for a limit below 0, or one that is no number.
+    """
+    if not limit >= 0.0:
+        raise ToleranceError(sentence("no error lies within {limit}: give 0 or more", limit=limit))
+    if limit == float("inf"):
+        return 1.0
+    from scipy.special import gammainc
+
+    shape = (hands.mean / hands.sd) ** 2
+    return float(gammainc(shape, limit * shape / hands.mean))
+
+
+def pass_words(metric: str, limit: float) -> str:
+    """Say what a pass line of a metric is; empty where no hands were measured by it.
+
+    Args:
+        metric: its name.
+        limit: its pass line, in the metric's unit.
+    """
+    hands = _MEASURED.get(metric)
+    if hands is None:
+        return ""
+    shares = ", ".join(f"{share_within(limit, one):.0%} {one.words}" for one in hands)
+    at_least = "at least " if metric in _PARTS else ""
+    wish = ""
+    if metric not in ("angle_error",) and limit == WISHED_MM:
+        wish = sentence("a wish of 153 respondents (125 radiologists), nobody's measured hand: ")
+    return sentence(
+        "{wish}of published hands {at_least}{shares} came so near",
+        wish=wish,
+        at_least=at_least,
+        shares=shares,
+    )

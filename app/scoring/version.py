@@ -1,0 +1,14 @@
+"""Versions of the rules that make a score."""
+
+from typing import Final
+
+SCORING_VERSION: Final = 6
+"""Of the rules that make a score: it grows whenever a metric, the judging, or what makes an attempt
+void gives another answer to the same attempt. Scores of two versions are not comparable."""
+
+KNOWN_VERSIONS: Final = (5, SCORING_VERSION)
+"""Versions whose rules this program still has, so that a score is checked by its own. What changed:
+
+6: the spectral arc length takes each picture once and smooths no more than its noise asks for; what
+the rules forbid to be met fails the attempt.
+"""

@@ -1,0 +1,41 @@
+"""Fixes of simulated pictures in virtual time: each when it is due, whatever the computer took."""
+
+from app.core.paced_clock import PacedClock
+from app.core.units import MILLISECOND
+from app.tracking.fix import NeedleFix
+from app.tracking.optics.rig import RigProfile
+from app.tracking.simulated.sampled import PROCESSING
+
+
+class PacedFixes:
+    """Hands a fix on when a computer that is quick enough would have it, and holds time for it.
+
+    A fix is due when both pictures are delivered and `sampled.PROCESSING` later, as in trials that
+    have no pictures. From one on time waits for the next.
+
+    Args:
+        clock: of the run.
+        rig: its cameras.
+    """
+
+    def __init__(self, clock: PacedClock, rig: RigProfile) -> None:
+        self._clock = clock
+        self._delay = (rig.latency_ms + abs(rig.skew_ms)) * MILLISECOND + PROCESSING
+        self._period = 1.0 / rig.rate_hz
+        self._hold = clock.hold("cameras")
+
+    def begin(self) -> None:
+        """Hold time until the first fix is due: the cameras are opened."""
+        self._hold.until(self._clock.now() + self._period + self._delay)
+
+    def wait(self, fix: NeedleFix) -> None:
+        """Wait until a fix is due."""
+        self._clock.sleep(fix.time + self._delay - self._clock.now())
+
+    def go_on(self, fix: NeedleFix) -> None:
+        """Let time go on until the fix after this one is due."""
+        self._hold.until(max(fix.time + self._period + self._delay, self._clock.now()))
+
+    def release(self) -> None:
+        """Hold time no more: the cameras are closed."""
+        self._hold.release()
