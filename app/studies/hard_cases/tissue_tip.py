@@ -65,7 +65,7 @@ def _down(step: float) -> FloatArray:
     return np.column_stack([np.zeros((len(depths), 2)), -depths])
 
 
-def _told(way: _Way) -> FloatArray:
+def _walls_of(way: _Way) -> FloatArray:
     """Depths of the walls that a tip of 1 m/s is told [mm], in their order."""
     rows = _ticks(way, _down(1e-3))
     met = [1e3 * (row[sv.DEPTH] + row[sv.WALL]) for row in rows if row[sv.WALL] < 0.0]
@@ -83,7 +83,7 @@ def _thin() -> HardCase:
         case="walls of slabs thinner than a tick's way are all told, at their places",
         given="six walls 0.9 to 2 mm apart, voxels of 0.5 mm, a tip of 1 m/s",
         way=tissue_field.step,
-        found=_told,
+        found=_walls_of,
         reference=analytic("where the slabs end", _ENDS_MM),
         unit="mm",
         bound=0.025,  # a step of a distance
