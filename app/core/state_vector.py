@@ -284,6 +284,8 @@ ENCODER_FAULT: Final = _machine()  # [-] code of the fault of an encoder, kept u
 UNBELIEVED: Final = _machine()  # [-] readings of the encoders that were not believed so far
 
 # --- the tissue about the tip, where the scene has a field of it --------------------------------
+# In the tick in which the tip has crossed a wall forwards, WALL is negative and TISSUE_AHEAD what
+# it is in now; several walls in one tick are told one a tick. In bone the wall is its surface.
 TISSUE: Final = _scene()  # [-] code of the tissue at the tip, of the field's table; 0 unknown
 TISSUE_AHEAD: Final = _scene()  # [-] code of the tissue beyond the wall in front of the tip
 WALL: Final = _scene()  # [m] way along the needle to that wall; negative: behind; 1 for none near
@@ -294,6 +296,14 @@ CHANNEL: Final = _scene()  # [-] 1 while the tip goes where this attempt has cut
 CARRIED_X: Final = _scene()  # [m] displacement of the tissue at the tip by breathing
 CARRIED_Y: Final = _scene()
 CARRIED_Z: Final = _scene()
+CARRIED_SHARE: Final = _scene()  # [-] share of BREATH_* that it goes along with
+BREATH_X: Final = _scene()  # [m] displacement by breathing of what goes along with all of it
+BREATH_Y: Final = _scene()
+BREATH_Z: Final = _scene()
+BONE_CROSSED: Final = _scene()  # [m] way along the needle beyond the bone's surface; 0 outside
+BONE_PUSH_X: Final = _scene()  # [N] of bone on the tip across the needle, along its surface
+BONE_PUSH_Y: Final = _scene()
+BONE_PUSH_Z: Final = _scene()
 
 SLOTS: Final = next(_next)
 """Length of the state vector."""
@@ -331,6 +341,8 @@ TIP_SLOPE: Final = _vector(TIP_SLOPE_X, TIP_SLOPE_Y, TIP_SLOPE_Z)
 ROOT_CURVATURE: Final = _vector(ROOT_CURVATURE_X, ROOT_CURVATURE_Y, ROOT_CURVATURE_Z)
 WALL_NORMAL: Final = _vector(WALL_X, WALL_Y, WALL_Z)
 CARRIED: Final = _vector(CARRIED_X, CARRIED_Y, CARRIED_Z)
+BREATH: Final = _vector(BREATH_X, BREATH_Y, BREATH_Z)
+BONE_PUSH: Final = _vector(BONE_PUSH_X, BONE_PUSH_Y, BONE_PUSH_Z)
 TARGET_SHIFT: Final = _vector(TARGET_SHIFT_X, TARGET_SHIFT_Y, TARGET_SHIFT_Z)
 PLANT_Q: Final = _vector(PLANT_Q_LEFT, PLANT_Q_RIGHT)
 PLANT_QD: Final = _vector(PLANT_QD_LEFT, PLANT_QD_RIGHT)

@@ -264,20 +264,13 @@ class Scene:
 
     @property
     def shares_moved(self) -> tuple[float, ...]:
-        """Share of the displacement by breathing that each layer goes along with, or each code.
+        """Share of the displacement by breathing that each layer goes along with.
 
         As the layer says; else, where the scene breathes, 1 from the first layer on that carries
         the name of the breathing organ (of the target's, if none is named; the deepest, if that is
-        not known either). The wall above stays: organs slide along it. In a
-        field it is what bears the organ's name alone.
+        not known either). The wall above stays: organs slide along it.
         """
         breathing = [request for request in self.effects if request.name == "breathing"]
-        if self.has_field:
-            organ = (breathing[0].organ or self.target_organ) if breathing else ""
-            return tuple(
-                float(bool(organ) and organ in one.name) if one.moves is None else one.moves
-                for one in self.tissues
-            )
         first = len(self.layers)
         if breathing:
             organ = breathing[0].organ or self.target_organ

@@ -67,14 +67,15 @@ no tip; its share of U (tissue that clings to the shaft) comes and goes through 
 Neglected are that tissue moves along the shaft and past the tip, and its motion within a layer.
 A bin of two layers moves with their mean share. Where no layer moves, the array has none of this.
 
-Where the scene has a field, the shaft's bins keep the tissue that they were cut in (model `field`,
-the same beam): a bin takes the side stiffness of the code that the tip finds as it enters it, and
-what lies above never changes, so the filter goes on as before and only what is cut anew is
-tabulated anew. A boundary within a bin counts from the bin's edge: by a millimetre at most.
+Array: heads, layers (end, k), then per edge: S, G and a, which no history changes; y, m, c; and the
+q of the bin below the edge; where layers move, δ, then per edge R, D, b, w and e.
 
-Array: heads, layers (end, k), in a field instead (w, k) of each code and then of each bin; per
-edge: S, G and a, which no history changes; y, m, c; and the q of the bin below the edge; where
-layers move, δ, then per edge R, D, b, w and e.
+The model `field` has no layers: a bin keeps the stiffness of the tissue that it was cut in, of the
+patient's field, and is forgotten with it as the needle withdraws. Its tissue is the one that the
+tip met in the middle of the bin, its share w that of the tissue there (CARRIED_SHARE), δ is
+BREATH. S, G, a, R, D and b are tabulated as bins are laid; stiffness never changes under a needle
+that is there, so all that is said of energy holds. Behind the edges: the true depth's slot, how far
+it was followed, the table k by code, then per bin k, and tissue and share that were met.
 """
 
 from collections.abc import Mapping
@@ -86,7 +87,6 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
 from app.core.parameters import numbered, packed
-from app.simulation.channel import bins_of
 from app.simulation.errors import SimulationError
 from app.simulation.needles import bending_stiffness
 from app.simulation.scene import Binding
@@ -95,16 +95,12 @@ BIN: Final = 2.0**-10  # [m] depth resolution of the memory; a power of two, so 
 
 
 class _BuriedPlaces(NamedTuple):
-    """Sizes, 1 / EI, depth, and of the bin at the tip q0, q1 (vectors) and ∫ k u².
-
-    In a field `codes` is how many tissues there are, and `layers` these and the bins; else it is 0.
-    """
+    """Sizes, 1 / EI, depth, and of the bin at the tip q0, q1 (vectors) and ∫ k u²."""
 
     layers: int
     bins: int
     lever: int
     flexibility: int
-    codes: int
     depth: int = 0
     q0: int = 0
     q0_y: int = 0
@@ -155,7 +151,18 @@ class _DraggedPlaces(NamedTuple):
     e_z: int
 
 
+class _MetPlaces(NamedTuple):
+    """Of a field: the true depth's slot, how many tissues; the depth [m], tissue and share now."""
+
+    slot: int
+    codes: int
+    depth: int = 0
+    code: int = 0
+    share: int = 0
+
+
 AT: Final = numbered(_BuriedPlaces)
+_MET: Final = numbered(_MetPlaces)
 _EDGE: Final = numbered(_EdgePlaces)
 _DRAG: Final = numbered(_DraggedPlaces)
 FURTHEST: Final = 0.1
@@ -182,8 +189,7 @@ def empty(
     bins = int(np.ceil(ends[-1] / BIN)) + 1
     pairs = np.column_stack([ends, stiffness]).ravel()
     edges = np.zeros(len(_EDGE) * (bins + 1))
-    heads = {"bins": bins, "lever": lever, "flexibility": flexibility, "codes": 0}
-    p = packed(AT, pairs, edges, layers=len(ends), **heads)
+    p = packed(AT, pairs, edges, layers=len(ends), bins=bins, lever=lever, flexibility=flexibility)
     if shares is not None and shares.any():
         p = np.concatenate([p, np.zeros(3 + len(_DRAG) * (bins + 1))])
         for j in range(bins):
@@ -192,29 +198,15 @@ def empty(
     return p
 
 
-def empty_field(
-    stiffness: FloatArray, shares: FloatArray, flexibility: float, lever: float, bins: int
+def _empty_field(
+    length: float, stiffness: FloatArray, flexibility: float, lever: float, slot: int
 ) -> FloatArray:
-    """Return the same for a field: nothing is known of a bin before the tip has entered it.
-
-    Args:
-        stiffness: side stiffness by code [N/m²], shape (n,).
-        shares: of the displacement of breathing that each code goes along with, shape (n,).
-        flexibility: 1 / EI of the needle [1/(N·m²)]; 0 for a rigid one.
-        lever: shortest L_out [m].
-        bins: that may be entered.
-    """
-    codes = np.column_stack([shares, stiffness]).ravel()
-    edges = np.zeros(len(_EDGE) * (bins + 1))
-    drag = np.zeros(3 + len(_DRAG) * (bins + 1) if shares.any() else 0)
-    heads = {"bins": bins, "lever": lever, "flexibility": flexibility, "codes": len(stiffness)}
-    cut = np.zeros(2 * bins)
-    p = packed(AT, codes, cut, edges, drag, layers=len(stiffness) + bins, **heads)
-    for j in range(bins):
-        p[_cut(p, j) : _cut(p, j) + 2] = codes[:2]
-        if shares.any():
-            p[_drag(p, j) + _DRAG.share] = shares[0]
-    _tabulate(p)
+    """Return the array of a field not yet pierced, `stiffness` [N/m²] by code, shape (codes,)."""
+    bins = int(np.ceil(length / BIN)) + 1
+    edges = np.zeros(len(_EDGE) * (bins + 1) + 3 + len(_DRAG) * (bins + 1))
+    met = packed(_MET, stiffness, np.zeros(3 * bins), slot=slot, codes=len(stiffness))
+    p = packed(AT, edges, met, layers=0, bins=bins, lever=lever, flexibility=flexibility)
+    p[_edge(p, 0) + _EDGE.g1] = 1.0
     return p
 
 
@@ -244,25 +236,39 @@ def moves(p: FloatArray) -> bool:
 
 
 @njit
-def _cut(p: FloatArray, j: int) -> int:
-    """Return where (w, k) of bin j stand in an array of a field."""
-    return len(AT) + 2 * (int(p[AT.codes]) + j)
+def _drag(p: FloatArray, j: int) -> int:
+    return _shift(p) + 3 + len(_DRAG) * j
 
 
 @njit
-def _drag(p: FloatArray, j: int) -> int:
-    return _shift(p) + 3 + len(_DRAG) * j
+def _in_field(p: FloatArray) -> bool:
+    """Return whether bins keep the tissue that they were cut in."""
+    return p[AT.layers] == 0.0
+
+
+@njit
+def _met(p: FloatArray) -> int:
+    """Return where `_MET` stands in an array of a field."""
+    return _drag(p, int(p[AT.bins]) + 1)
+
+
+@njit
+def _kept(p: FloatArray, row: int, j: int) -> int:
+    """Return where the k (0), the tissue (1) and the share (2) of bin j stand, of a field."""
+    met = _met(p)
+    return met + len(_MET) + int(p[met + _MET.codes]) + row * int(p[AT.bins]) + j
 
 
 @njit
 def _tissue(p: FloatArray, j: int, begin: float, end: float) -> Any:
     """∫ k, ∫ k t and ∫ k t² over the part of bin j from `begin` to `end`, t from its upper edge."""
     f0 = f1 = f2 = 0.0
-    if p[AT.codes] > 0.0:
-        k, low, high = p[_cut(p, j) + 1], max(0.0, begin), min(BIN, end)
-        if high > low:
-            f0, f1 = k * (high - low), k * (high * high - low * low) / 2.0
-            f2 = k * (high * high * high - low * low * low) / 3.0
+    if _in_field(p):
+        if end > begin:
+            k = p[_kept(p, 0, j)]
+            f0 = k * (end - begin)
+            f1 = k * (end * end - begin * begin) / 2.0
+            f2 = k * (end * end * end - begin * begin * begin) / 3.0
         return f0, f1, f2
     upper = j * BIN
     start = 0.0
@@ -335,16 +341,8 @@ def _tabulate_drag(p: FloatArray, j: int, f: Any, held: Any) -> None:
 
 
 @njit
-def _tabulate(p: FloatArray) -> None:
-    """Fill what depends on layers and needle alone: S, G and a at every edge; R, D and b."""
-    p[_edge(p, 0) + _EDGE.g1] = 1.0
-    for j in range(int(p[AT.bins])):
-        _tabulate_bin(p, j)
-
-
-@njit
 def _tabulate_bin(p: FloatArray, j: int) -> None:
-    """Fill the same at the edge below bin j."""
+    """Fill what depends on tissue and needle alone at the edge below bin j: S, G, a; R, D, b."""
     e, below = _edge(p, j), _edge(p, j + 1)
     f0, f1, f2 = _tissue(p, j, 0.0, BIN)
     held = _held(p, e, f0, f1, f2)
@@ -364,13 +362,11 @@ def _tabulate_bin(p: FloatArray, j: int) -> None:
 
 
 @njit
-def _enter(p: FloatArray, j: int, code: float) -> None:
-    """Let bin j be of the tissue of a code; one that the table does not have is the first."""
-    number = int(code) if 0.0 <= code < p[AT.codes] else 0
-    at, of = _cut(p, j), len(AT) + 2 * number
-    p[at], p[at + 1] = p[of], p[of + 1]
-    if moves(p):
-        p[_drag(p, j) + _DRAG.share] = p[of]
+def _tabulate(p: FloatArray) -> None:
+    """Fill it at every edge."""
+    p[_edge(p, 0) + _EDGE.g1] = 1.0
+    for j in range(int(p[AT.bins])):
+        _tabulate_bin(p, j)
 
 
 @njit
@@ -443,6 +439,8 @@ def stored(p: FloatArray, x: float, y: float, z: float) -> float:
 @njit
 def _finish_bin(p: FloatArray, j: int) -> None:
     """Lead the solution of the full bin j on to the next edge, and begin the next bin."""
+    if _in_field(p):
+        _tabulate_bin(p, j)
     e, below = _edge(p, j), _edge(p, j + 1)
     f0, f1, f2 = _tissue(p, j, 0.0, BIN)
     i11, i12, i21, i22, c11, c12, c22 = _held(p, e, f0, f1, f2)
@@ -481,6 +479,31 @@ def _finish_bin(p: FloatArray, j: int) -> None:
 
 
 @njit
+def _cut_in(p: FloatArray, j: int) -> None:
+    """Let a bin that is begun keep the tissue that the tip met in its middle, or is in now."""
+    met = _met(p)
+    passed = (j + 0.5) * BIN <= p[met + _MET.depth]
+    code = p[_kept(p, 1, j)] if passed else p[met + _MET.code]
+    p[_kept(p, 0, j)] = p[met + len(_MET) + int(code)]
+    share = p[_kept(p, 2, j)] if passed else p[met + _MET.share]
+    p[_drag(p, j) + _DRAG.share] = share
+
+
+@njit
+def _meet(state: FloatArray, p: FloatArray) -> None:
+    """Keep what the tip meets now, and for each bin whose middle it has passed since."""
+    met = _met(p)
+    depth, code, share = state[int(p[met + _MET.slot])], state[sv.TISSUE], state[sv.CARRIED_SHARE]
+    if not (np.isfinite(depth + share) and 0.0 <= code < p[met + _MET.codes]):
+        return
+    before = max(p[met + _MET.depth], 0.0)
+    first, last = int(before / BIN + 0.5), int(max(depth, 0.0) / BIN + 0.5)
+    for j in range(first, min(last, int(p[AT.bins]))):
+        p[_kept(p, 1, j)], p[_kept(p, 2, j)] = code, share
+    p[met + _MET.depth], p[met + _MET.code], p[met + _MET.share] = depth, code, share
+
+
+@njit
 def _lay(p: FloatArray, j: int, begin: float, end: float, axis: int, at: float, on: float) -> None:
     """Lay one coordinate of the tissue of bin j down on the line at + on t."""
     f0, f1, f2 = _tissue(p, j, begin, end)
@@ -490,19 +513,16 @@ def _lay(p: FloatArray, j: int, begin: float, end: float, axis: int, at: float, 
 
 
 @njit
-def advance(p: FloatArray, depth: float, x: float, y: float, z: float, code: float = 0.0) -> None:
-    """Go on to `depth`, straight ahead from the tip of the needle along (x, y, z).
-
-    In a field what is entered is of the tissue `code`.
-    """
+def advance(p: FloatArray, depth: float, x: float, y: float, z: float) -> None:
+    """Go on to `depth`, straight ahead from the tip of the needle along (x, y, z)."""
     tip = (at_tip(p, 0, x), at_tip(p, 1, y), at_tip(p, 2, z))
     old = p[AT.depth]
     dragged = moves(p)
     for j in range(int(old / BIN), int(p[AT.bins])):
         upper = j * BIN
         begin, end = max(old - upper, 0.0), min(depth - upper, BIN)
-        if p[AT.codes] > 0.0 and begin == 0.0:
-            _enter(p, j, code)
+        if begin == 0.0 and _in_field(p):
+            _cut_in(p, j)
         for axis in range(3):
             place, slope = tip[axis][0], tip[axis][1]
             if dragged:
@@ -510,8 +530,6 @@ def advance(p: FloatArray, depth: float, x: float, y: float, z: float, code: flo
             _lay(p, j, begin, end, axis, place + slope * (upper - old), slope)
         if upper + BIN > depth:
             break
-        if p[AT.codes] > 0.0:
-            _tabulate_bin(p, j)
         _finish_bin(p, j)
     p[AT.depth] = depth
 
@@ -548,13 +566,12 @@ def carry(old: FloatArray, new: FloatArray) -> None:
         return
     tip = min(int(depth / BIN), int(old[AT.bins]) - 1)
     for j in range(tip + 1):
-        if old[AT.codes] > 0.0 and new[AT.codes] > 0.0:
-            new[_cut(new, j)], new[_cut(new, j) + 1] = old[_cut(old, j)], old[_cut(old, j) + 1]
-            if moves(new):
-                new[_drag(new, j) + _DRAG.share] = old[_cut(old, j)]
-            _tabulate_bin(new, j)
         e, end = _edge(old, j), (depth - tip * BIN if j == tip else BIN)
         f0, f1, f2 = _tissue(old, j, 0.0, end)
+        if _in_field(new):
+            new[_kept(new, 0, j)] = f0 / end if end > 0.0 else 0.0
+            share = old[_drag(old, j) + _DRAG.share] if moves(old) else 0.0
+            new[_drag(new, j) + _DRAG.share] = share
         det = f0 * f2 - f1 * f1
         for axis in range(3):
             q0 = old[AT.q0 + axis] if j == tip else old[e + _EDGE.q0 + axis]
@@ -572,9 +589,20 @@ def carry(old: FloatArray, new: FloatArray) -> None:
 
 
 @njit
+def _has_moved(state: FloatArray, p: FloatArray) -> bool:
+    """Return whether δ is another than it was, where layers move."""
+    if not _in_field(p):
+        return moves(p)
+    at = _shift(p)
+    x, y, z = state[sv.BREATH_X], state[sv.BREATH_Y], state[sv.BREATH_Z]
+    return x != p[at] or y != p[at + 1] or z != p[at + 2]
+
+
+@njit
 def _follow(state: FloatArray, p: FloatArray) -> None:
     """Take the displacement δ from the state where layers move; what is no number moves nothing."""
-    x, y, z = state[sv.TARGET_SHIFT_X], state[sv.TARGET_SHIFT_Y], state[sv.TARGET_SHIFT_Z]
+    first = sv.BREATH_X if _in_field(p) else sv.TARGET_SHIFT_X
+    x, y, z = state[first], state[first + 1], state[first + 2]
     length = np.sqrt(x * x + y * y + z * z)
     if not moves(p) or not np.isfinite(length):
         return
@@ -611,9 +639,9 @@ DECLARATION: Final[dict[str, Any]] = {
     "models": {
         "beam": "needle that bends on the layers, with its shape",
         "winkler": "rigid needle, closed form per layer; far too stiff beyond some 40 mm",
-        "field": "the beam in the tissue that each bin of the shaft was cut in",
+        "field": "as beam, each millimetre in the tissue of the patient's field that it was cut in",
     },
-    "model_reads": {"field": ("tissue",)},
+    "model_reads": {"field": ("plant_depth", "tissue", "carried_share", "breath")},
     "energy": (
         "potential",
         "stored energy is never negative; advancing adds none, retreating loses it, and what"
@@ -632,17 +660,18 @@ _LONGEST: Final = 1.0  # [m] of layers; longer than any needle
 def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
     """Return a fresh parameters array: tissue not yet pierced.
 
+    Where the scene has no field, `field` is `beam`.
+
     Raises:
         SimulationError: if the layers together are thicker than a metre.
     """
     scene, scale = binding.scene, values["stiffness_scale"]
-    if scene.has_field and binding.model == "field":
-        return empty_field(
-            scale * np.array([tissue.side_stiffness for tissue in scene.tissues]),
-            np.array(scene.shares_moved),
-            1.0 / bending_stiffness(scene.needle.outer_diameter),
-            values["shortest_lever"],
-            bins_of(scene.needle.length),
+    if binding.model == "field" and scene.has_field:
+        stiffness = np.array([scale * tissue.side_stiffness for tissue in scene.tissues])
+        flexibility = 1.0 / bending_stiffness(scene.needle.outer_diameter)
+        length = scene.needle.length + 2.0 * BIN
+        return _empty_field(
+            length, stiffness, flexibility, values["shortest_lever"], binding.depth_slot
         )
     ends = np.cumsum([layer.thickness for layer in scene.layers])
     if ends[-1] > _LONGEST:
@@ -669,13 +698,15 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
         return
     if state[sv.DEPTH_SOURCE] == 0.0:
         depth = parameters[AT.depth]
+    if _in_field(parameters):
+        _meet(state, parameters)
     depth = min(max(depth, 0.0), parameters[AT.bins] * BIN - 0.5 * BIN)
     change = 0.0
-    if depth != parameters[AT.depth] or moves(parameters):
+    if depth != parameters[AT.depth] or _has_moved(state, parameters):
         change = -stored(parameters, x, y, z)
         _follow(state, parameters)
         if depth > parameters[AT.depth]:
-            advance(parameters, depth, x, y, z, state[sv.TISSUE])
+            advance(parameters, depth, x, y, z)
         elif depth < parameters[AT.depth]:
             retreat(parameters, depth)
         change += stored(parameters, x, y, z)
@@ -712,24 +743,26 @@ def stored_energy(parameters: FloatArray, axis: FloatArray) -> float:
     return float(stored(parameters, *axis))
 
 
-def _stiffest(p: FloatArray) -> FloatArray:
-    """Return the array of a layer that is as stiff, and moves as much, as the most of a field."""
-    codes = p[len(AT) :][: 2 * int(p[AT.codes])].reshape(-1, 2).max(axis=0)
-    ends, stiffness = np.array([(p[AT.bins] - 1.0) * BIN]), codes[1:]
-    return empty(ends, stiffness, p[AT.flexibility], p[AT.lever], codes[:1])
-
-
 def energy_bound(parameters: FloatArray) -> float:
     """Return the most energy that turning the needle can store [J]: 2 a at the deepest needle.
 
     With the channel's mean direction m / a, no longer than 1, U is ½ a |n - m / a|² and what the
     channel's own windings hold, which no turning gives back. Where layers move, m - D δ is longer:
-    by 2 |D| δ at most, for tissue was laid with a displacement, too; and D² <= a b.
+    by 2 |D| δ at most, for tissue was laid with a displacement, too; and D² <= a b. Of a field:
+    with all of it as stiff as the stiffest, moved by all of the displacement.
     """
-    if parameters[AT.codes] > 0.0:
-        return energy_bound(_stiffest(parameters))
+    if parameters[AT.layers] == 0.0:
+        parameters = _stiffest(parameters)
     a = float(rotational_stiffness(parameters, parameters[AT.bins] * BIN - 0.5 * BIN))
     if not moves(parameters):
         return 2.0 * a
     b = float(parameters[_drag(parameters, int(parameters[AT.bins])) + _DRAG.b])
     return 2.0 * (a**0.5 + FURTHEST * b**0.5) ** 2
+
+
+def _stiffest(p: FloatArray) -> FloatArray:
+    """Return one layer of the stiffest tissue of a field, that all of breathing moves."""
+    met = int(_met(p))
+    table = p[met + len(_MET) :][: int(p[met + _MET.codes])]
+    ends = np.array([p[AT.bins] * BIN])
+    return empty(ends, table.max(keepdims=True), p[AT.flexibility], p[AT.lever], np.ones(1))
