@@ -67,7 +67,7 @@ FORMER = {
     ("shaft_friction", "dahl"): 24,
     ("shaft_friction", "lugre"): 26,
 }
-"""Numbers in the arrays of models of before, through skin, fat, liver and bone: records hold them."""
+"""Numbers in the arrays of former models, in skin, fat, liver and bone: records hold them."""
 
 
 @pytest.mark.parametrize(("name", "model"), FORMER)

@@ -152,9 +152,12 @@ class _DraggedPlaces(NamedTuple):
 
 
 class _MetPlaces(NamedTuple):
-    """Of a field: the true depth's slot, how many tissues; the depth [m], tissue and share now."""
+    """Of a field: 1 where the true depth is a simulated needle's; how many tissues; those now.
 
-    slot: int
+    Now are the depth [m], the tissue and its share.
+    """
+
+    simulated: int
     codes: int
     depth: int = 0
     code: int = 0
@@ -204,7 +207,13 @@ def _empty_field(
     """Return the array of a field not yet pierced, `stiffness` [N/m²] by code, shape (codes,)."""
     bins = int(np.ceil(length / BIN)) + 1
     edges = np.zeros(len(_EDGE) * (bins + 1) + 3 + len(_DRAG) * (bins + 1))
-    met = packed(_MET, stiffness, np.zeros(3 * bins), slot=slot, codes=len(stiffness))
+    met = packed(
+        _MET,
+        stiffness,
+        np.zeros(3 * bins),
+        simulated=float(slot == sv.PLANT_DEPTH),
+        codes=len(stiffness),
+    )
     p = packed(AT, edges, met, layers=0, bins=bins, lever=lever, flexibility=flexibility)
     p[_edge(p, 0) + _EDGE.g1] = 1.0
     return p
@@ -253,7 +262,7 @@ def _met(p: FloatArray) -> int:
 
 
 @njit
-def _kept(p: FloatArray, row: int, j: int) -> int:
+def _of_bin(p: FloatArray, row: int, j: int) -> int:
     """Return where the k (0), the tissue (1) and the share (2) of bin j stand, of a field."""
     met = _met(p)
     return met + len(_MET) + int(p[met + _MET.codes]) + row * int(p[AT.bins]) + j
@@ -265,7 +274,7 @@ def _tissue(p: FloatArray, j: int, begin: float, end: float) -> Any:
     f0 = f1 = f2 = 0.0
     if _in_field(p):
         if end > begin:
-            k = p[_kept(p, 0, j)]
+            k = p[_of_bin(p, 0, j)]
             f0 = k * (end - begin)
             f1 = k * (end * end - begin * begin) / 2.0
             f2 = k * (end * end * end - begin * begin * begin) / 3.0
@@ -483,9 +492,9 @@ def _cut_in(p: FloatArray, j: int) -> None:
     """Let a bin that is begun keep the tissue that the tip met in its middle, or is in now."""
     met = _met(p)
     passed = (j + 0.5) * BIN <= p[met + _MET.depth]
-    code = p[_kept(p, 1, j)] if passed else p[met + _MET.code]
-    p[_kept(p, 0, j)] = p[met + len(_MET) + int(code)]
-    share = p[_kept(p, 2, j)] if passed else p[met + _MET.share]
+    code = p[_of_bin(p, 1, j)] if passed else p[met + _MET.code]
+    p[_of_bin(p, 0, j)] = p[met + len(_MET) + int(code)]
+    share = p[_of_bin(p, 2, j)] if passed else p[met + _MET.share]
     p[_drag(p, j) + _DRAG.share] = share
 
 
@@ -493,13 +502,14 @@ def _cut_in(p: FloatArray, j: int) -> None:
 def _meet(state: FloatArray, p: FloatArray) -> None:
     """Keep what the tip meets now, and for each bin whose middle it has passed since."""
     met = _met(p)
-    depth, code, share = state[int(p[met + _MET.slot])], state[sv.TISSUE], state[sv.CARRIED_SHARE]
+    depth = state[sv.PLANT_DEPTH] if p[met + _MET.simulated] > 0.0 else state[sv.DEPTH]
+    code, share = state[sv.TISSUE], state[sv.CARRIED_SHARE]
     if not (np.isfinite(depth + share) and 0.0 <= code < p[met + _MET.codes]):
         return
-    before = max(p[met + _MET.depth], 0.0)
-    first, last = int(before / BIN + 0.5), int(max(depth, 0.0) / BIN + 0.5)
+    depth = min(max(depth, 0.0), p[AT.bins] * BIN)
+    first, last = int(p[met + _MET.depth] / BIN + 0.5), int(depth / BIN + 0.5)
     for j in range(first, min(last, int(p[AT.bins]))):
-        p[_kept(p, 1, j)], p[_kept(p, 2, j)] = code, share
+        p[_of_bin(p, 1, j)], p[_of_bin(p, 2, j)] = code, share
     p[met + _MET.depth], p[met + _MET.code], p[met + _MET.share] = depth, code, share
 
 
@@ -569,7 +579,7 @@ def carry(old: FloatArray, new: FloatArray) -> None:
         e, end = _edge(old, j), (depth - tip * BIN if j == tip else BIN)
         f0, f1, f2 = _tissue(old, j, 0.0, end)
         if _in_field(new):
-            new[_kept(new, 0, j)] = f0 / end if end > 0.0 else 0.0
+            new[_of_bin(new, 0, j)] = f0 / end if end > 0.0 else 0.0
             share = old[_drag(old, j) + _DRAG.share] if moves(old) else 0.0
             new[_drag(new, j) + _DRAG.share] = share
         det = f0 * f2 - f1 * f1
