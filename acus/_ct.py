@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray
 from app.core.errors import ConfigurationError, NumericalError
+from app.core.messages import sentence
 from app.imaging.interpolation import Interpolation
 from app.imaging.volume import Volume as ProgramVolume
 
@@ -123,9 +124,17 @@ def slice_plane(
 
     if interpolation not in set(Interpolation):
         valid = ", ".join(Interpolation)
-        raise ConfigurationError(f"no interpolation {interpolation!r}; valid names: {valid}")
+        raise ConfigurationError(
+            sentence(
+                "no interpolation {interpolation!r}; valid names: {valid}",
+                interpolation=interpolation,
+                valid=valid,
+            )
+        )
     if not (isfinite(pixel_mm) and pixel_mm > 0.0):
-        raise NumericalError(f"pixel_mm is {pixel_mm}; it must be above 0")
+        raise NumericalError(
+            sentence("pixel_mm is {pixel_mm}; it must be above 0", pixel_mm=pixel_mm)
+        )
     frame = Frame.of(centre_mm, right, down)
     plane = Plane.centred(frame.origin_mm, frame.right, frame.down, pixel_mm, columns, rows)
     return oblique_image(

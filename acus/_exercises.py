@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from acus._records import Record, record_of, recording_of
+from app.core.messages import sentence
 from app.exercises.library import library, load_exercise
 from app.exercises.schema import Exercise
 
@@ -75,7 +76,8 @@ def try_exercise(exercise: Exercise | str | Path, skill: str = "expert", seed: i
     """
     from app.compose.exercise_ct import read_ct
     from app.compose.exercise_field import resolve_tissue
-    from app.compose.trial import attempt, risks_of, tissues_of, trial_plan
+    from app.compose.skill_scores import risks_of, tissues_of
+    from app.compose.trial import attempt, trial_plan
     from app.exercises.parts import LayersFrom
     from app.exercises.scene import device_of, placed_plan_of
     from app.exercises.tissue import with_tissue
@@ -89,7 +91,14 @@ def try_exercise(exercise: Exercise | str | Path, skill: str = "expert", seed: i
     chosen, _ = resolve_tissue(chosen, placed, tissues)
     result = attempt(chosen, placed, skill, seed, risks_of(chosen), tissues=tissues)
     if result.recording is None:
-        raise SessionError(f"the attempt at {chosen.id} by {skill}, seed {seed}, left no samples")
+        raise SessionError(
+            sentence(
+                "the attempt at {chosen_id} by {skill}, seed {seed}, left no samples",
+                chosen_id=chosen.id,
+                skill=skill,
+                seed=seed,
+            )
+        )
     record = record_of(result.recording)
     return Trial(chosen.id, skill, seed, record, result.score, result.unscored)
 
@@ -112,7 +121,11 @@ def score(record: Record, exercise: Exercise | str | Path | None = None) -> Scor
 
     recording = recording_of(record)
     if state_of(recording) not in {state.value for state in FINAL}:
-        raise SessionError(f"{record.id} was not finished: only ended attempts are scored")
+        raise SessionError(
+            sentence(
+                "{record_id} was not finished: only ended attempts are scored", record_id=record.id
+            )
+        )
     path = recording.trajectory()
     if exercise is None:
         return scored(path, *judged_by(recording, written_score(recording)[0]))

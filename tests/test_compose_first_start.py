@@ -64,4 +64,23 @@ def test_the_process_ends_with_whoever_started_it():
         COMMAND, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, env=environment()
     ) as child:
         child.stdin.close()
-        assert child.wait(60) == 1
+        assert child.wait(60) == first_start.PARENT_ENDED == 75
+
+
+@pytest.mark.long("journey")
+@pytest.mark.timeout(1200)  # two cores may be busy
+def test_a_first_start_fills_an_empty_cache_and_compiles_about_what_its_bar_goes_by(tmp_path):
+    """One kernel a line; the second start finds the file that says so, and compiles none."""
+    surroundings = environment(ACUS_CACHE=str(tmp_path))
+    surroundings.pop("NUMBA_CACHE_DIR", None)
+    lines = []
+    for _ in range(2):
+        with subprocess.Popen(
+            COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=surroundings
+        ) as child:
+            lines.append(child.stdout.read().count(b"\n"))
+            assert child.wait() == 0
+        (complete,) = tmp_path.glob("kernels/*/rehearsed-*")
+        assert list(complete.parent.rglob("*.nbc"))
+    assert 0.75 <= lines[0] / first_start.ABOUT <= 1.25
+    assert lines[1] == 0

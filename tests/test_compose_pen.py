@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from app.compose.needle_sources import needle_source
 from app.compose.pen import Pen, joint_angles, without_force
 from app.compose.trainer import TrainerSetup, build_rig, replay_recording
 from app.core import state_vector as sv
@@ -31,7 +32,7 @@ class Bench:
         placed = placed_plan_of(exercise, device_of(exercise), PLAN)
         setup = TrainerSetup(
             exercise, placed, skill=skill, seed=seed, sessions=folder, clock=self.clock,
-            pen=PenSettings(),
+            source=needle_source("pen", "simulated"),
         )  # fmt: skip
         self.rig = build_rig(setup)
         self.trainer, self.tracker = self.rig.trainer, self.rig.tracker
@@ -97,7 +98,7 @@ def test_the_loop_shows_the_needle_where_the_pen_is(bench):
     snapshot = bench.step(2.5)  # half a second of a hand's movement; then the rate has settled
     assert snapshot.pose.valid
     row = bench.rig.loop.latest().row
-    truth = bench.rig.pen.scene(bench.rig.loop)(bench.clock.now())
+    truth = bench.rig.source.scene(bench.rig.loop)(bench.clock.now())
     assert np.linalg.norm(snapshot.pose.p_tip - truth.p_tip) < 3e-3
     shaft = truth.T_world_body.rotation[:, 2]
     assert np.linalg.norm(np.cross(snapshot.pose.axis, shaft)) < 0.02

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.compose.exercise_ct import load_risks
-from app.compose.trainer import _anonymous
+from app.compose.run_context import anonymous
 from app.exercises.errors import ExerciseError
 from app.exercises.library import load_exercise
 from app.exercises.parts import StructurePart
@@ -60,7 +60,7 @@ def test_what_cannot_be_measured_is_named(volume: Volume, file: Path, tmp_path: 
 
 
 def test_the_record_names_no_file_of_structures(file: Path) -> None:
-    text = _anonymous(exercise(file, vein=3.0)).model_dump_json()
+    text = anonymous(exercise(file, vein=3.0)).model_dump_json()
     assert "patient-x" not in text
     assert str(file.parent) not in text
     assert "vein" in text

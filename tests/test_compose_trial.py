@@ -7,16 +7,9 @@ import pytest
 
 from app.compose import trial
 from app.compose.exercise_ct import load_risks
+from app.compose.skill_scores import SkillOutcome, ordered_seeds, ordered_share, run_trial
 from app.compose.trainer import TrainerSetup, build_loop, pictures_of
-from app.compose.trial import (
-    SkillOutcome,
-    Trials,
-    attempt,
-    ordered_seeds,
-    ordered_share,
-    run_trial,
-    trial_plan,
-)
+from app.compose.trial import Trials, attempt, trial_plan
 from app.core import paths
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
@@ -401,14 +394,14 @@ def test_attempts_are_kept_and_judged_by_bands_that_came_later(tmp_path, monkeyp
 def test_the_command_prints_a_row_for_each_skill_and_the_same_as_json(monkeypatch):
     from typer.testing import CliRunner
 
-    import app.compose.trial as trials
     from app.commands import exercise as command
+    from app.compose import skill_scores
 
     def quick(exercise, seeds, risks=(), progress=None):
         one = SkillOutcome("novice", (40.0, 50.0, 60.0), (False, False, True), 24.0)
         return one, SkillOutcome("expert", (90.0, 95.0, 99.0), (True, True, True), 12.0)
 
-    monkeypatch.setattr(trials, "run_trial", quick)
+    monkeypatch.setattr(skill_scores, "run_trial", quick)
     shown = CliRunner().invoke(command.app, ["trial", "first-insertion"])
     assert shown.exit_code == 0, shown.output
     assert "novice         50.0   45.0  55.0    33 %   24 s" in shown.output

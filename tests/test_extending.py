@@ -3,6 +3,7 @@
 Each example is taken from the page, saved in the user's own folder, and used.
 """
 
+import os
 import re
 import subprocess
 import sys
@@ -12,7 +13,7 @@ import numpy as np
 import pytest
 import yaml
 from device.law_rig import pose
-from extending_page import example, sections
+from extending_page import PAGE, example, sections
 from imaging.dicom_factory import Slices
 from scoring_attempts import Attempt
 
@@ -48,6 +49,27 @@ def test_every_how_to_of_the_page_has_a_test():
     missing = [name for name in sections() if f'"{name}"' not in text]
     assert missing == []
     assert all((ROOT / path).is_file() for path in TESTED_ELSEWHERE.values())
+
+
+def test_the_folder_of_plugins_that_the_page_makes_is_listed(tmp_path):
+    text = PAGE.read_text(encoding="utf-8").split("\n## Folders of plug-ins")[1]
+    commands = re.search(r"```sh\n(.*?)```", text, re.DOTALL)
+    name, code = example("How to add an effect")
+    path = tmp_path / "acus_mine" / "effects" / name
+    path.parent.mkdir(parents=True)
+    path.write_text(code, encoding="utf-8")
+    acus = f'set -e\nacus() {{ "{sys.executable}" -m app "$@"; }}\n'
+    done = subprocess.run(
+        ["bash", "-c", acus + commands[1]],
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=120,
+    )
+    assert "✔ effect hand_tremor: Shaking side force" in done.stdout
+    assert (tmp_path / "acus_mine" / "exercises").is_dir()
 
 
 @pytest.mark.long("journey")

@@ -1,12 +1,14 @@
 """Files of others that cannot be used are named with file, line and reason, whatever their kind."""
 
 import json
+import sys
 
 import pytest
 from typer.testing import CliRunner
 
 from app.commands import build
 from app.compose.plugins import plugin_files, refused_files
+from app.core import plugin_folders
 
 KINDS = {
     "laws": "force law",
@@ -14,6 +16,7 @@ KINDS = {
     "metrics": "metric",
     "extractors": "marker extractor",
     "remedies": "CT remedy",
+    "needle_sources": "needle source",
     "studies": "study",
 }
 BROKEN = {
@@ -28,6 +31,19 @@ def folders(monkeypatch, tmp_path):
         (tmp_path / folder).mkdir()
         monkeypatch.setenv(f"ACUS_{folder.upper()}", str(tmp_path / folder))
     return tmp_path
+
+
+@pytest.fixture
+def feature(monkeypatch, tmp_path):
+    """File of a feature in a folder of plug-ins."""
+    folder = tmp_path / "acus_other"
+    (folder / "features").mkdir(parents=True)
+    (folder / "__init__.py").touch()
+    monkeypatch.setenv("ACUS_PLUGINS", str(folder))
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    plugin_folders.folders.cache_clear()
+    yield folder / "features" / "lamp.py"
+    plugin_folders.folders.cache_clear()
 
 
 @pytest.mark.parametrize("folder", KINDS)
@@ -48,6 +64,26 @@ def test_a_file_that_has_the_name_of_another_is_refused(folders):
     (found,) = refused_files()
     assert found.path == path
     assert "is a name of the program's own; rename the file" in found.refused
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        (
+            "DECLARATION = {'title': 'Lamp', 'after': 'lantern'}\nFEATURE = 1\n",
+            "'lantern'; valid are",
+        ),
+        ("DECLARATION = {'title': 'Lamp'}\nFEATURE = 1\n", "after is None; valid are"),
+        ("DECLARATION = {'title': 'Lamp', 'after': 'plan'}\n", "must define FEATURE"),
+        ("DECLARATION = {'title': 'Lamp', 'after': 'position'}\nFEATURE = 1\n", ""),
+    ],
+)
+def test_a_feature_that_the_window_would_leave_out_is_named(feature, text, reason):
+    feature.write_text(text)
+    (listed,) = plugin_files()
+    assert listed.path == feature
+    assert reason in listed.refused
+    assert bool(listed.refused) == bool(reason)
 
 
 def test_the_list_ends_with_code_3_where_a_file_is_refused_and_with_0_where_none_is(folders):

@@ -1,8 +1,9 @@
 """Words that a stranger stumbles over grow no more."""
 
 import ast
+from collections import Counter
 
-from tools.words import count, risen, words_in
+from tools.words import count, lowered, risen, unmarked_in, words_in
 
 
 def test_no_refused_word_is_there_more_often_than_before():
@@ -30,3 +31,29 @@ def test_names_at_borders_docstrings_without_a_verb_and_texts_are_seen():
         "name: why",
         "text: counts for nobody",
     ]
+
+
+def test_what_is_written_is_never_more_than_before():
+    counts = Counter({"name: one": 5, "name: told": 2, "name: why": 1})
+    before = {"name: one": 3, "name: told": 4, "text: anew": 2}
+    assert lowered(counts, before) == {"name: one": 3, "name: told": 2}
+
+
+def test_a_raise_below_the_window_that_nobody_can_translate_is_seen():
+    wrong = (
+        'raise DeviceError(f"{path} is busy")',
+        'raise DeviceError("the port is busy")',
+        'raise DeviceError("%s is busy" % path)',
+        'raise DeviceError("{} is busy".format(path))',
+        'raise DeviceError("busy: " + path if busy else f"{path} is gone")',
+        'raise CarryError(MISSED, f"{path} is busy")',
+    )
+    right = (
+        'raise DeviceError(sentence("{path} is busy", path=path))',
+        "raise DeviceError(message)",
+        'raise AttributeError(f"no attribute {name}")',
+        'raise self.wrong(f"{key}.data", value)',
+        "raise",
+    )
+    assert [list(unmarked_in(ast.parse(code))) for code in wrong] == [[1]] * len(wrong)
+    assert [list(unmarked_in(ast.parse(code))) for code in right] == [[]] * len(right)

@@ -8,9 +8,7 @@ result for whoever needs it next. A cache that was filled by this program before
     python -m tools.compile_kernels
 """
 
-import hashlib
 import os
-import sys
 import time
 from collections.abc import Mapping, Set
 from concurrent.futures import FIRST_COMPLETED, Executor, ProcessPoolExecutor, wait
@@ -72,19 +70,10 @@ def main() -> None:
 
 
 def _filled() -> Path:
-    """File in the cache that says that it holds every kernel of these sources, parts and tool.
+    """File in the cache that says that it holds every kernel of these sources, parts and tool."""
+    from app.core.compiled import complete_file
 
-    Numba keeps what was compiled apart by the folder of its source: another copy of the program,
-    equal to the last byte, finds none of it.
-    """
-    import numba
-
-    from app.core import compiled
-
-    place = str(Path(compiled.__file__).resolve()).encode()
-    tool = hashlib.sha256(Path(__file__).read_bytes() + place).hexdigest()[:8]
-    made_by = f"{sys.version_info.major}.{sys.version_info.minor}-numba-{numba.__version__}-{tool}"
-    return Path(os.environ["NUMBA_CACHE_DIR"]) / f"filled-{made_by}"
+    return complete_file("filled", Path(__file__).read_bytes())
 
 
 if __name__ == "__main__":

@@ -8,14 +8,19 @@ asks of the copy, in processes of its own, that
   `acus exercise list` lists them,
 - no file of `app` or `acus` names what is gone: a module, a folder, a file.
 
-`--tests [PATH ...]` runs the tests, or those of some paths, that do not concern that part either.
-Ends with code 3 where something is named or does not work. The copy stays, so that its kernels are
-compiled once.
+Several names are asked for one after the other, all parts without a name. `--tests [PATH ...]` runs
+the tests, or those of some paths, that do not concern that part either. Ends with code 3 where
+something is named or does not work.
+
+Every copy lies in the same place, one at a time, and their kernels are kept together: they are
+those of the checkout but for what is left out, and compiled once for all parts.
 """
 
 from __future__ import annotations
 
 import argparse
+import ast
+import contextlib
 import os
 import re
 import shutil
@@ -27,6 +32,7 @@ from pathlib import Path
 from typing import Final
 
 from app.core import paths
+from app.core.compiled import kernels_digest
 from app.core.exits import Exit
 
 ROOT: Final = Path(__file__).resolve().parents[1]
@@ -66,10 +72,12 @@ PARTS: Final[Mapping[str, Part]] = {
             *("app/tracking/pen", "app/tracking/simulated/pen.py"),
             *("app/tracking/simulated/pen_scene.py", "app/views/pen", "app/commands/pen.py"),
             *("app/compose/pen.py", "app/compose/live_pen.py", "app/studies/pen.py"),
+            *("app/compose/needle_sources/pen.py", "app/device/links/pen.py"),
             *("app/studies/hard_cases/pen.py", "resources/pens", "docs/pen.md"),
             *("tests/**/*_pen.py", "tests/**/test_*_pen_*.py", "tools/pen_pictures.py"),
+            *("tests/hard/defects/pen.py", "tests/tracking/pen_rig.py"),
         ),
-        words=(r"Pen(?:Tracker|Settings|Profile|Tip|Port|Observation|Step|Scene)", "LivePen"),
+        words=(r"Pen(?:Tracker|Settings|Profile|Tip|Port|Link|Error|Step|Scene)", "LivePen"),
     ),
     "studies": Part(
         (
@@ -171,21 +179,67 @@ def pattern_of(part: Part, left_out: list[str]) -> re.Pattern[str]:
             package, last = ".".join(dotted[:-1]), dotted[-1]
             names.append(rf"\b{re.escape('.'.join(dotted))}\b")
             names.append(rf"\bfrom {re.escape(package)} import .*\b{last}\b")
-            names.append(re.escape(path))
+            names.append(rf"\b{re.escape(path)}\b")
         elif top == "resources" and "." in path:
             names.append(rf"[\"'/ ]{re.escape(stem)}(?:\.\w+)?[\"']")
     return re.compile("|".join(names))
 
 
 def naming(folder: Path, pattern: re.Pattern[str], rooms: tuple[str, ...]) -> Iterator[str]:
-    """Yield `file:line: text` of every line of some folders that a pattern is in."""
+    """Yield `file:line: text` of every line of some folders that a pattern is in.
+
+    Of Python also what no single line says: an import of several lines or of `.`, and a text in
+    several pieces.
+    """
     for path in sorted(path for room in rooms for path in (folder / room).rglob("*")):
-        if path.suffix in _TEXTS and path.is_file():
-            lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
-            for number, line in enumerate(lines, 1):
-                if pattern.search(line):
-                    where = path.relative_to(folder).as_posix()
-                    yield f"{where}:{number}: {line.strip()[:120]}"
+        if path.suffix not in _TEXTS or not path.is_file():
+            continue
+        text, where = path.read_text(encoding="utf-8", errors="replace"), path.relative_to(folder)
+        lines = text.splitlines()
+        numbers = {number for number, line in enumerate(lines, 1) if pattern.search(line)}
+        if path.suffix == ".py":
+            with contextlib.suppress(SyntaxError):  # its lines alone, then
+                meant = spelled(ast.parse(text), where.with_suffix("").parts)
+                numbers |= {number for words, number in meant if pattern.search(words)}
+        for number in sorted(numbers):
+            yield f"{where.as_posix()}:{number}: {lines[number - 1].strip()[:120]}"
+
+
+def spelled(tree: ast.AST, module: tuple[str, ...]) -> Iterator[tuple[str, int]]:
+    """Yield what a module imports, by full names, and its texts and paths as they are joined.
+
+    Args:
+        tree: of the module.
+        module: parts of its own name; the last of a package is `__init__`.
+
+    Yields:
+        Words, and the line on which they stand or begin.
+    """
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom):
+            above = module[: len(module) - node.level] if node.level else ()
+            package = ".".join((*above, *filter(None, [node.module])))
+            yield package, node.lineno
+            for alias in node.names:
+                yield f"{package}.{alias.name}", alias.lineno
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            yield node.value, node.lineno
+        elif isinstance(node, ast.BinOp | ast.Tuple | ast.List | ast.Call):
+            pieces = _pieces(node)
+            yield from ((sign.join(pieces), node.lineno) for sign in "/." if len(pieces) > 1)
+
+
+def _pieces(node: ast.AST) -> list[str]:
+    """Return the texts that a path, a sum, a tuple or a call's arguments are made of, in order."""
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        return [node.value]
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div):
+        return _pieces(node.left) + _pieces(node.right)
+    if isinstance(node, ast.Tuple | ast.List):
+        return [piece for each in node.elts for piece in _pieces(each)]
+    if isinstance(node, ast.Call):
+        return [piece for each in node.args for piece in _pieces(each)]
+    return []
 
 
 def tests_left(folder: Path, part: Part, pattern: re.Pattern[str], asked: list[str]) -> list[str]:
@@ -218,40 +272,54 @@ def tests_left(folder: Path, part: Part, pattern: re.Pattern[str], asked: list[s
 
 def _run(folder: Path, *arguments: str) -> int:
     """Run Python in a copy, with data, settings and cache of its own; return how it ended."""
-    own = {f"ACUS_{name.upper()}": str(folder.parent / name) for name in ("data", "settings")}
-    environment = (
-        os.environ
-        | own
-        | {
-            "ACUS_CACHE": str(folder.parent / "cache"),
-            "PYTHONPATH": str(folder),
-            "QT_QPA_PLATFORM": "offscreen",
-        }
-    )
-    environment.pop("NUMBA_CACHE_DIR", None)
+    own = {name: folder.parent / name for name in ("data", "settings", "cache")}
+    environment = os.environ | {f"ACUS_{name.upper()}": str(own[name]) for name in own}
+    environment |= {
+        "PYTHONPATH": str(folder),
+        "QT_QPA_PLATFORM": "offscreen",
+        "NUMBA_CACHE_DIR": str(folder.parent / "kernels" / kernels_digest()),
+    }
     command = [sys.executable, *arguments]
     return subprocess.run(command, cwd=folder, env=environment, check=False).returncode
 
 
-def main() -> int:
-    """Copy, ask, look, and say what is wrong."""
-    parser = argparse.ArgumentParser(prog="python -m tools.without", description=__doc__)
-    parser.add_argument("name", choices=tuple(PARTS))
-    parser.add_argument("--tests", nargs="*", metavar="PATH", help="run tests of the copy too")
-    given = parser.parse_args()
-    part, folder = PARTS[given.name], paths.cache() / "without" / given.name / "acus"
+def goes_on(name: str, place: Path, tests: list[str] | None = None) -> bool:
+    """Copy, ask and look; print what is wrong, and return whether nothing is.
+
+    Args:
+        name: of the part.
+        place: folder for the copy and its kernels.
+        tests: paths of tests to run too, empty for all; None runs none.
+    """
+    part, folder = PARTS[name], place / "acus"
+    earlier = [kernels for kernels in place.glob("kernels/*") if kernels.name != kernels_digest()]
+    for leftover in (*(place / kind for kind in ("data", "settings", "cache")), *earlier):
+        shutil.rmtree(leftover, ignore_errors=True)
     left_out = copied(part, folder)
     print(f"{folder}: without {', '.join(left_out)}", flush=True)
     pattern = pattern_of(part, left_out)
     named = list(naming(folder, pattern, ("app", "acus", "resources")))
     print("\n".join(named) or "nothing names what is gone", flush=True)
     ended = [_run(folder, "-P", "-c", IMPORTS), _run(folder, "-P", "-c", ANSWERS)]
-    if given.tests is not None:
-        tests = tests_left(folder, part, pattern, given.tests)
-        print(f"{len(tests)} files of tests", flush=True)
+    if tests is not None:
+        files = tests_left(folder, part, pattern, tests)
+        print(f"{len(files)} files of tests", flush=True)
         options = ("-q", "-m", "not bench and not display and not long", "-p", "no:xdist")
-        ended.append(_run(folder, "-m", "pytest", *options, *tests))
-    return Exit.NO if named or any(ended) else Exit.DONE
+        ended.append(_run(folder, "-m", "pytest", *options, *files))
+    return not (named or any(ended))
+
+
+def main() -> int:
+    """Ask of every part that is named."""
+    parser = argparse.ArgumentParser(prog="python -m tools.without", description=__doc__)
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(PARTS))
+    parser.add_argument("--tests", nargs="*", metavar="PATH", help="run tests of the copy too")
+    given = parser.parse_args()
+    if unknown := [name for name in given.names if name not in PARTS]:
+        parser.error(f"there is no part {unknown[0]!r}; there are {', '.join(PARTS)}")
+    place = paths.cache() / "without"
+    fine = [goes_on(name, place, given.tests) for name in given.names or PARTS]
+    return Exit.DONE if all(fine) else Exit.NO
 
 
 if __name__ == "__main__":

@@ -3,9 +3,10 @@
     python -m tools.words [--list] [--write]
 
 Looked at are names that cross a function's border (functions, parameters, attributes and fields),
-the first word of a function's docstring, which is a verb, and literal texts of the window. What is
-there now stands in tools/words.yaml: a count that rises ends with code 3, one that falls is written
-by `--write`. docs/vocabulary.md says which words to use.
+the first word of a function's docstring, which is a verb, literal texts of the window, and raises
+below the window whose text is no `core.messages.sentence`, so that nobody can translate it. What is
+there now stands in tools/words.yaml: a count that rises ends with code 3 and is never written; one
+that falls is, by `--write`. docs/vocabulary.md says which words to use.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import ast
 import re
 import sys
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import yaml
@@ -31,6 +32,15 @@ NO_VERBS = frozenset(("How", "What", "When", "Where", "Whether", "Which", "Who",
 
 PHRASES = ("beside the window", "anew", "counts for nobody", "tells of", "is said")
 """A native speaker says it otherwise."""
+
+
+NOT_FOR_PEOPLE = frozenset(
+    (
+        *("AttributeError", "Cancelled", "ConstructorError", "Exit", "PydanticCustomError"),
+        *("FileExistsError", "FileNotFoundError", "OSError", "SystemExit"),
+    )
+)
+"""Errors whose texts are the system's, a library's, or nobody's."""
 
 
 def words_in(tree: ast.AST) -> Iterator[tuple[str, int]]:
@@ -58,6 +68,41 @@ def words_in(tree: ast.AST) -> Iterator[tuple[str, int]]:
                 yield f"name: {name.strip('_')}", node.lineno
 
 
+def templates_in(tree: ast.AST) -> Iterator[tuple[str, int]]:
+    """Yield the template of each `sentence("…")` of a module, with its line."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and ast.unparse(node.func) == "sentence" and node.args:
+            first = node.args[0]
+            if not isinstance(first, ast.Constant) or not isinstance(first.value, str):
+                raise ValueError(f"line {node.lineno}: the template of a sentence is no literal")
+            yield first.value, node.lineno
+
+
+def unmarked_in(tree: ast.AST) -> Iterator[int]:
+    """Yield the line of each raise whose text is an f-string, is formatted, or a bare literal."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call):
+            kind = ast.unparse(node.exc.func).rpartition(".")[2]
+            if kind not in NOT_FOR_PEOPLE and any(map(_is_bare, node.exc.args)):
+                yield node.lineno
+
+
+def _is_bare(text: ast.expr) -> bool:
+    """Return whether an argument is a text of several words that nothing marks."""
+    if isinstance(text, ast.IfExp):
+        return _is_bare(text.body) or _is_bare(text.orelse)
+    if isinstance(text, ast.BoolOp):
+        return any(map(_is_bare, text.values))
+    if isinstance(text, ast.BinOp):
+        return _is_bare(text.left) or (isinstance(text.op, ast.Add) and _is_bare(text.right))
+    if isinstance(text, ast.Call):
+        formats = isinstance(text.func, ast.Attribute) and text.func.attr == "format"
+        return formats and _is_bare(text.func.value)  # type: ignore[attr-defined]
+    parts = text.values if isinstance(text, ast.JoinedStr) else [text]
+    literals = (part.value for part in parts if isinstance(part, ast.Constant))
+    return any(isinstance(each, str) and " " in each.strip() for each in literals)
+
+
 def _parameters(arguments: ast.arguments) -> Iterator[ast.arg]:
     yield from (*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs)
     yield from filter(None, (arguments.vararg, arguments.kwarg))
@@ -76,15 +121,35 @@ def count(root: Path = ROOT) -> tuple[Counter[str], list[str]]:
     counts: Counter[str] = Counter()
     places = []
     for path in (file for room in ("app", "acus") for file in sorted((root / room).rglob("*.py"))):
-        for word, line in words_in(ast.parse(path.read_text(encoding="utf-8"))):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        words = list(words_in(tree))
+        if path.is_relative_to(root / "app") and not path.is_relative_to(root / "app" / "views"):
+            words += [("raise: no sentence", line) for line in unmarked_in(tree)]
+        for word, line in words:
             counts[word] += 1
             places.append(f"{path.relative_to(root)}:{line}: {word}")
     return counts, places
 
 
+def lowered(counts: Counter[str], allowed: Mapping[str, int]) -> dict[str, int]:
+    """Return the counts to be stored: the lower one of now and before; without those at zero."""
+    lowest = {word: min(counts[word], number) for word, number in sorted(allowed.items())}
+    return {word: number for word, number in lowest.items() if number > 0}
+
+
+def _allowed() -> dict[str, int]:
+    return yaml.safe_load(COUNTS.read_text(encoding="utf-8")) or {}
+
+
+def templates(root: Path = ROOT) -> list[str]:
+    """Return the template of every sentence of the program, in the order of its files."""
+    trees = (ast.parse(file.read_text(encoding="utf-8")) for file in (root / "app").rglob("*.py"))
+    return [template for tree in trees for template, _ in templates_in(tree)]
+
+
 def risen(counts: Counter[str]) -> list[str]:
     """Return a sentence for each word that is there more often than tools/words.yaml says."""
-    allowed = yaml.safe_load(COUNTS.read_text(encoding="utf-8")) or {}
+    allowed = _allowed()
     return [
         f"{word!r} is there {number} times, {allowed.get(word, 0)} before: see docs/vocabulary.md"
         for word, number in sorted(counts.items())
@@ -96,15 +161,17 @@ def main() -> int:
     """Print the counts; return 3 where one has risen."""
     parser = argparse.ArgumentParser(prog="python -m tools.words", description=__doc__)
     parser.add_argument("--list", action="store_true", help="name each place")
-    parser.add_argument("--write", action="store_true", help="keep the counts of now")
+    parser.add_argument("--write", action="store_true", help="store counts that have fallen")
     options = parser.parse_args()
     counts, places = count()
     if options.list:
         print(*places, sep="\n")
     if options.write:
-        COUNTS.write_text("".join(f"'{word}': {n}\n" for word, n in sorted(counts.items())))
+        lines = (f"'{word}': {number}\n" for word, number in lowered(counts, _allowed()).items())
+        COUNTS.write_text("".join(lines), encoding="utf-8")
     sentences = risen(counts)
     print(*sentences, f"{sum(counts.values())} words that {COUNTS.name} counts", sep="\n")
+    print(f"{len(templates())} texts below the window keep their template and values")
     return 3 if sentences else 0
 
 

@@ -12,6 +12,7 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray, angle_between, cross, frozen, read_only, unit
+from app.core.messages import sentence
 from app.core.rotation import rotation_exp
 from app.core.units import DEGREE
 from app.mechanisms.errors import MechanismError
@@ -82,8 +83,12 @@ class SceneBox:
         if down < np.cos(FLATTEST) - 1e-12:
             lean = np.degrees(np.arccos(np.clip(down, -1.0, 1.0)))
             raise MechanismError(
-                f"the path leans {lean:.0f}° from straight down; a tool goes through the skin up"
-                f" to {FLATTEST / DEGREE:.0f}°"
+                sentence(
+                    "the path leans {lean:.0f}° from straight down; a tool goes through the skin "
+                    "up to {flattest_deg:.0f}°",
+                    lean=lean,
+                    flattest_deg=FLATTEST / DEGREE,
+                )
             )
         aside = (float(p_world[2]) - self.low[2]) * float(np.hypot(axis[0], axis[1])) / down
         return replace(self, hole=max(self.hole, aside + radius / down + _AROUND))

@@ -42,6 +42,7 @@ from app.arm.scene import (
 )
 from app.core.arrays import FloatArray, angle_between, frozen
 from app.core.files import write_atomically
+from app.core.messages import sentence, sentence_of
 from app.core.progress import Progress
 from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
@@ -165,7 +166,9 @@ def look(
     watching = ToolEyes(models=models or cameras(), outline=outline, noise_grey=NOISE)
     found, ring = watching.tool(pair), watching.trocar(pair)
     if isinstance(found, ToolMiss):
-        raise CarryError(CarryFailure.NOT_SEEN, f"the eyes find no tool: {found.reason}")
+        raise CarryError(
+            CarryFailure.NOT_SEEN, sentence("the eyes find no tool: {reason}", reason=found.reason)
+        )
     axis = found.tip_axis_world
     if found.status is not ToolStatus.FOUND or axis is None or not found.whole:
         why = (
@@ -173,19 +176,30 @@ def look(
             if found.status is not ToolStatus.FOUND
             else ("its tip cannot be told" if axis is None else "a picture's edge cuts it")
         )
-        raise CarryError(CarryFailure.NOT_SEEN, f"the eyes do not know where the tool lies: {why}")
+        raise CarryError(
+            CarryFailure.NOT_SEEN,
+            sentence("the eyes do not know where the tool lies: {reason}", reason=why),
+        )
     known = float(np.sqrt(np.linalg.eigvalsh(found.covariance[:3, :3])[-1]))
     if known > SURE:
         raise CarryError(
             CarryFailure.NOT_SEEN,
-            f"the eyes know the tool's place to {known / MILLIMETRE:.1f} mm only,"
-            f" {SURE / MILLIMETRE:g} mm are needed; turn the tool, or move a camera out of its"
-            " line",
+            sentence(
+                "the eyes know the tool's place to {known_mm:.1f} mm only,"
+                " {sure_mm:g} mm are needed; turn the tool, or move a camera out of its"
+                " line",
+                known_mm=known / MILLIMETRE,
+                sure_mm=SURE / MILLIMETRE,
+            ),
         )
     if ring.status is not TrocarStatus.FOUND:
         raise CarryError(
             CarryFailure.NOT_SEEN,
-            f"the eyes find no trocar: {ring.status}; let arm and cameras stand elsewhere round it",
+            sentence(
+                "the eyes find no trocar: {ring_status}; let arm and cameras stand elsewhere "
+                "round it",
+                ring_status=ring.status,
+            ),
         )
     tool = SeenTool(found.p_world + (scene.tool.grip - outline.centre()) * axis, axis)
     true_axis = T_world_tool.rotate([0.0, 0.0, 1.0])
@@ -403,14 +417,22 @@ def carry_out(
     if not 0.0 < deep <= DEEPEST:
         raise CarryError(
             CarryFailure.UNREACHABLE,
-            f"the arm would have to insert its tool by {deep / MILLIMETRE:.0f} mm; up to"
-            f" {DEEPEST / MILLIMETRE:.0f} mm it can: choose an entry nearer to the target",
+            sentence(
+                "the arm would have to insert its tool by {deep_mm:.0f} mm; up to"
+                " {deepest_mm:.0f} mm it can: choose an entry nearer to the target",
+                deep_mm=deep / MILLIMETRE,
+                deepest_mm=DEEPEST / MILLIMETRE,
+            ),
         )
     if placed.tilt > FLATTEST:
         raise CarryError(
             CarryFailure.UNREACHABLE,
-            f"the path leans {placed.tilt / DEGREE:.0f}° from straight down; the arm inserts up to"
-            f" {FLATTEST / DEGREE:.0f}°: turn the patient, or choose a steeper path",
+            sentence(
+                "the path leans {placed_tilt_deg:.0f}° from straight down; the arm inserts up to"
+                " {flattest_deg:.0f}°: turn the patient, or choose a steeper path",
+                placed_tilt_deg=placed.tilt / DEGREE,
+                flattest_deg=FLATTEST / DEGREE,
+            ),
         )
 
     def standing(turned_deg: float) -> tuple[ArmScene, FloatArray, RigidTransform]:
@@ -433,7 +455,7 @@ def carry_out(
             other, towards, _ = standing(stands_deg + turn)
             if could_carry(other, towards, deep, check) and _could_see(other, seed):
                 could = (stands_deg + turn + 180.0) % 360.0 - 180.0
-                raise CarryError(error.failure, str(error), could) from error
+                raise CarryError(error.failure, sentence_of(error), could) from error
         raise
     return arm_run.performance(T_scene_world)
 

@@ -43,16 +43,28 @@ def _nouns() -> list[ModuleType]:
 
 
 def _register(added: ModuleType, root: typer.Typer) -> None:
-    """Add the commands of a plug-in; one of somebody else's that fails is refused."""
+    """Add the commands of a plug-in; one of somebody else's that fails is refused.
+
+    Its commands are built once apart: whether typer can make anything of them shows only then.
+    """
     path = Path(added.__file__ or "")
     folder = plugin_folders.folder_of(path)
-    try:
+    if folder is not None and folder.is_own:
         added.register(root)
-    except Exception as error:
-        if folder is not None and folder.is_own:
-            raise
-        reason = f"register() does not work: {type(error).__name__}: {error}"
-        plugin_folders.refused[path] = f"{path}: {reason}"
+        return
+    apart = Commands(name=root.info.name)
+    try:
+        added.register(apart)
+        if apart.registered_commands or apart.registered_groups:
+            typer.main.get_command(apart)
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # SystemExit too: whatever somebody's file does
+        text = f"{type(error).__name__}: {error}".rstrip(": ")
+        plugin_folders.refused[path] = f"{path}: register() does not work: {text}"
+        return
+    root.registered_commands += apart.registered_commands
+    root.registered_groups += apart.registered_groups
 
 
 def _print_version(wanted: bool) -> None:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from app.core.errors import AcusError
+from app.core.messages import sentence
 
 if TYPE_CHECKING:
     from app.device.commissioning.results import RoutineReport
@@ -32,10 +33,21 @@ def numbers(text: str, name: str, count: int) -> tuple[float, ...]:
         found = tuple(float(part) for part in text.split(","))
     except ValueError as error:
         raise AnswerError(
-            f"{name}: {text!r} are not numbers between commas, e.g. 20.5,51,102"
+            sentence(
+                "{name}: {text!r} are not numbers between commas, e.g. 20.5,51,102",
+                name=name,
+                text=text,
+            )
         ) from error
     if len(found) != count or not all(isfinite(value) for value in found):
-        raise AnswerError(f"{name}: {count} finite numbers are needed, got {text!r}")
+        raise AnswerError(
+            sentence(
+                "{name}: {count} finite numbers are needed, got {text!r}",
+                name=name,
+                count=count,
+                text=text,
+            )
+        )
     return found
 
 
@@ -62,7 +74,13 @@ class Answers:
             return self._prepared.pop(0)
         if self._confirm:
             if report.unit:
-                raise AnswerError(f"{routine.TITLE}: {report.needs}: give it with --readings")
+                raise AnswerError(
+                    sentence(
+                        "{routine_title}: {report_needs}: give it with --readings",
+                        routine_title=routine.TITLE,
+                        report_needs=report.needs,
+                    )
+                )
             return 0.0
         if not self._asked:
             self._asked = True
@@ -78,7 +96,7 @@ class Answers:
             return None
         self._asked = False
         if not line:
-            raise AnswerError("the input has ended before the routine; nothing was kept")
+            raise AnswerError(sentence("the input has ended before the routine; nothing was kept"))
         if not report.unit:
             return 0.0
         try:

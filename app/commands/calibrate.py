@@ -24,6 +24,7 @@ from app.commands.calibrate_parts import (
 )
 from app.commands.calibrate_parts import Images as Folder
 from app.commands.shown import Each
+from app.core.messages import sentence
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -139,7 +140,11 @@ def place_of(text: str) -> "RigidTransform":
         numbers = []
     if len(numbers) not in (3, 6) or not all(isfinite(number) for number in numbers):
         raise CalibrationError(
-            f"--at {text!r} is not {POSE}: millimetres and degrees, e.g. -60,180,90,180,0,0"
+            sentence(
+                "--at {text!r} is not {pose}: millimetres and degrees, e.g. -60,180,90,180,0,0",
+                text=text,
+                pose=POSE,
+            )
         )
     return place(*numbers)
 
@@ -178,8 +183,10 @@ def _calibration(history: Any, calibration_id: str | None) -> "StereoCalibration
     active: StereoCalibration | None = history.active()
     if active is None:
         raise CalibrationError(
-            "no calibration is in use: run `acus calibrate stereo --keep` first, or name one with "
-            "--calibration"
+            sentence(
+                "no calibration is in use: run `acus calibrate stereo --keep` first, or name one "
+                "with --calibration"
+            )
         )
     return active
 
@@ -253,8 +260,11 @@ def mono(
         typer.echo(f"skipped: {path.name}: its name says none of the two cameras", err=True)
     if out is not None and len(groups) != 1:
         raise ConfigurationError(
-            f"--out takes the lens of one camera; these pictures are of {', '.join(groups)}: "
-            "give a folder for each, or use `acus calibrate stereo`"
+            sentence(
+                "--out takes the lens of one camera; these pictures are of {groups}: "
+                "give a folder for each, or use `acus calibrate stereo`",
+                groups=", ".join(groups),
+            )
         )
     found = with_progress(work)
     if out is not None:
@@ -360,7 +370,7 @@ def _folder(images: Path | None) -> Path:
     from app.core.errors import ConfigurationError
 
     if images is None:
-        raise ConfigurationError("name the folder of the pictures: --images DIR")
+        raise ConfigurationError(sentence("name the folder of the pictures: --images DIR"))
     return images
 
 
@@ -380,7 +390,9 @@ def _paired(images: Path | None, left: str | None, right: str | None) -> "Paired
     from app.tracking.calibration.pictures import list_matching
 
     if (left is None) != (right is None) or (images is None) == (left is None):
-        raise ConfigurationError("name the pictures: either --images DIR, or --left and --right")
+        raise ConfigurationError(
+            sentence("name the pictures: either --images DIR, or --left and --right")
+        )
     if left is not None and right is not None:
         return pair_folders(list_matching(left), list_matching(right))
     return pair_folder(_folder(images))
@@ -392,7 +404,9 @@ def _second(images: Path | None, spec: str | None) -> "tuple[Sequence[Pair], Boa
     from app.tracking.calibration.pairing import pair_folder
 
     if (images is None) != (spec is None):
-        raise ConfigurationError("--check-images DIR and --check-board SPEC go together; give both")
+        raise ConfigurationError(
+            sentence("--check-images DIR and --check-board SPEC go together; give both")
+        )
     return (
         None if images is None or spec is None else (pair_folder(images).pairs, parse_board(spec))
     )
@@ -403,7 +417,9 @@ def _names(text: str) -> tuple[str, str]:
 
     parts = [part.strip() for part in text.split(",")]
     if len(parts) != 2 or not all(parts) or parts[0] == parts[1]:
-        raise ConfigurationError(f"--names {text!r} is not two names, e.g. left,right")
+        raise ConfigurationError(
+            sentence("--names {text!r} is not two names, e.g. left,right", text=text)
+        )
     return parts[0], parts[1]
 
 

@@ -9,6 +9,7 @@ from app.commands.answer import Answer
 from app.commands.calibrate_parts import app, lens_named
 from app.commands.shown import Each
 from app.core.errors import ConfigurationError
+from app.core.messages import sentence
 
 if TYPE_CHECKING:
     from app.tracking.calibration.history import CalibrationHistory, KeptCalibration
@@ -106,7 +107,9 @@ def export(
         files = list(ros_paths(out, calibration))
         write_ros(files[0], files[1], calibration)
     else:
-        raise ConfigurationError(f"--format {kind}: only yaml and ros can be written")
+        raise ConfigurationError(
+            sentence("--format {kind}: only yaml and ros can be written", kind=kind)
+        )
     written = [str(path) for path in files]
     return Answer({"id": calibration.id, "files": written}, shown="{id} written to {files}")
 
@@ -164,7 +167,7 @@ def board_(
     from app.views.cameras.board_page import write_board
 
     if out.suffix.lower() != ".pdf":
-        raise ConfigurationError(f"--out {out}: only .pdf can be written")
+        raise ConfigurationError(sentence("--out {out}: only .pdf can be written", out=out))
     known = parse_board(board)
     sheet = write_board(out, known, paper_named(paper))
     facts = {

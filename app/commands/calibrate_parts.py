@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 import typer
 
 from app.commands.answer import Commands, wants_json
+from app.core.messages import sentence
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -77,7 +78,11 @@ def lens_named(text: str | None) -> "LensModel | None":
         return None
     if text not in set(LensModel):
         raise ConfigurationError(
-            f"--lens {text!r}: there are {', '.join(LensModel)}; equidistant is the fisheye model"
+            sentence(
+                "--lens {text!r}: there are {lens_model}; equidistant is the fisheye model",
+                text=text,
+                lens_model=", ".join(LensModel),
+            )
         )
     return LensModel(text)
 

@@ -9,6 +9,7 @@ import typer
 
 from app.commands.answer import Answer, Commands
 from app.commands.shown import Each
+from app.core.messages import sentence
 
 if TYPE_CHECKING:
     from app.tracking.cameras.settings import CameraSettings
@@ -218,7 +219,9 @@ def _range(depths: str, tilt: float | None) -> dict[str, float]:
     try:
         lowest, highest = (float(part) for part in depths.split(","))
     except ValueError as error:
-        raise CameraError(f"{depths!r} is no range of depths; give for example -30,120") from error
+        raise CameraError(
+            sentence("{depths!r} is no range of depths; give for example -30,120", depths=depths)
+        ) from error
     return given | {"depth_min_mm": lowest, "depth_max_mm": highest}
 
 
@@ -227,7 +230,9 @@ def _size(text: str) -> tuple[int, int]:
 
     width, x, height = text.lower().partition("x")
     if not (x and width.isdecimal() and height.isdecimal()):
-        raise CameraError(f"{text!r} is no size of a picture; give for example 640x480")
+        raise CameraError(
+            sentence("{text!r} is no size of a picture; give for example 640x480", text=text)
+        )
     return int(width), int(height)
 
 
@@ -247,16 +252,24 @@ def _measure(side: str) -> None:
     from app.views.shell.application import NoDisplayError, start
 
     if side not in SIDES:
-        raise CameraError(f"there is no {side!r} camera; there are {' and '.join(SIDES)}")
+        raise CameraError(
+            sentence(
+                "there is no {side!r} camera; there are {sides}",
+                side=side,
+                sides=" and ".join(SIDES),
+            )
+        )
     settings = load_settings()
     if settings.simulated:
         raise CameraError(
-            "the cameras are simulated and have no latency to measure; choose real ones with "
-            "`acus camera use`"
+            sentence(
+                "the cameras are simulated and have no latency to measure; choose real ones with "
+                "`acus camera use`"
+            )
         )
     if os.environ.get("QT_QPA_PLATFORM") == "offscreen":
         raise NoDisplayError(
-            "the test needs a real screen that a camera can look at; there is none"
+            sentence("the test needs a real screen that a camera can look at; there is none")
         )
     application = start()
     dialog = LatencyDialog(settings, side, Desktop(), lambda: None)

@@ -10,6 +10,7 @@ from typer.core import TyperGroup
 from app.commands.answer import Answer, Commands
 from app.commands.shown import Each
 from app.core.errors import ConfigurationError
+from app.core.messages import sentence
 
 if TYPE_CHECKING:
     from app.core.progress import Progress
@@ -96,18 +97,22 @@ def point(
     """Print where a voxel lies, and its value. LPS in mm, Hounsfield; or of a file's pixel."""
     if (voxel is None) == (sop is None and pixel is None):
         raise ConfigurationError(
-            "name a point: either --voxel I,J,K, or --sop UID with --pixel COL,ROW"
+            sentence("name a point: either --voxel I,J,K, or --sop UID with --pixel COL,ROW")
         )
     if frame is not None and (sop is None or frame < 1):
-        raise ConfigurationError(f"--frame {frame}: frames count from 1 and go with --sop UID")
+        raise ConfigurationError(
+            sentence("--frame {frame}: frames count from 1 and go with --sop UID", frame=frame)
+        )
     _start_reader()
     source: dict[str, Any] = {"sop_uid": sop, "frame": frame or 1}
     if voxel is not None:
         lps_mm, hu, source = _voxel(folder, series, remedy, _integers(voxel, 3, "--voxel", "I,J,K"))
     elif remedy is not None:
-        raise ConfigurationError("--remedy goes with --voxel; a pixel lies where its file puts it")
+        raise ConfigurationError(
+            sentence("--remedy goes with --voxel; a pixel lies where its file puts it")
+        )
     elif sop is None or pixel is None:
-        raise ConfigurationError("--sop UID and --pixel COL,ROW go together; give both")
+        raise ConfigurationError(sentence("--sop UID and --pixel COL,ROW go together; give both"))
     else:
         lps_mm, hu = _pixel(
             folder, sop, _integers(pixel, 2, "--pixel", "COL,ROW"), (frame or 1) - 1
@@ -153,7 +158,7 @@ def path(
         str | None, typer.Option(help="SeriesInstanceUID, where several fit.")
     ] = None,
 ) -> Answer:
-    """Print what a straight path meets, tissue after tissue, and how sure that is."""
+    """Print what a straight path meets. Tissue after tissue, and how sure that is."""
     import numpy as np
 
     from app.commands.calibrate_parts import with_progress
@@ -305,7 +310,9 @@ def remedy_of(text: str | None) -> str:
 
     valid = [one.name for one in remedies()]
     if text is not None and text not in valid:
-        raise ConfigurationError(f"--remedy {text!r} is none of {', '.join(valid)}")
+        raise ConfigurationError(
+            sentence("--remedy {text!r} is none of {valid}", text=text, valid=", ".join(valid))
+        )
     return NO_REMEDY if text is None else text
 
 
@@ -327,8 +334,11 @@ def _box(text: str) -> "MaskBox":
         numbers = []
     if len(numbers) not in (4, 5):
         raise ConfigurationError(
-            f"--mask {text!r} is not COL,ROW,WIDTH,HEIGHT or COL,ROW,WIDTH,HEIGHT,PICTURE: four or "
-            "five whole numbers, no blanks"
+            sentence(
+                "--mask {text!r} is not COL,ROW,WIDTH,HEIGHT or COL,ROW,WIDTH,HEIGHT,PICTURE: "
+                "four or five whole numbers, no blanks",
+                text=text,
+            )
         )
     return MaskBox(*numbers)
 
@@ -345,7 +355,9 @@ def _voxel(
         limits = ", ".join(
             f"{name} 0 to {n - 1}" for name, n in zip("IJK", volume.size, strict=True)
         )
-        raise OutsideImageError(f"voxel {tuple(ijk)} is outside the series: {limits}")
+        raise OutsideImageError(
+            sentence("voxel {ijk} is outside the series: {limits}", ijk=tuple(ijk), limits=limits)
+        )
     i, j, k = ijk
     slices = volume.series.slices if not volume.made else ()
     header = slices[k] if len(slices) == volume.size[2] else None
@@ -400,7 +412,13 @@ def _integers(text: str, count: int, option: str, form: str) -> list[int]:
         numbers = []
     if len(numbers) != count:
         raise ConfigurationError(
-            f"{option} {text!r} is not {form}: {count} whole numbers, no blanks"
+            sentence(
+                "{option} {text!r} is not {form}: {count} whole numbers, no blanks",
+                option=option,
+                text=text,
+                form=form,
+                count=count,
+            )
         )
     return numbers
 

@@ -143,10 +143,10 @@ def _demonstration(name: str) -> ModuleType:
     raise AcusError(" ".join(plugin_folders.refused.values()))
 
 
-def _show_alone(other: ModuleType, seed: int, folder: Path) -> None:
+def _show_alone(demonstration: ModuleType, seed: int, folder: Path) -> None:
     from app.core.exits import Exit
 
-    failure = other.alone(seed, folder, typer.echo)
+    failure = demonstration.alone(seed, folder, typer.echo)
     typer.echo(f"pictures and report are in {folder}")
     if failure:
         typer.echo(failure)
@@ -165,6 +165,7 @@ def _show(
     leader: MakesLeader | None = None,
 ) -> None:
     from app.commands.session import tell_folder
+    from app.compose import needle_sources
     from app.compose.desktop import Desktop
     from app.core.exits import Exit
     from app.imaging.reading import choose
@@ -175,6 +176,8 @@ def _show(
     from app.views.shell.demonstration import Demonstration, DemonstrationScript
     from app.views.shell.window import open_window
 
+    if pen:
+        needle_sources.KIND.find("pen")
     if ct is not None:
         choose(scan_folder(ct))  # says here what a dialog would have to ask
     chosen = parse_cameras(cameras)

@@ -16,6 +16,7 @@ import typer
 from app.commands import completion
 from app.commands.answer import Answer, Commands, wants_json
 from app.commands.shown import Each
+from app.core.messages import sentence
 
 if TYPE_CHECKING:
     from app.commands.answers import Answers
@@ -196,7 +197,7 @@ def _wait_for_the_robot(bench: Bench) -> None:
     while bench.loop.latest().row[sv.Q_TIME] == 0.0:
         if bench.clock.now() > end:
             raise CommissioningError(
-                "the robot was greeted but sends no joint angles; see `acus device test`"
+                sentence("the robot was greeted but sends no joint angles; see `acus device test`")
             )
         bench.advance(0.05)
 

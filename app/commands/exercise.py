@@ -10,9 +10,10 @@ from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
 from app.commands.shown import Each
+from app.core.messages import sentence
 
 if TYPE_CHECKING:
-    from app.compose.trial import SkillOutcome
+    from app.compose.skill_scores import SkillOutcome
     from app.core.progress import Progress
     from app.exchange.acusx import PackageManifest, UnpackedExercise
 
@@ -99,7 +100,9 @@ def new(
 
     instructor()
     if ct is not None and plan is None:
-        raise ConfigurationError("--ct DIR needs --plan FILE: entry and target lie in that CT")
+        raise ConfigurationError(
+            sentence("--ct DIR needs --plan FILE: entry and target lie in that CT")
+        )
     document = exercise_document(load_exercise(like))
     document |= {"id": free_id(title, taken_ids()), "version": 1, "title": title}
     if plan is not None:
@@ -254,7 +257,7 @@ def trial(
 ) -> Answer:
     """Try an exercise: what five scripted skills score (instructor). Nothing is recorded."""
     from app.commands.calibrate_parts import with_progress
-    from app.compose.trial import ordered_seeds, ordered_share, risks_of, run_trial
+    from app.compose.skill_scores import ordered_seeds, ordered_share, risks_of, run_trial
     from app.exercises.library import load_exercise
 
     instructor()

@@ -7,6 +7,7 @@ import typer
 
 from app.commands.answer import Answer, Commands
 from app.commands.shown import Each
+from app.core.messages import sentence
 
 if TYPE_CHECKING:
     from app.core.arrays import FloatArray
@@ -107,7 +108,9 @@ def _target(text: str | None) -> "FloatArray":
     except ValueError:
         values = []
     if len(values) != 3 or not np.isfinite(values).all():
-        raise ConfigurationError(f"--target {text}: three numbers X,Y,Z in mm are needed")
+        raise ConfigurationError(
+            sentence("--target {text}: three numbers X,Y,Z in mm are needed", text=text)
+        )
     return np.array(values) * MILLIMETRE
 
 

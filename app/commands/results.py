@@ -10,6 +10,7 @@ from app.commands.answer import Answer, Commands
 from app.commands.doors import instructor
 from app.commands.people import Pseudonym
 from app.commands.shown import Each
+from app.core.messages import sentence
 
 if TYPE_CHECKING:
     from app.exchange.results import Results
@@ -129,9 +130,11 @@ def export(
 
     forms = [*(one.value for one in ResultsFormat), PDF]
     if form not in forms:
-        raise typer.BadParameter(f"{form}: the forms are {', '.join(forms)}")
+        raise typer.BadParameter(
+            sentence("{form}: the forms are {forms}", form=form, forms=", ".join(forms))
+        )
     if student and form != PDF:
-        raise typer.BadParameter("--student is for pdf; the tables hold everybody")
+        raise typer.BadParameter(sentence("--student is for pdf; the tables hold everybody"))
     instructor()
     found, attempts, people = _board(course, group, folder)
     known = {person.key: person for person in people.everybody(names)}

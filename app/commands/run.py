@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from app.commands import completion
+from app.core.messages import sentence
 
 RANK = 10
 
@@ -46,6 +47,7 @@ def run(
     """Open the trainer. The mouse moves a simulated hand, or a real robot its own needle."""
     _check(ct, device, exercise)
     from app.commands.session import tell_folder
+    from app.compose import needle_sources
     from app.compose.desktop import Desktop
     from app.tracking.cameras.settings import parse_cameras
     from app.tracking.cameras.source import parse_source
@@ -54,6 +56,7 @@ def run(
     from app.views.shell.window import open_window
 
     if pen is not None:
+        needle_sources.KIND.find("pen")
         parse_source(pen)
     chosen = None if cameras is None else parse_cameras(cameras)
     tell_folder()
@@ -85,7 +88,9 @@ def _check(ct: Path | None, device: str | None, exercise: str) -> None:
     if ct is not None and not ct.exists():
         from app.imaging.errors import FolderError
 
-        raise FolderError(f"--ct {ct} does not exist; name a folder or file with a CT")
+        raise FolderError(
+            sentence("--ct {ct} does not exist; name a folder or file with a CT", ct=ct)
+        )
     if device is not None and os.sep in device and not Path(device).exists():
         from app.device.errors import LinkError
         from app.device.links.port import reason

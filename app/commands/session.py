@@ -9,6 +9,7 @@ import typer
 from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.doors import PASSWORD, instructor, see
+from app.core.messages import sentence
 from app.core.words import counted, printable
 
 Id = Annotated[
@@ -309,7 +310,7 @@ def export(
     place = _folder(folder)
     text, rows = _trajectory(place, ids) if trajectory else _scores(place, ids)
     if out.suffix.lower() != ".csv":
-        raise typer.BadParameter(f"--out {out}: only .csv can be written")
+        raise typer.BadParameter(sentence("--out {out}: only .csv can be written", out=out))
     write_csv(out, text)
     return Answer({"files": [out], "rows": rows}, shown="{rows} rows written to {files}")
 
@@ -334,7 +335,7 @@ def _trajectory(folder: Path, ids: list[str] | None) -> tuple[str, int]:
     from app.session.store import find
 
     if ids is None or len(ids) != 1:
-        raise typer.BadParameter("--trajectory takes exactly one session id")
+        raise typer.BadParameter(sentence("--trajectory takes exactly one session id"))
     recording = read_recording(find(folder, ids[0]))
     return trajectory_table(recording), len(recording.samples.time)
 

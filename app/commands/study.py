@@ -7,6 +7,7 @@ import typer
 
 from app.commands import completion
 from app.commands.answer import Answer
+from app.core.messages import sentence
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -78,7 +79,13 @@ def study(
     if isinstance(chosen, Survey):
         result = examine(chosen, inputs=given, quick=quick, lend=lent)
     elif given:
-        raise StudyError(f"study {name} takes no folders; leave {given[0]} out")
+        raise StudyError(
+            sentence(
+                "study {name} takes no folders; leave {given_first} out",
+                name=name,
+                given_first=given[0],
+            )
+        )
     else:
         result = run(chosen, repeats, lend=lent)
     if write and isinstance(result, Result):

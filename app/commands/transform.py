@@ -7,6 +7,7 @@ import typer
 
 from app.commands.answer import Answer, Commands
 from app.core.errors import ConfigurationError
+from app.core.messages import sentence
 
 app = Commands(help="Rigid transforms as .tfm files of ITK and 3D Slicer.")
 
@@ -43,7 +44,13 @@ def export(
 
     valid = [one.value for one in PatientOrientation]
     if orientation not in valid:
-        raise ConfigurationError(f"--orientation {orientation!r}: use {', '.join(valid)}")
+        raise ConfigurationError(
+            sentence(
+                "--orientation {orientation!r}: use {valid}",
+                orientation=orientation,
+                valid=", ".join(valid),
+            )
+        )
     x, y, z = numbers(rotate, "--rotate", 3)
     placement = Placement(PatientOrientation(orientation), (x, y, z))
     fulcrum = load_profile(device).fulcrum

@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from app.commands.answer import Answer, Commands
+from app.core.messages import sentence
 
 app = Commands(help="Device profiles to and from URDF.")
 
@@ -36,7 +37,9 @@ def export(
         where = Origin(origin)
     except ValueError:
         names = ", ".join(Origin)
-        raise ConfigurationError(f"--origin {origin!r}; valid names: {names}") from None
+        raise ConfigurationError(
+            sentence("--origin {origin!r}; valid names: {names}", origin=origin, names=names)
+        ) from None
     write_text(out, write_urdf(load_pantograph(profile), where))
     place = where.value.replace("-", " ")
     return Answer({"files": [out]}, [f"{out}: {profile}, world at the {place}"])
@@ -62,7 +65,7 @@ def import_profile(
     from app.mechanisms.pantograph.profile import load_pantograph
 
     if out.suffix not in (".yaml", ".yml"):
-        raise ConfigurationError(f"--out {out}: a device profile is a .yaml file")
+        raise ConfigurationError(sentence("--out {out}: a device profile is a .yaml file", out=out))
     document = profile_like(load_pantograph(like), read_geometry(file), out.stem)
     head = f"# Lengths from {file.name}, all else from the profile {like}. SI units.\n"
     write_text(out, head + yaml.safe_dump(document, sort_keys=False, allow_unicode=True))

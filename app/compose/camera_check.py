@@ -12,6 +12,7 @@ from app.compose.cameras import calibration_of, checked_cameras
 from app.core.arrays import FloatArray
 from app.core.clock import SystemClock
 from app.core.configuration import parse
+from app.core.messages import sentence
 from app.core.units import MILLISECOND
 from app.mechanisms.profile import load_profile
 from app.tracking.calibration.applies import require_cameras
@@ -94,8 +95,10 @@ def survey_cameras(settings: CameraSettings, source: str, seconds: float) -> Cam
         return CameraCheck(survey([camera], [source], clock, seconds), None, "")
     if settings.simulated:
         raise CameraError(
-            "the cameras are simulated; choose real ones with `acus camera use --left SOURCE "
-            "--right SOURCE`, or look at one with --source"
+            sentence(
+                "the cameras are simulated; choose real ones with `acus camera use --left SOURCE "
+                "--right SOURCE`, or look at one with --source"
+            )
         )
     settings.check()
     rig = load_rig(settings.rig)
@@ -113,7 +116,9 @@ def _order(
 ) -> str:
     calibration = calibration_of(settings)
     if calibration is None:
-        return "left and right are not checked: there is no calibration yet (`acus calibrate`)"
+        return sentence(
+            "left and right are not checked: there is no calibration yet (`acus calibrate`)"
+        )
     finders = extractors(rig, colour=settings.marker_colour or RED)
     pixels: list[tuple[FloatArray, FloatArray]] = []
     for left, right in frames[:: max(1, len(frames) // 20)]:
@@ -139,13 +144,17 @@ def aim_of(settings: CameraSettings, device: str, reach: Mapping[str, float] | N
     """
     rig = load_rig(settings.rig)
     fulcrum = load_profile(device).fulcrum
-    basis, assumed = f"rig {rig.name} as designed", False
+    basis, assumed = sentence("rig {rig_name} as designed", rig_name=rig.name), False
     calibration = None if settings.simulated else calibration_of(settings)
     if calibration is not None and calibration.world is not None:
         names = [camera.name for camera in rig.cameras]
         require_cameras(calibration, names, [settings.size] * 2)
-        rig, basis = rig.calibrated(calibration), f"calibration {calibration.id}"
+        rig = rig.calibrated(calibration)
+        basis = sentence("calibration {name}", name=calibration.id)
     elif not settings.simulated:
-        basis, assumed = f"{basis}; the cameras are not calibrated with a world frame yet", True
+        basis, assumed = (
+            sentence("{basis}; the cameras are not calibrated with a world frame yet", basis=basis),
+            True,
+        )
     wanted = parse(rig.range.model_dump() | dict(reach or {}), RangeProfile, "range")
     return Aim(view_cone(rig.models, rig.needle, wanted, fulcrum), rig, basis, assumed)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
+from app.core.messages import sentence
 from app.tracking.calibration.applies import require_cameras
 from app.tracking.calibration.formats.own import load_calibration
 from app.tracking.calibration.history import CalibrationHistory
@@ -53,8 +54,10 @@ def real_cameras(settings: CameraSettings, clock: Clock | None = None) -> Attach
     calibration = calibration_of(settings)
     if calibration is None:
         raise RigError(
-            "the cameras are not calibrated: run `acus calibrate stereo` and `acus calibrate "
-            "world`, or choose the calibration in the window's menu Cameras"
+            sentence(
+                "the cameras are not calibrated: run `acus calibrate stereo` and `acus calibrate "
+                "world`, or choose the calibration in the window's menu Cameras"
+            )
         )
     _require_good(calibration)
     rig = load_rig(settings.rig)
@@ -136,8 +139,12 @@ def _require_good(calibration: StereoCalibration) -> None:
     reason = rejected_ids().get(calibration.id)
     if reason is not None:
         raise CalibrationError(
-            f"calibration {calibration.id} was found bad ({reason}); calibrate again, or choose "
-            "another one in the camera settings"
+            sentence(
+                "calibration {calibration_id} was found bad ({reason}); calibrate again, or "
+                "choose another one in the camera settings",
+                calibration_id=calibration.id,
+                reason=reason,
+            )
         )
 
 

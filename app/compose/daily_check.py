@@ -12,6 +12,7 @@ import numpy as np
 
 from app.compose.trainer import Rig, TrainerSetup, build_rig
 from app.core.arrays import FloatArray, unit
+from app.core.messages import sentence
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
 from app.planning.registration.errors import RegistrationError
@@ -132,7 +133,7 @@ class DailyCheck:
     @property
     def _running(self) -> Rig:
         if self._rig is None:
-            raise TouchError("the check is not open: call open() first")
+            raise TouchError(sentence("the check is not open: call open() first"))
         return self._rig
 
     def _live(self, seconds: float, until: Callable[[], bool] = lambda: False) -> None:
@@ -152,7 +153,11 @@ def known_point(plate: FiducialPlate, name: str) -> tuple[str, FloatArray]:
     """
     if plate.place is None:
         raise RegistrationError(
-            f"plate {plate.name} has no known place in the robot's frame; give `place` in its file"
+            sentence(
+                "plate {plate_name} has no known place in the robot's frame; give `place` in its "
+                "file",
+                plate_name=plate.name,
+            )
         )
     chosen = name or plate.names[-1]
     row = plate.rows((chosen,))[0]

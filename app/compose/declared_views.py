@@ -17,6 +17,7 @@ from typing import Final
 from app import views
 from app.core import plugin_folders
 from app.core.errors import ConfigurationError
+from app.core.messages import sentence
 from app.core.plugins import SLOTS, TEXT, Declaration, PluginKind
 from app.simulation.consumers import Consumer
 
@@ -67,7 +68,12 @@ def declared_views(folder: Path | None = None) -> Mapping[str, Consumer]:
             name = declared.view
             if name in found:
                 raise ConfigurationError(
-                    f"view {name!r} is declared twice: {files[name]} and {path}"
+                    sentence(
+                        "view {name!r} is declared twice: {files} and {path}",
+                        name=name,
+                        files=files[name],
+                        path=path,
+                    )
                 )
         except (OSError, ConfigurationError) as error:
             shared = plugin_folders.folder_of(path)

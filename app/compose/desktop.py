@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 from app.compose.first_start import TrackerKernels
 from app.core import paths
 from app.core.loading import load_modules, turn
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.device.errors import LoopError
 from app.exercises.library import library
@@ -24,14 +25,13 @@ if TYPE_CHECKING:
 
     from app.compose.camera_check import Aim
     from app.compose.live_cameras import LiveReader
-    from app.compose.live_pen import LivePen
     from app.compose.trainer import Rig
     from app.core.arrays import FloatArray
     from app.device.commissioning.bench import Bench
     from app.mechanisms.profile import DeviceProfile
     from app.tracking.cameras.settings import CameraSettings
     from app.tracking.needle_tracker import StereoAbilities
-    from app.tracking.pen.settings import PenSettings
+    from app.views.cameras.live import ShownCamera
     from app.views.exercise.run import ExerciseRun
     from app.views.shell.services import RobotPort, RunSetup
 
@@ -170,19 +170,20 @@ class Desktop:
         progress.report(0.5, "computing what the cameras see of the needle's cone")
         return aim_of(settings, device)
 
-    def open_pen(self, settings: PenSettings, progress: Progress) -> LivePen:
-        """Open a pen and its webcam; called beside the window, may take seconds."""
+    def open_source(self, name: str, settings: object, progress: Progress) -> ShownCamera:
+        """Open what the page of a needle source looks at; called beside the window."""
         with turn(progress):
-            from app.compose.live_pen import open_live_pen
+            from app.compose.needle_sources import open_preview
         progress.report(0.5, "asking the webcam for its first picture")
-        return open_live_pen(settings)
+        preview: ShownCamera = open_preview(name, settings)
+        return preview
 
     def open_run(self, setup: RunSetup, progress: Progress) -> DesktopRun:
         """Build and start a trainer; called beside the window, may take seconds."""
         with turn(progress):  # kernels and OpenCV: behind the window, not before it
             from app.compose.exercise_ct import load_field, load_risks
             from app.compose.exercise_field import resolve_tissue
-            from app.compose.pen import pen_settings
+            from app.compose.needle_sources import needle_source
             from app.compose.trainer import TrainerSetup, build_rig
             from app.core.temporary import temporary_folder
             from app.exercises.tissue import with_tissue
@@ -212,7 +213,7 @@ class Desktop:
             held_arming=setup.robot.held_arming and skill is None,
             port=setup.robot.port or None,
             cameras=setup.cameras,
-            pen=pen_settings(setup.robot.pen) if setup.robot.pen else None,
+            source=needle_source("pen", setup.robot.pen) if setup.robot.pen else None,
             risks=risks,
             tissues=tissues,
             script=None if shown is None else shown.script(setup.placed),
@@ -241,7 +242,11 @@ def _wait_until_alive(rig: Rig, progress: Progress) -> None:
             return
         clock.sleep(_LOOK)
     if rig.loop.latest().tick == 0:
-        raise LoopError(f"the control loop has not ticked in {waited:.0f} s; start it again")
+        raise LoopError(
+            sentence(
+                "the control loop has not ticked in {waited:.0f} s; start it again", waited=waited
+            )
+        )
 
 
 def _learner(
@@ -285,11 +290,12 @@ class DesktopRun:
         from app.views.exercise.run import ExerciseRun
 
         setup, robot, tracker = self._rig.setup, self._rig.robot, self._rig.tracker
+        source = self._rig.source
         return ExerciseRun(
             self._rig.trainer,
             setup.placed,
             self._rig.profile,
-            interactive=setup.skill is None and (setup.pen is None or setup.pen.simulated),
+            interactive=setup.skill is None and (source is None or source.simulated),
             rings=rings_of(setup.exercise),
             depth_tolerance=depth_tolerance_of(setup.exercise),
             touches=setup.exercise.touch is not None,
@@ -301,7 +307,7 @@ class DesktopRun:
             clearance=None if robot is None else robot.clearance(),
             readiness=None if robot is None else robot.readiness,
             velocity=self._rig.profile.velocity.value,
-            forceful=setup.pen is None,
+            forceful=source is None,
             held_arming=self._rig.trainer.held_arming,
             guidance=setup.exercise.guidance,
             shown=Shown.of_exercise(setup.exercise),

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Final, NamedTuple
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.parameters import Stage
 from app.device.control import Table
 from app.device.control.passivity import carry_accounts
@@ -35,13 +36,20 @@ def with_model(exercise: Exercise, effect: str, model: str) -> Exercise:
     """
     if effect not in exercise.effects:
         raise ExerciseError(
-            f"exercise {exercise.id} has no effect {effect!r}; it has "
-            f"{', '.join(exercise.effects) or 'none'}"
+            sentence(
+                "exercise {exercise_id} has no effect {effect!r}; it has {exercise_effects}",
+                exercise_id=exercise.id,
+                effect=effect,
+                exercise_effects=", ".join(exercise.effects) or "none",
+            )
         )
     if declaration(effect).pictures:
         raise ExerciseError(
-            f"effect {effect} acts on the pictures of cameras that are running: choose its model "
-            "in the exercise, before the attempt"
+            sentence(
+                "effect {effect} acts on the pictures of cameras that are running: choose its "
+                "model in the exercise, before the attempt",
+                effect=effect,
+            )
         )
     part = exercise.effects[effect]
     chosen = part.model_copy(update={"model": declaration(effect).model(model)})

@@ -22,6 +22,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import SystemClock
 from app.core.compiled import njit, stage
+from app.core.messages import sentence
 from app.core.parameters import Stage
 from app.device.control import Inbox, Loop
 from app.device.errors import LinkError
@@ -60,9 +61,16 @@ class Terminal:
                 folder that is absent or may not be written.
         """
         if self._link is not None and self._link.exists() and not self._link.is_symlink():
-            raise LinkError(f"{self._link} exists and is not a link; choose another --link")
+            raise LinkError(
+                sentence("{link} exists and is not a link; choose another --link", link=self._link)
+            )
         if self._link is not None and not os.access(self._link.parent, os.W_OK):
-            raise LinkError(f"no link can be made in {self._link.parent}; choose another --link")
+            raise LinkError(
+                sentence(
+                    "no link can be made in {link_parent}; choose another --link",
+                    link_parent=self._link.parent,
+                )
+            )
         self._fd = os.open(os.devnull, os.O_RDWR | os.O_NONBLOCK)
         self._end[wire.FD] = self._fd
         self.put()
@@ -80,7 +88,10 @@ class Terminal:
             import tty
         except ImportError:
             raise LinkError(
-                "this system has no pseudo-terminals (Windows): the emulated board runs on Linux"
+                sentence(
+                    "this system has no pseudo-terminals (Windows): the emulated board runs on "
+                    "Linux"
+                )
             ) from None
         master, self._slave = pty.openpty()
         tty.setraw(self._slave)
@@ -149,7 +160,11 @@ class EmulatedHand:
     def take(self, name: str) -> None:
         """Hold the needle otherwise."""
         if name not in HANDS:
-            raise LinkError(f"no hand {name!r}; valid names: {', '.join(HANDS)}")
+            raise LinkError(
+                sentence(
+                    "no hand {name!r}; valid names: {hands}", name=name, hands=", ".join(HANDS)
+                )
+            )
         self.name = name
 
     def obey(self, words: list[str]) -> None:
@@ -173,8 +188,11 @@ class EmulatedHand:
                 self.name = "rest"
             case _:
                 raise LinkError(
-                    f"{' '.join(words)!r} is not understood; valid are: hold on|off,"
-                    " turn left|right DEGREES, lean X Y (degrees towards x and y)"
+                    sentence(
+                        "{words!r} is not understood; valid are: hold on|off,"
+                        " turn left|right DEGREES, lean X Y (degrees towards x and y)",
+                        words=" ".join(words),
+                    )
                 )
 
     def work(self, now: float, inbox: Inbox) -> None:
@@ -196,7 +214,10 @@ class EmulatedHand:
         axis = self._profile.machine.axis(q)
         if not np.hypot(*axis[:2]) <= sin(radians(_LARGEST_TILT)) or axis[2] > 0.0:
             raise LinkError(
-                f"the needle would lean by more than {_LARGEST_TILT:g} degrees; turn by less"
+                sentence(
+                    "the needle would lean by more than {largest_tilt:g} degrees; turn by less",
+                    largest_tilt=_LARGEST_TILT,
+                )
             )
         self._q, self._wanted, self.name = q, np.array(axis[:2]), "rest"
 
@@ -205,9 +226,15 @@ def _degrees(text: str) -> float:
     try:
         value = float(text)
     except ValueError as error:
-        raise LinkError(f"{text!r} is no number of degrees") from error
+        raise LinkError(sentence("{text!r} is no number of degrees", text=text)) from error
     if not abs(value) <= _LARGEST_TILT:
-        raise LinkError(f"{text} degrees is too much; give at most {_LARGEST_TILT:g}")
+        raise LinkError(
+            sentence(
+                "{text} degrees is too much; give at most {largest_tilt:g}",
+                text=text,
+                largest_tilt=_LARGEST_TILT,
+            )
+        )
     return value
 
 
@@ -298,7 +325,11 @@ class EmulatorSetup:
 
     def __post_init__(self) -> None:
         if self.hand not in HANDS:
-            raise LinkError(f"no hand {self.hand!r}; valid names: {', '.join(HANDS)}")
+            raise LinkError(
+                sentence(
+                    "no hand {hand!r}; valid names: {hands}", hand=self.hand, hands=", ".join(HANDS)
+                )
+            )
 
 
 class Emulator:
@@ -392,7 +423,13 @@ class Emulator:
             self._faults.set(name, value)
         else:
             valid = (*FAULTS, "unplug", "park", *ORDERS)
-            raise LinkError(f"no fault or order {name!r}; valid names: {', '.join(valid)}")
+            raise LinkError(
+                sentence(
+                    "no fault or order {name!r}; valid names: {valid}",
+                    name=name,
+                    valid=", ".join(valid),
+                )
+            )
 
     def _unplug(self, out: bool) -> None:
         self._array[_UNPLUGGED] = out
@@ -418,11 +455,13 @@ def _understood(order: str) -> tuple[str, float]:
     words = order.replace("=", " ").split() or [""]
     name, text = words[0], words[1] if len(words) > 1 else "on"
     if len(words) == 1 and name in NUMBERED:
-        raise LinkError(f"fault {name} needs a number, e.g. `{name} 1`")
+        raise LinkError(sentence("fault {name} needs a number, e.g. `{name} 1`", name=name))
     try:
         return name, float({"on": "1", "off": "0"}.get(text, text))
     except ValueError as error:
-        raise LinkError(f"fault {name}: {text!r} is no number, on or off") from error
+        raise LinkError(
+            sentence("fault {name}: {text!r} is no number, on or off", name=name, text=text)
+        ) from error
 
 
 COLUMNS: Final = {

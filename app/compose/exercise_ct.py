@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.exercises.errors import ExerciseError
 from app.exercises.parts import OwnPlan
@@ -45,7 +46,11 @@ def load_risks(
         return ()
     if volume is None:
         raise ExerciseError(
-            f"exercise {exercise.id} has structures of risk, and no CT to place them on: open it"
+            sentence(
+                "exercise {exercise_id} has structures of risk, and no CT to place them on: open "
+                "it",
+                exercise_id=exercise.id,
+            )
         )
     from app.imaging.structures.distance import SignedDistance  # scipy
     from app.imaging.structures.files import read_structures

@@ -88,7 +88,8 @@ def _tissue(
     if exercise.tissue is TissueSource.LAYERS:
         return exercise, None, {"source": "layers", "why": "layers: the exercise has them"}
     from app.compose.exercise_field import resolve_tissue
-    from app.compose.trial import tissues_of, trial_plan
+    from app.compose.skill_scores import tissues_of
+    from app.compose.trial import trial_plan
     from app.simulation.bound_field import BoundField
 
     placed = placed_plan_of(exercise, profile, trial_plan(exercise))

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import atexit
 import contextlib
-import hashlib
 import os
 import subprocess
 import sys
@@ -29,6 +28,9 @@ ABOUT: Final = 300
 """Kernels that a child compiles, numba's own among them; only a bar goes by it."""
 
 COMMAND: Final = tuple(module_command("app.compose.first_start", options=("-W", "ignore")))
+
+PARENT_ENDED: Final = 75
+"""The child ends with this code where whoever started it has ended: another start tries again."""
 
 _LOOK: Final = 0.1
 DEFAULT: Final = "model_fit"
@@ -62,18 +64,10 @@ def rehearse_tracking(extractor: str) -> None:
 
 
 def rehearsed_file() -> Path:
-    """Return the file in the cache that says that it holds the tracker's kernels.
+    """Return the file in the cache that says that it holds the tracker's kernels."""
+    from app.core.compiled import complete_file
 
-    Numba keeps what was compiled apart by the folder of its source: another copy of the program,
-    equal to the last byte, finds none of it.
-    """
-    import numba
-
-    from app.core import compiled
-
-    place = hashlib.sha256(str(Path(compiled.__file__).resolve()).encode()).hexdigest()[:8]
-    version = f"{sys.version_info.major}.{sys.version_info.minor}-numba-{numba.__version__}"
-    return Path(os.environ["NUMBA_CACHE_DIR"]) / f"rehearsed-{version}-{place}"
+    return complete_file("rehearsed")
 
 
 class TrackerKernels:
@@ -145,7 +139,7 @@ def _end_with_parent() -> None:
     with contextlib.suppress(OSError):
         while os.read(sys.stdin.fileno(), 1):
             pass
-    os._exit(1)
+    os._exit(PARENT_ENDED)
 
 
 def main() -> None:

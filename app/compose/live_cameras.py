@@ -11,6 +11,7 @@ import numpy as np
 from app.compose.cameras import checked_cameras
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
+from app.core.messages import sentence
 from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.cameras.latency import grid_means
 from app.tracking.cameras.settings import SIDES, CameraSettings
@@ -92,7 +93,13 @@ def open_live(settings: CameraSettings, side: str) -> LiveReader:
         CameraError: if it is simulated, cannot be opened or has another size than the settings.
     """
     if side not in SIDES:
-        raise CameraError(f"there is no {side!r} camera; there are {' and '.join(SIDES)}")
+        raise CameraError(
+            sentence(
+                "there is no {side!r} camera; there are {sides}",
+                side=side,
+                sides=" and ".join(SIDES),
+            )
+        )
     clock, index = SystemClock(), SIDES.index(side)
     camera = checked_cameras(settings, clock, "the camera settings", (index,))[0]
     live = LiveReader(camera, side, clock)

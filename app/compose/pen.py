@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import ClassVar, Final
 
 from app.compose.declared_views import declared_views
 from app.compose.live_pen import attached_camera, simulated_lens, simulated_webcam
@@ -20,6 +20,7 @@ from app.compose.trainee import trainee_of
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
+from app.core.messages import sentence
 from app.core.parameters import Stage
 from app.device.control import Loop, Table
 from app.device.control.depth_interval import DepthInterval
@@ -37,8 +38,9 @@ from app.tracking.calibration.pictures import list_pictures
 from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.cameras.files import read_picture
 from app.tracking.cameras.source import SourceKind, parse_source
-from app.tracking.errors import PenError
+from app.tracking.pen.body import PenProfile
 from app.tracking.pen.calibrating import WANTED, PenCalibration, PoseCollector
+from app.tracking.pen.errors import PenError
 from app.tracking.pen.needle import PenTip
 from app.tracking.pen.settings import PenSettings, load_settings, with_source
 from app.tracking.pen.step import PenObservation, PenStep
@@ -66,7 +68,7 @@ def calibrate_pen(
         CameraError: if the webcam cannot be used.
     """
     if settings.simulated:
-        raise PenError("a simulated pen has no tip to measure; give --source usb:0")
+        raise PenError(sentence("a simulated pen has no tip to measure; give --source usb:0"))
     pen, collector = settings.profile(), PoseCollector()
     _collect(settings, collector, seconds, tell, clock)
     return collector.finish(pen)
@@ -218,6 +220,12 @@ class Pen:
     settings: PenSettings
     profile: DeviceProfile
     link: PenLink
+    noun: ClassVar[str] = "a pen"
+
+    @property
+    def simulated(self) -> bool:
+        """Return whether a simulated hand holds it."""
+        return self.settings.simulated
 
     @classmethod
     def of(cls, settings: PenSettings, profile: DeviceProfile) -> Pen:
@@ -279,6 +287,10 @@ class Pen:
             self.webcam(),
             on_needle=self.take,
         )
+
+    def documents(self) -> dict[str, PenProfile]:
+        """Return what a record has attached beside exercise and device: the pen."""
+        return {"pen": self.settings.profile()}
 
     def metadata(self, skill: str | None) -> dict[str, dict[str, str]]:
         """Facts for the head of a record; `skill` of the scripted trainee, None without one."""

@@ -18,12 +18,13 @@ from app import mechanisms
 from app.core import paths
 from app.core import plugin_folders as folders
 from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.core.plugin_trial import import_fault
 from app.core.plugins import PluginKind, read_statements
 from app.core.progress import Progress
 from app.exercises.library import read_exercise
 from app.mechanisms.profile import load_profile
-from app.mechanisms.profile.device import machine_fault
+from app.mechanisms.profile.device import TRIAL, machine_fault, refused_by_trial
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,7 +129,9 @@ def _machine(folder: Path, tried: bool) -> PluginFile:
             title = _docstring(body) or folder.name
         if reason:
             return PluginFile("machine", folder, "", reason)
-    return PluginFile("machine", folder, title, "")
+    kind = folder.name
+    reason = refused_by_trial(kind) if tried else TRIAL.refusal(folder / "machine.py")
+    return PluginFile("machine", folder, "" if reason else title, reason)
 
 
 _PARTS: Final = {
@@ -158,11 +161,32 @@ def _parts(folder: folders.PluginFolder, tried: bool) -> Iterator[PluginFile]:
                 title = str(declared.get("title") or _docstring(body) or path.stem)
                 fault = import_fault(path, f"{folder.package}.{part}") if tried else ""
                 reason = f"{path} cannot be imported: {fault}" if fault else ""
+                if part == "features" and not reason:
+                    reason = _feature_fault(path, body, declared)
             yield PluginFile(kind, path, "" if reason else title, reason)
     for path in sorted((folder.path / "devices").glob("*.yaml")):
         yield _checked("device profile", path, lambda path: load_profile(path).description)
     for path in sorted((folder.path / "exercises").glob("*.yaml")):
         yield _checked("exercise", path, lambda path: read_exercise(path).title)
+
+
+def _feature_fault(path: Path, body: list[ast.stmt], declared: Mapping[str, Any]) -> str:
+    """Return why the window would leave a feature out, as its text shows; empty if it takes it."""
+    if "FEATURE" not in _defined(body):
+        return sentence(
+            "{path} must define FEATURE, a class of Feature; see 'How to add a panel'", path=path
+        )
+    own = (p for p in (folders.APP / "views").glob("*/*.py") if b"(Feature):" in p.read_bytes())
+    others = (p for one in folders.folders() for p in one.files("features") if p != path)
+    names = sorted(p.parent.name if p.stem == "feature" else p.stem for p in (*own, *others))
+    if declared.get("after") in names:
+        return ""
+    return sentence(
+        "{path}: after is {declared_get!r}; valid are {names}",
+        path=path,
+        declared_get=declared.get("after"),
+        names=", ".join(names),
+    )
 
 
 def _checked(kind: str, path: Path, title: Callable[[Path], str]) -> PluginFile:

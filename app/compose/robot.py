@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final
 
 from app.core import state_vector as sv
 from app.core.loading import ONE_AT_A_TIME
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.device.commissioning.records import load_record
 from app.device.control.corrections import Corrections
@@ -55,8 +56,11 @@ def open_bench(port: str, profile: DeviceProfile, progress: Progress) -> Bench:
             progress.report(0.6, "waiting for joint angles")
             if bench.clock.now() > end:
                 raise LinkError(
-                    f"the robot at {port} was greeted but sends no joint angles; see"
-                    f" `acus device test {port}`"
+                    sentence(
+                        "the robot at {port} was greeted but sends no joint angles; see"
+                        " `acus device test {port}`",
+                        port=port,
+                    )
                 )
             bench.advance(_LOOK)
     except BaseException:

@@ -6,11 +6,9 @@ A recorded attempt's trainer is built again from what its record has attached, t
 from __future__ import annotations
 
 import dataclasses
-import hashlib
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -19,22 +17,21 @@ from app.compose.cameras import AttachedCameras, real_cameras, simulated_on
 from app.compose.declared_views import declared_views
 from app.compose.exercise_field import recorded_field, with_field
 from app.compose.needle import UPRIGHT, felt_force, measured_axis, needle_scene
-from app.compose.pen import Pen, pen_table
+from app.compose.needle_sources import NeedleSource, recorded_table
 from app.compose.robot import Robot, connect
+from app.compose.run_context import agreement_of, run_context, with_exercise
 from app.compose.trainee import trainee_of
 from app.core import paths
 from app.core.arrays import FloatArray
-from app.core.build import BUILD, build
 from app.core.clock import Clock, SystemClock
 from app.core.configuration import parse
-from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.core.parameters import Stage
 from app.device.control import Loop, Table, laws, machine_stages
 from app.device.links.link import Link
 from app.device.links.simulated import simulated_link
-from app.exchange.markups import plan_document
 from app.exercises.errors import ExerciseError
-from app.exercises.parts import LayersFrom, TissueSource
+from app.exercises.parts import TissueSource
 from app.exercises.scene import compile_exercise, device_of, law_requests
 from app.exercises.schema import Exercise
 from app.exercises.touching import check_touch
@@ -42,14 +39,12 @@ from app.imaging.field import TissueField
 from app.mechanisms.hand_motion import hand_stage
 from app.mechanisms.profile import DeviceProfile, parse_profile
 from app.planning.placement import PlacedPlan
-from app.planning.registration.record import Registrations
-from app.session.conditions import CONDITIONS, EXERCISE_FILE, TRAINEE
+from app.session.conditions import TRAINEE
 from app.session.context import RunContext
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.session.effect_models import ModelChoice
 from app.session.errors import ReplayError
 from app.session.fixes import DepthTrust
-from app.session.header import Attachment
 from app.session.recording import Recording
 from app.session.replay import ReplayReport, is_simulated, replay
 from app.session.risks import Risk
@@ -62,116 +57,10 @@ from app.tracking.errors import TrackingError
 from app.tracking.motion.depth_filter import FASTEST
 from app.tracking.needle_tracker import NeedleTracker, StereoAbilities
 from app.tracking.optics.rig import load_rig
-from app.tracking.pen.settings import PenSettings
 from app.tracking.tracker import Tracker
 
 if TYPE_CHECKING:
     from app.simulation.bound_field import BoundField
-
-
-def run_context(
-    exercise: Exercise,
-    folder: Path,
-    seed: int,
-    metadata: Mapping[str, dict[str, str]],
-    documents: Mapping[str, Any],
-    agreement: Callable[[PlacedPlan], Mapping[str, str]] = lambda _: {},
-) -> RunContext:
-    """Return the context of a run's records.
-
-    Args:
-        exercise: attached without what may name a patient.
-        folder: of the records.
-        seed: of everything random.
-        metadata: `device`, `cameras`, `ct`, `trainee`.
-        documents: further pydantic models to attach, by name.
-        agreement: how well screen and needle agree at a plan's target; see `agreement_of`.
-    """
-    anonymous = _anonymous(exercise)
-    attached = {"exercise": anonymous, **documents}
-    return RunContext(
-        folder=folder,
-        seed=seed,
-        metadata={**metadata, CONDITIONS: _conditions(anonymous), BUILD: dict(_build())},
-        attachments=tuple(
-            _attachment(f"{name}.json", document.model_dump(mode="json"))
-            for name, document in attached.items()
-        ),
-        plan_files=lambda placed: (_attachment("plan.mrk.json", plan_document(placed.plan)),),
-        agreement=agreement,
-    )
-
-
-@cache
-def _build() -> Mapping[str, str]:
-    """Return the build that this process runs: a file that changes now is not loaded any more."""
-    return build()
-
-
-def agreement_of(
-    calibration: str, rig: str, simulated: bool, ct: CtFacts
-) -> Callable[[PlacedPlan], Mapping[str, str]]:
-    """Return what looks up how well screen and needle agree at a plan's target.
-
-    It takes the newest registration check that holds for these cameras and this CT, and gives the
-    metadata record `agreement`: `radius_mm` and the `check`'s id; nothing where nobody has checked.
-    """
-
-    def distances(placed: PlacedPlan) -> Mapping[str, str]:
-        try:
-            record = Registrations.own().newest(
-                calibration, rig, simulated, ct.pseudonym, frame=ct.frame
-            )
-            if record is None:
-                return {}
-            used = placed.T_world_patient
-            radius = record.check().agreement(placed.p_target, T_world_patient=used).radius
-        except AcusError:  # the status strip and the check's own page say what is wrong with it
-            return {}
-        return {"radius_mm": f"{1e3 * radius:.3f}", "check": record.id}
-
-    return distances
-
-
-def _conditions(exercise: Exercise) -> dict[str, str]:
-    """Return what the exercise sets, as a score is told with it, and a digest of its content."""
-    left_out = {"title", "description", "views", "assistance"}
-    if exercise.layers_from is LayersFrom.CT:  # what they are follows from CT and path
-        left_out.add("layers")
-    content = exercise.model_dump(mode="json", exclude_defaults=True, exclude=left_out)
-    text = json.dumps(content, sort_keys=True)
-    return {
-        "level": str(exercise.level),
-        "views": ",".join(sorted(view.value for view in exercise.shown_views)),
-        "assistance": repr(exercise.assistance),
-        "content": hashlib.sha256(text.encode()).hexdigest()[:12],
-    }
-
-
-def _anonymous(exercise: Exercise) -> Exercise:
-    """Without folders, files and series, which may name a patient; the record has a pseudonym."""
-    ct = exercise.ct.model_copy(update={"folder": None, "series": None, "digest": None})
-    structures = tuple(
-        part.model_copy(update={"file": Path(f"structures-{number}")})
-        for number, part in enumerate(exercise.structures, 1)
-    )
-    return exercise.model_copy(update={"ct": ct, "structures": structures})
-
-
-def _saying(context: RunContext, exercise: Exercise) -> RunContext:
-    """Return a context whose records say that this was the exercise."""
-    anonymous = _anonymous(exercise)
-    said = _attachment(EXERCISE_FILE, anonymous.model_dump(mode="json"))
-    return replace(
-        context,
-        metadata={**context.metadata, CONDITIONS: _conditions(anonymous)},
-        attachments=tuple(said if a.name == EXERCISE_FILE else a for a in context.attachments),
-    )
-
-
-def _attachment(name: str, document: Any) -> Attachment:
-    return Attachment(name, "application/json", json.dumps(document, indent=1).encode())
-
 
 START_DEPTH: Final = -0.015
 """Where the needle waits: tip 15 mm above the skin [m]."""
@@ -195,7 +84,8 @@ class TrainerSetup:
             they always are.
         port: serial port of a real robot; None simulates one.
         cameras: real ones; None simulates those of the exercise's rig.
-        pen: a pen with printed markers and a webcam in place of robot and cameras; no force then.
+        source: builds, of the exercise's device, what is in place of robot and cameras; no force
+            then. None for a robot.
         risks: structures that the needle has to keep away from.
         tissues: field of the patient: tells what the needle met, and is what the loop looks into
             where the exercise's tissue is the field; None for none.
@@ -211,7 +101,7 @@ class TrainerSetup:
     held_arming: bool = False
     port: str | None = None
     cameras: CameraSettings | None = None
-    pen: PenSettings | None = None
+    source: Callable[[DeviceProfile], NeedleSource] | None = None
     risks: tuple[Risk, ...] = ()
     tissues: TissueField | None = None
     script: TraineeScript | None = None
@@ -253,17 +143,20 @@ class Rig:
     tracker: NeedleTracker
     trainer: Trainer
     robot: Robot | None = None
-    pen: Pen | None = None
+    source: NeedleSource | None = None
 
     @property
     def stereo(self) -> StereoAbilities:
         """Return what the tracker can do with two cameras.
 
         Raises:
-            TrackingError: if a pen and its webcam are in place of robot and cameras.
+            TrackingError: if a needle source is in place of robot and cameras.
         """
         if self.tracker.stereo is None:
-            raise TrackingError("this needs the two cameras of a robot; a pen has one webcam")
+            noun = "this needle" if self.source is None else self.source.noun
+            raise TrackingError(
+                sentence("this needs the two cameras of a robot; {noun} has none", noun=noun)
+            )
         return self.tracker.stereo
 
     def close(self) -> None:
@@ -283,13 +176,20 @@ class Rig:
             ControlLockedError: if the exercise keeps its models; an assessment does.
             AcusError: for an effect or model that there is not, or a loop that does not run.
         """
-        if self.pen is not None:
-            raise TrackingError("a pen has no robot that could push: no effect is computed")
+        if self.source is not None:
+            noun = self.source.noun
+            raise TrackingError(
+                sentence("{noun} has no robot that could push: no effect is computed", noun=noun)
+            )
         exercise = effect_models.with_model(self.setup.exercise, effect, model)
         if effect not in self.loop.names:
             raise ExerciseError(
-                f"effect {effect} is not simulated in {exercise.id}: nobody needs what it gives;"
-                f" `acus explain {exercise.id}` says why"
+                sentence(
+                    "effect {effect} is not simulated in {exercise_id}: nobody needs what it "
+                    "gives; `acus explain {exercise_id}` says why",
+                    effect=effect,
+                    exercise_id=exercise.id,
+                )
             )
         setup = replace(self.setup, exercise=exercise)
 
@@ -299,7 +199,7 @@ class Rig:
             return loop.exchange(table, carry)
 
         self.trainer.compute_by(
-            exercise, effect, model, change, lambda context: _saying(context, exercise)
+            exercise, effect, model, change, lambda context: with_exercise(context, exercise)
         )
         return replace(self, setup=setup)
 
@@ -313,8 +213,8 @@ class Rig:
         check_touch(setup.exercise.touch_task(placed), self.profile)
         table = (
             loop_table(setup, self.profile, self.robot is None, self.robot)
-            if self.pen is None
-            else self.pen.table(setup.exercise, placed, setup.skill, setup.seed)
+            if self.source is None
+            else self.source.table(setup.exercise, placed, setup.skill, setup.seed)
         )
         self.trainer.place(placed)
         reopen = self.loop.is_open
@@ -340,8 +240,8 @@ def build_rig(setup: TrainerSetup, robot: Robot | None = None) -> Rig:
     """
     profile = device_of(setup.exercise)
     check_touch(setup.exercise.touch_task(setup.placed), profile)
-    if setup.pen is not None:
-        return _build_pen_rig(setup, Pen.of(setup.pen, profile))
+    if setup.source is not None:
+        return _build_source_rig(setup, setup.source(profile))
     real = None
     if setup.cameras is not None and not setup.cameras.simulated:
         real = real_cameras(setup.cameras, setup.clock)
@@ -393,14 +293,14 @@ def _build_rig(
     return Rig(setup, profile, loop, tracker, trainer, robot)
 
 
-def _build_pen_rig(setup: TrainerSetup, pen: Pen) -> Rig:
-    table = pen.table(setup.exercise, setup.placed, setup.skill, setup.seed)
-    initial = initial_plant(pen.profile, UPRIGHT, START_DEPTH)
-    loop = Loop(table, pen.profile.rate_hz, setup.clock, initial=initial)
+def _build_source_rig(setup: TrainerSetup, source: NeedleSource) -> Rig:
+    table = source.table(setup.exercise, setup.placed, setup.skill, setup.seed)
+    initial = initial_plant(source.profile, UPRIGHT, START_DEPTH)
+    loop = Loop(table, source.profile.rate_hz, setup.clock, initial=initial)
     loop.inbox.write(hand_depth=START_DEPTH, hand_holds=1.0, homed=1.0)
-    tracker = pen.tracker(loop, setup.clock, setup.seed)
-    metadata = {**pen.metadata(setup.skill), "ct": setup.ct.metadata()}
-    documents = {"device": pen.profile, "pen": pen.settings.profile()}
+    tracker = source.tracker(loop, setup.clock, setup.seed)
+    metadata = {**source.metadata(setup.skill), "ct": setup.ct.metadata()}
+    documents = {"device": source.profile, **source.documents()}
     context = run_context(setup.exercise, setup.sessions, setup.seed, metadata, documents)
     trainer = Trainer(
         loop,
@@ -412,11 +312,11 @@ def _build_pen_rig(setup: TrainerSetup, pen: Pen) -> Rig:
         risks=setup.risks,
         tissues=setup.tissues,
         dial=0.0,
-        trust=DepthTrust(FASTEST),  # a pen in the air is no needle in its tube
-        start=Start.SIMULATED if pen.settings.simulated else Start.REAL,
+        trust=DepthTrust(FASTEST),  # a needle in the air is none in its tube
+        start=Start.SIMULATED if source.simulated else Start.REAL,
     )
     tracker.listen(trainer.on_fix)
-    return Rig(setup, pen.profile, loop, tracker, trainer, pen=pen)
+    return Rig(setup, source.profile, loop, tracker, trainer, source=source)
 
 
 def pictures_of(
@@ -544,12 +444,11 @@ def replay_table(recording: Recording, choices: Sequence[ModelChoice] = ()) -> T
         seed=_seed(recording),
         tissues=recorded_field(recording),
     )
-    pen = recording.metadata.get("device", {}).get("pen")
-    if pen:
-        simulated = pen == "yes"
-        return pen_table(
-            exercise, setup.placed, profile, [], setup.skill, setup.seed, simulated=simulated
-        )
+    of_source = recorded_table(
+        recording.metadata, exercise, setup.placed, profile, setup.skill, setup.seed
+    )
+    if of_source is not None:
+        return of_source
     return loop_table(setup, profile, simulated=is_simulated(recording))
 
 
@@ -580,9 +479,15 @@ def _attached(recording: Recording, name: str) -> Any:
     try:
         return json.loads(recording.attachments[name])
     except KeyError as error:
-        raise ReplayError(f"this record cannot be replayed: it has no {name}") from error
+        raise ReplayError(
+            sentence("this record cannot be replayed: it has no {name}", name=name)
+        ) from error
     except (ValueError, RecursionError) as error:
-        raise ReplayError(f"this record cannot be replayed: {name} is damaged: {error}") from error
+        raise ReplayError(
+            sentence(
+                "this record cannot be replayed: {name} is damaged: {error}", name=name, error=error
+            )
+        ) from error
 
 
 def _seed(recording: Recording) -> int:
@@ -590,4 +495,6 @@ def _seed(recording: Recording) -> int:
     try:
         return int(text)
     except ValueError as error:
-        raise ReplayError(f"this record cannot be replayed: its seed is {text!r}") from error
+        raise ReplayError(
+            sentence("this record cannot be replayed: its seed is {text!r}", text=text)
+        ) from error

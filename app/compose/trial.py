@@ -1,4 +1,4 @@
-"""Attempts in virtual time, without recorder and rendering: what would each skill score?
+"""Attempts in virtual time, without recorder and rendering; `skill_scores` sums many up.
 
 Everything that decides about a score is the program's own: the loop with the exercise's laws and
 effects, the scripted hand, the phases, the metrics. Only the pictures are left out, and the record
@@ -17,17 +17,13 @@ an attempt is done over by `attempt`. `tests/test_compose_trial.py` holds the on
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from math import inf
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.compose.exercise_ct import load_field, load_risks, read_ct
-from app.compose.exercise_field import resolve_tissue
 from app.compose.needle import UPRIGHT, measured_axis, needle_scene
 from app.compose.trainee import trainee_of
 from app.compose.trainer import START_DEPTH, TrainerSetup, build_loop, loop_table, pictures_of
@@ -36,13 +32,11 @@ from app.core.arrays import FloatArray
 from app.core.bend import tips_beside
 from app.core.clock import VirtualClock
 from app.core.parameters import Stage
-from app.core.progress import Progress
 from app.core.staleness import TRACKER_HOLD
 from app.core.units import MILLIMETRE, MILLISECOND
 from app.device.control import Loop, Table
-from app.exercises.parts import LayersFrom, OwnPlan, TissueSource
-from app.exercises.scene import device_of, placed_plan_of, plan_of
-from app.exercises.tissue import with_tissue
+from app.exercises.parts import OwnPlan
+from app.exercises.scene import device_of, plan_of
 from app.planning.plan import Plan
 from app.scoring.touches import Touches
 from app.session import machine
@@ -63,7 +57,6 @@ from app.session.trainer import Trainer
 from app.session.transitions import LOST, Classifier, classify
 from app.session.withdrawal import Start
 from app.simulation.plant import initial_plant
-from app.simulation.skills import SKILLS
 from app.simulation.trainee import ScriptPhase
 from app.tracking.optics.rig import RigProfile, load_rig
 from app.tracking.simulated.cameras import simulated_cameras
@@ -142,7 +135,7 @@ class _RenderedTracker:
             fix = self._tracker.process(left, right)
             self._late.append((now + self._rig.latency_ms * MILLISECOND + PROCESSING, fix))
         there = [fix for time, fix in self._late if time <= now]
-        self._late = [one for one in self._late if one[0] > now]
+        self._late = [(time, fix) for time, fix in self._late if time > now]
         return there
 
 
@@ -155,38 +148,6 @@ def trial_plan(exercise: Exercise) -> Plan:
     if isinstance(exercise.plan, OwnPlan) and exercise.ct.phantom is not None:
         return plan_of(exercise.model_copy(update={"plan": "phantom_default"}))
     return plan_of(exercise)
-
-
-def risks_of(exercise: Exercise, progress: Progress | None = None) -> tuple[Risk, ...]:
-    """Read an exercise's structures of risk onto its CT; none where it names none.
-
-    Raises:
-        AcusError: if the CT or a file cannot be read, or a structure that is named is missing.
-        Cancelled: if `progress` was cancelled.
-    """
-    if not any(part.risks for part in exercise.structures):
-        return ()
-    progress = progress or Progress()
-    volume = read_ct(exercise, progress.part(0.0, 0.6))
-    return load_risks(exercise, volume, progress.part(0.6, 1.0))
-
-
-def tissues_of(
-    exercise: Exercise, plan: Plan, progress: Progress | None = None
-) -> TissueField | None:
-    """Make the tissue field of an exercise that looks into it; None where it does not.
-
-    It does where it forbids something, or does not say that its tissue lies in layers.
-
-    Raises:
-        AcusError: if the CT or a file of structures cannot be read.
-        Cancelled: if `progress` was cancelled.
-    """
-    if not exercise.rules.forbidden and exercise.tissue is TissueSource.LAYERS:
-        return None
-    progress = progress or Progress()
-    volume = read_ct(exercise, progress.part(0.0, 0.4))
-    return load_field(exercise, volume, plan, progress.part(0.4, 1.0))
 
 
 def attempt(
@@ -499,114 +460,3 @@ class _Course:
                     times.append(time)
         of = 0 if touching is None else len(touching.state.task)
         return cls(np.array(states), unseen, target, Touches(of, tuple(times)) if of else None)
-
-
-@dataclass(frozen=True, slots=True)
-class SkillOutcome:
-    """What one skill scored in an exercise.
-
-    Attributes:
-        skill: its name.
-        totals: scores of 0 to 100, one per seed; NaN where an attempt was void or had no score.
-        passed: whether each passed.
-        duration: median virtual time of an attempt [s].
-    """
-
-    skill: str
-    totals: tuple[float, ...]
-    passed: tuple[bool, ...]
-    duration: float
-
-    @property
-    def quartiles(self) -> tuple[float, float, float] | None:
-        """Lower quartile, median and upper quartile of the scores; None where none counts."""
-        scores = np.array(self.totals)
-        scores = scores[np.isfinite(scores)]
-        if not len(scores):
-            return None
-        low, middle, high = np.percentile(scores, [25.0, 50.0, 75.0]).tolist()
-        return low, middle, high
-
-    @property
-    def void(self) -> int:
-        """Return how many attempts had no score."""
-        return int(np.count_nonzero(~np.isfinite(self.totals)))
-
-    @property
-    def share_passed(self) -> float:
-        """Share of all attempts that passed, 0 to 1."""
-        return float(np.mean(self.passed))
-
-
-def outcome(skill: str, scores: Sequence[Score | None], durations: Sequence[float]) -> SkillOutcome:
-    """Sum up a skill's attempts, one score and one duration [s] per seed."""
-    return SkillOutcome(
-        skill,
-        tuple(_total(score) for score in scores),
-        tuple(score is not None and score.passed for score in scores),
-        float(np.median(durations)),
-    )
-
-
-def run_trial(
-    exercise: Exercise,
-    seeds: int = 20,
-    skills: Sequence[str] = tuple(SKILLS),
-    risks: tuple[Risk, ...] = (),
-    progress: Progress | None = None,
-) -> tuple[SkillOutcome, ...]:
-    """Let every skill do the exercise once per seed; the least skilled first.
-
-    An attempt that the robot's safety ends counts as one without a score.
-
-    Raises:
-        AcusError: if the exercise cannot be used at all; says why.
-        Cancelled: if `progress` was cancelled.
-    """
-    progress = progress or Progress()
-    placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
-    if exercise.layers_from is LayersFrom.CT:
-        exercise = with_tissue(exercise, read_ct(exercise), placed.plan)
-    tissues = tissues_of(exercise, placed.plan)
-    exercise, _ = resolve_tissue(exercise, placed, tissues)
-    trials, outcomes = Trials(exercise, placed, risks, tissues), []
-    for number, skill in enumerate(skills):
-        part = progress.part(number / len(skills), (number + 1) / len(skills))
-        results = []
-        for seed in range(1, seeds + 1):
-            part.report((seed - 1) / seeds, skill)
-            results.append(trials.score(skill, seed))
-        scores = [result.score for result in results]
-        outcomes.append(outcome(skill, scores, [result.duration for result in results]))
-    progress.report(1.0)
-    return tuple(outcomes)
-
-
-def ordered_share(outcomes: Sequence[SkillOutcome]) -> float:
-    """Share of neighbouring skills' attempts, every seed with every other, that are ordered right.
-
-    A tie counts as half, as in a rank test; an attempt without a score is below all others.
-    """
-    shares = []
-    for worse, better in pairwise(outcomes):
-        low, high = (np.nan_to_num(np.array(one.totals), nan=-1.0) for one in (worse, better))
-        more = high[:, None] - low[None, :]
-        shares.append(np.mean((more > 0.0) + 0.5 * (more == 0.0)))
-    return float(np.mean(shares)) if shares else 1.0
-
-
-def ordered_seeds(outcomes: Sequence[SkillOutcome]) -> float:
-    """Share of the seeds in which every skill scores more than the one below it; no tie counts.
-
-    A seed gives all skills the same tracker noise and begins the same row of random numbers for
-    their scripts, so skills are compared in pairs on what is nearly the same attempt. That is a
-    weaker question than `ordered_share`, which compares any attempt of one with any of the other.
-    """
-    if len(outcomes) < 2:
-        return 1.0
-    totals = np.array([np.nan_to_num(np.array(one.totals), nan=-1.0) for one in outcomes])
-    return float((np.diff(totals, axis=0) > 0.0).all(axis=0).mean())
-
-
-def _total(score: Score | None) -> float:
-    return float("nan") if score is None or score.total is None else score.total

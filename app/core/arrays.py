@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from app.core.errors import NumericalError
+from app.core.messages import sentence
 
 FloatArray = NDArray[np.float64]
 """Double precision array; shapes stand in the docstrings."""
@@ -25,10 +26,19 @@ def frozen(
     """
     array = np.array(values, dtype=np.float64)
     if shape is not None and array.shape != shape:
-        raise NumericalError(f"{name} has shape {array.shape}; {shape} is needed")
+        raise NumericalError(
+            sentence(
+                "{name} has shape {array_shape}; {shape} is needed",
+                name=name,
+                array_shape=array.shape,
+                shape=shape,
+            )
+        )
     # the square's sum is finite if all are, unless they are huge: then one looks again
     if not math.isfinite(np.vdot(array, array)) and not np.isfinite(array).all():
-        raise NumericalError(f"{name} is not finite: {array.tolist()}")
+        raise NumericalError(
+            sentence("{name} is not finite: {array}", name=name, array=array.tolist())
+        )
     array.setflags(write=False)
     return array
 
@@ -48,33 +58,35 @@ def unit(vector: ArrayLike, name: str = "vector") -> FloatArray:
     array = np.asarray(vector, dtype=np.float64)
     scale = float(np.abs(array).max(initial=0.0))
     if not np.isfinite(scale) or scale < 1e-300:
-        raise NumericalError(f"{name} {array.tolist()} has no direction")
+        raise NumericalError(
+            sentence("{name} {array} has no direction", name=name, array=array.tolist())
+        )
     array = array / scale  # first by the largest entry: the norm neither overflows nor underflows
     result: FloatArray = array / np.linalg.norm(array)
     return result
 
 
-def cross(a: FloatArray, b: FloatArray) -> FloatArray:
+def cross(first: FloatArray, second: FloatArray) -> FloatArray:
     """Cross product of two 3-vectors: that of numpy to the last bit, without its generality.
 
     numpy's own takes 30 µs for checks and axes, this one 1.
     """
-    (a1, a2, a3), (b1, b2, b3) = a.tolist(), b.tolist()
+    (a1, a2, a3), (b1, b2, b3) = first.tolist(), second.tolist()
     return np.array((a2 * b3 - a3 * b2, a3 * b1 - a1 * b3, a1 * b2 - a2 * b1))
 
 
-def crosses(a: FloatArray, b: FloatArray) -> FloatArray:
+def crosses(first: FloatArray, second: FloatArray) -> FloatArray:
     """Cross products of 3-vectors or stacks of them (..., 3): those of numpy to the last bit, in
     half its time or less.
     """
-    if a.ndim == b.ndim == 1:
-        return cross(a, b)
-    a1, a2, a3 = a[..., 0], a[..., 1], a[..., 2]
-    b1, b2, b3 = b[..., 0], b[..., 1], b[..., 2]
+    if first.ndim == second.ndim == 1:
+        return cross(first, second)
+    a1, a2, a3 = first[..., 0], first[..., 1], first[..., 2]
+    b1, b2, b3 = second[..., 0], second[..., 1], second[..., 2]
     return np.stack((a2 * b3 - a3 * b2, a3 * b1 - a1 * b3, a1 * b2 - a2 * b1), axis=-1)
 
 
-def angle_between(a: ArrayLike, b: ArrayLike) -> float:
+def angle_between(first: ArrayLike, second: ArrayLike) -> float:
     """Angle between two 3-vectors [rad], accurate near 0 and π (atan2, never acos)."""
-    u, v = unit(a), unit(b)
+    u, v = unit(first), unit(second)
     return float(np.arctan2(np.linalg.norm(cross(u, v)), np.dot(u, v)))

@@ -12,6 +12,7 @@ import atexit
 import hashlib
 import os
 import shutil
+import sys
 import tempfile
 import threading
 from collections.abc import Iterator
@@ -105,6 +106,22 @@ from numba.core.typing.templates import builtin_registry  # noqa: E402
 from numba.np import arrayobj  # noqa: E402
 
 _CHOOSING = threading.RLock()
+
+
+def complete_file(part: str, made_by: bytes = b"") -> Path:
+    """Return the file in the cache that says that it holds every kernel of some part.
+
+    Numba keeps what was compiled apart by the folder of its source: another copy of the program,
+    equal to the last byte, finds none of it.
+
+    Args:
+        part: a word for what is compiled.
+        made_by: what chooses the kernels of that part, beside their sources.
+    """
+    place = hashlib.sha256(made_by + str(Path(__file__).resolve()).encode()).hexdigest()[:8]
+    version = f"{sys.version_info.major}.{sys.version_info.minor}-numba-{numba.__version__}"
+    return Path(os.environ["NUMBA_CACHE_DIR"]) / f"{part}-{version}-{place}"
+
 
 STAGE_SIGNATURE = types.void(types.float64[::1], types.float64[::1])
 """`void(state[::1], parameters[::1])`: every stage of a tick. Memory of a stage lives in its own

@@ -14,6 +14,7 @@ from pydantic_core import ErrorDetails
 from app.core.errors import ConfigurationError
 from app.core.files import LARGEST_FILE as LARGEST_FILE
 from app.core.files import read_at_most
+from app.core.messages import Sentence, sentence
 
 M = TypeVar("M", bound="Strict")
 
@@ -35,7 +36,7 @@ class Strict(BaseModel):
         """Refuse `yes` and `true` where a number is wanted; pydantic would read them as 1."""
         field = cls.model_fields.get(info.field_name or "")
         if isinstance(value, bool) and field is not None and field.annotation in (int, float):
-            raise ValueError("a number is needed")
+            raise ValueError(sentence("a number is needed"))
         return value
 
 
@@ -59,6 +60,10 @@ def _mapping(loader: _UniqueKeyLoader, node: yaml.MappingNode) -> dict[Any, Any]
     return loader.construct_mapping(node, deep=True)
 
 
+# What is written is read again as a text, with or without its template.
+yaml.SafeDumper.add_multi_representer(
+    Sentence, lambda dumper, text: dumper.represent_str(str(text))
+)
 _UniqueKeyLoader.add_constructor(yaml.resolver.BaseResolver.DEFAULT_MAPPING_TAG, _mapping)
 
 
@@ -81,9 +86,17 @@ def read_text(path: Path) -> str:
     try:
         return read_at_most(path).decode("utf-8")
     except OSError as error:
-        raise ConfigurationError(f"cannot read {path}: {error.strerror or error}") from error
+        raise ConfigurationError(
+            sentence(
+                "cannot read {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
     except UnicodeDecodeError as error:
-        raise ConfigurationError(f"{path} is not valid YAML: {_one_line(error)}") from error
+        raise ConfigurationError(
+            sentence("{path} is not valid YAML: {line}", path=path, line=_one_line(error))
+        ) from error
 
 
 def parse_yaml(text: str, origin: str) -> Any:
@@ -95,10 +108,14 @@ def parse_yaml(text: str, origin: str) -> Any:
     try:
         return deepcopy(_document(text))
     except RecursionError as error:
-        raise ConfigurationError(f"{origin} is not valid YAML: it is nested too deeply") from error
+        raise ConfigurationError(
+            sentence("{origin} is not valid YAML: it is nested too deeply", origin=origin)
+        ) from error
     except (yaml.YAMLError, ValueError, LookupError, AttributeError, ArithmeticError) as error:
         # Not all are YAMLError: a date of month 99, `!!int abc`, `!!bool x` or 1:1:…:1 raise these.
-        raise ConfigurationError(f"{origin} is not valid YAML: {_one_line(error)}") from error
+        raise ConfigurationError(
+            sentence("{origin} is not valid YAML: {line}", origin=origin, line=_one_line(error))
+        ) from error
 
 
 @lru_cache(maxsize=64)
@@ -208,7 +225,9 @@ def parse(document: Any, model: type[M], origin: str, text: str = "") -> M:
             said.append(f"{one.name}: {one.text}" + (f" (line {line})" if line else ""))
         if len(wrong) > room:
             said.append(f"and {len(wrong) - room} more like these")
-        raise ConfigurationError(f"{origin}: {'; '.join(said)}") from error
+        raise ConfigurationError(
+            sentence("{origin}: {message}", origin=origin, message="; ".join(said))
+        ) from error
 
 
 def checked(document: Any, model: type[M]) -> tuple[M | None, tuple[FieldProblem, ...]]:

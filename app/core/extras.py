@@ -8,23 +8,29 @@ import re
 from importlib.metadata import PackageNotFoundError, requires
 from typing import TypeVar
 
+from app.core.messages import sentence
 from app.core.paths import in_checkout
 
 _Family = TypeVar("_Family", bound=Exception)
 
 
-def not_installed(family: type[_Family], what: str, extra: str, instead: str = "") -> _Family:
+def not_installed(family: type[_Family], package: str, extra: str, instead: str = "") -> _Family:
     """Return the error to raise from an ImportError.
 
     The import itself stays where it is used, as a statement: the contracts of imports see it.
 
     Args:
         family: of the error.
-        what: the package as people call it, and what needs it where that is not plain.
+        package: its name, as people call it, and what needs it where that is not plain.
         extra: that brings it.
         instead: what can be done without it.
     """
-    said = f"{what} is not installed; install the extra `{extra}`: {install_command(extra)}"
+    said = sentence(
+        "{package} is not installed; install the extra `{extra}`: {install_command}",
+        package=package,
+        extra=extra,
+        install_command=install_command(extra),
+    )
     return family(f"{said}, or {instead}" if instead else said)
 
 
@@ -36,7 +42,7 @@ def install_command(extra: str) -> str:
     if in_checkout():
         return f"make extra NAME={extra}"
     names = " ".join(f"'{name}'" for name in packages(extra))
-    return f"pip install {names}" if names else "its packages stand in pyproject.toml"
+    return f"pip install {names}" if names else sentence("its packages stand in pyproject.toml")
 
 
 def packages(extra: str) -> list[str]:

@@ -35,10 +35,10 @@ def watched(watch: Watch) -> Iterator[None]:
         _watches.remove(watch)
 
 
-def step(what: str, path: Path) -> None:
+def step(deed: str, path: Path) -> None:
     """Tell who watches that something is about to be done."""
     for watch in _watches:
-        watch(what, path)
+        watch(deed, path)
 
 
 def read_at_most(path: Path, most: int = LARGEST_FILE) -> bytes:

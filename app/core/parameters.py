@@ -21,6 +21,7 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 
 Places = TypeVar("Places", bound=NamedTuple)
 
@@ -60,11 +61,21 @@ def packed(places: NamedTuple, *behind: Iterable[float], **values: float) -> Flo
     """
     if unknown := sorted(set(values) - set(places._fields)):
         raise TypeError(
-            f"{type(places).__name__} has no field {', '.join(unknown)};"
-            f" it has {', '.join(places._fields)}"
+            sentence(
+                "{places_type} has no field {unknown}; it has {places_fields}",
+                places_type=type(places).__name__,
+                unknown=", ".join(unknown),
+                places_fields=", ".join(places._fields),
+            )
         )
     given = places._field_defaults | values
     if missing := [name for name in places._fields if name not in given]:
-        raise TypeError(f"{type(places).__name__} needs {', '.join(missing)} as well")
+        raise TypeError(
+            sentence(
+                "{places_type} needs {missing} as well",
+                places_type=type(places).__name__,
+                missing=", ".join(missing),
+            )
+        )
     head = np.array([given[name] for name in places._fields], dtype=np.float64)
     return np.concatenate([head, *(np.asarray(values, dtype=np.float64) for values in behind)])

@@ -7,6 +7,7 @@ say of what kind their files are; each kind is looked for by whoever uses it:
 |---|---|
 | `machines/` | machines that point a needle, a folder each |
 | `laws/`, `effects/`, `metrics/`, `extractors/`, `studies/` | plug-ins of that kind, a file each |
+| `needle_sources/` | what stands in for robot and cameras, a file each |
 | `features/` | features of the window |
 | `views/` | what features are built from; views that exercises switch on and off |
 | `demonstrations/` | who shows an exercise by `acus demo` |
@@ -109,14 +110,24 @@ def _package(name: str, place: Path) -> Iterator[PluginFolder]:
         spec = find_spec(top) if top.isidentifier() else None
     except (ImportError, ValueError):
         spec = None
+    taken = ""
     for root in (spec.submodule_search_locations or ()) if spec else ():
         folder = Path(root, *inner)
-        if (folder / "__init__.py").is_file() and (not place.is_absolute() or folder == place):
+        try:
+            is_package = (folder / "__init__.py").is_file()
+        except OSError as error:
+            refused[place] = f"{folder} cannot be read: {error.strerror or error}"
+            return
+        if is_package and (not place.is_absolute() or folder == place):
             yield PluginFolder(folder, name)
             return
+        taken = f": {folder} has that name" if is_package else taken
+    if place.is_absolute() and not place.exists():
+        refused[place] = f"{place}: there is no such folder"
+        return
     refused[place] = (
-        f"{name!r} is no package that can be imported: a folder of plug-ins has an __init__.py and "
-        "a name of its own that is a Python name"
+        f"{name!r} is no package that can be imported{taken}: a folder of plug-ins has an"
+        " __init__.py and a name of its own that is a Python name"
     )
 
 

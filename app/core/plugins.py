@@ -34,6 +34,7 @@ from typing import Any, Final, Generic, NamedTuple, TypeVar
 from app.core import paths, plugin_folders
 from app.core.errors import AcusError
 from app.core.files import read_at_most
+from app.core.messages import sentence
 from app.core.plugin_trial import import_fault
 from app.core.state_vector import INDEX, SCENE, SUMS, VECTORS, slots_named
 from app.core.trial import Trial
@@ -111,8 +112,16 @@ class StageDeclaration(Declaration):
     def unpublished(self, values: Mapping[str, float]) -> tuple[str, ...]:
         """Return a sentence for each of `values` outside its range in the literature."""
         return tuple(
-            f"{name} is {values[name]:g} {self.parameters[name].unit}; published are "
-            f"{known.least:g} to {known.most:g} ({known.source})"
+            sentence(
+                "{name} is {values:g} {parameters_unit}; published are "
+                "{known_least:g} to {known_most:g} ({known_source})",
+                name=name,
+                values=values[name],
+                parameters_unit=self.parameters[name].unit,
+                known_least=known.least,
+                known_most=known.most,
+                known_source=known.source,
+            )
             for name, known in self.published.items()
             if name in values and not known.least <= values[name] <= known.most
         )
@@ -210,14 +219,27 @@ class PluginKind(Generic[D]):
         """
         found = self.files(escape(name)) if Path(name).name == name else []
         if not found:
-            raise self.error(f"there is no {self.word} {name!r}; there are {self._known()}")
+            raise self.error(
+                sentence(
+                    "there is no {word} {name!r}; there are {known}",
+                    word=self.word,
+                    name=name,
+                    known=self._known(),
+                )
+            )
         found = [path for path in found if self.is_own(path)] or found
         if reason := self.taken(found[0]):
             raise self.error(reason)
         if len(found) > 1:
             raise self.error(
-                f"two files are the {self.word.split()[-1]} {name!r}:"
-                f" {found[0]} and {found[1]}; rename one"
+                sentence(
+                    "two files are the {word_split_last} {name!r}:"
+                    " {first} and {second}; rename one",
+                    word_split_last=self.word.split()[-1],
+                    name=name,
+                    first=found[0],
+                    second=found[1],
+                )
             )
         return found[0]
 
@@ -232,7 +254,14 @@ class PluginKind(Generic[D]):
         except (OSError, SyntaxError, ValueError) as reason:
             if isinstance(reason, AcusError):
                 raise
-            raise self.error(f"{self.word} file {path} cannot be read: {reason}") from reason
+            raise self.error(
+                sentence(
+                    "{word} file {path} cannot be read: {reason}",
+                    word=self.word,
+                    path=path,
+                    reason=reason,
+                )
+            ) from reason
         return found
 
     def refused(self, check: Callable[[D], object] | None = None) -> dict[Path, str]:
@@ -279,7 +308,9 @@ class PluginKind(Generic[D]):
         its_own |= any(map(self.is_own, plugin_folders.files(self.folder, escape(name))))
         if not its_own and (standing is None or loaded):
             return ""
-        return f"{path}: {name!r} is a name of the program's own; rename the file"
+        return sentence(
+            "{path}: {name!r} is a name of the program's own; rename the file", path=path, name=name
+        )
 
     def fault(self, path: Path) -> str:
         """Say why somebody else's file cannot be imported or fails its trial, as processes of their
@@ -290,7 +321,12 @@ class PluginKind(Generic[D]):
         # By the name that it will have: compiled code is kept with it.
         package = self._module_name(path).rpartition(".")[0]
         if found := import_fault(path, package):
-            return f"{self.word} file {path} cannot be imported: {found}"
+            return sentence(
+                "{word} file {path} cannot be imported: {result}",
+                word=self.word,
+                path=path,
+                result=found,
+            )
         return "" if self.trial is None else self.trial.fault(path)
 
     @contextmanager
@@ -307,7 +343,9 @@ class PluginKind(Generic[D]):
             raise
         except BaseException as reason:
             text = f"{type(reason).__name__}: {reason}".rstrip(": ")
-            raise self.error(f"{path}: {doing}: {text}") from reason
+            raise self.error(
+                sentence("{path}: {doing}: {text}", path=path, doing=doing, text=text)
+            ) from reason
 
     def is_own(self, path: Path) -> bool:
         """Return whether a file is one of the program's own."""
@@ -353,7 +391,12 @@ class PluginKind(Generic[D]):
                     raise
                 text = str(reason) if isinstance(reason, Exception) else type(reason).__name__
                 raise self.error(
-                    f"{self.word} file {declared.path} cannot be imported: {text}"
+                    sentence(
+                        "{word} file {declared_path} cannot be imported: {text}",
+                        word=self.word,
+                        declared_path=declared.path,
+                        text=text,
+                    )
                 ) from reason
             if shared is None:
                 setattr(sys.modules[self.package], declared.name, module)
@@ -379,7 +422,7 @@ def _imported(name: str, path: Path, has_package: bool) -> ModuleType:
         return importlib.import_module(name)
     specification = importlib.util.spec_from_file_location(name, path)
     if specification is None or specification.loader is None:
-        raise ImportError("it is no Python file")
+        raise ImportError(sentence("it is no Python file"))
     module = sys.modules[name] = importlib.util.module_from_spec(specification)
     specification.loader.exec_module(module)
     return module
@@ -415,25 +458,53 @@ def _read(kind: PluginKind[Any], path: Path, text: str) -> Any:
     body = ast.parse(text, str(path)).body
     source = _literal(kind, body, path)
     if source.document is None:
-        raise kind.error(f"{path} has no {_NAME} = {{...}}; see 'How to add {kind.noun}'")
+        raise kind.error(
+            sentence(
+                "{path} has no {name} = {{...}}; see 'How to add {kind_noun}'",
+                path=path,
+                name=_NAME,
+                kind_noun=kind.noun,
+            )
+        )
     given = set(source.document) - set(kind.optional)
     if given != set(kind.fields):
         may = f", and may have {', '.join(kind.optional)}" if kind.optional else ""
         raise kind.error(
-            f"{path}, line {source.lines.get('', 1)}: {_NAME} must have exactly the keys"
-            f" {', '.join(kind.fields)}{may}; check {sorted(given ^ set(kind.fields))}"
+            sentence(
+                "{path}, line {line}: {name} must have exactly the keys"
+                " {kind_fields}{may}; check {given}",
+                path=path,
+                line=source.lines.get("", 1),
+                name=_NAME,
+                kind_fields=", ".join(kind.fields),
+                may=may,
+                given=sorted(given ^ set(kind.fields)),
+            )
         )
     defined = {node.name for node in body if isinstance(node, ast.FunctionDef)}
     needed = () if source.document.get(kind.spared) is True else kind.functions
     if missing := [name for name in needed if name not in defined]:
-        raise kind.error(f"{path} has no function {missing[0]}(); see 'How to add {kind.noun}'")
+        raise kind.error(
+            sentence(
+                "{path} has no function {missing_first}(); see 'How to add {kind_noun}'",
+                path=path,
+                missing_first=missing[0],
+                kind_noun=kind.noun,
+            )
+        )
     keys = (*kind.fields, *(key for key in kind.optional if key in source.document))
     values = {key: _value(kind, key, source, path) for key in keys}
     unknown = sorted(set(values.get("published", {})) - set(values.get("parameters", {})))
     if unknown:
         raise kind.error(
-            f"{path}, line {source.lines.get(f'published {unknown[0]!r}', 1)}: published names "
-            f"{unknown[0]!r}, which is no parameter; it has {', '.join(values['parameters'])}"
+            sentence(
+                "{path}, line {line}: published names "
+                "{unknown_first!r}, which is no parameter; it has {parameters}",
+                path=path,
+                line=source.lines.get(f"published {unknown[0]!r}", 1),
+                unknown_first=unknown[0],
+                parameters=", ".join(values["parameters"]),
+            )
         )
     return kind.declares(name=path.stem, path=path, **values)
 
@@ -448,7 +519,13 @@ def _literal(kind: PluginKind[Any], body: list[ast.stmt], path: Path) -> PluginT
                 document = ast.literal_eval(node.value)
             except (ValueError, TypeError) as reason:
                 raise kind.error(
-                    f"{path}, line {node.lineno}: {_NAME} is not a literal: {reason}"
+                    sentence(
+                        "{path}, line {node_lineno}: {name} is not a literal: {reason}",
+                        path=path,
+                        node_lineno=node.lineno,
+                        name=_NAME,
+                        reason=reason,
+                    )
                 ) from reason
             if isinstance(document, dict) and isinstance(node.value, ast.Dict):
                 return PluginText(document, {"": node.lineno, **_lines(node.value)})
@@ -477,9 +554,26 @@ def _value(kind: PluginKind[Any], key: str, source: PluginText, path: Path) -> A
     except _WrongPartError as wrong:
         line = source.lines.get(wrong.part or key, line)
         what = wrong if wrong.part else f"{key}: {wrong}"
-        raise kind.error(f"{path}, line {line}: {what}; give {wanted.valid}") from wrong
+        raise kind.error(
+            sentence(
+                "{path}, line {line}: {what}; give {wanted_valid}",
+                path=path,
+                line=line,
+                what=what,
+                wanted_valid=wanted.valid,
+            )
+        ) from wrong
     except (TypeError, ValueError, AttributeError, KeyError) as wrong:
-        raise kind.error(f"{path}, line {line}: {key} is {value!r}; give {wanted.valid}") from wrong
+        raise kind.error(
+            sentence(
+                "{path}, line {line}: {key} is {value!r}; give {wanted_valid}",
+                path=path,
+                line=line,
+                key=key,
+                value=value,
+                wanted_valid=wanted.valid,
+            )
+        ) from wrong
 
 
 class _WrongPartError(ValueError):
@@ -521,7 +615,10 @@ def _slots(value: Any) -> tuple[str, ...]:
         if not slots:
             near = get_close_matches(name, (*INDEX, *VECTORS), 3, 0.5)
             hint = f" (near: {', '.join(near)})" if near else ""
-            raise _WrongPartError("", f"{name!r} is not a slot of core.state_vector{hint}")
+            raise _WrongPartError(
+                "",
+                sentence("{name!r} is not a slot of core.state_vector{hint}", name=name, hint=hint),
+            )
         found += slots
     return tuple(dict.fromkeys(found))
 
@@ -529,7 +626,9 @@ def _slots(value: Any) -> tuple[str, ...]:
 def _written(value: Any) -> tuple[str, ...]:
     found = _slots(value)
     if strange := [name for name in found if INDEX[name] not in SUMS + SCENE]:
-        raise _WrongPartError("", f"{', '.join(strange)} is the loop's own")
+        raise _WrongPartError(
+            "", sentence("{strange} is the loop's own", strange=", ".join(strange))
+        )
     return found
 
 
@@ -552,7 +651,10 @@ def _parameter(name: str, row: Any) -> Parameter:
     except (TypeError, ValueError):
         usable = False
     if not (usable and isinstance(default, int | float | str | None)):
-        raise _WrongPartError(f"parameter {name!r}", f"parameter {name!r} is {row!r}")
+        raise _WrongPartError(
+            sentence("parameter {name!r}", name=name),
+            sentence("parameter {name!r} is {row!r}", name=name, row=row),
+        )
     return found
 
 
@@ -568,14 +670,10 @@ def _range(name: str, row: Any) -> Published:
     except (TypeError, ValueError):
         usable = False
     if not usable:
-        raise _WrongPartError(f"published {name!r}", f"published {name!r} is {row!r}")
-    for value in found.measured:
-        if not found.least <= value <= found.most:
-            raise _WrongPartError(
-                f"published {name!r}",
-                f"published {name!r} is {found.least:g} to {found.most:g}, and {value:g} was"
-                " measured, which lies outside",
-            )
+        raise _WrongPartError(
+            sentence("published {name!r}", name=name),
+            sentence("published {name!r} is {row!r}", name=name, row=row),
+        )
     return found
 
 
@@ -631,8 +729,12 @@ def complete(
     what = f"{kind.word.split()[-1]} {declared.name!r}"
     if unknown := sorted(set(given) - set(declared.parameters)):
         raise kind.error(
-            f"{what} has no parameter {unknown[0]!r}; "
-            f"it has {', '.join(sorted(declared.parameters)) or 'none'}"
+            sentence(
+                "{what} has no parameter {unknown_first!r}; it has {declared_parameters}",
+                what=what,
+                unknown_first=unknown[0],
+                declared_parameters=", ".join(sorted(declared.parameters)) or "none",
+            )
         )
     found = {}
     for name, limit in declared.parameters.items():
@@ -642,16 +744,37 @@ def complete(
                 value = float(attrgetter(value)(profile))
             except AttributeError as error:
                 raise kind.error(
-                    f"{declared.path}: {name} takes {limit.default!r} from the device profile, "
-                    "which has no such field"
+                    sentence(
+                        "{declared_path}: {name} takes {limit_default!r} from the device "
+                        "profile, which has no such field",
+                        declared_path=declared.path,
+                        name=name,
+                        limit_default=limit.default,
+                    )
                 ) from error
         if value is None:
-            raise kind.error(f"{what} needs {name} [{limit.unit}]: {limit.meaning}")
+            raise kind.error(
+                sentence(
+                    "{what} needs {name} [{limit_unit}]: {limit_meaning}",
+                    what=what,
+                    name=name,
+                    limit_unit=limit.unit,
+                    limit_meaning=limit.meaning,
+                )
+            )
         number = number_within(value, limit.minimum, limit.maximum)
         if number is None:
             raise kind.error(
-                f"{what}: {name} is {value!r}; "
-                f"give {limit.minimum:g} to {limit.maximum:g} {limit.unit}"
+                sentence(
+                    "{what}: {name} is {value!r}; "
+                    "give {limit_minimum:g} to {limit_maximum:g} {limit_unit}",
+                    what=what,
+                    name=name,
+                    value=value,
+                    limit_minimum=limit.minimum,
+                    limit_maximum=limit.maximum,
+                    limit_unit=limit.unit,
+                )
             )
         found[name] = number
     return found

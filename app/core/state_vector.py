@@ -18,6 +18,7 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 
 _given: list[int] = []
 _inputs: list[int] = []
@@ -40,8 +41,11 @@ def _input() -> int:
     slot = next(_next)
     if slot != len(_inputs):
         raise ImportError(
-            f"state_vector: the input at place {slot} stands below a slot that is none; move its"
-            " line up among the inputs"
+            sentence(
+                "state_vector: the input at place {slot} stands below a slot that is none; move "
+                "its line up among the inputs",
+                slot=slot,
+            )
         )
     _inputs.append(slot)
     return slot
@@ -68,7 +72,9 @@ def _machine() -> int:
 def _end_of_inputs() -> int:
     """Return the number of inputs; it takes no place itself."""
     if len(_given) != len(_inputs):
-        raise ImportError("state_vector: INPUTS does not stand directly below the last input")
+        raise ImportError(
+            sentence("state_vector: INPUTS does not stand directly below the last input")
+        )
     return len(_inputs)
 
 
@@ -76,8 +82,11 @@ def _vector(*slots: int) -> slice:
     """Return a vector's slots, which must stand one below the other in this order."""
     if slots != tuple(range(slots[0], slots[0] + len(slots))):
         raise ImportError(
-            f"state_vector: the parts of a vector lie at the places {slots}; put their lines one"
-            " below the other, in the order x, y, z or left, right"
+            sentence(
+                "state_vector: the parts of a vector lie at the places {slots}; put their lines "
+                "one below the other, in the order x, y, z or left, right",
+                slots=slots,
+            )
         )
     return slice(slots[0], slots[-1] + 1)
 

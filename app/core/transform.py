@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, cross, frozen, unit
 from app.core.errors import NumericalError
+from app.core.messages import sentence
 from app.core.rotation import rotation_exp, rotation_log, skew
 
 _ORTHONORMAL_TOLERANCE = 1e-6
@@ -34,9 +35,13 @@ class RigidTransform:
     def __post_init__(self) -> None:
         rotation = frozen(self.rotation, (3, 3), "rotation")
         if np.abs(rotation @ rotation.T - np.eye(3)).max() > _ORTHONORMAL_TOLERANCE:
-            raise NumericalError(f"rotation {rotation.tolist()} is not orthonormal")
+            raise NumericalError(
+                sentence("rotation {rotation} is not orthonormal", rotation=rotation.tolist())
+            )
         if np.linalg.det(rotation) < 0.0:
-            raise NumericalError(f"rotation {rotation.tolist()} is a reflection")
+            raise NumericalError(
+                sentence("rotation {rotation} is a reflection", rotation=rotation.tolist())
+            )
         object.__setattr__(self, "rotation", rotation)
         object.__setattr__(self, "translation", frozen(self.translation, (3,), "translation"))
 
@@ -64,7 +69,9 @@ class RigidTransform:
         """
         array = frozen(matrix, (4, 4), "matrix")
         if np.abs(array[3] - (0.0, 0.0, 0.0, 1.0)).max() > _ORTHONORMAL_TOLERANCE:
-            raise NumericalError(f"last row of a rigid transform is {array[3].tolist()}")
+            raise NumericalError(
+                sentence("last row of a rigid transform is {array}", array=array[3].tolist())
+            )
         return cls(array[:3, :3], array[:3, 3])
 
     @classmethod

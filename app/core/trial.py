@@ -6,8 +6,9 @@ and a crash takes nothing with it. Force laws, effects, machines and marker extr
 this one policy, each by a program of its room.
 
 The verdict is kept by the digest of the file and of this build, and counts while every other file
-that the trial imported is as it was, so that a start does not pay for it again. What a trial cannot
-show, and what bounds it then: docs/decisions/0018.
+that the trial imported is as it was, so that a start does not pay for it again. Where the trial did
+not live to say which files those are, the verdict is kept in memory alone: the next program tries
+again. What a trial cannot show, and what bounds it then: docs/decisions/0018.
 """
 
 from __future__ import annotations
@@ -36,6 +37,9 @@ from app.core.trial_states import words
 from app.core.trial_watch import CLOCK, HEAD, PAGE, PATIENCE, doing_in
 
 _KEPT_BUILDS: Final = 3
+
+_in_memory: Final[dict[Path, dict[str, Any]]] = {}
+"""Verdicts of trials that did not say which files they imported, by where they would be kept."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,30 +72,62 @@ class Trial:
         if verdict := self.known(path, argument):
             return verdict
         try:
-            kept = self._kept(path, argument)
+            place = self._place(path, argument)
         except (OSError, AcusError) as error:
             return {"reason": f"{path} cannot be read: {error}"}
         verdict = _run(self, path, argument)
         if verdict.get("again"):
             return verdict
+        verdict |= {"path": str(path), "content": digest_of(path), "by": self._by()}
+        if not verdict.get("files"):
+            _in_memory[place] = verdict
+            return verdict
         with contextlib.suppress(OSError, AcusError):  # a cache that cannot be written
-            kept.parent.mkdir(parents=True, exist_ok=True)
-            write_atomically(kept, json.dumps(verdict).encode())
+            place.parent.mkdir(parents=True, exist_ok=True)
+            write_atomically(place, json.dumps(verdict).encode())
         return verdict
 
     def known(self, path: Path, argument: str = "") -> dict[str, Any]:
         """Return the verdict of a trial that was made before; empty if there was none."""
         try:
-            verdict = json.loads(self._kept(path, argument).read_text(encoding="utf-8"))
+            place = self._place(path, argument)
+            if place in _in_memory:
+                return _in_memory[place]
+            verdict = json.loads(place.read_text(encoding="utf-8"))
         except (OSError, ValueError, AcusError):
             return {}
         usable = isinstance(verdict, dict) and isinstance(verdict.get("reason"), str)
-        return verdict if usable and _same(verdict.get("files", {})) else {}
+        return verdict if usable and _same(verdict.get("files")) else {}
 
-    def _kept(self, path: Path, argument: str) -> Path:
+    def refusal(self, path: Path) -> str:
+        """Return why a trial of a file has refused it, whatever its argument was; else nothing."""
+        verdicts = [*_in_memory.values()]
+        for place in sorted(_verdicts().glob("*.json")):
+            with contextlib.suppress(OSError, ValueError):
+                verdicts.append(json.loads(place.read_text(encoding="utf-8")))
+        asked = {"path": str(path), "content": digest_of(path), "by": self._by()}
+        for verdict in verdicts:
+            if (
+                isinstance(verdict, dict)
+                and asked.items() <= verdict.items()
+                and (not verdict.get("files") or _same(verdict["files"]))
+                and verdict["reason"]
+            ):
+                return str(verdict["reason"])
+        return ""
+
+    def _by(self) -> str:
+        """Name what tries: the program, and this build of it."""
+        return hashlib.sha256(f"{_build()}\n{self.program}".encode()).hexdigest()[:32]
+
+    def _place(self, path: Path, argument: str) -> Path:
         digest = hashlib.sha256(f"{_build()}\n{self.program}\n{path}\n{argument}\n".encode())
         digest.update(read_at_most(path))
-        return paths.cache() / "trials" / "verdicts" / f"{digest.hexdigest()[:32]}.json"
+        return _verdicts() / f"{digest.hexdigest()[:32]}.json"
+
+
+def _verdicts() -> Path:
+    return paths.cache() / "trials" / "verdicts"
 
 
 @cache
@@ -110,9 +146,11 @@ def digest_of(path: Path) -> str:
 
 
 def _same(files: Any) -> bool:
-    """Return whether files, path -> digest, are as they were."""
-    return isinstance(files, dict) and all(
-        digest_of(Path(path)) == digest for path, digest in files.items()
+    """Return whether files, path -> digest, are as they were; False where there are none."""
+    return (
+        isinstance(files, dict)
+        and bool(files)
+        and all(digest_of(Path(path)) == digest for path, digest in files.items())
     )
 
 
@@ -142,7 +180,7 @@ def _run(trial: Trial, path: Path, argument: str) -> dict[str, Any]:
                 start_new_session=True,
             )
         except subprocess.TimeoutExpired:
-            where = f"in the trial {_place(page)} had not ended after {CLOCK:g} s"
+            where = f"in the trial {_last_words(page)} had not ended after {CLOCK:g} s"
             return {"reason": f"{path}: {where}; on a busy computer try again", "again": True}
         except OSError as error:
             why = f"no process can be started for its trial: {error}"
@@ -164,7 +202,7 @@ def _page() -> Iterator[tuple[str, mmap.mmap]]:
             yield name, page
 
 
-def _place(page: mmap.mmap) -> str:
+def _last_words(page: mmap.mmap) -> str:
     """Say what the process did last."""
     number, _ = struct.unpack_from(HEAD, page)
     doing = doing_in(page)
@@ -174,7 +212,7 @@ def _place(page: mmap.mmap) -> str:
 
 
 def _ended(code: int, page: mmap.mmap) -> str:
-    place, (_, allowed) = _place(page), struct.unpack_from(HEAD, page)
+    place, (_, allowed) = _last_words(page), struct.unpack_from(HEAD, page)
     if code in (-getattr(signal, "SIGPROF", 0), -getattr(signal, "SIGALRM", 0)):
         if code == -signal.SIGALRM:
             return f"in the trial {place} waits: it had not returned after {PATIENCE:g} s or more"

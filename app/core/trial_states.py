@@ -170,9 +170,9 @@ class StageTrial:
             f" {_listed(self.writes)}",
         )
 
-    def _refusal(self, line: int, what: str) -> str:
+    def _refusal(self, line: int, misdeed: str) -> str:
         place = f"{self.path}, line {line}" if line else str(self.path)
-        return f"{place}: {self.name} {what} ({self._where})"
+        return f"{place}: {self.name} {misdeed} ({self._where})"
 
     def _as_python(self, error: Exception | None) -> tuple[int, str]:
         """Run the state again as Python; return the line that goes wrong (0: unknown) and what it

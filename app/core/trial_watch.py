@@ -43,9 +43,9 @@ class Watch:
         self._began = self._paused = self._allowed = 0.0
         self._compiling = 0
 
-    def doing(self, what: str, seconds: float = EACH) -> None:
+    def doing(self, activity: str, seconds: float = EACH) -> None:
         """Say what is called from now on, and how much processor time it may take [s]."""
-        text = what.encode()[: PAGE - _TEXT - 1]
+        text = activity.encode()[: PAGE - _TEXT - 1]
         self._page[_TEXT : _TEXT + len(text) + 1] = text + b"\0"
         self._mark(-1, seconds)
         _wind(seconds, PATIENCE)

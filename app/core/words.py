@@ -17,6 +17,6 @@ def printable(text: str) -> str:
     return _STEERING.sub(lambda match: f"\\u{ord(match[0]):04x}", text)
 
 
-def counted(number: int, item: str, several: str) -> str:
+def counted(number: int, singular: str, plural: str) -> str:
     """Return the words for one, or those for another number of things."""
-    return item if number == 1 else several
+    return singular if number == 1 else plural

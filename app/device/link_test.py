@@ -9,6 +9,7 @@ import numpy as np
 from app.core import staleness
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.device.control import Loop, Table
 from app.device.errors import LinkError
 from app.device.links.link import describe_error
@@ -63,16 +64,24 @@ class LinkResult:
     def verdict(self) -> str:
         """One sentence: whether the wire is good, else what was wrong and what to do."""
         if self.good:
-            return "the wire is good"
-        unanswered = f"{self.lost} of {self.commands} commands were never answered"
+            return sentence("the wire is good")
+        unanswered = sentence(
+            "{lost} of {commands} commands were never answered",
+            lost=self.lost,
+            commands=self.commands,
+        )
         if self.seconds - self.last_answer > SILENCE:
-            return (
-                f"the board fell silent {self.last_answer:.2f} s after the beginning: {unanswered};"
-                " check its power, its cable and its program, then test again"
+            return sentence(
+                "the board fell silent {last_answer:.2f} s after the beginning: {unanswered};"
+                " check its power, its cable and its program, then test again",
+                last_answer=self.last_answer,
+                unanswered=unanswered,
             )
-        return (
-            f"{unanswered}, at most {self.most_lost} may be: check the cable and its plugs, and"
-            " what else this computer has to do, then test again"
+        return sentence(
+            "{unanswered}, at most {most_lost} may be: check the cable and its plugs, and"
+            " what else this computer has to do, then test again",
+            unanswered=unanswered,
+            most_lost=self.most_lost,
         )
 
     def document(self) -> dict[str, Any]:
@@ -174,12 +183,20 @@ def _result(
     most_lost = int(min(LOST_SHARE * commands, staleness.ENCODER_FADE * rate_hz))
     if np.count_nonzero(in_time) < _MINIMUM and commands - answered <= most_lost:
         raise LinkError(
-            f"only {np.count_nonzero(in_time)} answers of the robot on {port} came within a tick of"
-            f" {1e3 / rate_hz:g} ms; lower loop.rate_hz in the profile or use a faster port"
+            sentence(
+                "only {count_nonzero} answers of the robot on {port} came within a tick of"
+                " {rate_hz:g} ms; lower loop.rate_hz in the profile or use a faster port",
+                count_nonzero=np.count_nonzero(in_time),
+                port=port,
+                rate_hz=1e3 / rate_hz,
+            )
         )
     if not len(trips):
         raise LinkError(
-            f"the robot on {port} was greeted, but answers no command; see its firmware"
+            sentence(
+                "the robot on {port} was greeted, but answers no command; see its firmware",
+                port=port,
+            )
         )
     p50, p90, p99, largest = np.percentile(trips, (50, 90, 99, 100))
     return LinkResult(

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Final
 
+from app.core.messages import sentence
 from app.device.links.link import BoardInfo
 from app.mechanisms.profile import DeviceProfile
 
@@ -77,39 +78,55 @@ class Readiness:
             return ForceClearance(
                 0.0,
                 0.0,
-                "no force: the encoders' directions were not seen; home against the stops"
-                " (`--step homing`), or check the signs by hand (`--step signs` without --yes)",
+                sentence(
+                    "no force: the encoders' directions were not seen; home against the stops "
+                    "(`--step homing`), or check the signs by hand (`--step signs` without --yes)"
+                ),
             )
         if lack := self._scale_lacks(profile):
             cap = min(UNVERIFIED_FORCE, full)
             return ForceClearance(
                 1.0,
                 cap,
-                f"forces are held to {cap:g} N: {lack}; weigh it with a kitchen scale"
-                " (docs/hardware.md): `acus device calibrate PORT --step force`",
+                sentence(
+                    "forces are held to {cap:g} N: {lack}; weigh it with a kitchen scale"
+                    " (docs/hardware.md): `acus device calibrate PORT --step force`",
+                    cap=cap,
+                    lack=lack,
+                ),
             )
         return ForceClearance(1.0, full)
 
     def _scale_lacks(self, profile: DeviceProfile) -> str:
         if self.force_factor is None:
-            return "the force scale of this device was never measured"
+            return sentence("the force scale of this device was never measured")
         if self.profile != profile.name:
-            return f"its force scale was measured with profile {self.profile}, not {profile.name}"
+            return sentence(
+                "its force scale was measured with profile {profile}, not {profile_name}",
+                profile=self.profile,
+                profile_name=profile.name,
+            )
         if abs(self.force_factor - 1.0) <= SCALE_TOLERANCE:
             return ""
-        return (
-            f"its force scale was {self.force_factor:.2f} on {self.force_date},"
-            f" outside 1 ± {SCALE_TOLERANCE:g}"
+        return sentence(
+            "its force scale was {force_factor:.2f} on {force_date},"
+            " outside 1 ± {scale_tolerance:g}",
+            force_factor=self.force_factor,
+            force_date=self.force_date,
+            scale_tolerance=SCALE_TOLERANCE,
         )
 
 
 def _power_cycle(lacks: str, step: str, boot: int) -> str:
     if boot == 0:
-        return (
-            f"no force: the board does not number its power cycles, so it counts as not {lacks};"
-            " run `acus device calibrate PORT` after switching it on"
+        return sentence(
+            "no force: the board does not number its power cycles, so it counts as not "
+            "{lacks}; run `acus device calibrate PORT` after switching it on",
+            lacks=lacks,
         )
-    return (
-        f"no force: the robot was not {lacks} since it was switched on; do that step in the menu"
-        f" Robot, Commissioning, or with `acus device calibrate PORT --step {step}`"
+    return sentence(
+        "no force: the robot was not {lacks} since it was switched on; do that step in the "
+        "menu Robot, Commissioning, or with `acus device calibrate PORT --step {step}`",
+        lacks=lacks,
+        step=step,
     )

@@ -28,6 +28,7 @@ from app.core import paths
 from app.core.configuration import LARGEST_FILE, Strict, parse, parse_text
 from app.core.errors import AcusError
 from app.core.files import write_atomically
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.core.temporary import temporary_folder
 from app.exchange.errors import ExchangeError
@@ -165,7 +166,7 @@ def pack(
     progress = progress or Progress()
     _require_same(volume.digest, exercise.ct.digest, "this CT")
     if with_ct and exercise.ct.folder is None:
-        raise PackageError("the phantom needs no CT in the file: leave it out")
+        raise PackageError(sentence("the phantom needs no CT in the file: leave it out"))
     folder = temporary_folder("acusx")
     beside = path.with_name(f".{path.name}.{uuid4().hex}")
     try:
@@ -193,7 +194,13 @@ def pack(
     except OSError as error:
         if isinstance(error, ExchangeError):
             raise
-        raise PackageError(f"cannot write {path}: {error.strerror or error}") from error
+        raise PackageError(
+            sentence(
+                "cannot write {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
     finally:
         beside.unlink(missing_ok=True)
         shutil.rmtree(folder, ignore_errors=True)
@@ -254,7 +261,11 @@ def _only(folder: Path) -> Any:
 
     found = scan_folder(folder).series
     if len(found) != 1:
-        raise PackageError(f"{folder} holds {len(found)} series; one is needed")
+        raise PackageError(
+            sentence(
+                "{folder} holds {count} series; one is needed", folder=folder, count=len(found)
+            )
+        )
     return found[0]
 
 
@@ -272,11 +283,16 @@ def _identity(exercise: Exercise, volume: Volume) -> CtIdentity:
     )
 
 
-def _require_same(result: str, wanted: str | None, what: str) -> None:
+def _require_same(result: str, wanted: str | None, subject: str) -> None:
     if wanted is not None and result != wanted:
         raise CtMissingError(
-            f"{what} is another one than the exercise was made on: its digest is {result[:12]}…, "
-            f"{wanted[:12]}… is needed (acus ct digest tells it)"
+            sentence(
+                "{subject} is another one than the exercise was made on: its digest is "
+                "{result}…, {wanted}… is needed (acus ct digest tells it)",
+                subject=subject,
+                result=result[:12],
+                wanted=wanted[:12],
+            )
         )
 
 
@@ -346,11 +362,19 @@ def unpack(
         written = tuple(target for target in targets if target.suffix == ".nrrd")
         return UnpackedExercise(save(exercise), False, exercise.ct.folder, written)
     except UnicodeDecodeError as error:
-        raise PackageError(f"{path}: {_EXERCISE} is no text in UTF-8") from error
+        raise PackageError(
+            sentence("{path}: {exercise} is no text in UTF-8", path=path, exercise=_EXERCISE)
+        ) from error
     except OSError as error:
         if isinstance(error, AcusError):
             raise
-        raise PackageError(f"cannot unpack {path}: {error.strerror or error}") from error
+        raise PackageError(
+            sentence(
+                "cannot unpack {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 
@@ -359,11 +383,21 @@ def _opened(path: Path) -> zipfile.ZipFile:
     try:
         return zipfile.ZipFile(path)
     except OSError as error:
-        raise PackageError(f"cannot read {path}: {error.strerror or error}") from error
+        raise PackageError(
+            sentence(
+                "cannot read {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
     except (zipfile.BadZipFile, NotImplementedError, ValueError) as error:
         raise PackageError(
-            f"{path} is no exercise file ({SUFFIX}), or damaged: have it written again "
-            "(acus exercise pack)"
+            sentence(
+                "{path} is no exercise file ({suffix}), or damaged: have it written again "
+                "(acus exercise pack)",
+                path=path,
+                suffix=SUFFIX,
+            )
         ) from error
 
 
@@ -372,28 +406,60 @@ def _manifest(archive: zipfile.ZipFile, path: Path) -> PackageManifest:
     members = archive.infolist()
     names = [member.filename for member in members]
     if len(names) > _MOST_FILES:
-        raise PackageError(f"{path} holds {len(names)} files; {_MOST_FILES} are the most")
+        raise PackageError(
+            sentence(
+                "{path} holds {names_count} files; {most_files} are the most",
+                path=path,
+                names_count=len(names),
+                most_files=_MOST_FILES,
+            )
+        )
     for member in members:
         if why := _refused(member):
-            raise PackageError(f"{path} is not used: {member.filename[:80]!r} {why}")
+            raise PackageError(
+                sentence(
+                    "{path} is not used: {member_filename!r} {reason}",
+                    path=path,
+                    member_filename=member.filename[:80],
+                    reason=why,
+                )
+            )
     twice = {one for one in names if names.count(one) > 1} if len(set(names)) < len(names) else ()
     if twice:
-        raise PackageError(f"{path} is not used: {min(twice)!r} is in it twice")
+        raise PackageError(
+            sentence(
+                "{path} is not used: {twice_min!r} is in it twice", path=path, twice_min=min(twice)
+            )
+        )
     if _MANIFEST not in names:
-        raise PackageError(f"{path} is no exercise file: it has no {_MANIFEST}")
+        raise PackageError(
+            sentence(
+                "{path} is no exercise file: it has no {manifest}", path=path, manifest=_MANIFEST
+            )
+        )
     try:
         document = json.loads(_bytes(archive, _MANIFEST, path))
     except (ValueError, RecursionError) as error:
-        raise PackageError(f"{path}: {_MANIFEST} is not JSON") from error
+        raise PackageError(
+            sentence("{path}: {manifest} is not JSON", path=path, manifest=_MANIFEST)
+        ) from error
     version = document.get("version") if isinstance(document, dict) else None
     if isinstance(version, int) and version > FORMAT:
         raise PackageError(
-            f"{path} was written by a newer Acus ({str(document.get('acus'))[:20]}): its form is "
-            f"{version}, this program reads up to {FORMAT}: install the newer one"
+            sentence(
+                "{path} was written by a newer Acus ({declared}): its form is "
+                "{version}, this program reads up to {format}: install the newer one",
+                path=path,
+                declared=str(document.get("acus"))[:20],
+                version=version,
+                format=FORMAT,
+            )
         )
     manifest = parse(document, PackageManifest, f"{path}: {_MANIFEST}")
     if set(manifest.files) != set(names) - {_MANIFEST} or _EXERCISE not in manifest.files:
-        raise PackageError(f"{path} is not used: its list of files is not what it holds")
+        raise PackageError(
+            sentence("{path} is not used: its list of files is not what it holds", path=path)
+        )
     return manifest
 
 
@@ -417,13 +483,23 @@ def _require_room(archive: zipfile.ZipFile, folder: Path, path: Path) -> None:
     packed = max(sum(member.compress_size for member in archive.infolist()), 1)
     if whole > _MOST_BYTES or (whole > _FREE_GROWTH and whole / packed > _MOST_GROWTH):
         raise PackageError(
-            f"{path} is not used: it would grow {whole / packed:.0f} times to {whole / 1e9:.1f} GB"
+            sentence(
+                "{path} is not used: it would grow {whole:.0f} times to {whole_2:.1f} GB",
+                path=path,
+                whole=whole / packed,
+                whole_2=whole / 1e9,
+            )
         )
     free = shutil.disk_usage(folder).free
     if whole > free:
         raise PackageError(
-            f"{path} unpacks to {whole / 1e9:.1f} GB and {free / 1e9:.1f} GB are free in the "
-            "temporary folder: make room"
+            sentence(
+                "{path} unpacks to {whole:.1f} GB and {free:.1f} GB are free in the "
+                "temporary folder: make room",
+                path=path,
+                whole=whole / 1e9,
+                free=free / 1e9,
+            )
         )
 
 
@@ -432,7 +508,9 @@ def _bytes(archive: zipfile.ZipFile, name: str, path: Path) -> bytes:
         with archive.open(name) as stream:
             return stream.read(LARGEST_FILE + 1)
     except _DAMAGED as error:
-        raise PackageError(f"{path} is damaged at {name}: have it sent again") from error
+        raise PackageError(
+            sentence("{path} is damaged at {name}: have it sent again", path=path, name=name)
+        ) from error
 
 
 def _chunks(archive: zipfile.ZipFile, name: str, path: Path) -> Iterator[bytes]:
@@ -442,7 +520,9 @@ def _chunks(archive: zipfile.ZipFile, name: str, path: Path) -> Iterator[bytes]:
             while chunk := packed.read(_CHUNK):
                 yield chunk
     except _DAMAGED as error:
-        raise PackageError(f"{path} is damaged at {name}: have it sent again") from error
+        raise PackageError(
+            sentence("{path} is damaged at {name}: have it sent again", path=path, name=name)
+        ) from error
 
 
 def _extract(
@@ -464,7 +544,9 @@ def _extract(
                 found.update(chunk)
                 plain.write(chunk)
         if found.hexdigest() != wanted:
-            raise PackageError(f"{path}: {name} was altered after it was packed")
+            raise PackageError(
+                sentence("{path}: {name} was altered after it was packed", path=path, name=name)
+            )
 
 
 def _ct_folder(
@@ -487,14 +569,24 @@ def _ct_folder(
 
     remedy, wanted = exercise.ct.remedy, manifest.ct.digest
     if exercise.ct.digest != wanted:
-        raise PackageError(f"{path} is not used: exercise and {_MANIFEST} name different CTs")
+        raise PackageError(
+            sentence(
+                "{path} is not used: exercise and {manifest} name different CTs",
+                path=path,
+                manifest=_MANIFEST,
+            )
+        )
     packed = folder / _CT
     if not packed.is_dir():
         ct, uid = given
         if ct is None:
             raise CtMissingError(
-                f"{path} does not hold its CT: name the folder of the one with the digest "
-                f"{wanted[:12]}… (--ct DIR; acus ct digest tells it)"
+                sentence(
+                    "{path} does not hold its CT: name the folder of the one with the digest "
+                    "{wanted}… (--ct DIR; acus ct digest tells it)",
+                    path=path,
+                    wanted=wanted[:12],
+                )
             )
         listing = scan_folder(ct, progress.part(0.0, 0.2))
         asked: tuple[Series, ...]
@@ -509,8 +601,14 @@ def _ct_folder(
                 return ct.resolve(), series.key if len(asked) > 1 else uid
         if len(asked) > 1:
             raise CtMissingError(
-                f"none of the {len(asked)} CT series in {ct} is that of {path}: one with the digest"
-                f" {wanted[:12]}… is needed; name the folder that holds it"
+                sentence(
+                    "none of the {asked_count} CT series in {ct} is that of {path}: one with the "
+                    "digest {wanted}… is needed; name the folder that holds it",
+                    asked_count=len(asked),
+                    ct=ct,
+                    path=path,
+                    wanted=wanted[:12],
+                )
             )
         _require_same(digest, wanted, f"the CT in {ct}")
     volume = read_with(_only(packed), remedy, progress.part(0.0, 0.4))
@@ -522,9 +620,14 @@ def _ct_folder(
         if not taken.again:
             discard(taken.entry.folder)
         raise CtMissingError(
-            f"the library holds another CT under the name of this one, {taken.entry.name}: its "
-            f"digest is {again.digest[:12]}…, {wanted[:12]}… is needed; remove it first "
-            f"(acus library remove {taken.entry.name})"
+            sentence(
+                "the library holds another CT under the name of this one, {taken_entry_name}: "
+                "its digest is {again_digest}…, {wanted}… is needed; remove it first (acus "
+                "library remove {taken_entry_name})",
+                taken_entry_name=taken.entry.name,
+                again_digest=again.digest[:12],
+                wanted=wanted[:12],
+            )
         )
     return taken.entry.folder, None
 
@@ -541,7 +644,11 @@ def _placed(folder: Path, exercise: Exercise) -> tuple[Exercise, dict[Path, Path
     for field in ("device", "rig"):
         named = getattr(exercise, field)
         if why := unknown_profile(field, named):
-            raise PackageError(f"the exercise cannot be used here: {field}: {why}")
+            raise PackageError(
+                sentence(
+                    "the exercise cannot be used here: {field}: {reason}", field=field, reason=why
+                )
+            )
         if Path(named).suffix in (".yaml", ".yml"):
             source = _inside(folder, named)
             place = paths.data() / "exercises" / "profiles" / f"{exercise.id}-{field}.yaml"
@@ -560,8 +667,11 @@ def _same_there(exercise: Exercise, replace: bool) -> Exercise | None:
     if there is None:
         if exercise.id in taken_ids() and not replace:
             raise TakenError(
-                f"the id {exercise.id!r} is taken by a file that cannot be used, or by earlier "
-                "versions: keep this exercise under another name (--as NAME)"
+                sentence(
+                    "the id {exercise_id!r} is taken by a file that cannot be used, or by "
+                    "earlier versions: keep this exercise under another name (--as NAME)",
+                    exercise_id=exercise.id,
+                )
             )
         return None
     known = read_exercise(there)
@@ -571,8 +681,11 @@ def _same_there(exercise: Exercise, replace: bool) -> Exercise | None:
         return known
     if not replace:
         raise TakenError(
-            f"there is another exercise {exercise.id!r}: keep this one under another name (--as "
-            "NAME), or as a new version of it (--replace)"
+            sentence(
+                "there is another exercise {exercise_id!r}: keep this one under another name "
+                "(--as NAME), or as a new version of it (--replace)",
+                exercise_id=exercise.id,
+            )
         )
     return None
 
@@ -580,5 +693,7 @@ def _same_there(exercise: Exercise, replace: bool) -> Exercise | None:
 def _inside(folder: Path, name: str) -> Path:
     """Return a file that was unpacked, by its name in the exercise."""
     if not _NAME.fullmatch(name) or not (folder / name).is_file():
-        raise PackageError(f"the exercise names {name[:80]!r}, which the file does not hold")
+        raise PackageError(
+            sentence("the exercise names {name!r}, which the file does not hold", name=name[:80])
+        )
     return folder / name

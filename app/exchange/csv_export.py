@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from app.core.disclaimer import DISCLAIMER
 from app.core.files import write_atomically
+from app.core.messages import sentence
 from app.core.words import printable
 from app.exchange.errors import ExportError
 from app.exchange.markups import SCHEMA
@@ -116,19 +117,29 @@ def write_measurements(path: Path, items: Sequence[Measurement], volume: Volume)
         ExportError: if the name is of neither, there is nothing to write, or it cannot be written.
     """
     if not items:
-        raise ExportError("there is no measurement to write: take one first")
+        raise ExportError(sentence("there is no measurement to write: take one first"))
     if path.suffix.lower() == ".csv":
         write_csv(path, measurements_table(items, volume))
         return
     if not path.name.lower().endswith(".json"):
-        raise ExportError(f"{path.name}: measurements are written as .csv or .mrk.json")
+        raise ExportError(
+            sentence(
+                "{path_name}: measurements are written as .csv or .mrk.json", path_name=path.name
+            )
+        )
     text = json.dumps(
         measurements_document(items, volume), indent=1, allow_nan=False, ensure_ascii=False
     )
     try:
         write_atomically(path, printable(text) + "\n")
     except OSError as error:
-        raise ExportError(f"cannot write {path}: {error.strerror or error}") from error
+        raise ExportError(
+            sentence(
+                "cannot write {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
 
 
 def title(item: Measurement, number: int) -> str:
@@ -316,7 +327,13 @@ def write_csv(path: Path, text: str) -> None:
     try:
         write_atomically(path, b"\xef\xbb\xbf" + text.encode())
     except OSError as error:
-        raise ExportError(f"cannot write {path}: {error.strerror or error}") from error
+        raise ExportError(
+            sentence(
+                "cannot write {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
 
 
 def _fixed(row: Summary) -> Sequence[object]:

@@ -16,6 +16,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.disclaimer import DISCLAIMER
 from app.core.files import read_at_most, write_atomically
+from app.core.messages import sentence
 from app.core.words import printable
 from app.exchange.errors import ExportError, MarkupsError
 from app.planning.errors import PlanError
@@ -77,7 +78,13 @@ def write_plan(path: Path, plan: Plan) -> None:
     try:
         write_atomically(path, printable(text) + "\n")
     except OSError as error:
-        raise ExportError(f"cannot write {path}: {error.strerror or error}") from error
+        raise ExportError(
+            sentence(
+                "cannot write {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
 
 
 def read_plan(path: Path) -> Plan:
@@ -92,9 +99,21 @@ def read_plan(path: Path) -> Plan:
     try:
         document = json.loads(read_at_most(path), parse_constant=float)
     except OSError as error:
-        raise MarkupsError(f"cannot read {path}: {error.strerror or error}") from error
+        raise MarkupsError(
+            sentence(
+                "cannot read {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
     except (ValueError, RecursionError) as error:
-        raise MarkupsError(f"{path} is not JSON: {' '.join(str(error).split())}") from error
+        raise MarkupsError(
+            sentence(
+                "{path} is not JSON: {error_split}",
+                path=path,
+                error_split=" ".join(str(error).split()),
+            )
+        ) from error
     return parse_plan(document, str(path))
 
 
@@ -115,7 +134,7 @@ def parse_plan(document: Any, origin: str) -> Plan:
             name if isinstance(name, str) and name else "Plan",
         )
     except PlanError as error:
-        raise MarkupsError(f"{origin}: {error}") from error
+        raise MarkupsError(sentence("{origin}: {error}", origin=origin, error=error)) from error
 
 
 def _control_point(identifier: str, label: str, position: FloatArray) -> dict[str, Any]:
@@ -202,4 +221,12 @@ def _is_number(value: object) -> bool:
 def _refuse(origin: str, name: str, value: object, wanted: str) -> NoReturn:
     text = repr(value)
     short = text if len(text) <= 60 else text[:57] + "..."
-    raise MarkupsError(f"{origin}: {name} is {short}; needed: {wanted}")
+    raise MarkupsError(
+        sentence(
+            "{origin}: {name} is {short}; needed: {wanted}",
+            origin=origin,
+            name=name,
+            short=short,
+            wanted=wanted,
+        )
+    )

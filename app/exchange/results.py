@@ -17,6 +17,7 @@ from typing import Any, Final
 from app.core.disclaimer import DISCLAIMER
 from app.core.files import write_atomically
 from app.core.json_values import finite
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.core.words import printable
 from app.exchange.csv_export import table_text, write_csv
@@ -117,7 +118,13 @@ def write_results(path: Path, text: str) -> None:
     try:
         write_atomically(path, text)
     except OSError as error:
-        raise ExportError(f"cannot write {path}: {error.strerror or error}") from error
+        raise ExportError(
+            sentence(
+                "cannot write {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
 
 
 def results_document(results: Results, progress: Progress | None = None) -> dict[str, Any]:

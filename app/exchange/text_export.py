@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from app.core.files import write_atomically
+from app.core.messages import sentence
 from app.exchange.errors import ExportError
 
 
@@ -15,4 +16,10 @@ def write_text(path: Path, text: str) -> None:
     try:
         write_atomically(path, text)
     except OSError as error:
-        raise ExportError(f"cannot write {path}: {error.strerror or error}") from error
+        raise ExportError(
+            sentence(
+                "cannot write {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error

@@ -18,6 +18,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.errors import NumericalError
 from app.core.files import read_at_most
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.exchange.errors import TransformError
@@ -69,7 +70,9 @@ def read_tfm(path: Path) -> RigidTransform:
         text = read_at_most(path).decode("utf-8")[: _LONGEST + 1]
     except (OSError, UnicodeDecodeError) as error:
         why = getattr(error, "strerror", None) or "it is not text"
-        raise TransformError(f"cannot read {path}: {why}") from error
+        raise TransformError(
+            sentence("cannot read {path}: {reason}", path=path, reason=why)
+        ) from error
     return parse_tfm(text, str(path))
 
 
@@ -192,4 +195,4 @@ def _rigid(matrix: FloatArray, offset_mm: FloatArray, origin: str) -> RigidTrans
 
 
 def _refuse(origin: str, reason: str) -> NoReturn:
-    raise TransformError(f"{origin}: {reason}")
+    raise TransformError(sentence("{origin}: {reason}", origin=origin, reason=reason))

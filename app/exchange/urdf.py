@@ -34,6 +34,7 @@ import numpy as np
 
 from app.core.configuration import parse
 from app.core.files import read_at_most
+from app.core.messages import sentence
 from app.exchange.errors import UrdfError
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.pantograph import inverse, passive_angles
@@ -63,7 +64,14 @@ def read_geometry(path: Path) -> GeometrySection:
     left, right = joints.origin("panto_a1"), joints.origin("panto_a5")
     middle = 0.5 * (left[0] + right[0])
     if left[1:] != (0.0, 0.0) or right[1:] != (0.0, 0.0):
-        raise UrdfError(f"{path}: panto_a1 {left} and panto_a5 {right} must lie on the x axis")
+        raise UrdfError(
+            sentence(
+                "{path}: panto_a1 {left} and panto_a5 {right} must lie on the x axis",
+                path=path,
+                left=left,
+                right=right,
+            )
+        )
     proximal = _equal(path, joints, "panto_a2", "panto_a4")
     distal = joints.length("panto_a3")
     if joints.has("panto_right_link2_to_end"):
@@ -103,7 +111,9 @@ class _NoDoctype(ET.TreeBuilder):
     """Builder that ends at a document type declaration: entities could be anything, and huge."""
 
     def doctype(self, name: str, pubid: str | None, system: str | None) -> None:
-        raise UrdfError("has a document type declaration (DOCTYPE), which a URDF never needs")
+        raise UrdfError(
+            sentence("has a document type declaration (DOCTYPE), which a URDF never needs")
+        )
 
 
 class _Joints:
@@ -115,7 +125,9 @@ class _Joints:
         for joint in root.iter("joint"):
             name = joint.get("name", "")
             if name in self.found and joint.find("origin") is not None:
-                raise UrdfError(f"{path}: joint {name!r} is there twice")
+                raise UrdfError(
+                    sentence("{path}: joint {name!r} is there twice", path=path, name=name)
+                )
             if joint.find("parent") is not None:  # not those of ros2_control
                 self.found[name] = joint
 
@@ -125,22 +137,42 @@ class _Joints:
     def origin(self, name: str) -> tuple[float, float, float]:
         if name not in self.found:
             there = ", ".join(sorted(self.found)) or "no joints"
-            raise UrdfError(f"{self.path}: joint {name!r} is missing; there are: {there}")
+            raise UrdfError(
+                sentence(
+                    "{path}: joint {name!r} is missing; there are: {there}",
+                    path=self.path,
+                    name=name,
+                    there=there,
+                )
+            )
         origin = self.found[name].find("origin")
         if origin is None:
             return 0.0, 0.0, 0.0  # URDF's own default
         what = f"{self.path}: joint {name!r}, origin"
         if any(_numbers(origin.get("rpy", "0 0 0"), what)):
             turned = origin.get("rpy")
-            raise UrdfError(f"{what}: rpy is {turned!r}; turned joints are not supported")
+            raise UrdfError(
+                sentence(
+                    "{what}: rpy is {turned!r}; turned joints are not supported",
+                    what=what,
+                    turned=turned,
+                )
+            )
         return _numbers(origin.get("xyz", "0 0 0"), what)
 
     def length(self, name: str) -> float:
         x, y, z = self.origin(name)
         if (y, z) != (0.0, 0.0) or not x > 0.0:
             raise UrdfError(
-                f"{self.path}: joint {name!r} stands at ({x}, {y}, {z}) m; a link of the arms goes"
-                " along +x"
+                sentence(
+                    "{path}: joint {name!r} stands at ({x}, {y}, {z}) m; a link of the arms goes"
+                    " along +x",
+                    path=self.path,
+                    name=name,
+                    x=x,
+                    y=y,
+                    z=z,
+                )
             )
         return x
 
@@ -149,8 +181,15 @@ def _equal(path: Path, joints: _Joints, left: str, right: str) -> float:
     one, other = joints.length(left), joints.length(right)
     if abs(one - other) > _SAME:
         raise UrdfError(
-            f"{path}: the arms differ: {left} at {one} m, {right} at {other} m; Acus' pantograph is"
-            " symmetric"
+            sentence(
+                "{path}: the arms differ: {left} at {item} m, {right} at {other} m; Acus' "
+                "pantograph is symmetric",
+                path=path,
+                left=left,
+                item=one,
+                right=right,
+                other=other,
+            )
         )
     return one
 
@@ -161,29 +200,42 @@ def _needle_length(path: Path, root: ET.Element) -> float:
             for cylinder in link.iter("cylinder"):
                 text = cylinder.get("length", "")
                 return _number(text, f"{path}: link 'tool_phi_link', cylinder length")
-            raise UrdfError(f"{path}: link 'tool_phi_link' has no cylinder, which is the needle")
-    raise UrdfError(f"{path}: link 'tool_phi_link' is missing; the needle is its cylinder")
+            raise UrdfError(
+                sentence(
+                    "{path}: link 'tool_phi_link' has no cylinder, which is the needle", path=path
+                )
+            )
+    raise UrdfError(
+        sentence("{path}: link 'tool_phi_link' is missing; the needle is its cylinder", path=path)
+    )
 
 
-def _numbers(text: str, what: str) -> tuple[float, float, float]:
+def _numbers(text: str, place: str) -> tuple[float, float, float]:
     parts = text.split()
     if len(parts) != 3:
-        raise UrdfError(f"{what}: {text!r} is not three numbers")
-    x, y, z = (_number(part, what) for part in parts)
+        raise UrdfError(sentence("{place}: {text!r} is not three numbers", place=place, text=text))
+    x, y, z = (_number(part, place) for part in parts)
     return x, y, z
 
 
-def _number(text: str, what: str) -> float:
+def _number(text: str, place: str) -> float:
     if "$" in text:
         raise UrdfError(
-            f"{what}: {text!r} is a xacro expression; expand the file first (xacro FILE > out.urdf)"
+            sentence(
+                "{place}: {text!r} is a xacro expression; expand the file first"
+                " (xacro FILE > out.urdf)",
+                place=place,
+                text=text,
+            )
         )
     try:
         value = float(text)
     except ValueError:
-        raise UrdfError(f"{what}: {text!r} is not a number") from None
+        raise UrdfError(
+            sentence("{place}: {text!r} is not a number", place=place, text=text)
+        ) from None
     if not isfinite(value):
-        raise UrdfError(f"{what}: {text!r} is not finite")
+        raise UrdfError(sentence("{place}: {text!r} is not finite", place=place, text=text))
     return value
 
 
@@ -191,15 +243,21 @@ def _root(path: Path) -> ET.Element:
     try:
         content = read_at_most(path, _LARGEST)
     except OSError as error:
-        raise UrdfError(f"cannot read {path}: {error.strerror or error}") from error
+        raise UrdfError(
+            sentence(
+                "cannot read {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
     parser = ET.XMLParser(target=_NoDoctype())
     try:
         parser.feed(content)
         root: ET.Element = parser.close()
     except UrdfError as error:
-        raise UrdfError(f"{path} {error}") from None
+        raise UrdfError(sentence("{path} {error}", path=path, error=error)) from None
     except (ET.ParseError, ValueError, LookupError) as error:
-        raise UrdfError(f"{path} is not XML: {error}") from error
+        raise UrdfError(sentence("{path} is not XML: {error}", path=path, error=error)) from error
     return root
 
 
@@ -380,8 +438,13 @@ def _joint_ranges(profile: PantographProfile) -> dict[str, tuple[float, float]]:
                 q = inverse(geometry, geometry.fulcrum[:2] + lean)
             except MechanismError as error:
                 raise MechanismError(
-                    f"device {profile.name} does not reach all of its tilt limit of"
-                    f" {profile.tilt_limit_deg:g}°: {error}"
+                    sentence(
+                        "device {profile_name} does not reach all of its tilt limit of"
+                        " {profile_tilt_limit_deg:g}°: {error}",
+                        profile_name=profile.name,
+                        profile_tilt_limit_deg=profile.tilt_limit_deg,
+                        error=error,
+                    )
                 ) from error
             passive = passive_angles(geometry, q)
             rows.append([*q, passive.left_relative, passive.right_relative])

@@ -13,6 +13,7 @@ from typing import Annotated, Final
 from pydantic import Field, model_validator
 
 from app.core.configuration import Strict
+from app.core.messages import sentence
 from app.imaging.scan_order import FEWEST, MOST, THICKEST_MM, THINNEST_MM, ScanOrder
 
 DialShare = Annotated[float, Field(ge=-1.0, le=1.0)]
@@ -55,13 +56,25 @@ class FadingPart(Strict):
     @model_validator(mode="after")
     def _goes_together(self) -> FadingPart:
         if self.kind is FadingKind.SCHEDULE and not self.dials:
-            raise ValueError("dials: a schedule needs at least one, such as [0.7, 0.4, 0]")
+            raise ValueError(
+                sentence("dials: a schedule needs at least one, such as [0.7, 0.4, 0]")
+            )
         if self.kind is FadingKind.PERFORMANCE and self.dials:
-            raise ValueError("dials go with kind: schedule; performance follows the scores")
+            raise ValueError(
+                sentence("dials go with kind: schedule; performance follows the scores")
+            )
         if self.poor > self.good:
-            raise ValueError(f"poor ({self.poor:g}) must not lie above good ({self.good:g})")
+            raise ValueError(
+                sentence(
+                    "poor ({poor:g}) must not lie above good ({good:g})",
+                    poor=self.poor,
+                    good=self.good,
+                )
+            )
         if self.probe_every == 1:
-            raise ValueError("probe_every: 1 would make every attempt a probe; give 0, or 2 and up")
+            raise ValueError(
+                sentence("probe_every: 1 would make every attempt a probe; give 0, or 2 and up")
+            )
         return self
 
 

@@ -11,6 +11,7 @@ from typing import Final
 from app.core import paths, plugin_folders
 from app.core.configuration import line_of, parse_text, read_text
 from app.core.errors import AcusError, ConfigurationError
+from app.core.messages import sentence
 from app.exercises.errors import ExerciseError, UnknownExerciseError
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import device
@@ -105,8 +106,11 @@ def load_exercise(name_or_path: str | Path) -> Exercise:
         if file.path.stem == str(name_or_path):
             raise ExerciseError(file.reason)
     raise UnknownExerciseError(
-        f"no exercise {str(name_or_path)!r}; there are {', '.join(known.ids())}, "
-        "or give the path of a .yaml file"
+        sentence(
+            "no exercise {name_or_path!r}; there are {known_ids}, or give the path of a .yaml file",
+            name_or_path=str(name_or_path),
+            known_ids=", ".join(known.ids()),
+        )
     )
 
 
@@ -126,7 +130,12 @@ def _earlier(identifier: str, version: int, known: Library) -> Exercise:
         return read_exercise(path)
     there = ", ".join(map(str, versions(identifier, known))) or "none"
     raise UnknownExerciseError(
-        f"there is no version {version} of the exercise {identifier!r}; there are: {there}"
+        sentence(
+            "there is no version {version} of the exercise {identifier!r}; there are: {there}",
+            version=version,
+            identifier=identifier,
+            there=there,
+        )
     )
 
 
@@ -141,7 +150,10 @@ def read_exercise(path: Path) -> Exercise:
     for name in ("device", "rig"):
         if why := unknown_profile(name, getattr(exercise, name)):
             line = line_of(text, (name,))
-            raise ExerciseError(f"{path}: {name}: {why}" + (f" (line {line})" if line else ""))
+            raise ExerciseError(
+                sentence("{path}: {name}: {reason}", path=path, name=name, reason=why)
+                + (sentence(" (line {line})", line=line) if line else "")
+            )
     if exercise.touch is not None:
         _check_touch(path, text, exercise)
     found = {
@@ -172,7 +184,10 @@ def _check_touch(path: Path, text: str, exercise: Exercise) -> None:
         check_touch(exercise.touch_task(placed_plan_of(exercise, profile)), profile, quick=True)
     except AcusError as error:
         line = line_of(text, ("touch",))
-        raise ExerciseError(f"{path}: {error}" + (f" (line {line})" if line else "")) from error
+        raise ExerciseError(
+            sentence("{path}: {error}", path=path, error=error)
+            + (sentence(" (line {line})", line=line) if line else "")
+        ) from error
 
 
 def _structure_file(path: Path, name: Path) -> Path:
@@ -190,8 +205,10 @@ def unknown_profile(field: str, value: str) -> str:
     names = profile_names(field)
     if value in names or _is_path(value):
         return ""
-    return (
-        f"{value!r} is not known; valid names are {', '.join(names)}, or the path of a .yaml file"
+    return sentence(
+        "{value!r} is not known; valid names are {names}, or the path of a .yaml file",
+        value=value,
+        names=", ".join(names),
     )
 
 

@@ -19,6 +19,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError
 
 from app.core.configuration import Strict
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.imaging.remedies import is_word, words
 from app.imaging.series import NO_REMEDY
@@ -107,15 +108,17 @@ class Ct(Strict):
     @model_validator(mode="after")
     def _one_of_two(self) -> "Ct":
         if (self.phantom is None) == (self.folder is None):
-            raise ValueError("give either phantom: {seed: ...} or folder: ..., one of the two")
+            raise ValueError(
+                sentence("give either phantom: {{seed: ...}} or folder: ..., one of the two")
+            )
         if "\0" in str(self.folder):
-            raise ValueError("folder holds a character that no path has")
+            raise ValueError(sentence("folder holds a character that no path has"))
         if self.series is not None and self.folder is None:
-            raise ValueError("series goes with folder; the phantom has one series only")
+            raise ValueError(sentence("series goes with folder; the phantom has one series only"))
         if self.digest is not None and self.phantom is not None:
-            raise ValueError("digest goes with folder; the phantom is known by its seed")
+            raise ValueError(sentence("digest goes with folder; the phantom is known by its seed"))
         if self.remedy != NO_REMEDY and self.folder is None and self.phantom is not None:
-            raise ValueError("remedy goes with folder; the phantom is read as it is")
+            raise ValueError(sentence("remedy goes with folder; the phantom is read as it is"))
         return self
 
 
@@ -135,7 +138,7 @@ class StructurePart(Strict):
     @classmethod
     def _is_a_path(cls, file: Path) -> Path:
         if "\0" in str(file) or file.name in ("", "."):
-            raise ValueError("file names a file of structures")
+            raise ValueError(sentence("file names a file of structures"))
         return file
 
 
@@ -193,7 +196,7 @@ class PlacementPart(Strict):
     @model_validator(mode="after")
     def _is_a_placement(self) -> "PlacementPart":
         if max(abs(angle) for angle in self.rotation_deg) > 360.0:
-            raise ValueError("rotation_deg must be within ±360°")
+            raise ValueError(sentence("rotation_deg must be within ±360°"))
         return self
 
     def placement(self) -> Placement:
@@ -241,7 +244,9 @@ class NeedlePart(Strict):
     def _known(cls, gauge: int) -> int:
         if gauge not in OUTER_DIAMETER:
             known = ", ".join(map(str, OUTER_DIAMETER))
-            raise ValueError(f"no needle of {gauge} G; there are {known}")
+            raise ValueError(
+                sentence("no needle of {gauge} G; there are {known}", gauge=gauge, known=known)
+            )
         return gauge
 
 

@@ -22,6 +22,7 @@ from app.core import paths
 from app.core.arrays import FloatArray, read_only
 from app.core.errors import AcusError
 from app.core.files import write_atomically
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.exercises.scene import draft_of
 from app.exercises.schema import Exercise
@@ -124,7 +125,9 @@ def make_portrait(exercise: Exercise, volume: Volume, folder: Path | None = None
     draft = draft_of(exercise)
     target = draft.target_mm
     if target is None:
-        raise AcusError(f"exercise {exercise.id} has no target to picture")
+        raise AcusError(
+            sentence("exercise {exercise_id} has no target to picture", exercise_id=exercise.id)
+        )
     entry = None if draft.entry_mm is None else tuple(float(x) for x in draft.entry_mm)
     made = _pictured(volume, tuple(float(x) for x in target), entry)
     packed = io.BytesIO()

@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 from pydantic import Field, field_validator, model_validator
 
 from app.core.configuration import Strict
+from app.core.messages import sentence
 from app.imaging.window import MINIMUM_WIDTH, PRESETS, WindowLevel
 
 LARGEST_HU = 1e5
@@ -59,8 +60,12 @@ class ReadingPart(Strict):
         names = {_plain(name): name for name in PRESETS}
         if _plain(window) not in names:
             raise ValueError(
-                f"there is no window {window!r}; there are: {', '.join(PRESETS)}, or give "
-                "{width: …, level: …} in HU"
+                sentence(
+                    "there is no window {window!r}; there are: {presets}, or give "
+                    "{{width: …, level: …}} in HU",
+                    window=window,
+                    presets=", ".join(PRESETS),
+                )
             )
         preset = PRESETS[names[_plain(window)]]
         return {"width": preset.width, "level": preset.level}
@@ -68,7 +73,9 @@ class ReadingPart(Strict):
     @model_validator(mode="after")
     def _something_to_lock(self) -> ReadingPart:
         if self.locked and self.window is None and self.slab is None and self.layout is None:
-            raise ValueError("locked keeps window, slab and layout: give at least one of them")
+            raise ValueError(
+                sentence("locked keeps window, slab and layout: give at least one of them")
+            )
         return self
 
     @property

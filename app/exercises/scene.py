@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.exercises.errors import ExerciseError
 from app.exercises.guidance import GuidanceMode
@@ -45,8 +46,11 @@ def plan_of(exercise: Exercise) -> Plan:
         return exercise.plan.plan()
     if isinstance(exercise.plan, OwnPlan):
         raise ExerciseError(
-            f"exercise {exercise.id} has no plan of its own: the student places the entry in the "
-            "window; nothing is chosen for him"
+            sentence(
+                "exercise {exercise_id} has no plan of its own: the student places the entry in "
+                "the window; nothing is chosen for him",
+                exercise_id=exercise.id,
+            )
         )
     patient = _phantom_of(exercise)
     return Plan(np.array(patient.entry_mm), np.array(patient.lesion_mm), exercise.id)
@@ -201,8 +205,13 @@ def _watching(exercise: Exercise, views: Mapping[str, Consumer]) -> list[Consume
         names.append(CONTROL_SCAN)
     if missing := [name for name in names if name not in views]:
         raise ExerciseError(
-            f"exercise {exercise.id}: nothing declares the view {missing[0]!r}; declared are "
-            f"{', '.join(sorted(views)) or 'none'}; see 'How to add a view'"
+            sentence(
+                "exercise {exercise_id}: nothing declares the view {missing_first!r}; declared "
+                "are {views}; see 'How to add a view'",
+                exercise_id=exercise.id,
+                missing_first=missing[0],
+                views=", ".join(sorted(views)) or "none",
+            )
         )
     return [views[name] for name in names]
 

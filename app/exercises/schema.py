@@ -8,6 +8,7 @@ from typing import Annotated
 from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_validator
 
 from app.core.configuration import Strict
+from app.core.messages import sentence, sentence_of
 from app.exercises.guidance import (
     FadingPart,
     GuidanceMode,
@@ -129,9 +130,19 @@ class Exercise(Strict):
         """Let `breathing:` alone, or a list of names, stand for a part with its defaults."""
         if isinstance(parts, list):
             if not all(isinstance(name, str) for name in parts):
-                raise ValueError(f"a list of {info.field_name} holds names only")
+                raise ValueError(
+                    sentence(
+                        "a list of {info_field_name} holds names only",
+                        info_field_name=info.field_name,
+                    )
+                )
             if len(set(parts)) < len(parts):
-                raise ValueError(f"one of the {info.field_name} is named twice")
+                raise ValueError(
+                    sentence(
+                        "one of the {info_field_name} is named twice",
+                        info_field_name=info.field_name,
+                    )
+                )
             parts = dict.fromkeys(parts)
         if isinstance(parts, Mapping):
             return {name: {} if part is None else part for name, part in parts.items()}
@@ -143,7 +154,7 @@ class Exercise(Strict):
         try:
             check_order([part.layer() for part in parts])
         except SimulationError as error:
-            raise ValueError(str(error)) from error
+            raise ValueError(sentence_of(error)) from error
         return parts
 
     @field_validator("tolerances")
@@ -152,9 +163,9 @@ class Exercise(Strict):
         try:
             check_names(tolerances)
         except ScoringError as error:
-            raise ValueError(str(error)) from error
+            raise ValueError(sentence_of(error)) from error
         if not any(limits.weight > 0.0 for limits in tolerances.values()):
-            raise ValueError("at least one metric needs a weight above 0")
+            raise ValueError(sentence("at least one metric needs a weight above 0"))
         return tolerances
 
     @model_validator(mode="after")
@@ -162,7 +173,9 @@ class Exercise(Strict):
         names = [name for part in self.structures for name in part.risks]
         twice = {name for name in names if names.count(name) > 1}
         if twice:
-            raise ValueError(f"structures: {min(twice)!r} is a risk twice")
+            raise ValueError(
+                sentence("structures: {twice_min!r} is a risk twice", twice_min=min(twice))
+            )
         return self
 
     @model_validator(mode="after")
@@ -172,8 +185,11 @@ class Exercise(Strict):
             free = [lock.value for lock in Lock if lock not in (*self.locks, later)]
             if free:
                 raise ValueError(
-                    f"locks: an assessment locks all controls, and {', '.join(free)} is missing: "
-                    "leave locks out, or use purpose: practice"
+                    sentence(
+                        "locks: an assessment locks all controls, and {free} is missing: "
+                        "leave locks out, or use purpose: practice",
+                        free=", ".join(free),
+                    )
                 )
         return self
 
@@ -181,8 +197,10 @@ class Exercise(Strict):
     def _fading_can_be_followed(self) -> Exercise:
         if self.fading is not None and self.purpose is Purpose.ASSESSMENT:
             raise ValueError(
-                "fading: an assessment is the same for everybody: leave fading out, or use "
-                "purpose: practice"
+                sentence(
+                    "fading: an assessment is the same for everybody: leave fading out, or use "
+                    "purpose: practice"
+                )
             )
         return self
 
@@ -190,11 +208,15 @@ class Exercise(Strict):
     def _plan_fits_ct(self) -> Exercise:
         if isinstance(self.plan, OwnPlan):
             if self.plan.target_mm is None and self.ct.phantom is None:
-                raise ValueError("plan {own: true} of a CT folder needs target_mm: [x, y, z]")
+                raise ValueError(
+                    sentence("plan {{own: true}} of a CT folder needs target_mm: [x, y, z]")
+                )
             return self
         if not isinstance(self.plan, PlanPoints) and self.ct.phantom is None:
             raise ValueError(
-                "plan phantom_default needs ct: {phantom: ...}; give entry_mm and target_mm"
+                sentence(
+                    "plan phantom_default needs ct: {{phantom: ...}}; give entry_mm and target_mm"
+                )
             )
         return self
 
@@ -204,11 +226,15 @@ class Exercise(Strict):
             return self
         if not isinstance(self.plan, PlanPoints):
             raise ValueError(
-                "touch: the targets lie about a path that the file names: give plan entry_mm and "
-                "target_mm"
+                sentence(
+                    "touch: the targets lie about a path that the file names: give plan entry_mm "
+                    "and target_mm"
+                )
             )
         if self.guidance_mode is not GuidanceMode.LIVE:
-            raise ValueError("touch: the targets are touched by sight: use guidance.mode: live")
+            raise ValueError(
+                sentence("touch: the targets are touched by sight: use guidance.mode: live")
+            )
         return self
 
     def touch_task(self, placed: PlacedPlan) -> TouchTask | None:

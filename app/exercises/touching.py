@@ -15,6 +15,7 @@ from pydantic import Field, model_validator
 
 from app.core.arrays import FloatArray, read_only
 from app.core.configuration import Strict
+from app.core.messages import sentence
 from app.core.units import DEGREE, MILLIMETRE
 from app.exercises.errors import ExerciseError
 from app.exercises.parts import Triple
@@ -56,7 +57,13 @@ class TouchPattern(Strict):
     def _depths_rise(self) -> TouchPattern:
         near, far = self.depth_mm
         if not near <= far:
-            raise ValueError(f"depth_mm: {near:g} to {far:g} mm; give the smaller one first")
+            raise ValueError(
+                sentence(
+                    "depth_mm: {near:g} to {far:g} mm; give the smaller one first",
+                    near=near,
+                    far=far,
+                )
+            )
         return self
 
 
@@ -78,7 +85,9 @@ class TouchPart(Strict):
     @model_validator(mode="after")
     def _one_of_two(self) -> TouchPart:
         if (self.targets_mm is None) == (self.pattern is None):
-            raise ValueError("give either targets_mm: [[x, y, z], …] or pattern: {…}, one of both")
+            raise ValueError(
+                sentence("give either targets_mm: [[x, y, z], …] or pattern: {{…}}, one of both")
+            )
         return self
 
 
@@ -146,9 +155,18 @@ def _drawn(pattern: TouchPattern, radius_mm: float, plan: Plan, seed: int) -> Fl
         if len(found) == pattern.count:
             return np.array(found)
     raise ExerciseError(
-        f"touch.pattern: {pattern.count} targets that follow each other {_APART:g} radii of "
-        f"{radius_mm:g} mm apart find no room within {pattern.within_deg:g}° and depths of "
-        f"{pattern.depth_mm[0]:g} to {pattern.depth_mm[1]:g} mm; give more room or a smaller radius"
+        sentence(
+            "touch.pattern: {pattern_count} targets that follow each other {apart:g} radii of "
+            "{radius_mm:g} mm apart find no room within {pattern_within_deg:g}° and depths of "
+            "{pattern_depth_mm_first:g} to {pattern_depth_mm_second:g} mm; give more room or a "
+            "smaller radius",
+            pattern_count=pattern.count,
+            apart=_APART,
+            radius_mm=radius_mm,
+            pattern_within_deg=pattern.within_deg,
+            pattern_depth_mm_first=pattern.depth_mm[0],
+            pattern_depth_mm_second=pattern.depth_mm[1],
+        )
     )
 
 
@@ -170,7 +188,9 @@ def touch_task(part: TouchPart | None, placed: PlacedPlan, seed: int) -> TouchTa
         try:
             plan = Plan(placed.plan.entry_mm, at, f"target {number}")
         except PlanError as error:
-            raise ExerciseError(f"touch: target {number}: {error}") from error
+            raise ExerciseError(
+                sentence("touch: target {number}: {error}", number=number, error=error)
+            ) from error
         plans.append(PlacedPlan.of(plan, placed.placement, placed.p_entry))
     return TouchTask(tuple(plans), part.radius_mm * MILLIMETRE, part.dwell_s)
 
@@ -204,10 +224,21 @@ def check_touch(task: TouchTask | None, profile: DeviceProfile, quick: bool = Fa
             )
         if reasons:
             raise ExerciseError(
-                f"touch: target {number} at [{x:g}, {y:g}, {z:g}] mm cannot be touched with "
-                f"{profile.name}: {'; '.join(reasons)}. Reachable are targets "
-                f"{LEAST_DEPTH:g} to {limits.depth_limit / MILLIMETRE:.0f} mm from the entry, by a "
-                f"way that leans at most {limits.tilt_limit / DEGREE:.0f}° from straight down"
+                sentence(
+                    "touch: target {number} at [{x:g}, {y:g}, {z:g}] mm cannot be touched with "
+                    "{profile_name}: {reasons}. Reachable are targets "
+                    "{least_depth:g} to {limits_depth_limit_mm:.0f} mm from the entry, by a "
+                    "way that leans at most {limits_tilt_limit_deg:.0f}° from straight down",
+                    number=number,
+                    x=x,
+                    y=y,
+                    z=z,
+                    profile_name=profile.name,
+                    reasons="; ".join(reasons),
+                    least_depth=LEAST_DEPTH,
+                    limits_depth_limit_mm=limits.depth_limit / MILLIMETRE,
+                    limits_tilt_limit_deg=limits.tilt_limit / DEGREE,
+                )
             )
     _check_apart(task)
 
@@ -218,7 +249,14 @@ def _check_apart(task: TouchTask) -> None:
     for number, gap in enumerate(apart_mm.tolist(), 2):
         if gap * MILLIMETRE <= 2.0 * task.radius:
             raise ExerciseError(
-                f"touch: targets {number - 1} and {number} lie {gap:.1f} mm apart; with a radius "
-                f"of {task.radius / MILLIMETRE:g} mm a tip that stays touches both: lay them more "
-                f"than {2.0 * task.radius / MILLIMETRE:g} mm apart, or give a smaller radius_mm"
+                sentence(
+                    "touch: targets {number} and {number_2} lie {gap:.1f} mm apart; with a "
+                    "radius of {task_radius_mm:g} mm a tip that stays touches both: lay them "
+                    "more than {task_radius_mm_2:g} mm apart, or give a smaller radius_mm",
+                    number=number - 1,
+                    number_2=number,
+                    gap=gap,
+                    task_radius_mm=task.radius / MILLIMETRE,
+                    task_radius_mm_2=2.0 * task.radius / MILLIMETRE,
+                )
             )

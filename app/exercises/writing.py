@@ -22,6 +22,7 @@ from app.core import paths
 from app.core.configuration import LARGEST_FILE, parse_yaml, read_text
 from app.core.descriptors import is_held
 from app.core.files import write_atomically
+from app.core.messages import sentence
 from app.exercises.errors import ExerciseError
 from app.exercises.library import folders, library, read_exercise, versions
 from app.exercises.schema import Exercise
@@ -116,13 +117,21 @@ def exercise_text(exercise: Exercise, folder: Path | None = None) -> str:
         raw = text.encode()
         if len(raw) > LARGEST_FILE:
             raise ExerciseError(
-                f"exercise {exercise.id} would be a file of {len(raw) >> 10} kB; "
-                f"{LARGEST_FILE >> 10} kB are the most: shorten its texts"
+                sentence(
+                    "exercise {exercise_id} would be a file of {raw_count} kB; "
+                    "{largest_file} kB are the most: shorten its texts",
+                    exercise_id=exercise.id,
+                    raw_count=len(raw) >> 10,
+                    largest_file=LARGEST_FILE >> 10,
+                )
             )
         if parse_yaml(text, exercise.id) == document:
             return text
     raise ExerciseError(
-        f"exercise {exercise.id} cannot be written as YAML: it reads back otherwise"
+        sentence(
+            "exercise {exercise_id} cannot be written as YAML: it reads back otherwise",
+            exercise_id=exercise.id,
+        )
     )
 
 
@@ -158,8 +167,11 @@ def save(exercise: Exercise) -> Exercise:
     shipped, own = folders()
     if (shipped / f"{exercise.id}.yaml").is_file():
         raise ExerciseError(
-            f"id: {exercise.id!r} is an exercise that comes with Acus and stays as it is: save "
-            "yours under another id (duplicate it)"
+            sentence(
+                "id: {exercise_id!r} is an exercise that comes with Acus and stays as it is: "
+                "save yours under another id (duplicate it)",
+                exercise_id=exercise.id,
+            )
         )
     with _alone(own):
         known = library()
@@ -167,8 +179,11 @@ def save(exercise: Exercise) -> Exercise:
         if exercise.id not in known.files:
             if path.exists():
                 raise ExerciseError(
-                    f"{path} is there and cannot be used: repair it (acus exercise validate "
-                    f"{path}) or move it away, then save again"
+                    sentence(
+                        "{path} is there and cannot be used: repair it (acus exercise validate "
+                        "{path}) or move it away, then save again",
+                        path=path,
+                    )
                 )
             exercise = exercise.model_copy(update={"version": _next(exercise.id, exercise.version)})
             write_exercise(path, exercise)
@@ -221,7 +236,11 @@ def _alone(folder: Path) -> Iterator[None]:
         lock = os.open(folder / ".lock", os.O_CREAT | os.O_RDWR, 0o600)
     except OSError as error:
         raise ExerciseError(
-            f"cannot write in {folder}: {error.strerror or error}; ACUS_DATA moves it"
+            sentence(
+                "cannot write in {folder}: {error_strerror}; ACUS_DATA moves it",
+                folder=folder,
+                error_strerror=error.strerror or error,
+            )
         ) from error
     try:
         _wait_for(lock)

@@ -15,6 +15,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from app.core.messages import sentence
 from app.imaging import stack
 from app.imaging.errors import FileDamagedError
 from app.imaging.filling import filled
@@ -107,21 +108,31 @@ def _mixture(headers: Headers) -> tuple[str, ...]:
             names.append(attribute)
     if not names:
         return ()
-    return (f"its slices differ in {' and '.join(names)}: neighbours may not compare",)
+    return (
+        sentence(
+            "its slices differ in {names}: neighbours may not compare", names=" and ".join(names)
+        ),
+    )
 
 
 def _namesakes(headers: Headers) -> tuple[str, ...]:
     """Say that different images have one SOPInstanceUID, which stands for one of them."""
     counts = Counter((header.identity.sop_uid, header.frame) for header in headers)
     doubled = sum(count for (uid, _), count in counts.items() if uid and count > 1)
-    return (f"{doubled} different images share a SOPInstanceUID",) if doubled else ()
+    return (
+        (sentence("{doubled} different images share a SOPInstanceUID", doubled=doubled),)
+        if doubled
+        else ()
+    )
 
 
 def _words(count: int) -> tuple[str, ...]:
     if not count:
         return ()
     return (
-        "1 file is a copy and left out" if count == 1 else f"{count} files are copies and left out",
+        sentence("1 file is a copy and left out")
+        if count == 1
+        else sentence("{count} files are copies and left out", count=count),
     )
 
 

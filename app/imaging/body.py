@@ -15,6 +15,7 @@ from scipy import ndimage
 from scipy.spatial import cKDTree
 
 from app.core.arrays import FloatArray, frozen, read_only, unit
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.errors import InvalidEntryError
 from app.imaging.interpolation import interpolate
@@ -91,7 +92,9 @@ class Body:
             InvalidEntryError: if the volume holds no body.
         """
         if not self._skin_tree.n:
-            raise InvalidEntryError("there is no body in this CT, so there is no skin", np.inf)
+            raise InvalidEntryError(
+                sentence("there is no body in this CT, so there is no skin"), np.inf
+            )
         distance, index = self._skin_tree.query(np.asarray(lps_mm, np.float64))
         centre: FloatArray = self._skin_tree.data[index]
         return float(distance), centre
@@ -223,7 +226,10 @@ def skin_entry(body: Body, outside_lps: ArrayLike, inside_lps: ArrayLike) -> Flo
     start, end = frozen(outside_lps, (3,), "outside"), frozen(inside_lps, (3,), "inside")
     if is_inside(body, start):
         depth = body.nearest_cell_mm(start)[0]
-        raise InvalidEntryError(f"the line starts in the body, {depth:.1f} mm from the skin", depth)
+        raise InvalidEntryError(
+            sentence("the line starts in the body, {depth:.1f} mm from the skin", depth=depth),
+            depth,
+        )
     length = float(np.linalg.norm(end - start))
     along = np.linspace(0.0, length, max(2, int(np.ceil(length / _STEP_MM)) + 1))
     direction = unit(end - start, "line") if length > 0.0 else np.zeros(3)
@@ -231,7 +237,11 @@ def skin_entry(body: Body, outside_lps: ArrayLike, inside_lps: ArrayLike) -> Flo
     if not inside.any():
         distance = body.nearest_cell_mm(end)[0]
         raise InvalidEntryError(
-            f"the line never meets the body; its end is {distance:.1f} mm from the skin", distance
+            sentence(
+                "the line never meets the body; its end is {distance:.1f} mm from the skin",
+                distance=distance,
+            ),
+            distance,
         )
     coarse = float(along[int(np.argmax(inside))])
     return start + _refined(body, start, direction, coarse) * direction
@@ -298,6 +308,12 @@ def snap_to_skin(body: Body, lps_mm: ArrayLike, tolerance_mm: float = SNAP_MM) -
         return skin
     where = "under the skin" if is_inside(body, point) else "outside the body"
     raise InvalidEntryError(
-        f"the entry lies {distance:.1f} mm {where}; click within {tolerance_mm:g} mm of the skin",
+        sentence(
+            "the entry lies {distance:.1f} mm {where}; click within {tolerance_mm:g} mm of the "
+            "skin",
+            distance=distance,
+            where=where,
+            tolerance_mm=tolerance_mm,
+        ),
         distance,
     )

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from app.core.messages import sentence
 from app.imaging import codestream
 from app.imaging.errors import FileDamagedError
 from app.imaging.pixel_data import DECODERS, JPEG, RLE, PixelFormat
@@ -78,11 +79,19 @@ def decode(data: bytes, syntax: str, form: PixelFormat, out: Stored) -> None:
         raise
     except BaseException as error:  # nearly anything can come; a panic in Rust is no Exception
         what = f"{type(error).__name__} in {DECODERS[syntax][0]}"
-        raise FileDamagedError(f"its pixels cannot be decoded ({what})") from None
+        raise FileDamagedError(
+            sentence("its pixels cannot be decoded ({what})", what=what)
+        ) from None
     width = form.bits_allocated // 8 if syntax == RLE or precision > 8 else 1
     found = np.frombuffer(pixels, f"<u{width}")
     if found.size < out.size:
-        raise FileDamagedError(f"decodes to {found.size} pixels where {out.size} are needed")
+        raise FileDamagedError(
+            sentence(
+                "decodes to {size} pixels where {out_size} are needed",
+                size=found.size,
+                out_size=out.size,
+            )
+        )
     values = found[: out.size].reshape(out.shape)
     np.copyto(out, values.astype(f"u{out.itemsize}", copy=False).view(out.dtype))
     if syntax == RLE:
@@ -99,7 +108,11 @@ def _installed(syntax: str) -> Codec:
         except ImportError:
             continue
     raise FileDamagedError(
-        f"a decoder for transfer syntax {syntax} is missing: pip install {DECODERS[syntax][0]}"
+        sentence(
+            "a decoder for transfer syntax {syntax} is missing: pip install {decoders_first}",
+            syntax=syntax,
+            decoders_first=DECODERS[syntax][0],
+        )
     )
 
 

@@ -3,6 +3,7 @@
 import struct
 from dataclasses import dataclass
 
+from app.core.messages import sentence
 from app.imaging.errors import FileDamagedError
 from app.imaging.pixel_data import JPEG, JPEG_2000, JPEG_LS, RLE, PixelFormat
 
@@ -82,25 +83,40 @@ def contradiction(data: bytes, syntax: str, form: PixelFormat) -> str:
     """
     found = describe(data)
     if found is not None and found.kind != _kind(syntax):
-        return (
-            f"its pixels are compressed as {found.kind}, and its transfer syntax is of "
-            f"{_kind(syntax)}; have it sent again"
+        return sentence(
+            "its pixels are compressed as {kind}, and its transfer syntax is of "
+            "{kind_2}; have it sent again",
+            kind=found.kind,
+            kind_2=_kind(syntax),
         )
     if syntax == RLE:
         return _rle_contradiction(data, form)
     if found is None:
-        return "" if len(data) >= HEAD else "its compressed pixels are damaged (no frame header)"
-    if (found.rows, found.columns) != (form.rows, form.columns):
         return (
-            f"its compressed picture is {found.columns} × {found.rows}, "
-            f"its header says {form.columns} × {form.rows}"
+            ""
+            if len(data) >= HEAD
+            else sentence("its compressed pixels are damaged (no frame header)")
+        )
+    if (found.rows, found.columns) != (form.rows, form.columns):
+        return sentence(
+            "its compressed picture is {columns} × {rows}, "
+            "its header says {form_columns} × {form_rows}",
+            columns=found.columns,
+            rows=found.rows,
+            form_columns=form.columns,
+            form_rows=form.rows,
         )
     if found.samples != form.samples:
-        return f"{found.samples} samples per compressed pixel, its header says {form.samples}"
+        return sentence(
+            "{samples} samples per compressed pixel, its header says {form_samples}",
+            samples=found.samples,
+            form_samples=form.samples,
+        )
     if not 1 <= found.precision <= form.bits_allocated:
-        return (
-            f"{found.precision} bits per compressed pixel do not fit "
-            f"BitsAllocated {form.bits_allocated}"
+        return sentence(
+            "{precision} bits per compressed pixel do not fit BitsAllocated {form_bits_allocated}",
+            precision=found.precision,
+            form_bits_allocated=form.bits_allocated,
         )
     return ""
 
@@ -115,10 +131,16 @@ def _kind(syntax: str) -> str:
 def _rle_contradiction(data: bytes, form: PixelFormat) -> str:
     """PS3.5 G.5: one segment for each byte of a pixel."""
     if len(data) < 64:
-        return "its compressed pixels are damaged (no RLE header)"
+        return sentence("its compressed pixels are damaged (no RLE header)")
     segments = int(struct.unpack_from("<L", data)[0])
     wanted = form.samples * form.bits_allocated // 8
-    return "" if segments == wanted else f"{segments} RLE segments where {wanted} are needed"
+    return (
+        ""
+        if segments == wanted
+        else sentence(
+            "{segments} RLE segments where {wanted} are needed", segments=segments, wanted=wanted
+        )
+    )
 
 
 def precision(data: bytes, syntax: str, form: PixelFormat) -> int:

@@ -8,6 +8,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from app.core.messages import sentence
 from app.imaging.codecs import keep_stored
 from app.imaging.deflated import Inflater
 from app.imaging.errors import FileDamagedError, brief
@@ -49,7 +50,11 @@ def read_stored(header: SliceHeader, out: Stored) -> None:
         if isinstance(error, FileDamagedError):
             raise
         raise FileDamagedError(
-            f"{header.path} cannot be read: {error.strerror or error}"
+            sentence(
+                "{header_path} cannot be read: {error_strerror}",
+                header_path=header.path,
+                error_strerror=error.strerror or error,
+            )
         ) from error
 
 
@@ -69,13 +74,22 @@ def _check_unchanged(header: SliceHeader, stream: BinaryIO) -> None:
     stamp = header.pixels.stamp
     if stamp is not None and stamp != Stamp.of(stream):
         raise FileDamagedError(
-            f"{header.path} has changed since the folder was searched; search it again"
+            sentence(
+                "{header_path} has changed since the folder was searched; search it again",
+                header_path=header.path,
+            )
         )
 
 
 def _read_raw(header: SliceHeader, stream: BinaryIO, out: Stored) -> None:
     if header.pixels.offset is None:
-        raise FileDamagedError(f"{header.path}: {header.pixels.damage or 'no pixels'}")
+        raise FileDamagedError(
+            sentence(
+                "{header_path}: {header_pixels_damage}",
+                header_path=header.path,
+                header_pixels_damage=header.pixels.damage or "no pixels",
+            )
+        )
     stream.seek(header.pixels.offset + header.frame * header.format.frame_bytes)
     view = out.reshape(-1).view(np.uint8).data
     got = 0
@@ -83,7 +97,11 @@ def _read_raw(header: SliceHeader, stream: BinaryIO, out: Stored) -> None:
         got += count
     if got < len(view):
         raise FileDamagedError(
-            f"{header.path} ends {len(view) - got} bytes too early; read it again"
+            sentence(
+                "{header_path} ends {view_count} bytes too early; read it again",
+                header_path=header.path,
+                view_count=len(view) - got,
+            )
         )
     _finish_raw(header, out)
 
@@ -94,7 +112,9 @@ def _finish_raw(header: SliceHeader, out: Stored) -> None:
     try:
         keep_stored(out, header.format)
     except FileDamagedError as error:
-        raise FileDamagedError(f"{header.path}: {error}") from error
+        raise FileDamagedError(
+            sentence("{header_path}: {error}", header_path=header.path, error=error)
+        ) from error
 
 
 def _read_deflated(header: SliceHeader, stream: BinaryIO, out: Stored) -> None:
@@ -106,9 +126,21 @@ def _read_deflated(header: SliceHeader, stream: BinaryIO, out: Stored) -> None:
         else:
             data = _inflate(stream, header.pixels, needed)
     except (FileDamagedError, MemoryError) as error:
-        raise FileDamagedError(f"{header.path}: {error or 'needs too much memory'}") from error
+        raise FileDamagedError(
+            sentence(
+                "{header_path}: {error}",
+                header_path=header.path,
+                error=error or "needs too much memory",
+            )
+        ) from error
     if len(data) < needed:
-        raise FileDamagedError(f"{header.path} inflates to {needed - len(data)} bytes too few")
+        raise FileDamagedError(
+            sentence(
+                "{header_path} inflates to {needed} bytes too few",
+                header_path=header.path,
+                needed=needed - len(data),
+            )
+        )
     np.copyto(out, np.frombuffer(data, out.dtype).reshape(out.shape))
     _finish_raw(header, out)
 
@@ -131,11 +163,19 @@ def _decode(header: SliceHeader, stream: BinaryIO, out: Stored) -> None:
         places = _places(header.path, header.pixels, header.format.frames)
         decode(frame_bytes(stream, places[header.frame]), header.pixels.syntax, header.format, out)
     except FileDamagedError as error:
-        raise FileDamagedError(f"{header.path}: {error}") from error
+        raise FileDamagedError(
+            sentence("{header_path}: {error}", header_path=header.path, error=error)
+        ) from error
     except MemoryError:
         raise
     except Exception as error:  # hostile bytes: nearly anything can come
-        raise FileDamagedError(f"{header.path} cannot be decoded ({brief(error)})") from error
+        raise FileDamagedError(
+            sentence(
+                "{header_path} cannot be decoded ({brief})",
+                header_path=header.path,
+                brief=brief(error),
+            )
+        ) from error
 
 
 @lru_cache(maxsize=2)

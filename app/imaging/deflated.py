@@ -4,6 +4,7 @@ import io
 import zlib
 from typing import BinaryIO
 
+from app.core.messages import sentence
 from app.imaging.errors import FileDamagedError
 
 HEAD_BYTES = 1 << 24
@@ -53,7 +54,11 @@ class Inflater:
                 wanted -= len(part)
         except zlib.error as error:
             raise FileDamagedError(
-                f"its data set is not deflated as its transfer syntax says, or damaged ({error})"
+                sentence(
+                    "its data set is not deflated as its transfer syntax says, or damaged "
+                    "({error})",
+                    error=error,
+                )
             ) from error
         return b"".join(parts)
 

@@ -12,6 +12,7 @@ import warnings
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, BinaryIO, Final, NamedTuple
 
+from app.core.messages import sentence
 from app.imaging.deflated import inflated_head
 from app.imaging.elements import Elements, text
 from app.imaging.errors import FileDamagedError, brief
@@ -95,7 +96,9 @@ def read_elements(
     except FileDamagedError:
         raise
     except Exception as error:  # hostile bytes make the parser raise nearly anything
-        raise FileDamagedError(f"its header cannot be read ({brief(error)})") from error
+        raise FileDamagedError(
+            sentence("its header cannot be read ({brief})", brief=brief(error))
+        ) from error
 
 
 def read_standard(stream: BinaryIO, wanted: frozenset[int]) -> Elements:
@@ -133,8 +136,12 @@ def _check_order(start: bytes, syntax: str) -> None:
     if other < _LOW_GROUP <= said:
         is_big = syntax == EXPLICIT_BIG
         raise FileDamagedError(
-            f"its transfer syntax says {'big' if is_big else 'little'} endian, and its header is "
-            f"{'little' if is_big else 'big'} endian; have it sent again"
+            sentence(
+                "its transfer syntax says {text} endian, and its header is "
+                "{text_2} endian; have it sent again",
+                text="big" if is_big else "little",
+                text_2="little" if is_big else "big",
+            )
         )
 
 

@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, BinaryIO, Final
 
+from app.core.messages import sentence
 from app.imaging.errors import FileDamagedError
 
 TAGS: Final = {
@@ -128,7 +129,15 @@ def require_size(name: str, values: Sequence[float]) -> None:
     for value in values:
         if value != 0.0 and not least <= abs(value) <= most:
             raise FileDamagedError(
-                f"{name} is {value:g}{unit}; its size must lie between {least:g} and {most:g}{unit}"
+                sentence(
+                    "{name} is {value:g}{unit}; its size must lie between {least:g} and "
+                    "{most:g}{unit}",
+                    name=name,
+                    value=value,
+                    unit=unit,
+                    least=least,
+                    most=most,
+                )
             )
 
 
@@ -148,7 +157,14 @@ def numbers(header: Elements, tag: int, name: str, count: int | None = None) -> 
         values = (math.nan,)
     wanted = f" (needs {count})" if count else ""
     if not all(map(math.isfinite, values)) or (count and len(values) != count):
-        raise FileDamagedError(f"{name} does not hold finite numbers{wanted}{_quoted(strings)}")
+        raise FileDamagedError(
+            sentence(
+                "{name} does not hold finite numbers{wanted}{quoted}",
+                name=name,
+                wanted=wanted,
+                quoted=_quoted(strings),
+            )
+        )
     require_size(name, values)
     return values
 
@@ -175,7 +191,13 @@ def integer(header: Elements, tag: int, name: str, signed: bool = False) -> int 
         if getattr(element, "VR", None) == "IS":
             return _integer_string(value, name)
         if len(value) < 2:
-            raise FileDamagedError(f"{name} has {len(value)} bytes; 2 are needed")
+            raise FileDamagedError(
+                sentence(
+                    "{name} has {value_count} bytes; 2 are needed",
+                    name=name,
+                    value_count=len(value),
+                )
+            )
         order = "<" if getattr(element, "is_little_endian", True) else ">"
         return int(struct.unpack_from(order + ("h" if signed else "H"), value)[0])
     return int(value)
@@ -198,7 +220,7 @@ def _integer_string(value: bytes, name: str) -> int | None:
     try:
         return int(float(string))
     except (ValueError, OverflowError):
-        raise FileDamagedError(f"{name} is not an integer") from None
+        raise FileDamagedError(sentence("{name} is not an integer", name=name)) from None
 
 
 def check_orientation(orientation: tuple[float, ...]) -> None:
@@ -212,5 +234,8 @@ def check_orientation(orientation: tuple[float, ...]) -> None:
     dot = sum(a * b for a, b in zip(row, column, strict=True))
     if max(abs(norm - 1.0) for norm in norms) > 1e-3 or abs(dot) > 1e-3:
         raise FileDamagedError(
-            f"ImageOrientationPatient {orientation} is not two perpendicular unit vectors"
+            sentence(
+                "ImageOrientationPatient {orientation} is not two perpendicular unit vectors",
+                orientation=orientation,
+            )
         )

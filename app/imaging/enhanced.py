@@ -14,6 +14,7 @@ from typing import Any, BinaryIO
 import pydicom
 from pydicom.dataset import Dataset
 
+from app.core.messages import sentence
 from app.imaging.elements import check_orientation, require_size
 from app.imaging.errors import FileDamagedError, brief
 from app.imaging.header import MULTI_FRAME, ImagePlane, Rescale, SliceHeader
@@ -70,7 +71,13 @@ class _Group:
         many = value if isinstance(value, Sequence | pydicom.multival.MultiValue) else [value]
         found = tuple(float(one) for one in many)
         if len(found) != count or not all(map(math.isfinite, found)):
-            raise FileDamagedError(f"{keyword} of a frame is not {count} finite numbers")
+            raise FileDamagedError(
+                sentence(
+                    "{keyword} of a frame is not {count} finite numbers",
+                    keyword=keyword,
+                    count=count,
+                )
+            )
         require_size(keyword, found)
         return found
 
@@ -86,7 +93,11 @@ def _groups(stream: BinaryIO, file: SliceHeader) -> list[_Group]:
         shared = (dataset.get("SharedFunctionalGroupsSequence") or [Dataset()])[0]
         if not 1 <= len(each) <= _MOST_FRAMES or len(each) != file.format.frames:
             raise FileDamagedError(
-                f"NumberOfFrames is {file.format.frames}, and {len(each)} frames are described"
+                sentence(
+                    "NumberOfFrames is {file_format_frames}, and {each_count} frames are described",
+                    file_format_frames=file.format.frames,
+                    each_count=len(each),
+                )
             )
         return [_Group(own, shared) for own in each]
 
@@ -113,7 +124,9 @@ def _plane(group: _Group) -> ImagePlane | None:
     if not (position and orientation and spacing):
         return None
     if min(spacing) <= 0.0:
-        raise FileDamagedError(f"PixelSpacing is {spacing}; both must be above zero")
+        raise FileDamagedError(
+            sentence("PixelSpacing is {spacing}; both must be above zero", spacing=spacing)
+        )
     check_orientation(orientation)
     return ImagePlane(position, orientation, spacing)  # type: ignore[arg-type]  # counts were checked
 
@@ -123,7 +136,7 @@ def _rescale(file: SliceHeader, group: _Group, multi_energy: bool) -> tuple[Resc
     slope = group.numbers(macro, "RescaleSlope", 1)
     intercept = group.numbers(macro, "RescaleIntercept", 1)
     if slope and slope[0] == 0.0:
-        raise FileDamagedError("RescaleSlope is 0; every pixel would have the same value")
+        raise FileDamagedError(sentence("RescaleSlope is 0; every pixel would have the same value"))
     if "MR" in MULTI_FRAME[file.identity.sop_class]:
         return (Rescale(slope[0], intercept[0]) if slope and intercept else Rescale(1, 0)), ""
     unit = str(group.macro(macro).get("RescaleType", "") or "")

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.descriptors import SEAL_GROW, SEAL_SHRINK, seal
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging import memory
 from app.imaging.decoding import is_raw, stored_type
@@ -117,7 +118,10 @@ def _shared(descriptor: int, shape: tuple[int, int, int], dtype: np.dtype[Any]) 
         memory = mmap.mmap(descriptor, size)
     except (OSError, ValueError, OverflowError) as error:
         raise SeriesRefusedError(
-            f"the volume needs {size / 1e9:.1f} GB of memory, which this machine cannot give"
+            sentence(
+                "the volume needs {size:.1f} GB of memory, which this machine cannot give",
+                size=size / 1e9,
+            )
         ) from error
     return np.frombuffer(memory, dtype).reshape(shape)
 

@@ -10,6 +10,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import BinaryIO, Final
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging import elements
 from app.imaging.element_reading import PREAMBLE, NotStandardError, read_elements
@@ -313,7 +314,11 @@ def _missing(header: Elements) -> str:
     if not absent:
         return ""
     verb = "is" if len(absent) == 1 else "are"
-    return f"{' and '.join(absent)} {verb} missing, without which its pixels cannot be told"
+    return sentence(
+        "{absent} {verb} missing, without which its pixels cannot be told",
+        absent=" and ".join(absent),
+        verb=verb,
+    )
 
 
 def _format(header: Elements) -> PixelFormat:
@@ -323,7 +328,12 @@ def _format(header: Elements) -> PixelFormat:
 
     representation = get("PixelRepresentation", 0)
     if representation not in (0, 1):
-        raise FileDamagedError(f"PixelRepresentation is {representation}; it must be 0 or 1")
+        raise FileDamagedError(
+            sentence(
+                "PixelRepresentation is {representation}; it must be 0 or 1",
+                representation=representation,
+            )
+        )
     signed = representation == 1
     allocated = get("BitsAllocated", 0)
     stored = get("BitsStored", get("HighBit", allocated - 1) + 1)
@@ -371,7 +381,9 @@ def _plane(header: Elements) -> ImagePlane | None:
     if not (position and orientation and spacing):
         return None
     if min(spacing) <= 0.0:
-        raise FileDamagedError(f"PixelSpacing is {spacing}; both must be above zero")
+        raise FileDamagedError(
+            sentence("PixelSpacing is {spacing}; both must be above zero", spacing=spacing)
+        )
     elements.check_orientation(orientation)
     return ImagePlane(position, orientation, spacing)  # type: ignore[arg-type]  # counts were checked
 
@@ -384,7 +396,7 @@ def _rescale(header: Elements) -> Rescale | None:
     if not (slope and intercept) or (kind not in ("", "HU") and not is_mr):
         return None
     if slope[0] == 0.0:
-        raise FileDamagedError("RescaleSlope is 0; every pixel would have the same value")
+        raise FileDamagedError(sentence("RescaleSlope is 0; every pixel would have the same value"))
     return Rescale(slope[0], intercept[0])
 
 

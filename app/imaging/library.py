@@ -20,6 +20,7 @@ from typing import Any
 from app.core import paths
 from app.core.descriptors import hold, is_held
 from app.core.files import sync, write_atomically
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.errors import (
     FileDamagedError,
@@ -58,7 +59,13 @@ def staging(library: Path, series: Series) -> Iterator[Path]:
         _room(library, series)
         folder = Path(tempfile.mkdtemp(dir=library, prefix=_PREFIX))
     except OSError as error:
-        raise ImportFailedError(f"the library {library} cannot be written: {_why(error)}") from None
+        raise ImportFailedError(
+            sentence(
+                "the library {library} cannot be written: {reason}",
+                library=library,
+                reason=_why(error),
+            )
+        ) from None
     lock = os.open(folder / LOCK, os.O_CREAT | os.O_RDWR)
     try:
         hold(lock)  # the process that writes there holds it as well
@@ -66,7 +73,9 @@ def staging(library: Path, series: Series) -> Iterator[Path]:
     except OSError as error:
         if isinstance(error, ImagingError):
             raise
-        raise ImportFailedError(f"{_why(error)}; nothing was kept") from None
+        raise ImportFailedError(
+            sentence("{reason}; nothing was kept", reason=_why(error))
+        ) from None
     finally:
         shutil.rmtree(folder, ignore_errors=True)
         os.close(lock)
@@ -104,20 +113,26 @@ def _room(library: Path, series: Series) -> None:
         needed = sum(path.stat().st_size for path in series.files)
     except OSError:
         raise ImportFailedError(
-            "a file of the series is gone: the folder was moved or its medium taken out; "
-            "nothing was kept"
+            sentence(
+                "a file of the series is gone: the folder was moved or its medium taken out; "
+                "nothing was kept"
+            )
         ) from None
     free = shutil.disk_usage(library).free
     if free < needed + _SPARE_BYTES:
         raise ImportFailedError(
-            f"the disk of the library has {free / 1e6:.0f} MB free, this series needs "
-            f"{(needed + _SPARE_BYTES) / 1e6:.0f} MB; make room, nothing was kept"
+            sentence(
+                "the disk of the library has {free:.0f} MB free, this series needs "
+                "{needed:.0f} MB; make room, nothing was kept",
+                free=free / 1e6,
+                needed=(needed + _SPARE_BYTES) / 1e6,
+            )
         )
 
 
 def _why(error: OSError) -> str:
     if error.errno == errno.ENOSPC:
-        return "the disk of the library is full"
+        return sentence("the disk of the library is full")
     return error.strerror or type(error).__name__
 
 
@@ -186,18 +201,21 @@ class Imported:
     def words(self) -> str:
         """Return what became of it, for people."""
         if self.again and self.given < self.before:
-            return (
-                f"all {self.before} images of this series are in the library already; the "
-                f"{self.given} given are a part of them"
+            return sentence(
+                "all {before} images of this series are in the library already; the "
+                "{given} given are a part of them",
+                before=self.before,
+                given=self.given,
             )
         if self.again:
-            return "was in the library already, image for image"
+            return sentence("was in the library already, image for image")
         if 0 < self.before < self.given:
-            return (
-                f"taken into the library, in place of {self.before} of its {self.given} images "
-                "that lay there"
+            return sentence(
+                "taken into the library, in place of {before} of its {given} images that lay there",
+                before=self.before,
+                given=self.given,
             )
-        return "taken into the library"
+        return sentence("taken into the library")
 
 
 class CtLibrary:
@@ -229,7 +247,9 @@ class CtLibrary:
             if entry.name == name:
                 return entry
         valid = ", ".join(entry.name for entry in entries) or "nothing yet"
-        raise SeriesUnknownError(f"no CT {name!r} in the library; it holds {valid}")
+        raise SeriesUnknownError(
+            sentence("no CT {name!r} in the library; it holds {valid}", name=name, valid=valid)
+        )
 
     def remove(self, name: str) -> None:
         """Delete an entry: first it leaves the library, then the disk.
@@ -292,18 +312,32 @@ def _require_one_patient(series: Series) -> None:
     for name in ("PatientID", "StudyInstanceUID"):
         if len({dict(owner).get(name) for owner in owners}) > 1:
             raise SeriesRefusedError(
-                f"this series is not taken into the library: {name} differs among its files, and "
-                "they would get one pseudonym; give the files of one patient's study alone"
+                sentence(
+                    "this series is not taken into the library: {name} differs among its files, "
+                    "and they would get one pseudonym; give the files of one patient's study "
+                    "alone",
+                    name=name,
+                )
             )
 
 
 def _require_openable(series: Series, remedy: str) -> None:
     if not series.slices:
         why = "only DICOM series are taken into the library; open this file"
-        raise SeriesRefusedError(why if series.usable else f"{series.reason}; {why}")
+        raise SeriesRefusedError(
+            why
+            if series.usable
+            else sentence("{series_reason}; {reason}", series_reason=series.reason, reason=why)
+        )
     if series.usable or (remedy in series.remedies):
         return
-    raise SeriesRefusedError(f"this series cannot be used: {series.reason}{offer(series)}")
+    raise SeriesRefusedError(
+        sentence(
+            "this series cannot be used: {series_reason}{offer}",
+            series_reason=series.reason,
+            offer=offer(series),
+        )
+    )
 
 
 Images = frozenset[str]
@@ -315,10 +349,17 @@ def _require_comparable(name: str, before: Images, given: Images, masked: bool) 
     if given >= before or (given < before and not masked):
         return
     raise ImportFailedError(
-        f"the library holds {len(before)} images of this series as {name}; of the {len(given)} "
-        f"given {len(given & before)} are among them and {len(before - given)} of those there are "
-        "not given: give all images of the series at once, or remove what lies there first "
-        f"(acus library remove {name}); nothing was changed"
+        sentence(
+            "the library holds {before_count} images of this series as {name}; of the "
+            "{given_count} given {given_count_2} are among them and {before_count_2} of those "
+            "there are not given: give all images of the series at once, or remove what lies "
+            "there first (acus library remove {name}); nothing was changed",
+            before_count=len(before),
+            name=name,
+            given_count=len(given),
+            given_count_2=len(given & before),
+            before_count_2=len(before - given),
+        )
     )
 
 
@@ -351,7 +392,7 @@ def _fill(
     try:
         made = shared_worker().call(DEIDENTIFY, arguments, allowed, part)
     except FileDamagedError as error:
-        raise ImportFailedError(f"{error}; nothing was kept") from None
+        raise ImportFailedError(sentence("{error}; nothing was kept", error=error)) from None
     progress.report(0.98, "checking what was written")
     images, label = _found_in(folder)  # of the new files: the old ones may say more
     about = {

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from app.core.messages import sentence
 from app.imaging.header import SliceHeader
 from app.imaging.rescaling import integral
 
@@ -54,10 +55,20 @@ class Need:
         if self.factors == (1, 1, 1) or self.available is None:
             return ""
         i, j, k = self.factors
-        beside = f" beside the {self.open / 1e9:.1f} GB of what is open" if self.open else ""
-        return (
-            f"needs {self.bytes / 1e9:.1f} GB of memory, and {self.available / 1e9:.1f} GB are "
-            f"free{beside}; fits with {i} × {j} × {k} voxels taken together"
+        beside = (
+            sentence(" beside the {open:.1f} GB of what is open", open=self.open / 1e9)
+            if self.open
+            else ""
+        )
+        return sentence(
+            "needs {bytes:.1f} GB of memory, and {available:.1f} GB are "
+            "free{beside}; fits with {i} × {j} × {k} voxels taken together",
+            bytes=self.bytes / 1e9,
+            available=self.available / 1e9,
+            beside=beside,
+            i=i,
+            j=j,
+            k=k,
         )
 
 

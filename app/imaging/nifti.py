@@ -12,6 +12,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray, read_only
 from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.core.progress import Cancelled, Progress
 from app.imaging import memory
 from app.imaging.errors import (
@@ -112,9 +113,17 @@ def read_nifti(series: Series, progress: Progress | None = None) -> Volume:
     progress = progress or Progress()
     path = series.volume_file
     if path is None or not series.usable:
-        raise SeriesRefusedError(f"series {series.key} cannot be used: {series.reason}")
+        raise SeriesRefusedError(
+            sentence(
+                "series {series_key} cannot be used: {series_reason}",
+                series_key=series.key,
+                series_reason=series.reason,
+            )
+        )
     if too_large := memory.need_of(series.size, 4, _READING).reason:
-        raise TooLargeError(f"{path.name} {too_large}")
+        raise TooLargeError(
+            sentence("{path_name} {too_large}", path_name=path.name, too_large=too_large)
+        )
     progress.report(0.0, f"reading {path.name}")
     voxels = series.size[0] * series.size[1] * series.size[2]
     seconds = for_file(size_of(path), least=PACKAGE_SECONDS).seconds
@@ -122,12 +131,18 @@ def read_nifti(series: Series, progress: Progress | None = None) -> Volume:
     try:
         read = shared_worker().call(NIFTI_VALUES, (path.absolute(),), allowed, progress)
     except FileDamagedError as error:
-        raise type(error)(f"{path}: {error}") from error
+        raise type(error)(sentence("{path}: {error}", path=path, error=error)) from error
     except OSError as error:
-        raise FileDamagedError(f"{path} cannot be read: {error.strerror}") from error
+        raise FileDamagedError(
+            sentence(
+                "{path} cannot be read: {error_strerror}", path=path, error_strerror=error.strerror
+            )
+        ) from error
     values, affine = read.values, _affine(read.affine_mm)
     if values.shape != series.size[::-1]:
-        raise FileDamagedError(f"{path} has changed since it was found; open it again")
+        raise FileDamagedError(
+            sentence("{path} has changed since it was found; open it again", path=path)
+        )
     if np.linalg.det(affine[:3, :3]) < 0.0:
         values = np.ascontiguousarray(values[::-1])
         affine = affine @ _turned_over(len(values))

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.elements import FURTHEST_MM
 from app.imaging.errors import FileDamagedError
@@ -88,7 +89,7 @@ def _digest(path: Path, progress: Progress) -> str:
                     found.update(part)
                     progress.report(min(file.tell() / size, 1.0), "reading")
         except (EOFError, OSError, zlib.error) as error:
-            raise FileDamagedError("it is cut off or damaged") from error
+            raise FileDamagedError(sentence("it is cut off or damaged")) from error
     return found.hexdigest()
 
 
@@ -106,11 +107,17 @@ def nifti_values(path: Path, progress: Progress) -> NiftiValues:
     for start, slab in _slabs(image, size):
         progress.report(start / size[2], f"slice {start + 1} of {size[2]}")
         if not np.isfinite(slab).all():
-            raise FileDamagedError("it holds values that are no numbers (NaN or infinite)")
+            raise FileDamagedError(
+                sentence("it holds values that are no numbers (NaN or infinite)")
+            )
         largest = max(abs(float(slab.min())), abs(float(slab.max())))
         if largest > _MOST_VALUE:
             raise FileDamagedError(
-                f"it holds the value {largest:g}; {_MOST_VALUE:g} is the most that is read"
+                sentence(
+                    "it holds the value {largest:g}; {most_value:g} is the most that is read",
+                    largest=largest,
+                    most_value=_MOST_VALUE,
+                )
             )
         if values.dtype == np.int16 and not _fits(slab):
             values = values.astype(np.float32)
@@ -120,13 +127,15 @@ def nifti_values(path: Path, progress: Progress) -> NiftiValues:
 
 def _opened(path: Path) -> Any:
     if not path.is_file():  # opening a pipe would wait for ever
-        raise FileDamagedError("it is not a regular file")
+        raise FileDamagedError(sentence("it is not a regular file"))
     nibabel = extra("nibabel", "NIfTI files")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         image = nibabel.load(str(path), mmap=False, keep_file_open=True)
     if not hasattr(image.header, "get_sform"):
-        raise FileDamagedError(f"it is {type(image).__name__}, not NIfTI")
+        raise FileDamagedError(
+            sentence("it is {image_type}, not NIfTI", image_type=type(image).__name__)
+        )
     return image
 
 
@@ -155,11 +164,18 @@ def _placed(image: Any) -> tuple[FloatArray, str]:
 def _flaw(image: Any) -> str:
     shape = image.shape
     if len(shape) not in (3, 4) or (len(shape) == 4 and shape[3] != 1):
-        return f"has sizes {' × '.join(map(str, shape))}; one volume is read, no times or vectors"
+        return sentence(
+            "has sizes {shape}; one volume is read, no times or vectors",
+            shape=" × ".join(map(str, shape)),
+        )
     if min(shape[:2]) < 1 or shape[2] < 2:
-        return f"has {shape[2]} slices; a volume needs at least two"
+        return sentence("has {shape} slices; a volume needs at least two", shape=shape[2])
     kind = image.get_data_dtype()
-    return "" if kind.kind in "iuf" else f"holds {kind}, not one number for each voxel"
+    return (
+        ""
+        if kind.kind in "iuf"
+        else sentence("holds {kind}, not one number for each voxel", kind=kind)
+    )
 
 
 def _slabs(image: Any, size: tuple[int, ...]) -> Iterator[tuple[int, NDArray[Any]]]:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from app.core.arrays import FloatArray, frozen
 from app.core.compiled import njit
 from app.core.errors import NumericalError
+from app.core.messages import sentence
 from app.imaging.interpolation import Interpolation
 from app.imaging.volume import Volume
 
@@ -45,7 +46,13 @@ class Plane:
         for name in ("corner_mm", "across_mm", "down_mm"):
             object.__setattr__(self, name, frozen(getattr(self, name), (3,), name))
         if self.columns < 1 or self.rows < 1:
-            raise NumericalError(f"a picture of {self.columns} x {self.rows} pixels has no pixels")
+            raise NumericalError(
+                sentence(
+                    "a picture of {columns} x {rows} pixels has no pixels",
+                    columns=self.columns,
+                    rows=self.rows,
+                )
+            )
 
     @classmethod
     def centred(
@@ -80,8 +87,13 @@ def picture_of(plane: Plane, out: NDArray[np.float32] | None) -> NDArray[np.floa
     picture = np.empty(shape, np.float32) if out is None else out
     if picture.shape != shape or picture.dtype != np.float32 or not picture.flags.c_contiguous:
         raise NumericalError(
-            f"out is {picture.dtype} of shape {picture.shape}; "
-            f"contiguous float32 of shape {shape} is needed"
+            sentence(
+                "out is {picture_dtype} of shape {picture_shape}; "
+                "contiguous float32 of shape {shape} is needed",
+                picture_dtype=picture.dtype,
+                picture_shape=picture.shape,
+                shape=shape,
+            )
         )
     return picture
 

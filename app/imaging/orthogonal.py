@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray, frozen, unit
+from app.core.messages import sentence
 from app.imaging.errors import OutsideImageError
 from app.imaging.volume import SHEAR_MM, Volume
 
@@ -98,7 +99,12 @@ class OrthogonalSlicer:
         screen = _SCREENS[View(view)]
         if not 0 <= index < self.count(view):
             raise OutsideImageError(
-                f"{View(view)} slice {index} does not exist; slices 0 to {self.count(view) - 1} do"
+                sentence(
+                    "{view} slice {index} does not exist; slices 0 to {count} do",
+                    view=View(view),
+                    index=index,
+                    count=self.count(view) - 1,
+                )
             )
         ordered = np.transpose(self._lps_block, (screen.slice, screen.row, screen.column))
         plane: NDArray[Any] = ordered[index]
@@ -113,8 +119,13 @@ class OrthogonalSlicer:
         screen = _SCREENS[View(view)]
         if not 0 <= first < last <= self.count(view):
             raise OutsideImageError(
-                f"{View(view)} slices {first} to {last - 1} do not exist; "
-                f"slices 0 to {self.count(view) - 1} do"
+                sentence(
+                    "{view} slices {first} to {last} do not exist; slices 0 to {count} do",
+                    view=View(view),
+                    first=first,
+                    last=last - 1,
+                    count=self.count(view) - 1,
+                )
             )
         ordered = np.transpose(self._lps_block, (screen.slice, screen.row, screen.column))
         planes: NDArray[Any] = ordered[first:last]

@@ -4,6 +4,8 @@ import os
 from dataclasses import dataclass
 from typing import BinaryIO, Final
 
+from app.core.messages import sentence
+
 IMPLICIT_LITTLE: Final = "1.2.840.10008.1.2"
 EXPLICIT_LITTLE: Final = "1.2.840.10008.1.2.1"
 EXPLICIT_BIG: Final = "1.2.840.10008.1.2.2"
@@ -78,10 +80,14 @@ class PixelFormat:
     @property
     def bits_below_used(self) -> str:
         """Return what to say if those bits are not empty."""
-        return (
-            f"HighBit {self.high_bit} and BitsStored {self.bits_stored} leave the lowest "
-            f"{self.bits_below} bits of a pixel empty, and they are not; HighBit must be "
-            f"{self.bits_stored - 1}"
+        return sentence(
+            "HighBit {high_bit} and BitsStored {bits_stored} leave the lowest "
+            "{bits_below} bits of a pixel empty, and they are not; HighBit must be "
+            "{bits_stored_2}",
+            high_bit=self.high_bit,
+            bits_stored=self.bits_stored,
+            bits_below=self.bits_below,
+            bits_stored_2=self.bits_stored - 1,
         )
 
     @property

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import BinaryIO
 
+from app.core.messages import sentence
 from app.imaging import codestream
 from app.imaging.deflated import HEAD_BYTES
 from app.imaging.elements import Elements
@@ -67,18 +68,20 @@ def walk(stream: BinaryIO, start: int, size: int) -> Fragments:
         if (group, element) == _END:
             return _with_table(stream, places)
         if (group, element) != _ITEM or length == _UNDEFINED:
-            raise FileDamagedError("its compressed pixels are damaged")
+            raise FileDamagedError(sentence("its compressed pixels are damaged"))
         at = stream.tell()
         if at + length > size:
             break
         places.append((at, length))
         stream.seek(length, 1)
-    raise FileDamagedError(f"{TRUNCATED}: its compressed pixels do not end")
+    raise FileDamagedError(
+        sentence("{truncated}: its compressed pixels do not end", truncated=TRUNCATED)
+    )
 
 
 def _with_table(stream: BinaryIO, places: list[Place]) -> Fragments:
     if len(places) < 2:
-        raise FileDamagedError("its compressed pixels are empty")
+        raise FileDamagedError(sentence("its compressed pixels are empty"))
     at, length = places[0]
     stream.seek(at)
     count = length // 4
@@ -102,7 +105,13 @@ def frame_places(
         if len(starts) == frames and starts[0] == 0:
             ends = (*starts[1:], len(places))
             return tuple(places[a:b] for a, b in zip(starts, ends, strict=True))
-    raise FileDamagedError(f"its {len(places)} compressed fragments are not {frames} frames")
+    raise FileDamagedError(
+        sentence(
+            "its {places_count} compressed fragments are not {frames} frames",
+            places_count=len(places),
+            frames=frames,
+        )
+    )
 
 
 def _by_table(fragments: Fragments) -> list[int]:
@@ -132,7 +141,7 @@ def frame_bytes(stream: BinaryIO, places: Sequence[Place]) -> bytes:
         stream.seek(at)
         parts.append(stream.read(length))
         if len(parts[-1]) < length:
-            raise FileDamagedError("it ends within its compressed pixels; read it again")
+            raise FileDamagedError(sentence("it ends within its compressed pixels; read it again"))
     return parts[0] if len(parts) == 1 else b"".join(parts)
 
 
@@ -162,7 +171,9 @@ def find_pixels(stream: BinaryIO, header: Elements, form: PixelFormat) -> PixelD
 def _find(stream: BinaryIO, size: int, header: Elements, form: PixelFormat) -> PixelData:
     syntax = header.syntax
     if syntax not in RAW and syntax not in DECODERS and syntax != DEFLATED:
-        return PixelData(syntax, None, f"no decoder for transfer syntax {_named(syntax)}")
+        return PixelData(
+            syntax, None, sentence("no decoder for transfer syntax {named}", named=_named(syntax))
+        )
     body = header.inflated or stream
     length, missing = _element_length(body, syntax != EXPLICIT_BIG)
     if missing:
@@ -171,8 +182,11 @@ def _find(stream: BinaryIO, size: int, header: Elements, form: PixelFormat) -> P
         return PixelData(
             syntax,
             None,
-            "its pixels are of undefined length, as only compressed ones may be (PS3.5 A.4), and "
-            f"its transfer syntax is {_RAW_NAMES[syntax]}; have it sent again",
+            sentence(
+                "its pixels are of undefined length, as only compressed ones may be (PS3.5 A.4), "
+                "and its transfer syntax is {raw_names}; have it sent again",
+                raw_names=_RAW_NAMES[syntax],
+            ),
         )
     if header.inflated is not None:
         return _deflated(header.inflated, header.start, length, form)
@@ -187,7 +201,7 @@ def _named(syntax: str) -> str:
     from pydicom.uid import UID
 
     if not set(syntax) <= set("0123456789."):
-        return "(what stands there is no UID)"
+        return sentence("(what stands there is no UID)")
     name = UID(syntax, config.IGNORE).name
     return repr(syntax[:64]) if name == syntax else f"{syntax} ({name})"
 
@@ -201,14 +215,14 @@ def _element_length(stream: BinaryIO, little: bool) -> tuple[int, str]:
     head = stream.read(8)
     order = "<" if little else ">"
     if len(head) < 8:
-        return 0, f"{TRUNCATED}: {{size}} bytes and no pixels in them"
+        return 0, sentence("{truncated}: {{size}} bytes and no pixels in them", truncated=TRUNCATED)
     if struct.unpack(order + "HH", head[:4]) != _PIXEL_DATA:
-        return 0, "no pixels in it (PixelData is missing)"
+        return 0, sentence("no pixels in it (PixelData is missing)")
     if head[4:6] not in _PIXEL_VRS:
         return int(struct.unpack(order + "L", head[4:])[0]), ""
     tail = stream.read(4)
     if len(tail) < 4:
-        return 0, f"{TRUNCATED}: {{size}} bytes and no pixels in them"
+        return 0, sentence("{truncated}: {{size}} bytes and no pixels in them", truncated=TRUNCATED)
     return int(struct.unpack(order + "L", tail)[0]), ""
 
 
@@ -219,11 +233,18 @@ def _needed(form: PixelFormat) -> int:
 def _raw(syntax: str, stream: BinaryIO, size: int, length: int, form: PixelFormat) -> PixelData:
     offset, needed = stream.tell(), _needed(form)
     if _starts_with_item(stream, length):
-        what = f"its pixels are compressed, and its transfer syntax is {_RAW_NAMES[syntax]}"
-        return PixelData(syntax, None, f"{what}; have it sent again")
+        what = sentence(
+            "its pixels are compressed, and its transfer syntax is {raw_names}",
+            raw_names=_RAW_NAMES[syntax],
+        )
+        return PixelData(syntax, None, sentence("{what}; have it sent again", what=what))
     if size - offset < min(length, needed):
         missing = needed - (size - offset)
-        what = f"{TRUNCATED}: the last {missing} bytes of pixels are missing"
+        what = sentence(
+            "{truncated}: the last {missing} bytes of pixels are missing",
+            truncated=TRUNCATED,
+            missing=missing,
+        )
         return PixelData(syntax, None, what)
     wrong = _wrong_length(length, needed) or _wrong_bits(stream, needed, syntax, form)
     behind = _behind(min(length, size - offset), needed)
@@ -261,12 +282,17 @@ def _wrong_bits(stream: BinaryIO, needed: int, syntax: str, form: PixelFormat) -
 def _wrong_length(length: int, needed: int) -> str:
     """Too few bytes, or several times as many: then frames or bits are not as the header says."""
     if length < needed:
-        return f"{length} bytes of pixels where {needed} are needed"
+        return sentence(
+            "{length} bytes of pixels where {needed} are needed", length=length, needed=needed
+        )
     times, rest = divmod(length, needed) if needed else (1, 0)
     if times > 1 and rest <= 1:
-        return (
-            f"{length} bytes of pixels where {needed} are needed, {times} times as many: "
-            "NumberOfFrames or BitsAllocated is not what it should be"
+        return sentence(
+            "{length} bytes of pixels where {needed} are needed, {times} times as many: "
+            "NumberOfFrames or BitsAllocated is not what it should be",
+            length=length,
+            needed=needed,
+            times=times,
         )
     return ""
 
@@ -282,7 +308,11 @@ def _deflated(body: BinaryIO, start: int, length: int, form: PixelFormat) -> Pix
     damage = _wrong_length(length, needed)
     if inflated < HEAD_BYTES and inflated - offset < min(length, needed):
         missing = needed - (inflated - offset)
-        damage = f"{TRUNCATED}: the last {missing} bytes of pixels are missing"
+        damage = sentence(
+            "{truncated}: the last {missing} bytes of pixels are missing",
+            truncated=TRUNCATED,
+            missing=missing,
+        )
     return PixelData(DEFLATED, offset, damage, start, behind=_behind(length, needed))
 
 
@@ -292,8 +322,12 @@ def _encoded(syntax: str, stream: BinaryIO, size: int, length: int, form: PixelF
         return PixelData(
             syntax,
             None,
-            f"its {length} bytes of pixels are not compressed, and its transfer syntax is "
-            f"{_named(syntax)}; have it sent again",
+            sentence(
+                "its {length} bytes of pixels are not compressed, and its transfer syntax is "
+                "{named}; have it sent again",
+                length=length,
+                named=_named(syntax),
+            ),
         )
     try:
         places = frame_places(stream, walk(stream, start, size), max(form.frames, 1))

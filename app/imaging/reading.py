@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, frozen, read_only
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging import memory, stack
 from app.imaging.errors import (
@@ -110,15 +111,31 @@ def pixel_lps_mm(
     form = header.format
     if not (0 <= column < form.columns and 0 <= row < form.rows):
         raise OutsideImageError(
-            f"pixel ({column}, {row}) is outside {header.path.name}: columns 0 to "
-            f"{form.columns - 1}, rows 0 to {form.rows - 1}"
+            sentence(
+                "pixel ({column}, {row}) is outside {header_path_name}: columns 0 to "
+                "{form_columns}, rows 0 to {form_rows}",
+                column=column,
+                row=row,
+                header_path_name=header.path.name,
+                form_columns=form.columns - 1,
+                form_rows=form.rows - 1,
+            )
         )
     if header.damage:
-        raise FileDamagedError(f"{header.path}: {header.damage}")
+        raise FileDamagedError(
+            sentence(
+                "{header_path}: {header_damage}",
+                header_path=header.path,
+                header_damage=header.damage,
+            )
+        )
     if header.plane is None or header.rescale is None or form.samples > 1:
         raise SeriesRefusedError(
-            f"{header.path.name} is no CT image with position, orientation, spacing and "
-            "rescale; choose a file that is"
+            sentence(
+                "{header_path_name} is no CT image with position, orientation, spacing and "
+                "rescale; choose a file that is",
+                header_path_name=header.path.name,
+            )
         )
     affine = stack.plane_affine(header.plane, stack.normal(header.plane))
     picture = _single(header)
@@ -149,7 +166,14 @@ def _instance(listing: Listing, sop_uid: str, frame: int) -> SliceHeader:
             if header.identity.sop_uid == sop_uid and header.frame == frame:
                 return header
     which = f" and frame {frame + 1}" if frame else ""
-    raise SeriesUnknownError(f"no file with SOPInstanceUID {sop_uid}{which} in {listing.path}")
+    raise SeriesUnknownError(
+        sentence(
+            "no file with SOPInstanceUID {sop_uid}{which} in {listing_path}",
+            sop_uid=sop_uid,
+            which=which,
+            listing_path=listing.path,
+        )
+    )
 
 
 def _single(header: SliceHeader) -> NDArray[Any]:
@@ -202,25 +226,44 @@ def choose(listing: Listing, series_uid: str | None = None, remedy: str = NO_REM
     if len(usable) > 1:
         uids = ", ".join(f"{series.key} ({series.label})" for series in usable)
         raise SeriesAmbiguousError(
-            f"{listing.path} holds {len(usable)} usable CT series; name one: {uids}", usable
+            sentence(
+                "{listing_path} holds {usable_count} usable CT series; name one: {uids}",
+                listing_path=listing.path,
+                usable_count=len(usable),
+                uids=uids,
+            ),
+            usable,
         )
     if not usable:
         reasons = "; ".join(
             f"{series.label}: {series.reason}{offer(series)}" for series in listing.series[:4]
         )
-        raise SeriesRefusedError(f"no usable CT series in {listing.path}. {reasons}")
+        raise SeriesRefusedError(
+            sentence(
+                "no usable CT series in {listing_path}. {reasons}",
+                listing_path=listing.path,
+                reasons=reasons,
+            )
+        )
     return usable[0]
 
 
 def nothing_in(listing: Listing) -> str:
     """Say that a place holds no series, and what it does hold."""
     if not listing.ignored:
-        return f"{listing.path} is empty; name a folder with DICOM files"
+        return sentence(
+            "{listing_path} is empty; name a folder with DICOM files", listing_path=listing.path
+        )
     first = listing.ignored[0]
     count = len(listing.ignored)
-    return (
-        f"no DICOM series in {listing.path}: {count} file{'s' * (count > 1)} ignored "
-        f"({first.path.name}: {first.reason})"
+    return sentence(
+        "no DICOM series in {listing_path}: {count} file{count_2} ignored "
+        "({first_path_name}: {first_reason})",
+        listing_path=listing.path,
+        count=count,
+        count_2="s" * (count > 1),
+        first_path_name=first.path.name,
+        first_reason=first.reason,
     )
 
 
@@ -230,12 +273,23 @@ def _named(listing: Listing, series_uid: str, remedy: str) -> Series:
     found = exact or [s for s in named if s.usable] or named[:1]
     if not found:
         valid = ", ".join(series.key for series in listing.series)
-        raise SeriesUnknownError(f"no series {series_uid} in {listing.path}; it holds {valid}")
+        raise SeriesUnknownError(
+            sentence(
+                "no series {series_uid} in {listing_path}; it holds {valid}",
+                series_uid=series_uid,
+                listing_path=listing.path,
+                valid=valid,
+            )
+        )
     if len(found) > 1:
         parts = ", ".join(series.key for series in found)
         raise SeriesAmbiguousError(
-            f"series {series_uid} holds {len(found)} passes over the same places; name one: "
-            f"{parts}",
+            sentence(
+                "series {series_uid} holds {count} passes over the same places; name one: {parts}",
+                series_uid=series_uid,
+                count=len(found),
+                parts=parts,
+            ),
             tuple(found),
         )
     if remedy == NO_REMEDY and not found[0].usable:
@@ -245,15 +299,22 @@ def _named(listing: Listing, series_uid: str, remedy: str) -> Series:
 
 def _refusal(series: Series) -> str:
     """Return why a series is not read as it is, and what could be asked for instead."""
-    return f"series {series.key} cannot be used: {series.reason}{offer(series)}"
+    return sentence(
+        "series {series_key} cannot be used: {series_reason}{offer}",
+        series_key=series.key,
+        series_reason=series.reason,
+        offer=offer(series),
+    )
 
 
 def offer(series: Series) -> str:
     """Say with which `--remedy` a refused series can be read; nothing where there is none."""
     if series.usable or not series.remedies:
         return ""
-    ways = (f"ask to {remedy} (--remedy {remedy})" for remedy in series.remedies)
-    return f"; it can be read if you {' or '.join(ways)}"
+    ways = (
+        sentence("ask to {remedy} (--remedy {remedy})", remedy=remedy) for remedy in series.remedies
+    )
+    return sentence("; it can be read if you {ways}", ways=" or ".join(ways))
 
 
 def read_series(series: Series, progress: Progress | None = None) -> Volume:
@@ -304,9 +365,24 @@ def read_with(
     if remedy == NO_REMEDY:
         return read_series(series, progress)
     if not series.slices or not (series.usable or remedy in series.remedies):
-        why = series.reason or "it is one file that holds a whole volume"
-        raise SeriesRefusedError(f"asking to {remedy} series {series.key} does not help: {why}")
+        reason = series.reason or "it is one file that holds a whole volume"
+        raise SeriesRefusedError(
+            sentence(
+                "the remedy {remedy!r} does not help series {series_key}: {reason}{instead}",
+                remedy=remedy,
+                series_key=series.key,
+                reason=reason,
+                instead=_instead(series),
+            )
+        )
     return read_mended(series, Recipe(remedy, factors, spacing_mm), progress)
+
+
+def _instead(series: Series) -> str:
+    """Say what helps a series that a remedy does not help."""
+    if series.usable:
+        return sentence("; read it as it is (--remedy {no_remedy})", no_remedy=NO_REMEDY)
+    return offer(series) or sentence("; no remedy does")
 
 
 def read_again(series: Series, recipe: Recipe, progress: Progress | None = None) -> Volume:
@@ -355,15 +431,24 @@ def _check_room(series: Series, factors: tuple[int, int, int]) -> None:
     """See that there is room for twice the memory that was counted on."""
     i, j, k = (max(1, n // f) for n, f in zip(series.size, factors, strict=True))
     if too_large := memory.need_of((i, j, k), 4).reason:
-        raise _too_large(series, f"has values beyond 16 bits and {too_large}")
+        raise _too_large(
+            series, sentence("has values beyond 16 bits and {too_large}", too_large=too_large)
+        )
 
 
 def _too_large(series: Series, reason: str) -> TooLargeError:
     """Make an error that holds the series as the scan would have found it, had it known."""
     known = replace(series, usable=False, reason=reason, refusal=Refusal.TOO_LARGE)
     known = replace(known, remedies=offered(known).names)
-    ask = f"; ask to {known.remedy} it" if known.remedies else ""
-    return TooLargeError(f"series {series.key} {reason}{ask}", known)
+    ask = (
+        sentence("; ask to {known_remedy} it", known_remedy=known.remedy) if known.remedies else ""
+    )
+    return TooLargeError(
+        sentence(
+            "series {series_key} {reason}{ask}", series_key=series.key, reason=reason, ask=ask
+        ),
+        known,
+    )
 
 
 def _padding(headers: tuple[SliceHeader, ...], whole: NDArray[Any]) -> NDArray[np.bool_] | None:

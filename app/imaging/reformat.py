@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen, unit
 from app.core.errors import NumericalError
+from app.core.messages import sentence
 from app.core.rotation import rotation_exp
 from app.imaging.orthogonal import Letters, letters
 
@@ -49,8 +50,11 @@ class Frame:
         axes = np.stack([self.right, self.down])
         if np.abs(axes @ axes.T - np.eye(2)).max() > _ORTHONORMAL_TOLERANCE:
             raise NumericalError(
-                f"right {self.right.tolist()} and down {self.down.tolist()} are not perpendicular "
-                "unit vectors"
+                sentence(
+                    "right {right} and down {down} are not perpendicular unit vectors",
+                    right=self.right.tolist(),
+                    down=self.down.tolist(),
+                )
             )
         (a, b, c), (u, v, w) = self.right.tolist(), self.down.tolist()  # np.cross is slow on threes
         normal = (b * w - c * v, c * u - a * w, a * v - b * u)
@@ -65,7 +69,13 @@ class Frame:
         """
         across, below = unit(right, "right"), unit(down, "down")
         if np.linalg.norm(np.cross(across, below)) < 1e-9:
-            raise NumericalError(f"right {across.tolist()} and down {below.tolist()} are parallel")
+            raise NumericalError(
+                sentence(
+                    "right {across} and down {below} are parallel",
+                    across=across.tolist(),
+                    below=below.tolist(),
+                )
+            )
         return cls(np.asarray(origin_mm), across, unit(below - (below @ across) * across))
 
     def point(self, lps_mm: ArrayLike) -> tuple[float, float, float]:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from app.core.arrays import FloatArray, read_only
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging import memory, stack
 from app.imaging.errors import SeriesRefusedError, TooLargeError
@@ -71,8 +72,12 @@ def resampled(series: Series, recipe: Recipe, progress: Progress) -> Volume:
     width = memory.voxel_bytes(series.slices)
     if memory.need_of((both, 1, 1), width).reason:
         raise TooLargeError(
-            f"series {series.key} and what would be made of it need "
-            f"{both * width / 1e9:.1f} GB of memory; close other programs or read a shorter series"
+            sentence(
+                "series {series_key} and what would be made of it need "
+                "{both:.1f} GB of memory; close other programs or read a shorter series",
+                series_key=series.key,
+                both=both * width / 1e9,
+            )
         )
     stored = read_pixels(series, progress.part(0.0, 0.5))
     empty = EMPTY_HU if series.unit else 0.0
@@ -99,7 +104,13 @@ def _target(series: Series, grid: stack.Stack, spacing_mm: float | None) -> _Tar
     step = float(np.median(gaps)) if spacing_mm is None else spacing_mm
     if not FINEST_MM <= step <= COARSEST_MM:
         raise SeriesRefusedError(
-            f"slices {step:g} mm apart cannot be made; ask for {FINEST_MM:g} to {COARSEST_MM:g} mm"
+            sentence(
+                "slices {step:g} mm apart cannot be made; ask for {finest_mm:g} to "
+                "{coarsest_mm:g} mm",
+                step=step,
+                finest_mm=FINEST_MM,
+                coarsest_mm=COARSEST_MM,
+            )
         )
     across, normal = grid.affine_mm[:3, 0], grid.normal
     pixel = np.linalg.norm(grid.affine_mm[:3, :2], axis=0)
@@ -129,7 +140,12 @@ def _sampler(
     def sampled(k: int) -> NDArray[np.float32]:
         plane = series.slices[k].plane
         if plane is None:
-            raise SeriesRefusedError(f"{series.slices[k].path} says nothing of its place")
+            raise SeriesRefusedError(
+                sentence(
+                    "{series_slices_path} says nothing of its place",
+                    series_slices_path=series.slices[k].path,
+                )
+            )
         own = stack.plane_affine(plane, target.affine_mm[:3, 2])
         to_own = np.linalg.inv(own) @ target.affine_mm  # along the normal: k drops out
         matrix = to_own[1::-1, 1::-1]  # (row, column) of the target -> of the slice
@@ -207,12 +223,28 @@ def _between(
 def _words(series: Series, grid: stack.Stack, target: _Target, empty: int) -> tuple[str, ...]:
     words = []
     if grid.tilt_deg:
-        words.append(f"straightened from a gantry tilt of {grid.tilt_deg:.1f}°")
+        words.append(
+            sentence(
+                "straightened from a gantry tilt of {grid_tilt_deg:.1f}°",
+                grid_tilt_deg=grid.tilt_deg,
+            )
+        )
     gaps, step = grid.gaps_mm, float(np.linalg.norm(target.affine_mm[:3, 2]))
     if not grid.tilt_deg or np.ptp(gaps) > stack.TOLERANCE_MM:
         words.append(
-            f"resampled from slices {gaps.min():.3g} to {gaps.max():.3g} mm apart to {step:.3g} mm"
+            sentence(
+                "resampled from slices {gaps_min:.3g} to {gaps_max:.3g} mm apart to {step:.3g} mm",
+                gaps_min=gaps.min(),
+                gaps_max=gaps.max(),
+                step=step,
+            )
         )
     if empty:
-        words.append(f"{empty} gap{'s' * (empty > 1)} of missing slices left empty")
+        words.append(
+            sentence(
+                "{empty} gap{empty_2} of missing slices left empty",
+                empty=empty,
+                empty_2="s" * (empty > 1),
+            )
+        )
     return tuple(words)

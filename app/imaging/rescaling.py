@@ -11,6 +11,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging import codecs
 from app.imaging.decoding import read_stored, stored_type
@@ -46,7 +47,7 @@ def fill(header: SliceHeader, place: int, dtype: str, progress: Progress) -> Non
     hu = _array("hu", shape, np.dtype(dtype))
     fill_slice(header, hu, _array("stored", shape, stored_type(header.format)))
     if "volume" not in _shared:
-        raise FileDamagedError("there is no volume to write to")
+        raise FileDamagedError(sentence("there is no volume to write to"))
     view, at = memoryview(hu.data).cast("B"), place * hu.nbytes
     while view:
         written = os.pwrite(_shared["volume"], view, at)
@@ -81,7 +82,10 @@ def fresh_array(shape: tuple[int, int, int], dtype: np.dtype[Any]) -> NDArray[An
         return _ordinary_pages(size, dtype).reshape(shape)
     except (OSError, MemoryError) as error:
         raise SeriesRefusedError(
-            f"the volume needs {size / 1e9:.1f} GB of memory, which this machine cannot give"
+            sentence(
+                "the volume needs {size:.1f} GB of memory, which this machine cannot give",
+                size=size / 1e9,
+            )
         ) from error
 
 
@@ -107,7 +111,9 @@ def fill_slice(header: SliceHeader, out: NDArray[Any], stored: NDArray[Any]) -> 
 
 def _rescale(header: SliceHeader) -> Rescale:
     if header.rescale is None:
-        raise FileDamagedError(f"{header.path} gives no Hounsfield units")
+        raise FileDamagedError(
+            sentence("{header_path} gives no Hounsfield units", header_path=header.path)
+        )
     return header.rescale
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray, frozen
 from app.core.errors import NumericalError
+from app.core.messages import sentence
 from app.imaging.errors import ScanOrderError
 
 FEWEST, MOST = 3, 5
@@ -45,12 +46,26 @@ class ScanOrder:
 
     def __post_init__(self) -> None:
         if not isfinite(self.centre_mm):
-            raise ScanOrderError(f"the table position {self.centre_mm} is not a number")
+            raise ScanOrderError(
+                sentence("the table position {centre_mm} is not a number", centre_mm=self.centre_mm)
+            )
         if not FEWEST <= self.slices <= MOST:
-            raise ScanOrderError(f"{self.slices} slices: a scan has {FEWEST} to {MOST}")
+            raise ScanOrderError(
+                sentence(
+                    "{slices} slices: a scan has {fewest} to {most}",
+                    slices=self.slices,
+                    fewest=FEWEST,
+                    most=MOST,
+                )
+            )
         if not THINNEST_MM <= self.slice_mm <= THICKEST_MM:
             raise ScanOrderError(
-                f"slices of {self.slice_mm:g} mm: {THINNEST_MM:g} to {THICKEST_MM:g} mm are valid"
+                sentence(
+                    "slices of {slice_mm:g} mm: {thinnest_mm:g} to {thickest_mm:g} mm are valid",
+                    slice_mm=self.slice_mm,
+                    thinnest_mm=THINNEST_MM,
+                    thickest_mm=THICKEST_MM,
+                )
             )
 
     @property
@@ -97,9 +112,17 @@ class ScanNeedle:
             shape = (len(self.corners_mm), 3)
             object.__setattr__(self, "corners_mm", frozen(self.corners_mm, shape, "corners_mm"))
         if not self.length_mm > 1e-6:
-            raise NumericalError(f"the needle's hub and tip are both at {self.tip_mm.tolist()}")
+            raise NumericalError(
+                sentence(
+                    "the needle's hub and tip are both at {tip_mm}", tip_mm=self.tip_mm.tolist()
+                )
+            )
         if not 0.0 < self.radius_mm < 1e3:
-            raise NumericalError(f"a needle of radius {self.radius_mm} mm cannot be drawn")
+            raise NumericalError(
+                sentence(
+                    "a needle of radius {radius_mm} mm cannot be drawn", radius_mm=self.radius_mm
+                )
+            )
 
     @property
     def pieces(self) -> tuple[ScanNeedle, ...]:

@@ -10,6 +10,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging import memory, stack
 from app.imaging.acquisitions import Group
@@ -122,11 +123,11 @@ def _notes(headers: Headers, tilt_deg: float) -> list[str]:
         row, column = plane.orientation[:3], plane.orientation[3:]
         off = max(abs(sum(v * v for v in vector) - 1.0) for vector in (row, column))
         if off > 2.0 * _NOT_UNIT:
-            notes.append("direction cosines not of length one: taken as they are written")
+            notes.append(sentence("direction cosines not of length one: taken as they are written"))
     behind = sum(header.pixels.behind > 0 for header in headers)
     if behind:
         files = "1 file holds" if behind == 1 else f"{behind} files hold"
-        notes.append(f"{files} bytes behind the pixels, which are left out")
+        notes.append(sentence("{files} bytes behind the pixels, which are left out", files=files))
     if words := caveat(headers[0].identity.image_type):
         notes.append(words)
     return notes
@@ -139,8 +140,12 @@ def _gap_notes(headers: Headers, slices: stack.Stack) -> list[str]:
     if not 0.0 < thickness * SPARSE <= between:
         return []
     return [
-        f"slices lie {between:.1f} mm apart and are {thickness:.3g} mm thick: what is shown "
-        "between them is interpolated, nothing there was scanned"
+        sentence(
+            "slices lie {between:.1f} mm apart and are {thickness:.3g} mm thick: what is shown "
+            "between them is interpolated, nothing there was scanned",
+            between=between,
+            thickness=thickness,
+        )
     ]
 
 
@@ -158,7 +163,7 @@ def _modality(headers: Headers, root: Path) -> str:
     if found == {"MR"}:
         return ""
     others = sorted(found - {"CT"})
-    return f"not CT (modality {', '.join(others)})" if others else ""
+    return sentence("not CT (modality {others})", others=", ".join(others)) if others else ""
 
 
 def _object(header: SliceHeader) -> str:
@@ -167,23 +172,32 @@ def _object(header: SliceHeader) -> str:
     if header.damage and not header.format.photometric:  # which is the damage, or part of it
         return ""
     if header.format.samples > 1 or header.format.photometric not in ("MONOCHROME1", "MONOCHROME2"):
-        what = header.format.photometric or "no photometric interpretation"
-        return f"not a CT image but a picture ({what}, secondary capture)"
+        what = header.format.photometric or sentence("no photometric interpretation")
+        return sentence("not a CT image but a picture ({what}, secondary capture)", what=what)
     if kind.startswith(SECONDARY_CAPTURE):
-        return "secondary capture, not an original CT image"
+        return sentence("secondary capture, not an original CT image")
     if "LOCALIZER" in image_type:
-        return "localizer (scout view), not a volume"
+        return sentence("localizer (scout view), not a volume")
     if header.obstacle:
         return header.obstacle
     if kind in MULTI_FRAME and modality in MULTI_FRAME[kind]:
         return ""
     if frames > 1:
-        return f"multi-frame file ({frames} frames) that does not say where each of them lies"
+        return sentence(
+            "multi-frame file ({frames} frames) that does not say where each of them lies",
+            frames=frames,
+        )
     if kind != (MR_IMAGE if modality == "MR" else CT_IMAGE):
-        what = "not CT but MR, and not an MR image" if modality == "MR" else "not a CT image"
+        what = (
+            sentence("not CT but MR, and not an MR image")
+            if modality == "MR"
+            else sentence("not a CT image")
+        )
         return f"{what} (SOP class {kind or 'missing'})"
     if "MOSAIC" in image_type:
-        return "a mosaic: many slices side by side in one picture, which says of none where it lies"
+        return sentence(
+            "a mosaic: many slices side by side in one picture, which says of none where it lies"
+        )
     return ""
 
 
@@ -202,7 +216,12 @@ def _truncated(headers: Headers, root: Path) -> str:
     if not cut:
         return ""
     more = f" (and {len(cut) - 1} more)" if len(cut) > 1 else ""
-    return f"{display_name(cut[0], root)} is {cut[0].damage}{more}; have it sent again"
+    return sentence(
+        "{display_name} is {cut_first_damage}{more}; have it sent again",
+        display_name=display_name(cut[0], root),
+        cut_first_damage=cut[0].damage,
+        more=more,
+    )
 
 
 def _damaged(headers: Headers, root: Path) -> str:
@@ -212,18 +231,30 @@ def _damaged(headers: Headers, root: Path) -> str:
 def _bits(header: SliceHeader) -> str:
     form = header.format
     if form.bits_allocated not in (8, 16):
-        return f"{form.bits_allocated} bits per pixel are not supported (8 or 16 are)"
+        return sentence(
+            "{form_bits_allocated} bits per pixel are not supported (8 or 16 are)",
+            form_bits_allocated=form.bits_allocated,
+        )
     if not 1 <= form.bits_stored <= form.high_bit + 1 <= form.bits_allocated:
-        return (
-            f"BitsStored {form.bits_stored}, HighBit {form.high_bit} and BitsAllocated "
-            f"{form.bits_allocated} contradict each other"
+        return sentence(
+            "BitsStored {form_bits_stored}, HighBit {form_high_bit} and BitsAllocated "
+            "{form_bits_allocated} contradict each other",
+            form_bits_stored=form.bits_stored,
+            form_high_bit=form.high_bit,
+            form_bits_allocated=form.bits_allocated,
         )
     if form.rows < 1 or form.columns < 1:
-        return f"no pixels: {form.columns} columns × {form.rows} rows"
+        return sentence(
+            "no pixels: {form_columns} columns × {form_rows} rows",
+            form_columns=form.columns,
+            form_rows=form.rows,
+        )
     if header.rescale is None:
-        return "no Hounsfield units (RescaleSlope and RescaleIntercept missing, or another unit)"
+        return sentence(
+            "no Hounsfield units (RescaleSlope and RescaleIntercept missing, or another unit)"
+        )
     if header.plane is None:
-        return "ImagePositionPatient, ImageOrientationPatient or PixelSpacing missing"
+        return sentence("ImagePositionPatient, ImageOrientationPatient or PixelSpacing missing")
     return ""
 
 
@@ -234,12 +265,12 @@ def _wrong_pixels(headers: Headers, root: Path) -> str:
 def _mixed(headers: Headers, root: Path) -> str:
     sizes = {(header.format.columns, header.format.rows) for header in headers}
     if len(sizes) > 1:
-        return "mixed image sizes: " + ", ".join(f"{c}×{r}" for c, r in sorted(sizes))
+        return sentence("mixed image sizes: ") + ", ".join(f"{c}×{r}" for c, r in sorted(sizes))
     return stack.mixed([header.plane for header in headers if header.plane])
 
 
 def _single(headers: Headers, root: Path) -> str:
-    return "a single slice; a volume needs at least two" if len(headers) < 2 else ""
+    return sentence("a single slice; a volume needs at least two") if len(headers) < 2 else ""
 
 
 _JUDGES: Final = (_modality, _truncated, _wrong_object, _damaged, _wrong_pixels, _mixed, _single)
@@ -338,12 +369,17 @@ def _frame_notes(headers: list[SliceHeader]) -> tuple[str, ...]:
         return ()
     if "" in frames:
         return (
-            "some of its files name no frame of reference: they lie together only if whoever "
-            "wrote them left it out",
+            sentence(
+                "some of its files name no frame of reference: they lie together only if whoever "
+                "wrote them left it out"
+            ),
         )
     return (
-        f"its files name {len(frames)} frames of reference: they lie together only if whoever "
-        "de-identified them gave each a number of its own",
+        sentence(
+            "its files name {frames_count} frames of reference: they lie together only if "
+            "whoever de-identified them gave each a number of its own",
+            frames_count=len(frames),
+        ),
     )
 
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from app.core.compiled import njit
 from app.core.errors import NumericalError
+from app.core.messages import sentence
 from app.imaging.window import WindowLevel
 
 _BITS: Final = 11
@@ -45,7 +46,13 @@ def screen_pixels(
         NumericalError: if there are no values, or the picture has no size.
     """
     if values.ndim != 2 or not values.size or min(place[2:]) <= 0.0:
-        raise NumericalError(f"a picture of {values.shape} values on {place} px cannot be drawn")
+        raise NumericalError(
+            sentence(
+                "a picture of {values_shape} values on {place} px cannot be drawn",
+                values_shape=values.shape,
+                place=place,
+            )
+        )
     kind = values.dtype if values.dtype == np.int16 else np.float32
     values = np.ascontiguousarray(values, kind)  # every other order would be compiled for
     out = np.empty((size[1], size[0]), np.uint32)

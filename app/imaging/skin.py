@@ -8,6 +8,7 @@ import numpy as np
 from scipy import ndimage
 
 from app.core.arrays import FloatArray, read_only
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.body import SKIN_HU, Body
 from app.imaging.errors import InvalidEntryError
@@ -61,7 +62,9 @@ def skin_points(
     shell = coarse & ~ndimage.binary_erosion(coarse, border_value=1)
     cells = np.argwhere(shell)[:, ::-1]
     if not len(cells):
-        raise InvalidEntryError("there is no body in this CT, so there is no skin", np.inf)
+        raise InvalidEntryError(
+            sentence("there is no body in this CT, so there is no skin"), np.inf
+        )
     places = body.volume.lps_mm(cells * body.factors)
     _, first = np.unique(np.floor(places / spacing_mm).astype(np.int64), axis=0, return_index=True)
     cells, places = cells[np.sort(first)], places[np.sort(first)]

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
 from app.core.errors import NumericalError
+from app.core.messages import sentence
 from app.imaging.oblique import OUTSIDE_HU, Plane, _outside, _trilinear_at, picture_of
 from app.imaging.volume import Volume
 
@@ -41,8 +42,12 @@ def slab_samples(volume: Volume, thickness_mm: float) -> int:
     """
     if not 0.0 < thickness_mm <= THICKEST_MM:
         raise NumericalError(
-            f"a slab of {thickness_mm} mm cannot be shown; it must be above 0 and at most "
-            f"{THICKEST_MM:g} mm"
+            sentence(
+                "a slab of {thickness_mm} mm cannot be shown; it must be above 0 and at most "
+                "{thickest_mm:g} mm",
+                thickness_mm=thickness_mm,
+                thickest_mm=THICKEST_MM,
+            )
         )
     return max(1, ceil(thickness_mm / float(np.min(volume.spacing_mm)) - 1e-9))
 

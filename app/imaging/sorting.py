@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Final
 
+from app.core.messages import sentence
 from app.imaging import stack
 from app.imaging.acquisitions import Group, Headers, passes
 from app.imaging.header import CT_IMAGE, MR_IMAGE, MULTI_FRAME, SliceHeader
@@ -95,9 +96,10 @@ def _two_patients(owners: Sequence[dict[str, str]]) -> str:
     """Say by which attribute images of one PatientID and study are of several patients."""
     for name in _WHO:
         if len({owner[name] for owner in owners if name in owner}) > 1:
-            return (
-                f"files of two patients: {name} differs under one PatientID and StudyInstanceUID; "
-                "put the files of each patient into a folder of their own"
+            return sentence(
+                "files of two patients: {name} differs under one PatientID and "
+                "StudyInstanceUID; put the files of each patient into a folder of their own",
+                name=name,
             )
     return ""
 
@@ -145,7 +147,7 @@ def kind_beside(header: SliceHeader) -> str:
 def _aside(headers: Headers, what: str) -> str:
     names = ", ".join(header.path.name for header in headers[:_NAMED])
     more = f" and {len(headers) - _NAMED} more" if len(headers) > _NAMED else ""
-    return f"set aside, as {what}: {names}{more}"
+    return sentence("set aside, as {what}: {names}{more}", what=what, names=names, more=more)
 
 
 # --- where they lie
@@ -218,7 +220,7 @@ def _other_grid(usual: SliceHeader, stray: SliceHeader) -> str:
     """Say by what a stray image belongs to no stack of the others."""
     planes = [header.plane for header in (usual, stray) if header.plane]
     if stack.mixed(planes).startswith("mixed orientations"):
-        return "of another direction than the slices"
+        return sentence("of another direction than the slices")
     if usual.format.size != stray.format.size:
-        return "of another size than the slices"
-    return "of another pixel spacing than the slices"
+        return sentence("of another size than the slices")
+    return sentence("of another pixel spacing than the slices")

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.core.temporary import sweep_temporary, temporary_folder
 from app.imaging.errors import FileDamagedError, FolderError
@@ -67,23 +68,39 @@ def unpack_into(
             _check(members, bounds)
             return tuple(_extract(archive, members, root, progress))
     except (zipfile.BadZipFile, NotImplementedError, EOFError) as error:
-        raise FolderError(f"it is damaged ({type(error).__name__})") from error
+        raise FolderError(
+            sentence("it is damaged ({error_type})", error_type=type(error).__name__)
+        ) from error
 
 
 def _check(members: list[zipfile.ZipInfo], bounds: Bounds) -> None:
     whole = sum(member.file_size for member in members)
     packed = max(sum(member.compress_size for member in members), 1)
     if len(members) > bounds.files:
-        raise FolderError(f"it holds {len(members)} files; {bounds.files} are unpacked at most")
+        raise FolderError(
+            sentence(
+                "it holds {members_count} files; {bounds_files} are unpacked at most",
+                members_count=len(members),
+                bounds_files=bounds.files,
+            )
+        )
     if whole > bounds.bomb_bytes and whole / packed > bounds.ratio:
         raise FolderError(
-            f"it would grow {whole / packed:.0f} times to {whole / 1e9:.1f} GB: no archive of "
-            "pictures does that; unpack it yourself if you trust it"
+            sentence(
+                "it would grow {whole:.0f} times to {whole_2:.1f} GB: no archive of "
+                "pictures does that; unpack it yourself if you trust it",
+                whole=whole / packed,
+                whole_2=whole / 1e9,
+            )
         )
     if whole > bounds.free_bytes:
         raise FolderError(
-            f"it unpacks to {whole / 1e9:.1f} GB and {max(bounds.free_bytes, 0) / 1e9:.1f} GB are "
-            "free in the temporary folder; make room, or unpack it elsewhere and open that folder"
+            sentence(
+                "it unpacks to {whole:.1f} GB and {bounds_free_bytes_max:.1f} GB are free in the "
+                "temporary folder; make room, or unpack it elsewhere and open that folder",
+                whole=whole / 1e9,
+                bounds_free_bytes_max=max(bounds.free_bytes, 0) / 1e9,
+            )
         )
 
 
@@ -109,15 +126,15 @@ def _refused(member: zipfile.ZipInfo) -> str:
     """Return why a member is left out; empty if it is not."""
     name = PurePosixPath(member.filename.replace("\\", "/"))
     if name.is_absolute() or ".." in name.parts or ":" in member.filename or not name.parts:
-        return "leads out of the archive"
+        return sentence("leads out of the archive")
     if "\\" in member.filename or any(len(os.fsencode(part)) > 255 for part in name.parts):
-        return "has a name that is no file's"
+        return sentence("has a name that is no file's")
     if stat.S_ISLNK(member.external_attr >> 16):
-        return "a link, not a file"
+        return sentence("a link, not a file")
     if member.flag_bits & 1:
-        return "encrypted; unpack the archive yourself"
+        return sentence("encrypted; unpack the archive yourself")
     if member.compress_type not in (_STORED, _DEFLATED):
-        return "packed in a way that is not read (stored and deflated are)"
+        return sentence("packed in a way that is not read (stored and deflated are)")
     return ""
 
 
@@ -134,7 +151,9 @@ def named_files(path: Path, progress: Progress) -> tuple[tuple[str, ...], ...]:
 
     records = pydicom.dcmread(path, force=True).get("DirectoryRecordSequence") or []
     if len(records) > _MOST_RECORDS:
-        raise FileDamagedError(f"it holds {len(records)} records")
+        raise FileDamagedError(
+            sentence("it holds {records_count} records", records_count=len(records))
+        )
     named = [record.get("ReferencedFileID") for record in records]
     return tuple(
         (each,) if isinstance(each, str) else tuple(map(str, each)) for each in named if each
@@ -186,7 +205,13 @@ def unpack(path: Path, progress: Progress) -> Unpacked:
     try:
         unpacked = Unpacked()
     except OSError as error:
-        raise FolderError(f"{path} cannot be unpacked: {error.strerror or error}") from error
+        raise FolderError(
+            sentence(
+                "{path} cannot be unpacked: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
     try:
         free = shutil.disk_usage(unpacked.root).free - RESERVE_BYTES
         bounds = Bounds(MOST_FILES, MOST_RATIO, BOMB_BYTES, free)
@@ -196,7 +221,9 @@ def unpack(path: Path, progress: Progress) -> Unpacked:
     except (FolderError, FileDamagedError, OSError) as error:
         unpacked.close()
         reason = getattr(error, "strerror", None) or str(error)
-        raise FolderError(f"{path} cannot be unpacked: {reason}") from error
+        raise FolderError(
+            sentence("{path} cannot be unpacked: {reason}", path=path, reason=reason)
+        ) from error
     except BaseException:
         unpacked.close()
         raise
@@ -245,7 +272,9 @@ def open_source(path: Path, progress: Progress) -> SeriesSource:
         is_file = path.is_file()
         head = _head(path) if is_file else b""
     except (OSError, ValueError) as error:
-        raise FolderError(f"{path} cannot be read: {why(error)}") from error
+        raise FolderError(
+            sentence("{path} cannot be read: {reason}", path=path, reason=why(error))
+        ) from error
     if not is_file:
         return _folder(path, progress)
     if head[:2] == b"PK":
@@ -255,7 +284,10 @@ def open_source(path: Path, progress: Progress) -> SeriesSource:
     if head[128:132] == b"DICM" or is_nifti(path):
         return SeriesSource(path, path.parent, [path])
     raise FolderError(
-        f"{path} is a file, and no DICOM, DICOMDIR, NIfTI or zip file; name the folder it is in"
+        sentence(
+            "{path} is a file, and no DICOM, DICOMDIR, NIfTI or zip file; name the folder it is in",
+            path=path,
+        )
     )
 
 
@@ -278,11 +310,17 @@ def _folder(root: Path, progress: Progress) -> SeriesSource:
     try:
         os.scandir(root).close()
     except FileNotFoundError:
-        raise FolderError(f"{root} does not exist; name a folder with DICOM files") from None
+        raise FolderError(
+            sentence("{root} does not exist; name a folder with DICOM files", root=root)
+        ) from None
     except NotADirectoryError:
-        raise FolderError(f"{root} is no folder; name one with DICOM files") from None
+        raise FolderError(
+            sentence("{root} is no folder; name one with DICOM files", root=root)
+        ) from None
     except (OSError, ValueError) as error:
-        raise FolderError(f"{root} cannot be read: {why(error)}") from error
+        raise FolderError(
+            sentence("{root} cannot be read: {reason}", root=root, reason=why(error))
+        ) from error
     source = SeriesSource(root, root)
     source.files.extend(_walk(root, source.ignored, progress))
     return source
@@ -339,7 +377,11 @@ def _named(path: Path, progress: Progress) -> list[tuple[str, ...]]:
         return list(dict.fromkeys(found))
     except (FileDamagedError, OSError) as error:
         raise FolderError(
-            f"{path} cannot be read as a DICOMDIR ({error}); open its folder instead"
+            sentence(
+                "{path} cannot be read as a DICOMDIR ({error}); open its folder instead",
+                path=path,
+                error=error,
+            )
         ) from error
 
 

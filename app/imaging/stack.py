@@ -12,6 +12,7 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray, frozen
+from app.core.messages import sentence
 from app.imaging.header import ImagePlane
 
 TOLERANCE_MM: Final = 0.01
@@ -184,8 +185,16 @@ def mixed(planes: Sequence[ImagePlane]) -> str:
         if same_plane(plane, first):
             continue
         if np.abs(np.subtract(plane.orientation, first.orientation)).max() > SAME_DIRECTION:
-            return f"mixed orientations: {first.orientation} and {plane.orientation}"
-        return f"mixed pixel spacings: {first.pixel_spacing_mm} and {plane.pixel_spacing_mm} mm"
+            return sentence(
+                "mixed orientations: {first_orientation} and {plane_orientation}",
+                first_orientation=first.orientation,
+                plane_orientation=plane.orientation,
+            )
+        return sentence(
+            "mixed pixel spacings: {first_pixel_spacing_mm} and {plane_pixel_spacing_mm} mm",
+            first_pixel_spacing_mm=first.pixel_spacing_mm,
+            plane_pixel_spacing_mm=plane.pixel_spacing_mm,
+        )
     return ""
 
 
@@ -197,8 +206,11 @@ def doubled(slices: Stack, names: Sequence[str]) -> str:
         return ""
     count = int((gaps < TOLERANCE_MM).sum())
     more = f" (and {count - 1} more)" if count > 1 else ""
-    return (
-        f"doubled slices: {names[k]} and {names[k + 1]} lie at the same position and differ{more}"
+    return sentence(
+        "doubled slices: {names} and {names_2} lie at the same position and differ{more}",
+        names=names[k],
+        names_2=names[k + 1],
+        more=more,
     )
 
 
@@ -212,9 +224,12 @@ def turned(slices: Stack, names: Sequence[str]) -> str:
     k = int(np.argmax(slices.turned_mm))
     if slices.turned_mm[k] <= TOLERANCE_MM:
         return ""
-    return (
-        f"slices turned against each other: the corners of {names[k]} lie "
-        f"{slices.turned_mm[k]:.3f} mm off (limit {TOLERANCE_MM:g} mm)"
+    return sentence(
+        "slices turned against each other: the corners of {names} lie "
+        "{slices_turned_mm:.3f} mm off (limit {tolerance_mm:g} mm)",
+        names=names[k],
+        slices_turned_mm=slices.turned_mm[k],
+        tolerance_mm=TOLERANCE_MM,
     )
 
 
@@ -283,9 +298,15 @@ def _missing(gaps: FloatArray, names: Sequence[str]) -> str:
         times = round(float(gap) / usual)
         if times >= 2 and abs(gap - times * usual) <= times * _GAP_SHARE * usual:
             plural = "slice is" if times == 2 else "slices are"
-            return (
-                f"gap: {times - 1} {plural} missing between {names[k]} and {names[k + 1]} "
-                f"({gap:.3f} mm apart where {usual:.3f} mm is usual)"
+            return sentence(
+                "gap: {times} {plural} missing between {names} and {names_2} "
+                "({gap:.3f} mm apart where {usual:.3f} mm is usual)",
+                times=times - 1,
+                plural=plural,
+                names=names[k],
+                names_2=names[k + 1],
+                gap=gap,
+                usual=usual,
             )
     return ""
 
@@ -295,13 +316,20 @@ def _uneven(slices: Stack, names: Sequence[str]) -> str:
         return ""
     gaps = slices.gaps_mm
     if np.ptp(gaps) <= TOLERANCE_MM:
-        return (
-            f"slices shifted sideways against each other: up to {slices.off_mm.max():.3f} mm off "
-            f"a straight stack at {names[int(np.argmax(slices.off_mm))]} "
-            f"(limit {TOLERANCE_MM:g} mm)"
+        return sentence(
+            "slices shifted sideways against each other: up to {slices_off_mm_max:.3f} mm "
+            "off a straight stack at {names} (limit {tolerance_mm:g} mm)",
+            slices_off_mm_max=slices.off_mm.max(),
+            names=names[int(np.argmax(slices.off_mm))],
+            tolerance_mm=TOLERANCE_MM,
         )
-    return (
-        f"uneven spacing: slices {gaps.min():.3f} to {gaps.max():.3f} mm apart, up to "
-        f"{slices.off_mm.max():.3f} mm off an even grid at {names[int(np.argmax(slices.off_mm))]} "
-        f"(limit {TOLERANCE_MM:g} mm)"
+    return sentence(
+        "uneven spacing: slices {gaps_min:.3f} to {gaps_max:.3f} mm apart, up to "
+        "{slices_off_mm_max:.3f} mm off an even grid at {names} "
+        "(limit {tolerance_mm:g} mm)",
+        gaps_min=gaps.min(),
+        gaps_max=gaps.max(),
+        slices_off_mm_max=slices.off_mm.max(),
+        names=names[int(np.argmax(slices.off_mm))],
+        tolerance_mm=TOLERANCE_MM,
     )

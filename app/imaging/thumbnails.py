@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from app.core.messages import sentence
 from app.imaging.errors import ImagingError, SeriesRefusedError
 from app.imaging.filling import filled
 from app.imaging.header import Rescale, SliceHeader
@@ -29,13 +30,27 @@ def thumbnail(series: Series, size_px: int = 112) -> NDArray[np.uint8]:
         FileDamagedError: if the slice cannot be decoded.
     """
     if not series.slices:
-        raise SeriesRefusedError(f"series {series.key} has no slices to show")
+        raise SeriesRefusedError(
+            sentence("series {series_key} has no slices to show", series_key=series.key)
+        )
     header = series.slices[len(series.slices) // 2]
     form = header.format
     if form.samples != 1 or form.bits_allocated not in (8, 16) or header.damage:
-        raise SeriesRefusedError(f"the pixels of {header.path.name} are no grey picture")
+        raise SeriesRefusedError(
+            sentence(
+                "the pixels of {header_path_name} are no grey picture",
+                header_path_name=header.path.name,
+            )
+        )
     if not 0 < form.rows * form.columns <= _MOST_PIXELS:
-        raise SeriesRefusedError(f"{header.path.name} is {form.columns} × {form.rows} pixels")
+        raise SeriesRefusedError(
+            sentence(
+                "{header_path_name} is {form_columns} × {form_rows} pixels",
+                header_path_name=header.path.name,
+                form_columns=form.columns,
+                form_rows=form.rows,
+            )
+        )
     shown = header if header.rescale else replace(header, rescale=Rescale(1.0, 0.0))
     picture = filled((shown,), np.dtype(np.float32))[0]
     grey = to_grey(_fitted(picture, _aspect(header), size_px), _window(series, header, picture))

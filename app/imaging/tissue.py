@@ -25,6 +25,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import ndimage
 
 from app.core.arrays import FloatArray, unit
+from app.core.messages import sentence
 from app.imaging.errors import ImagingError
 from app.imaging.interpolation import interpolate
 from app.imaging.structures.structure import Structure, StructureKind
@@ -109,8 +110,11 @@ def tissue_along(
     """
     if volume.unit != "HU":
         raise ImagingError(
-            f"the values of this volume are in {volume.unit or 'no unit'}, not in HU: tissue is "
-            "told by Hounsfield values; give the layers by hand"
+            sentence(
+                "the values of this volume are in {volume_unit}, not in HU: tissue is "
+                "told by Hounsfield values; give the layers by hand",
+                volume_unit=volume.unit or "no unit",
+            )
         )
     entry, target = (np.asarray(point, np.float64) for point in (entry_mm, target_mm))
     length = float(np.linalg.norm(target - entry))
@@ -120,7 +124,12 @@ def tissue_along(
     outside = ((ijk < -0.5) | (ijk > np.array(volume.size) - 0.5)).any(axis=1)
     points = points[: int(np.argmax(outside)) if outside.any() else None]
     if len(points) * STEP_MM < SKIN_MM:
-        raise ImagingError(f"entry {entry.round(1).tolist()} mm lies outside the CT: move it")
+        raise ImagingError(
+            sentence(
+                "entry {entry_round} mm lies outside the CT: move it",
+                entry_round=entry.round(1).tolist(),
+            )
+        )
     hu = _values(volume, points, unit(target - entry, "path"))
     kinds = np.searchsorted(_LIMITS_HU, hu, side="right")
     first = int(np.argmax(kinds != _AIR))  # the entry may lie a little before the skin

@@ -11,6 +11,8 @@ from collections.abc import Sequence
 from functools import lru_cache
 from typing import Final
 
+from app.core.messages import sentence
+
 _UNITS: Final = {
     "OD": "optical density",
     "US": "unspecified",
@@ -68,7 +70,11 @@ def another_unit(
     words = _words(image_type)
     if name := _map_named(words, rescale_type.upper()):
         inside = ", ".join(word[:16] for word in (*_flavour(words, name), unit) if word)
-        return f"{name}{f' ({inside})' if inside else ''}, no Hounsfield units"
+        return sentence(
+            "{name}{inside}, no Hounsfield units",
+            name=name,
+            inside=f" ({inside})" if inside else "",
+        )
     return _named_unit(words, rescale_type.upper(), multi_energy)
 
 
@@ -76,9 +82,11 @@ def caveat(image_type: Sequence[str]) -> str:
     """Say what else should be known of Hounsfield units of these kinds; empty mostly."""
     words = _words(image_type)
     if any(_MAP_WORDS[_ONE_MATERIAL].fullmatch(word) for word in words):
-        return "by ImageType these are Hounsfield units of one material only, not of the body"
+        return sentence(
+            "by ImageType these are Hounsfield units of one material only, not of the body"
+        )
     if "MAT_MODIFIED" in words:
-        return "by ImageType values were changed to make a material stand out"
+        return sentence("by ImageType values were changed to make a material stand out")
     return ""
 
 
@@ -108,10 +116,10 @@ def _named_unit(words: Sequence[str], rescale_type: str, multi_energy: bool) -> 
     if rescale_type not in ("", "HU"):
         named = _UNITS.get(rescale_type)
         what = f"{rescale_type} ({named})" if named else "another unit"
-        return f"no Hounsfield units: RescaleType is {what}, where HU is read"
+        return sentence("no Hounsfield units: RescaleType is {what}, where HU is read", what=what)
     if rescale_type or not multi_energy or any(map(_HOUNSFIELD.fullmatch, words)):
         return ""
-    return (
-        "no Hounsfield units that the file vouches for: MultienergyCTAcquisition is YES, and then "
-        "RescaleType must say what the values are; it is missing"
+    return sentence(
+        "no Hounsfield units that the file vouches for: MultienergyCTAcquisition is YES, and "
+        "then RescaleType must say what the values are; it is missing"
     )

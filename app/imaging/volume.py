@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray, frozen
 from app.core.errors import NumericalError
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.imaging.interpolation import Interpolation, interpolate
 from app.imaging.series import AS_IT_IS, Recipe, Series
@@ -84,7 +85,7 @@ class Volume:
     def __post_init__(self) -> None:
         affine = frozen(self.affine_mm, (4, 4), "affine_mm")
         if abs(np.linalg.det(affine[:3, :3])) < 1e-12:
-            raise NumericalError(f"affine_mm {affine.tolist()} is singular")
+            raise NumericalError(sentence("affine_mm {affine} is singular", affine=affine.tolist()))
         self.hu.setflags(write=False)
         object.__setattr__(self, "affine_mm", affine)
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.errors import NumericalError
+from app.core.messages import sentence
 from app.imaging.volume import Volume
 
 MINIMUM_WIDTH: Final = 1.0
@@ -34,8 +35,14 @@ class WindowLevel:
     def __post_init__(self) -> None:
         if not (MINIMUM_WIDTH <= self.width <= _LIMIT and abs(self.level) <= _LIMIT):
             raise NumericalError(
-                f"window width {self.width} / level {self.level} HU: the width must be "
-                f"{MINIMUM_WIDTH:g} to {_LIMIT:g} and the level within ±{_LIMIT:g}"
+                sentence(
+                    "window width {width} / level {level} HU: the width must be "
+                    "{minimum_width:g} to {limit:g} and the level within ±{limit:g}",
+                    width=self.width,
+                    level=self.level,
+                    minimum_width=MINIMUM_WIDTH,
+                    limit=_LIMIT,
+                )
             )
 
     def dragged(self, width_change: float, level_change: float) -> "WindowLevel":

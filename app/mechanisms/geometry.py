@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from app.core.arrays import FloatArray, frozen
+from app.core.messages import sentence
 from app.mechanisms.errors import MechanismError
 
 
@@ -35,13 +36,20 @@ class Geometry:
         for name in ("proximal", "distal", "base", "needle_length"):
             if not 0.0 < getattr(self, name) < float("inf"):
                 raise MechanismError(
-                    f"geometry: {name} is {getattr(self, name)} m; a positive length is needed"
+                    sentence(
+                        "geometry: {name} is {value} m; a positive length is needed",
+                        name=name,
+                        value=getattr(self, name),
+                    )
                 )
         fulcrum = frozen(self.fulcrum, (3,), "fulcrum")
         if fulcrum[2] <= 0.0:
             raise MechanismError(
-                f"geometry: the fulcrum stands at z = {fulcrum[2]} m; it must be above the"
-                " links (z > 0)"
+                sentence(
+                    "geometry: the fulcrum stands at z = {fulcrum} m; it must be above the"
+                    " links (z > 0)",
+                    fulcrum=fulcrum[2],
+                )
             )
         object.__setattr__(self, "fulcrum", fulcrum)
 

@@ -28,6 +28,7 @@ from numpy.typing import ArrayLike
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, cross, frozen, unit
+from app.core.messages import sentence
 from app.core.parameters import Stage, StageFunction
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.status import Status, check
@@ -163,7 +164,7 @@ MACHINE_WRITES: Final = {
         *("torque", "felt", "felt_most", "guidance_limit", "guidance_limited_by", "force", "guide"),
         *("shortfall", "tension", "reel_rate", "holding"),
     ),
-    "plant": frozenset(sv.MACHINE)
+    "plant": frozenset(sv.MACHINE) - _slots("machine_fault", "encoder_fault", "unbelieved")
     | _slots("plant_q", "plant_qd", "plant_depth", "plant_depth_rate", "pull", "push", "grip")
     | _slots("grip_depth"),
 }
@@ -247,7 +248,11 @@ class RemoteCentre(ABC):
                 return branch.q
         said = ", ".join(f"{b.name}: {b.status.name.lower()}" for b in branches)
         raise MechanismError(
-            f"no joint angles point the needle along {np.asarray(axis).tolist()} ({said})"
+            sentence(
+                "no joint angles point the needle along {axis} ({message})",
+                axis=np.asarray(axis).tolist(),
+                message=said,
+            )
         )
 
     def holds(self, axis: ArrayLike) -> bool:
@@ -297,7 +302,11 @@ def tool_point(centre: FloatArray, axis: ArrayLike) -> tuple[float, float]:
     """
     direction = unit(axis, "axis")
     if not direction[2] < 0.0:
-        raise MechanismError(f"needle direction {direction.tolist()} does not point down")
+        raise MechanismError(
+            sentence(
+                "needle direction {direction} does not point down", direction=direction.tolist()
+            )
+        )
     x, y, _ = centre - direction * centre[2] / direction[2]
     return float(x), float(y)
 

@@ -3,6 +3,7 @@
 from enum import IntEnum
 from typing import Final
 
+from app.core.messages import sentence
 from app.mechanisms.errors import (
     DegenerateError,
     MechanismError,
@@ -49,4 +50,6 @@ def check(status: int, what: str) -> None:
     """
     if status != OK:
         name = Status(status)
-        raise _ERRORS[name](f"{name.name.lower().replace('_', ' ')}: {what}")
+        raise _ERRORS[name](
+            sentence("{status}: {what}", status=name.name.lower().replace("_", " "), what=what)
+        )

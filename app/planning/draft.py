@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.mechanisms.profile import DeviceProfile
 from app.planning.errors import PlanError
 from app.planning.placement import PlacedPlan, Placement
@@ -77,7 +78,11 @@ class DraftPlan:
         """
         if self.entry_mm is None or self.target_mm is None:
             missing = "target" if self.entry_mm is not None else "entry"
-            raise PlanError(f"the plan has no {missing} yet: click it in one of the views")
+            raise PlanError(
+                sentence(
+                    "the plan has no {missing} yet: click it in one of the views", missing=missing
+                )
+            )
         return Plan(self.entry_mm, self.target_mm, self.name)  # type: ignore[arg-type]
 
 

@@ -12,6 +12,7 @@ from math import hypot, pi
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.planning.errors import MeasurementError
 from app.planning.plan import checked_point
 
@@ -126,7 +127,9 @@ def checked(item: Measurement) -> Measurement:
     for number, point in enumerate(item.points):
         checked_point(point, f"point {number + 1}")
     if isinstance(item, Region) and min(hypot(*item.right_mm), hypot(*item.down_mm)) < SMALLEST_MM:
-        raise MeasurementError("a region needs an extent both ways: drag from corner to corner")
+        raise MeasurementError(
+            sentence("a region needs an extent both ways: drag from corner to corner")
+        )
     return item
 
 

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, angle_between, frozen, unit
 from app.core.errors import NumericalError
+from app.core.messages import sentence
 from app.core.rotation import rotation_exp
 from app.core.transform import rotation_between
 from app.imaging.reformat import Frame
@@ -138,8 +139,12 @@ def through(a_mm: ArrayLike, b_mm: ArrayLike, normal: ArrayLike) -> NeedleFrame:
     length = float(np.linalg.norm(end - start))
     if length < SHORTEST_MM:
         raise NumericalError(
-            f"the two points are {length:.2f} mm apart; choose points at least {SHORTEST_MM:g} mm "
-            "apart for a plane through them"
+            sentence(
+                "the two points are {length:.2f} mm apart; choose points at least "
+                "{shortest_mm:g} mm apart for a plane through them",
+                length=length,
+                shortest_mm=SHORTEST_MM,
+            )
         )
     along, viewed = unit(end - start), unit(normal, "normal")
     if np.linalg.norm(np.cross(along, viewed)) < 1e-3:

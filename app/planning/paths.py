@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, unit
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.core.units import DEGREE, MILLIMETRE
 from app.imaging.body import Body, is_inside, skin_entry
@@ -56,8 +57,11 @@ def demonstration_plan(volume: Volume, body: Body, name: str = "demonstration") 
                 break
     if not candidates:
         raise PlanError(
-            f"no path of {_LENGTH_MM:g} mm from the anterior skin stays in the body of this CT;"
-            " place entry and target yourself"
+            sentence(
+                "no path of {length_mm:g} mm from the anterior skin stays in the body of this CT;"
+                " place entry and target yourself",
+                length_mm=_LENGTH_MM,
+            )
         )
     entry, target = min(candidates)[2]
     return Plan(entry, target, name)

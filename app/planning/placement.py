@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen, unit
 from app.core.errors import NumericalError
+from app.core.messages import sentence
 from app.core.rotation import rotation_exp, rotation_log
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
@@ -69,7 +70,9 @@ class Placement:
     def __post_init__(self) -> None:
         x, y, z = frozen(self.rotation_deg, (3,), "rotation_deg").tolist()
         if max(abs(x), abs(y), abs(z)) > 360.0:
-            raise NumericalError(f"rotation_deg ({x:g}, {y:g}, {z:g}) must be within ±360°")
+            raise NumericalError(
+                sentence("rotation_deg ({x:g}, {y:g}, {z:g}) must be within ±360°", x=x, y=y, z=z)
+            )
         object.__setattr__(self, "orientation", PatientOrientation(self.orientation))
         object.__setattr__(self, "rotation_deg", (x, y, z))
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, unit
+from app.core.messages import sentence
 from app.planning.errors import PlanError
 
 SHORTEST_MM = 1.0
@@ -42,9 +43,15 @@ class Plan:
         object.__setattr__(self, "target_mm", checked_point(self.target_mm, "target_mm"))
         if self.length_mm < SHORTEST_MM * (1.0 - 1e-9):
             raise PlanError(
-                f"entry {_text(self.entry_mm)} and target {_text(self.target_mm)} are "
-                f"{self.length_mm:.3g} mm apart; a path needs at least {SHORTEST_MM:g} mm: "
-                "move one of the two points"
+                sentence(
+                    "entry {text} and target {text_2} are "
+                    "{length_mm:.3g} mm apart; a path needs at least {shortest_mm:g} mm: "
+                    "move one of the two points",
+                    text=_text(self.entry_mm),
+                    text_2=_text(self.target_mm),
+                    length_mm=self.length_mm,
+                    shortest_mm=SHORTEST_MM,
+                )
             )
 
     @property
@@ -76,7 +83,10 @@ class Plan:
         """
         if not is_inside(self.target_mm):
             raise PlanError(
-                f"target {_text(self.target_mm)} lies outside the body: click inside the patient"
+                sentence(
+                    "target {text} lies outside the body: click inside the patient",
+                    text=_text(self.target_mm),
+                )
             )
 
     def __eq__(self, other: object) -> bool:
@@ -100,11 +110,26 @@ def checked_point(point: ArrayLike, name: str) -> FloatArray:
     try:
         array = np.array(point, dtype=np.float64)
     except (TypeError, ValueError) as error:
-        raise PlanError(f"{name} {point!r} is not a point of three numbers") from error
+        raise PlanError(
+            sentence("{name} {point!r} is not a point of three numbers", name=name, point=point)
+        ) from error
     if array.shape != (3,):
-        raise PlanError(f"{name} has shape {array.shape}; three coordinates (3,) are needed")
+        raise PlanError(
+            sentence(
+                "{name} has shape {array_shape}; three coordinates (3,) are needed",
+                name=name,
+                array_shape=array.shape,
+            )
+        )
     if not np.isfinite(array).all() or np.abs(array).max() > LARGEST_MM:
-        raise PlanError(f"{name} {array.tolist()} must be finite and within ±{LARGEST_MM:g} mm")
+        raise PlanError(
+            sentence(
+                "{name} {array} must be finite and within ±{largest_mm:g} mm",
+                name=name,
+                array=array.tolist(),
+                largest_mm=LARGEST_MM,
+            )
+        )
     array.setflags(write=False)
     return array
 

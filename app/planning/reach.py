@@ -11,6 +11,7 @@ from enum import StrEnum
 import numpy as np
 
 from app.core.arrays import FloatArray, angle_between, read_only
+from app.core.messages import sentence
 from app.core.units import DEGREE, MILLIMETRE
 from app.mechanisms.profile import DeviceProfile
 from app.planning.limits import ReachLimits, tilt_of
@@ -34,9 +35,13 @@ def rotation_in_words(rotation_vector: FloatArray, R_world_patient: FloatArray) 
     """
     angle = float(np.linalg.norm(rotation_vector))
     if angle < 1e-6 * DEGREE:
-        return "leave the patient as is"
+        return sentence("leave the patient as is")
     axis = R_world_patient.T @ (rotation_vector / angle)
-    words = f"turn the patient {angle / DEGREE:.1f}° about {_axis_words(axis)}"
+    words = sentence(
+        "turn the patient {angle_deg:.1f}° about {axis_words}",
+        angle_deg=angle / DEGREE,
+        axis_words=_axis_words(axis),
+    )
     rising = rising_side(rotation_vector, R_world_patient)
     return f"{words}, {rising} up" if rising else words
 
@@ -62,7 +67,12 @@ def _axis_words(axis: FloatArray) -> str:
     if off < _PLAIN:
         return f"the {_AXES[largest]}"
     left, posterior, superior = axis
-    return f"the axis (L {left:.2f}, P {posterior:.2f}, S {superior:.2f}) through the entry"
+    return sentence(
+        "the axis (L {left:.2f}, P {posterior:.2f}, S {superior:.2f}) through the entry",
+        left=left,
+        posterior=posterior,
+        superior=superior,
+    )
 
 
 MARGIN = 2.0 * DEGREE
@@ -175,7 +185,9 @@ def _words(
         return turn
     plain = replace(placed.placement, orientation=orientation, rotation_deg=(0.0, 0.0, 0.0))
     tilt = tilt_of(plain.rotation @ placed.plan.direction) / DEGREE
-    lying = f"lay the patient {_LYING[orientation]} (tilt {tilt:.0f}°)"
+    lying = sentence(
+        "lay the patient {lying} (tilt {tilt:.0f}°)", lying=_LYING[orientation], tilt=tilt
+    )
     small = float(np.linalg.norm(rotation_vector)) <= _EASY_TURN
     return f"{turn}, or {lying}" if small else f"{lying}, or {turn}"
 
@@ -237,10 +249,12 @@ class Reach:
     def message(self) -> str:
         """One line for people: reachable, or the reasons and the remedy."""
         if self.reachable:
-            return (
-                f"reachable: tilt {self.tilt / DEGREE:.1f}°, depth {self.depth / MILLIMETRE:.1f} mm"
+            return sentence(
+                "reachable: tilt {tilt_deg:.1f}°, depth {depth_mm:.1f} mm",
+                tilt_deg=self.tilt / DEGREE,
+                depth_mm=self.depth / MILLIMETRE,
             )
-        text = "out of reach: " + "; ".join(reason.text for reason in self.reasons)
+        text = sentence("out of reach: ") + "; ".join(reason.text for reason in self.reasons)
         return f"{text}. Remedy: {self.remedy.words}" if self.remedy else text
 
 
@@ -274,16 +288,24 @@ def _direction_reasons(axis: FloatArray, limits: ReachLimits) -> tuple[ReachReas
     tilt, limit = tilt_of(axis) / DEGREE, limits.tilt_limit / DEGREE
     point = limits.tool_point(axis)
     if point is None:
-        way = "horizontal" if tilt < 90.001 else f"upward (tilt {tilt:.1f}° of 180°)"
-        text = (
-            f"the path runs {way}; the needle enters from above, at most {limit:g}° from vertical"
+        way = (
+            "horizontal"
+            if tilt < 90.001
+            else sentence("upward (tilt {tilt:.1f}° of 180°)", tilt=tilt)
+        )
+        text = sentence(
+            "the path runs {way}; the needle enters from above, at most {limit:g}° from vertical",
+            way=way,
+            limit=limit,
         )
         return (ReachReason(Obstacle.UPWARD, text),)
     if tilt_of(axis) > limits.tilt_limit + 1e-9:
         return (ReachReason(Obstacle.TILT, f"tilt {tilt:.1f}° exceeds {limit:g}°"),)
     if not limits.in_workspace(*point):
         x, y = (value / MILLIMETRE for value in point)
-        text = f"tool point ({x:.1f}, {y:.1f}) mm lies outside the robot's workspace"
+        text = sentence(
+            "tool point ({x:.1f}, {y:.1f}) mm lies outside the robot's workspace", x=x, y=y
+        )
         return (ReachReason(Obstacle.WORKSPACE, text),)
     return ()
 
@@ -291,8 +313,10 @@ def _direction_reasons(axis: FloatArray, limits: ReachLimits) -> tuple[ReachReas
 def _depth_reasons(depth: float, limits: ReachLimits) -> tuple[ReachReason, ...]:
     if depth <= limits.depth_limit + 1e-9:
         return ()
-    text = (
-        f"depth {depth / MILLIMETRE:.1f} mm exceeds {limits.depth_limit / MILLIMETRE:g} mm; "
-        "no rotation shortens a path: choose an entry closer to the target"
+    text = sentence(
+        "depth {depth_mm:.1f} mm exceeds {limits_depth_limit_mm:g} mm; "
+        "no rotation shortens a path: choose an entry closer to the target",
+        depth_mm=depth / MILLIMETRE,
+        limits_depth_limit_mm=limits.depth_limit / MILLIMETRE,
     )
     return (ReachReason(Obstacle.DEPTH, text),)

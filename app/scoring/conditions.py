@@ -8,6 +8,8 @@ from dataclasses import asdict, dataclass, field, fields, replace
 from enum import StrEnum
 from typing import Any, Final
 
+from app.core.messages import sentence
+
 DIAL_TOLERANCE: Final = 0.05
 """Dials of assistance that differ by no more than this count as the same: a twentieth of the way
 from no guidance to all of it."""
@@ -183,11 +185,13 @@ def comparison_groups(attempts: Sequence[Conditions | None]) -> list[int | None]
 
 def _reasons(a: Conditions, b: Conditions) -> tuple[str, ...]:
     return (
-        "one of them has no score" if not (a.scoring_version and b.scoring_version) else "",
+        sentence("one of them has no score")
+        if not (a.scoring_version and b.scoring_version)
+        else "",
         _differ("exercise", a.exercise, b.exercise),
         _differ("version of the exercise", a.version, b.version),
         _differ("level", a.level, b.level) if a.level and b.level else "",
-        "the exercise says something else under the same version"
+        sentence("the exercise says something else under the same version")
         if a.content and b.content and a.content != b.content
         else "",
         _differ("scored by version", a.scoring_version, b.scoring_version)
@@ -200,7 +204,7 @@ def _reasons(a: Conditions, b: Conditions) -> tuple[str, ...]:
         _differ("hand", a.hand, b.hand),
         _differ("scripted trainee", a.scripted, b.scripted),
         _differ("taken over by", a.taken_over, b.taken_over),
-        "what robot it was is not known of one of them"
+        sentence("what robot it was is not known of one of them")
         if DeviceKind.UNKNOWN in (a.kind, b.kind)
         else _differ("robot", a.kind.value, b.kind.value),
         _differ("device", a.device, b.device),
@@ -215,7 +219,7 @@ def _differ(name: str, a: object, b: object) -> str:
 
 def _dials(a: Assistance | None, b: Assistance | None) -> str:
     if a is None or b is None:
-        return "" if a is b else "what the assistance was is not known of one of them"
+        return "" if a is b else sentence("what the assistance was is not known of one of them")
     for name, x, y in (
         ("assistance, over time", a.mean, b.mean),
         ("least assistance", a.least, b.least),
@@ -235,5 +239,5 @@ def _assistance(document: Mapping[str, Any]) -> Assistance:
 def _number(value: Any) -> float:
     number = float(value)
     if not math.isfinite(number):
-        raise ValueError(f"{value!r} is no number")
+        raise ValueError(sentence("{value!r} is no number", value=value))
     return number

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.errors import ImagingError, WorkerLostError
 from app.imaging.worker.jobs import Job
@@ -184,7 +185,7 @@ def _module(path: Path) -> Any:
         return known
     specification = importlib.util.spec_from_file_location(name, path)
     if specification is None or specification.loader is None:
-        raise ImportError("it is no Python file")
+        raise ImportError(sentence("it is no Python file"))
     module = sys.modules[name] = importlib.util.module_from_spec(specification)
     try:
         specification.loader.exec_module(module)
@@ -197,4 +198,8 @@ def _module(path: Path) -> Any:
 
 def _named(error: BaseException) -> str:
     text = f"{type(error).__name__}: {error}".rstrip(": ")
-    return f"it ends the program ({text})" if isinstance(error, SystemExit) else text
+    return (
+        sentence("it ends the program ({text})", text=text)
+        if isinstance(error, SystemExit)
+        else text
+    )

@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Trajectory
@@ -95,7 +96,11 @@ def insertion_and_plan(trajectory: Trajectory) -> tuple[FloatArray, FloatArray]:
     path = smoothed(trajectory.time[last], trajectory.tip[last])
     if (length := raw_length(path)) > LONGEST:
         raise MetricUnavailableError(
-            f"the tip's path is {length:.2f} m long; paths up to {LONGEST:g} m are compared"
+            sentence(
+                "the tip's path is {length:.2f} m long; paths up to {longest:g} m are compared",
+                length=length,
+                longest=LONGEST,
+            )
         )
     placed = trajectory.placed
     return resampled(path), resampled(np.vstack([placed.p_entry, placed.p_target]))

@@ -10,6 +10,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from app.core.messages import sentence
 from app.scoring.errors import ScoreFormatError, UnknownMetricError
 from app.scoring.met import Met, fails
 from app.scoring.rows import Row, ScoreRules
@@ -99,7 +100,9 @@ class Score:
             if row.name == name:
                 return row
         names = ", ".join(row.name for row in self.rows)
-        raise UnknownMetricError(f"the score has no row {name!r}; it has {names}")
+        raise UnknownMetricError(
+            sentence("the score has no row {name!r}; it has {names}", name=name, names=names)
+        )
 
     def recomputed(
         self, tolerances: Mapping[str, Tolerance] | None = None, rules: ScoreRules | None = None
@@ -141,7 +144,13 @@ class Score:
         try:
             document = json.loads(text, parse_constant=_refuse)
             if document["format"] != FORMAT:
-                raise ScoreFormatError(f"format {document['format']!r}; only {FORMAT} is known")
+                raise ScoreFormatError(
+                    sentence(
+                        "format {format!r}; only {format_2} is known",
+                        format=document["format"],
+                        format_2=FORMAT,
+                    )
+                )
             return cls(
                 rows=tuple(Row.of(row) for row in document["rows"]),
                 total=document["total"],
@@ -154,7 +163,9 @@ class Score:
             )
         except (KeyError, TypeError, AttributeError, ValueError, ValidationError) as error:
             reason = f"{type(error).__name__}: {' '.join(str(error).split())}"
-            raise ScoreFormatError(f"not a stored score ({reason})") from error
+            raise ScoreFormatError(
+                sentence("not a stored score ({reason})", reason=reason)
+            ) from error
 
 
 def judge(
@@ -179,13 +190,19 @@ def judge(
 def _rows_void(rows: tuple[Row, ...], rules: ScoreRules) -> str:
     for row in rows:
         if row.name == TRACKING and row.value is not None and row.value < rules.minimum_tracking:
-            return (
-                f"the tip was tracked for {row.value:.0f} % of the insertion; "
-                f"{rules.minimum_tracking:g} % are needed"
+            return sentence(
+                "the tip was tracked for {row:.0f} % of the insertion; "
+                "{rules_minimum_tracking:g} % are needed",
+                row=row.value,
+                rules_minimum_tracking=rules.minimum_tracking,
             )
     for row in rows:
         if row.tolerance and row.tolerance.required and row.value is None:
-            return f"{row.label.lower()} is required and cannot be computed: {row.note}"
+            return sentence(
+                "{row_label} is required and cannot be computed: {row_note}",
+                row_label=row.label.lower(),
+                row_note=row.note,
+            )
     return ""
 
 
@@ -194,4 +211,4 @@ def _met(documents: list[dict[str, Any]] | None) -> tuple[Met, ...] | None:
 
 
 def _refuse(constant: str) -> float:
-    raise ScoreFormatError(f"it holds {constant}")
+    raise ScoreFormatError(sentence("it holds {constant}", constant=constant))

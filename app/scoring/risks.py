@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from math import isfinite
 
+from app.core.messages import sentence
 from app.scoring.errors import TrajectoryError
 
 
@@ -33,9 +34,16 @@ class RiskMark:
         numbers = (self.limit_mm, self.closest_mm, self.time, self.depth_mm, self.inside_s or 0.0)
         if not (all(map(isfinite, numbers)) and self.limit_mm >= 0.0 and numbers[-1] >= 0.0):
             raise TrajectoryError(
-                f"{self.closest_mm} mm from {self.name}, limit {self.limit_mm} mm, at {self.time} "
-                f"s, inside for {self.inside_s} s: all must be finite numbers, limit and time "
-                "inside not negative"
+                sentence(
+                    "{closest_mm} mm from {name}, limit {limit_mm} mm, at {time} "
+                    "s, inside for {inside_s} s: all must be finite numbers, limit and time "
+                    "inside not negative",
+                    closest_mm=self.closest_mm,
+                    name=self.name,
+                    limit_mm=self.limit_mm,
+                    time=self.time,
+                    inside_s=self.inside_s,
+                )
             )
 
     @property

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from math import isfinite
 
+from app.core.messages import sentence
 from app.scoring.errors import TrajectoryError
 
 
@@ -24,6 +25,10 @@ class ScanMark:
     def __post_init__(self) -> None:
         if not (isfinite(self.time) and isfinite(self.dose) and self.dose >= 0.0):
             raise TrajectoryError(
-                f"a control scan at {self.time} s of dose {self.dose} mGy·cm: both must be finite "
-                "numbers, the dose not negative"
+                sentence(
+                    "a control scan at {time} s of dose {dose} mGy·cm: both must be finite "
+                    "numbers, the dose not negative",
+                    time=self.time,
+                    dose=self.dose,
+                )
             )

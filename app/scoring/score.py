@@ -7,6 +7,7 @@ and sealed: they are computed after that, by `with_shown`, for whoever looks at 
 from collections.abc import Mapping
 from dataclasses import replace
 
+from app.core.messages import sentence
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import MetricError, ToleranceError, UnknownMetricError
 from app.scoring.metrics import Metric, available
@@ -63,14 +64,29 @@ def check_names(
     metrics = available() if metrics is None else metrics
     for name, limits in tolerances.items():
         if name not in metrics:
-            raise UnknownMetricError(f"no metric {name!r}; there are {', '.join(metrics)}")
+            raise UnknownMetricError(
+                sentence(
+                    "no metric {name!r}; there are {metrics}", name=name, metrics=", ".join(metrics)
+                )
+            )
         if metrics[name].fault:
-            raise MetricError(f"metric {name!r} cannot be used: {metrics[name].fault}")
+            raise MetricError(
+                sentence(
+                    "metric {name!r} cannot be used: {metrics_fault}",
+                    name=name,
+                    metrics_fault=metrics[name].fault,
+                )
+            )
         if limits.higher_is_better != metrics[name].higher_is_better:
             way = "higher" if metrics[name].higher_is_better else "lower"
             raise ToleranceError(
-                f"{name}: bands {limits.knots[:3]} (expert, good, pass) run against the metric, "
-                f"of which {way} is better"
+                sentence(
+                    "{name}: bands {limits_knots} (expert, good, pass) run against the metric, "
+                    "of which {way} is better",
+                    name=name,
+                    limits_knots=limits.knots[:3],
+                    way=way,
+                )
             )
 
 
@@ -84,17 +100,24 @@ def _row(metric: Metric, trajectory: Trajectory, limits: Tolerance | None) -> Ro
 
 def _attempt_void(trajectory: Trajectory, rules: ScoreRules) -> str:
     if trajectory.was_aborted:
-        return f"the attempt was aborted: {trajectory.aborted or 'no reason recorded'}"
+        return sentence(
+            "the attempt was aborted: {trajectory_aborted}",
+            trajectory_aborted=trajectory.aborted or "no reason recorded",
+        )
     if not trajectory.running.any():
-        return "the attempt was never begun: it ended before the needle was out of the skin"
+        return sentence(
+            "the attempt was never begun: it ended before the needle was out of the skin"
+        )
     if not trajectory.depth_valid[trajectory.running].any():
-        return "nothing measured how deep the needle was"
+        return sentence("nothing measured how deep the needle was")
     if not trajectory.inserted.any():
-        return "the needle never crossed the skin: it was never inserted"
+        return sentence("the needle never crossed the skin: it was never inserted")
     paused = trajectory.waited
     if paused > rules.maximum_pause:
-        return (
-            f"the attempt waited {paused:.0f} s for the cameras; {rules.maximum_pause:g} s are "
-            "allowed"
+        return sentence(
+            "the attempt waited {paused:.0f} s for the cameras; {rules_maximum_pause:g} s "
+            "are allowed",
+            paused=paused,
+            rules_maximum_pause=rules.maximum_pause,
         )
     return ""

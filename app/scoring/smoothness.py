@@ -10,6 +10,7 @@ from functools import lru_cache
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Trajectory
 from app.scoring.uncertainty import picture_errors
@@ -95,12 +96,19 @@ def insertion_speed(trajectory: Trajectory) -> FloatArray:
     time = trajectory.time[last]
     if not SHORTEST <= time[-1] - time[0] <= LONGEST:
         raise MetricUnavailableError(
-            f"the insertion was measured for {time[-1] - time[0]:.2f} s; smoothness needs "
-            f"{SHORTEST:g} to {LONGEST:g} s"
+            sentence(
+                "the insertion was measured for {time_last:.2f} s; smoothness needs "
+                "{shortest:g} to {longest:g} s",
+                time_last=time[-1] - time[0],
+                shortest=SHORTEST,
+                longest=LONGEST,
+            )
         )
     speed = even_speed(time, trajectory.tip[last])
     if float(np.ptp(speed)) <= 1e-9:
-        raise MetricUnavailableError("the tip's speed never changed: it has no smoothness")
+        raise MetricUnavailableError(
+            sentence("the tip's speed never changed: it has no smoothness")
+        )
     return speed
 
 

@@ -10,6 +10,7 @@ from pydantic import ConfigDict, Field, model_validator
 
 from app.core.configuration import Strict
 from app.core.errors import NumericalError
+from app.core.messages import sentence
 
 LARGEST_WEIGHT = 1e9
 """Sums of such weights stay finite."""
@@ -51,13 +52,19 @@ class Bands(Strict):
         steps = np.diff(self.knots)
         if not ((steps > 0.0).all() or (steps < 0.0).all()):
             raise ValueError(
-                "expert, good, pass and zero must rise or fall strictly in this order; they are "
+                sentence(
+                    "expert, good, pass and zero must rise or fall strictly in this order; they "
+                    "are "
+                )
                 + ", ".join(f"{knot:g}" for knot in self.knots)
             )
         if min(self.knots) < 0.0 or not np.isfinite(self.knots).all():
             raise ValueError(
-                "expert, good, pass and zero must be finite and 0 or more, as the sign of a value "
-                "does not count; they are " + ", ".join(f"{knot:g}" for knot in self.knots)
+                sentence(
+                    "expert, good, pass and zero must be finite and 0 or more, as the sign of a "
+                    "value does not count; they are "
+                )
+                + ", ".join(f"{knot:g}" for knot in self.knots)
             )
         return self
 
@@ -96,7 +103,7 @@ def tolerance(value: float, bands: Bands) -> float:
         NumericalError: if the value is NaN.
     """
     if np.isnan(value):
-        raise NumericalError("a value that is NaN has no utility")
+        raise NumericalError(sentence("a value that is NaN has no utility"))
     sign = -1.0 if bands.higher_is_better else 1.0
     knots = sign * np.array(bands.knots)
     utilities = (EXPERT_UTILITY, GOOD_UTILITY, PASS_UTILITY, 0.0)

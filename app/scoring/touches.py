@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import isfinite
 
+from app.core.messages import sentence
 from app.scoring.errors import TrajectoryError
 
 
@@ -28,8 +29,15 @@ class Touches:
         rise = all(a < b for a, b in zip(self.times, self.times[1:], strict=False))
         if not (0 <= len(self.times) <= self.of and self.of > 0 and rise):
             raise TrajectoryError(
-                f"{len(self.times)} touches of {self.of} targets at {self.times} s; they must be "
-                "no more than the targets, of which one at least is needed, one after the other"
+                sentence(
+                    "{times_count} touches of {of} targets at {times} s; they must be no more "
+                    "than the targets, of which one at least is needed, one after the other",
+                    times_count=len(self.times),
+                    of=self.of,
+                    times=self.times,
+                )
             )
         if not all(isfinite(time) for time in self.times):
-            raise TrajectoryError(f"a touch at {self.times} s: times must be finite")
+            raise TrajectoryError(
+                sentence("a touch at {times} s: times must be finite", times=self.times)
+            )

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray, read_only
+from app.core.messages import sentence
 from app.planning.off_path import Offset, offset
 from app.planning.placement import PlacedPlan
 from app.scoring.errors import MetricNotAskedError, MetricUnavailableError, TrajectoryError
@@ -113,7 +114,11 @@ class Trajectory:
         if self.spread is not None:
             values["spread"] = _spread(self.spread, n)
         if not 0.0 <= self.agreement <= LARGEST:
-            raise TrajectoryError(f"agreement is {self.agreement} m; it must be 0 or more")
+            raise TrajectoryError(
+                sentence(
+                    "agreement is {agreement} m; it must be 0 or more", agreement=self.agreement
+                )
+            )
         for name, value in values.items():
             object.__setattr__(self, name, value)
 
@@ -152,7 +157,7 @@ class Trajectory:
             MetricUnavailableError: if nothing can push.
         """
         if self.felt is None:
-            raise MetricUnavailableError("no robot held the needle: there is no force")
+            raise MetricUnavailableError(sentence("no robot held the needle: there is no force"))
         return self.felt
 
     def pushed(self) -> NDArray[np.bool_]:
@@ -176,7 +181,7 @@ class Trajectory:
         """
         found = runs(self.inserted)
         if not found:
-            raise MetricUnavailableError("the needle was never inserted")
+            raise MetricUnavailableError(sentence("the needle was never inserted"))
         return found
 
     def stays(self) -> list[NDArray[np.intp]]:
@@ -204,7 +209,9 @@ class Trajectory:
         seen = [stay[self.depth_valid[stay]] for stay in self.stays()]
         found = [stay for stay in seen if len(stay)]
         if not found:
-            raise MetricUnavailableError("the depth of the tip was not measured in the body")
+            raise MetricUnavailableError(
+                sentence("the depth of the tip was not measured in the body")
+            )
         return found
 
     def longest_part(self, stay: NDArray[np.intp]) -> NDArray[np.intp]:
@@ -230,7 +237,7 @@ class Trajectory:
             MetricNotAskedError: if there were none.
         """
         if self.touches is None:
-            raise MetricNotAskedError("nothing was to be touched")
+            raise MetricNotAskedError(sentence("nothing was to be touched"))
         return self.touches
 
     def touching(self) -> NDArray[np.intp]:
@@ -242,7 +249,7 @@ class Trajectory:
         """
         times = self.to_touch().times
         if not times:
-            raise MetricUnavailableError("no target was touched")
+            raise MetricUnavailableError(sentence("no target was touched"))
         return np.arange(self.insertions()[0].start, self.at(times[-1]) + 1)
 
     def final(self) -> int:
@@ -256,13 +263,15 @@ class Trajectory:
         body = self._in_body()
         end = int(np.flatnonzero(self.running | self.paused)[-1])
         if not body[end]:
-            raise MetricUnavailableError("the needle was out of the body at the end")
+            raise MetricUnavailableError(sentence("the needle was out of the body at the end"))
         seen = np.flatnonzero(self.depth_valid & body)
         if len(seen) == 0:
-            raise MetricUnavailableError("the depth of the tip was never measured")
+            raise MetricUnavailableError(sentence("the depth of the tip was never measured"))
         age = float(self.time[end] - self.time[seen[-1]])
         if age > LAST_SEEN:
-            raise MetricUnavailableError(f"the tip was last seen {age:.1f} s before the end")
+            raise MetricUnavailableError(
+                sentence("the tip was last seen {age:.1f} s before the end", age=age)
+            )
         return int(seen[-1])
 
     def at(self, time: float) -> int:
@@ -304,14 +313,29 @@ def _samples(values: ArrayLike, name: str, n: int | None, shape: tuple[int, ...]
         array = array.reshape(0, *shape)
     wanted = (len(array) if n is None and array.ndim else n, *shape)
     if array.shape != wanted:
-        raise TrajectoryError(f"{name} has shape {array.shape}; {wanted} is needed, as time has it")
+        raise TrajectoryError(
+            sentence(
+                "{name} has shape {array_shape}; {wanted} is needed, as time has it",
+                name=name,
+                array_shape=array.shape,
+                wanted=wanted,
+            )
+        )
     flat = array.reshape(len(array), int(np.prod(shape)))
     bad = ~(np.abs(flat) <= LARGEST).all(axis=1)  # NaN is not below anything
     if bad.any():
         first = int(np.argmax(bad))
         raise TrajectoryError(
-            f"{name} is not finite within ±{LARGEST:g} in {bad.sum()} of {len(array)} samples, "
-            f"first at sample {first}: {array[first].tolist()}; leave such samples out"
+            sentence(
+                "{name} is not finite within ±{largest:g} in {bad} of {array_count} samples, "
+                "first at sample {first}: {array}; leave such samples out",
+                name=name,
+                largest=LARGEST,
+                bad=bad.sum(),
+                array_count=len(array),
+                first=first,
+                array=array[first].tolist(),
+            )
         )
     return read_only(array)
 
@@ -320,7 +344,13 @@ def _spread(values: ArrayLike, n: int) -> FloatArray:
     """Take deviations and ages; NaN where one of them is no such number."""
     array = np.array(values, dtype=np.float64)
     if array.shape != (n, 3):
-        raise TrajectoryError(f"spread has shape {array.shape}; ({n}, 3) is needed, as time has it")
+        raise TrajectoryError(
+            sentence(
+                "spread has shape {array_shape}; ({n}, 3) is needed, as time has it",
+                array_shape=array.shape,
+                n=n,
+            )
+        )
     array[~((array >= 0.0) & (array <= LARGEST)).all(axis=1)] = np.nan
     return read_only(array)
 
@@ -331,7 +361,13 @@ def _check_time(time: FloatArray) -> None:
         first = int(np.argmax(steps <= 0.0))
         what = "stands still" if steps[first] == 0.0 else "goes backwards"
         raise TrajectoryError(
-            f"time {what} at sample {first + 1}: {time[first + 1]} s after {time[first]} s"
+            sentence(
+                "time {what} at sample {first}: {time} s after {time_2} s",
+                what=what,
+                first=first + 1,
+                time=time[first + 1],
+                time_2=time[first],
+            )
         )
 
 
@@ -339,7 +375,13 @@ def _check_axis(axis: FloatArray) -> None:
     off = np.abs(np.einsum("ij,ij->i", axis, axis) - 1.0)
     if (off > 1e-6).any():
         first = int(np.argmax(off > 1e-6))
-        raise TrajectoryError(f"axis {axis[first].tolist()} at sample {first} is no unit vector")
+        raise TrajectoryError(
+            sentence(
+                "axis {axis} at sample {first} is no unit vector",
+                axis=axis[first].tolist(),
+                first=first,
+            )
+        )
 
 
 def _phases(values: Sequence[Any] | NDArray[Any], n: int) -> NDArray[np.int8]:
@@ -350,14 +392,31 @@ def _phases(values: Sequence[Any] | NDArray[Any], n: int) -> NDArray[np.int8]:
         names, index = np.unique(given.astype(str), return_inverse=True)
         unknown = [name for name in names if name not in _CODES]
         if unknown:
-            raise TrajectoryError(f"unknown phase '{unknown[0]}'; phases are {', '.join(_CODES)}")
+            raise TrajectoryError(
+                sentence(
+                    "unknown phase '{unknown_first}'; phases are {codes}",
+                    unknown_first=unknown[0],
+                    codes=", ".join(_CODES),
+                )
+            )
         codes = np.array([_CODES[name] for name in names], dtype=np.int8)[index]
     elif given.dtype.kind in "iu" and given.min() >= 0 and given.max() < len(_CODES):
         codes = given.astype(np.int8)
     else:
-        raise TrajectoryError(f"phase must be names or codes of Phase 0 ... {len(_CODES) - 1}")
+        raise TrajectoryError(
+            sentence(
+                "phase must be names or codes of Phase 0 ... {codes_count}",
+                codes_count=len(_CODES) - 1,
+            )
+        )
     if codes.shape != (n,):
-        raise TrajectoryError(f"phase has shape {codes.shape}; ({n},) is needed, as time has it")
+        raise TrajectoryError(
+            sentence(
+                "phase has shape {codes_shape}; ({n},) is needed, as time has it",
+                codes_shape=codes.shape,
+                n=n,
+            )
+        )
     return read_only(codes)
 
 
@@ -366,5 +425,11 @@ def _flags(values: ArrayLike, n: int) -> NDArray[np.bool_]:
     if flags.size == 0:
         flags = flags.reshape(0)
     if flags.shape != (n,):
-        raise TrajectoryError(f"depth_valid has shape {flags.shape}; ({n},) is needed")
+        raise TrajectoryError(
+            sentence(
+                "depth_valid has shape {flags_shape}; ({n},) is needed",
+                flags_shape=flags.shape,
+                n=n,
+            )
+        )
     return read_only(flags)

@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.units import DEGREE
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Trajectory
@@ -49,7 +50,7 @@ def tip_covariance(trajectory: Trajectory, index: int) -> FloatArray:
     """
     along, across, age = _spread(trajectory)[index]
     if not np.isfinite(along):
-        raise MetricUnavailableError("how well the tip was known there was not recorded")
+        raise MetricUnavailableError(sentence("how well the tip was known there was not recorded"))
     axis = trajectory.axis[index]
     own = np.outer(axis, axis)
     lag = _speed(trajectory, index) * age
@@ -158,7 +159,7 @@ def largest_sd(trajectory: Trajectory, samples: NDArray[np.intp]) -> float:
 
 def _spread(trajectory: Trajectory) -> FloatArray:
     if trajectory.spread is None:
-        raise MetricUnavailableError("how well the tip was known was not recorded")
+        raise MetricUnavailableError(sentence("how well the tip was known was not recorded"))
     return trajectory.spread
 
 
@@ -166,7 +167,9 @@ def _known(trajectory: Trajectory, samples: NDArray[np.intp]) -> FloatArray:
     """Return the spread at some samples, at all of them."""
     sigmas = _spread(trajectory)[samples]
     if not np.isfinite(sigmas).all():
-        raise MetricUnavailableError("how well the tip was known was not recorded throughout")
+        raise MetricUnavailableError(
+            sentence("how well the tip was known was not recorded throughout")
+        )
     return sigmas
 
 

@@ -14,6 +14,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Final
 
+from app.core.messages import sentence
 from app.session.errors import PeopleError
 from app.session.people import PEOPLE, People
 from app.session.sidecar import file_digest
@@ -99,17 +100,26 @@ def admit(records: Sequence[Path], reason: str, people: People | None = None) ->
     people, reason = people or People(), " ".join(reason.split())
     if not reason or len(reason) > LONGEST_REASON:
         raise PeopleError(
-            f"say why it is admitted, in 1 to {LONGEST_REASON} characters: the reason is sealed "
-            "with it"
+            sentence(
+                "say why it is admitted, in 1 to {longest_reason} characters: the reason is "
+                "sealed with it",
+                longest_reason=LONGEST_REASON,
+            )
         )
     if not seals_here():
-        raise PeopleError("nothing is sealed at this station yet: every attempt counts as it is")
+        raise PeopleError(
+            sentence("nothing is sealed at this station yet: every attempt counts as it is")
+        )
     key, time, taken = StationKey.of(), datetime.now(UTC).isoformat(timespec="seconds"), []
     for path in records:
         found = judge_whole(path, key)
         if found.verdict is not Signed.UNSIGNED:
             raise PeopleError(
-                f"{path.stem} is {found.sentence()}; only an unsigned attempt can be admitted"
+                sentence(
+                    "{path_stem} is {sentence}; only an unsigned attempt can be admitted",
+                    path_stem=path.stem,
+                    sentence=found.sentence(),
+                )
             )
         taken.append(Admission(path.stem, file_digest(path), reason, time))
     people.admit([(one.attempt, one.record, one.why, one.time, one.seal(key)) for one in taken])

@@ -25,6 +25,7 @@ from app.core import paths
 from app.core.configuration import read_yaml
 from app.core.disclaimer import DISCLAIMER
 from app.core.files import beside, remove, replace, step, sweep
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.session.backup_file import FORMAT, MANIFEST, VERSION, ArchiveError, may_hold
 from app.session.course import courses_folder
@@ -75,29 +76,37 @@ def backup(
             replace(part, out)
     except (OSError, sqlite3.Error) as error:
         why = error.strerror if isinstance(error, OSError) and error.strerror else error
-        raise ArchiveError(f"cannot write {out}: {why}") from error
+        raise ArchiveError(sentence("cannot write {out}: {reason}", out=out, reason=why)) from error
     return count
 
 
 def left_out() -> list[str]:
     """Say what a backup does not hold: CTs, by their digests, and files that lie elsewhere."""
     scans: dict[str, list[str]] = defaultdict(list)
-    lines, data = [], paths.data()
+    data = paths.data()
+    lines: list[str] = []
     for path in sorted((data / "exercises").glob("*.yaml")):
         try:
             document = read_yaml(path)
             ct, parts = document.get("ct") or {}, document.get("structures") or ()
             files = [Path(str(part["file"])) for part in parts]
             if ct.get("folder"):
-                where = ct.get("digest") or f"without a digest, in {ct['folder']}"
+                where = ct.get("digest") or sentence(
+                    "without a digest, in {folder}", folder=ct["folder"]
+                )
                 scans[str(where)].append(path.stem)
         except (OSError, ValueError, AttributeError, LookupError, TypeError):
             continue  # a file that is no exercise goes in as it is
         for file in files:
             places = ((room / file).resolve() for room in (path.parent, data / "structures"))
             if not any(p.is_file() and p.is_relative_to(data.resolve()) for p in places):
-                lines.append(f"the structures {file} of {path.stem}")
-    return [f"the CT {name} of {', '.join(some)}" for name, some in sorted(scans.items())] + lines
+                lines.append(
+                    sentence("the structures {file} of {path_stem}", file=file, path_stem=path.stem)
+                )
+    return [
+        sentence("the CT {name} of {some}", name=name, some=", ".join(some))
+        for name, some in sorted(scans.items())
+    ] + lines
 
 
 # --- inside ---------------------------------------------------------------------------------------

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from app.core.files import step
+from app.core.messages import sentence
 from app.session.errors import SessionError
 
 FORMAT: Final = "acus-backup"
@@ -63,7 +64,7 @@ def read_manifest(archive: zipfile.ZipFile, source: Path) -> Manifest:
     """
     try:
         if archive.getinfo(MANIFEST).file_size > _LARGEST_MANIFEST:
-            raise ValueError("its list is too long")
+            raise ValueError(sentence("its list is too long"))
         document: dict[str, Any] = json.loads(archive.read(MANIFEST))
         kind, version = document["format"], document["version"]
         files, known = dict(document["files"]), set(archive.namelist())
@@ -71,14 +72,30 @@ def read_manifest(archive: zipfile.ZipFile, source: Path) -> Manifest:
         station = str(document.get("station") or key.get("station", ""))
         left_out = tuple(map(str, document.get("left_out", ())))
     except (KeyError, ValueError, TypeError, RecursionError) as error:
-        raise ArchiveError(f"{source} is no backup of Acus: {error}") from error
+        raise ArchiveError(
+            sentence("{source} is no backup of Acus: {error}", source=source, error=error)
+        ) from error
     if kind != FORMAT or not isinstance(version, int):
-        raise ArchiveError(f"{source} is no backup of Acus: its format is {kind!r}")
+        raise ArchiveError(
+            sentence(
+                "{source} is no backup of Acus: its format is {kind!r}", source=source, kind=kind
+            )
+        )
     if version > VERSION:
-        raise ArchiveError(f"{source} was written by a newer version of Acus: use that version")
+        raise ArchiveError(
+            sentence(
+                "{source} was written by a newer version of Acus: use that version", source=source
+            )
+        )
     odd = [name for name in files if not _MEMBER.fullmatch(str(name)) or name not in known]
     if odd:
-        raise ArchiveError(f"{source} is damaged: {odd[0]!r} is missing in it or no name of Acus")
+        raise ArchiveError(
+            sentence(
+                "{source} is damaged: {odd_first!r} is missing in it or no name of Acus",
+                source=source,
+                odd_first=odd[0],
+            )
+        )
     return Manifest(files, key, station, left_out)
 
 
@@ -100,6 +117,12 @@ def unpack(archive: zipfile.ZipFile, name: str, digest: str, target: Path, sourc
             stream.flush()
             os.fsync(stream.fileno())
     except (zlib.error, ValueError) as error:
-        raise ArchiveError(f"{source} is damaged at {name}: {error}") from error
+        raise ArchiveError(
+            sentence(
+                "{source} is damaged at {name}: {error}", source=source, name=name, error=error
+            )
+        ) from error
     if sha.hexdigest() != digest:
-        raise ArchiveError(f"{source} is damaged: {name} is not what was packed")
+        raise ArchiveError(
+            sentence("{source} is damaged: {name} is not what was packed", source=source, name=name)
+        )

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from app.core import state_vector as slots
 from app.core.arrays import FloatArray, read_only
+from app.core.messages import sentence
 from app.session import columns
 from app.session.budget import ReadingBudget
 from app.session.digest import digests
@@ -115,19 +116,35 @@ def unpack(data: bytes, budget: ReadingBudget) -> TickBlock:
     """
     if len(data) < _HEADER.size or data[:4] != MAGIC:
         raise BrokenRecordingError(
-            f"a block of {len(data)} bytes does not begin with {MAGIC.decode()}"
+            sentence(
+                "a block of {data_count} bytes does not begin with {magic}",
+                data_count=len(data),
+                magic=MAGIC.decode(),
+            )
         )
     _, version, count, rows, lost, first = _HEADER.unpack_from(data)
     if version != VERSION:
-        raise BrokenRecordingError(f"block version {version}; this program reads {VERSION}")
+        raise BrokenRecordingError(
+            sentence(
+                "block version {version}; this program reads {version_2}",
+                version=version,
+                version_2=VERSION,
+            )
+        )
     body = data[_HEADER.size :]
     if rows == 0:
         return _empty(body, count, lost, first)
     if rows > len(body):  # a digest alone takes four bytes a row
-        raise BrokenRecordingError(f"a block of {rows} rows has {len(data)} bytes")
+        raise BrokenRecordingError(
+            sentence(
+                "a block of {rows} rows has {data_count} bytes", rows=rows, data_count=len(data)
+            )
+        )
     values, place = columns.decode(body, rows, count, budget)
     if count <= _TICK:
-        raise BrokenRecordingError(f"a block of {count} columns has no tick numbers")
+        raise BrokenRecordingError(
+            sentence("a block of {count} columns has no tick numbers", count=count)
+        )
     where = _state_rows(values[:, _TICK])
     hashes, states = _checks(body[place:], rows, len(where))
     return TickBlock(read_only(values), first, lost, hashes, where, states)
@@ -139,7 +156,9 @@ def _state_rows(tick: FloatArray) -> NDArray[np.int64]:
 
 def _empty(body: bytes, count: int, lost: int, first: int) -> TickBlock:
     if body:
-        raise BrokenRecordingError(f"a block of 0 rows has {len(body)} bytes of numbers")
+        raise BrokenRecordingError(
+            sentence("a block of 0 rows has {body_count} bytes of numbers", body_count=len(body))
+        )
     none, nowhere = np.zeros(0, dtype=np.uint32), np.zeros(0, dtype=np.int64)
     nothing = read_only(np.zeros((0, count)))
     return TickBlock(nothing, first, lost, none, nowhere, read_only(np.zeros((0, 0))))
@@ -149,7 +168,13 @@ def _checks(data: bytes, rows: int, states: int) -> tuple[NDArray[np.uint32], Fl
     end = 4 * rows
     size = struct.unpack_from("<H", data, end)[0] if len(data) >= end + 2 else 0
     if len(data) != end + 2 + 8 * size * states or size == 0:
-        raise BrokenRecordingError(f"a block of {rows} rows has {len(data)} bytes of checks")
+        raise BrokenRecordingError(
+            sentence(
+                "a block of {rows} rows has {data_count} bytes of checks",
+                rows=rows,
+                data_count=len(data),
+            )
+        )
     whole = np.frombuffer(data, dtype="<f8", offset=end + 2).reshape(states, size)
     hashes = np.frombuffer(data[:end], dtype="<u4").astype(np.uint32)
     return hashes, read_only(np.array(whole, dtype=np.float64))

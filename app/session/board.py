@@ -17,6 +17,7 @@ from typing import Any, Final
 
 from pydantic import ValidationError
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.exercises.schema import Exercise
 from app.scoring.conditions import comparison_groups
@@ -292,20 +293,20 @@ def standings(
 
 def _why_not_counted(entry: Indexed, item: CourseItem, answer: Remarks | None) -> str:
     if entry.verdict == Signed.ALTERED:
-        return "altered after it was signed"
+        return sentence("altered after it was signed")
     if answer is not None and answer.void:
-        return "declared void by the instructor"
+        return sentence("declared void by the instructor")
     if not entry.stands:
-        return "not sealed by this station"
+        return sentence("not sealed by this station")
     if not entry.counts:
         known = entry.conditions
         if not known.by_person:
-            return "carried out by the arm" if known.hand == "arm" else "scripted"
-        return "emulated robot" if known.kind == "emulated" else "not scored or void"
+            return sentence("carried out by the arm") if known.hand == "arm" else "scripted"
+        return "emulated robot" if known.kind == "emulated" else sentence("not scored or void")
     if entry.version != item.version:
-        return f"version {entry.version} of the exercise"
+        return sentence("version {entry_version} of the exercise", entry_version=entry.version)
     if item.content and entry.conditions.content != item.content:
-        return "the exercise said something else"
+        return sentence("the exercise said something else")
     return ""
 
 

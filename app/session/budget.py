@@ -12,6 +12,7 @@ from typing import Final
 
 from zstandard import ZstdDecompressor, ZstdError
 
+from app.core.messages import sentence
 from app.imaging.worker.limits import MEMORY_BYTES, size_of
 from app.session.errors import BudgetExceededError
 
@@ -61,9 +62,14 @@ class ReadingBudget:
         self._left -= count
         if self._left < 0:
             raise BudgetExceededError(
-                f"{self._name} has {self._size / 1e6:.1f} MB and would take more than "
-                f"{self._allowed / 1e6:.0f} MB of memory to be read, which no attempt does: it is "
-                "damaged or hostile; move it out of the folder"
+                sentence(
+                    "{name} has {size:.1f} MB and would take more than "
+                    "{allowed:.0f} MB of memory to be read, which no attempt does: it is "
+                    "damaged or hostile; move it out of the folder",
+                    name=self._name,
+                    size=self._size / 1e6,
+                    allowed=self._allowed / 1e6,
+                )
             )
 
     def take_json(self, text: bytes) -> None:
@@ -100,5 +106,5 @@ def decompressed(data: bytes, most: int) -> bytes:
     reader = ZstdDecompressor(max_window_size=1 << 27).stream_reader(data)
     found = bytes(reader.read(most))
     if reader.read(1):
-        raise ZstdError(f"it holds more than the {most} bytes that it should")
+        raise ZstdError(sentence("it holds more than the {most} bytes that it should", most=most))
     return found

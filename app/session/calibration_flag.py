@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 
+from app.core.messages import sentence
 from app.session.summary import Summary
 from app.tracking.calibration.history_file import rejected_ids
 from app.tracking.errors import CalibrationError
@@ -35,11 +36,19 @@ class CalibrationFlags:
         if not calibration:
             return ""
         if self.unknown:
-            return f"whether calibration {calibration} is still good is not known: {self.unknown}"
+            return sentence(
+                "whether calibration {calibration} is still good is not known: {unknown}",
+                calibration=calibration,
+                unknown=self.unknown,
+            )
         reason = self.bad.get(calibration)
         if reason is None:
             return ""
-        return f"the cameras' calibration {calibration} was later found bad: {reason}"
+        return sentence(
+            "the cameras' calibration {calibration} was later found bad: {reason}",
+            calibration=calibration,
+            reason=reason,
+        )
 
     def flagged(self, summary: Summary) -> Summary:
         """Return a summary with that line among its problems."""

@@ -13,6 +13,7 @@ from typing import Any, Final
 import numpy as np
 
 from app.core.arrays import read_only
+from app.core.messages import sentence
 from app.device.checkpoint import Checkpoint
 from app.session.blocks import SLOT_NAMES
 from app.session.errors import BrokenRecordingError
@@ -85,16 +86,26 @@ def unpack(data: bytes) -> RecordedCheckpoint:
         BrokenRecordingError: if it is not a checkpoint; says what is wrong.
     """
     if len(data) < _HEADER.size or data[:4] != MAGIC:
-        raise BrokenRecordingError(f"a checkpoint does not begin with {MAGIC.decode()}")
+        raise BrokenRecordingError(
+            sentence("a checkpoint does not begin with {magic}", magic=MAGIC.decode())
+        )
     _, version, length = _HEADER.unpack_from(data)
     if version != VERSION:
-        raise BrokenRecordingError(f"checkpoint version {version}; this program reads {VERSION}")
+        raise BrokenRecordingError(
+            sentence(
+                "checkpoint version {version}; this program reads {version_2}",
+                version=version,
+                version_2=VERSION,
+            )
+        )
     body = data[_HEADER.size + length :]
     try:
         document = json.loads(data[_HEADER.size : _HEADER.size + length])
         return _read(document, body)
     except (ValueError, LookupError, TypeError, RecursionError) as error:
-        raise BrokenRecordingError(f"the checkpoint cannot be read: {error}") from error
+        raise BrokenRecordingError(
+            sentence("the checkpoint cannot be read: {error}", error=error)
+        ) from error
 
 
 def _read(document: dict[str, Any], body: bytes) -> RecordedCheckpoint:
@@ -103,7 +114,14 @@ def _read(document: dict[str, Any], body: bytes) -> RecordedCheckpoint:
     slots = tuple(str(name) for name in document["slots"])
     numbers = read_only(np.frombuffer(body, dtype="<f8").astype(np.float64))
     if min(sizes, default=0) < 0 or len(numbers) != len(slots) + sum(sizes):
-        raise ValueError(f"{len(numbers)} numbers for {len(slots)} slots and {sum(sizes)} more")
+        raise ValueError(
+            sentence(
+                "{numbers_count} numbers for {slots_count} slots and {sizes} more",
+                numbers_count=len(numbers),
+                slots_count=len(slots),
+                sizes=sum(sizes),
+            )
+        )
     state, parameters = numbers[: len(slots)], numbers[len(slots) :]
     tick = int(document["tick"])
     return RecordedCheckpoint(Checkpoint(tick, state, parameters, sizes, names), slots)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.session.budget import ReadingBudget
 from app.session.errors import BrokenRecordingError
 
@@ -74,7 +75,11 @@ class _Reader:
     def take(self, count: int) -> bytes:
         part = self._data[self.place : self.place + count]
         if len(part) < count:
-            raise BrokenRecordingError(f"a block ends after {len(self._data)} bytes in a column")
+            raise BrokenRecordingError(
+                sentence(
+                    "a block ends after {data_count} bytes in a column", data_count=len(self._data)
+                )
+            )
         self.place += count
         return part
 
@@ -99,7 +104,9 @@ def _encode(column: Bits, index: int, seen: dict[bytes, int]) -> bytes:
 def _decode(read: _Reader, rows: int, before: Bits) -> Bits:
     code = read.take(1)[0]
     if code not in set(ColumnCoding):
-        raise BrokenRecordingError(f"a column is stored in a way, {code}, that is not known")
+        raise BrokenRecordingError(
+            sentence("a column is stored in a way, {code}, that is not known", code=code)
+        )
     way = ColumnCoding(code)
     if way is ColumnCoding.CONSTANT:
         return np.repeat(np.frombuffer(read.take(8), dtype="<u8"), rows)
@@ -108,7 +115,9 @@ def _decode(read: _Reader, rows: int, before: Bits) -> Bits:
     if way is ColumnCoding.SAME:
         (index,) = struct.unpack("<H", read.take(2))
         if index >= len(before):
-            raise BrokenRecordingError(f"a column repeats column {index}, which is not before it")
+            raise BrokenRecordingError(
+                sentence("a column repeats column {index}, which is not before it", index=index)
+            )
         return np.asarray(before[index])
     planes = np.frombuffer(read.take(8 * rows), dtype=np.uint8).reshape(8, rows)
     bits = _sums(np.ascontiguousarray(planes.T).view("<u8")[:, 0], _ORDER[way])

@@ -10,6 +10,7 @@ from typing import Final
 import numpy as np
 
 from app.core.events import Event
+from app.core.messages import sentence
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
 from app.session.effect_models import choices_of
 from app.session.errors import SessionError
@@ -48,7 +49,13 @@ def hand_of(trainee: Mapping[str, str], asked: str = "") -> str:
         return "script"
     hand = trainee.get("hand") or asked or "mouse"
     if hand not in HANDS:
-        raise SessionError(f"hand {hand!r} is not known; valid names: {', '.join(HANDS)}")
+        raise SessionError(
+            sentence(
+                "hand {hand!r} is not known; valid names: {hands}",
+                hand=hand,
+                hands=", ".join(HANDS),
+            )
+        )
     return hand
 
 

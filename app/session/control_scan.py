@@ -15,6 +15,7 @@ import numpy as np
 from app.core.arrays import FloatArray, frozen
 from app.core.errors import AcusError
 from app.core.events import Event
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.imaging.scan_order import ScanNeedle, ScanOrder, Seen, seen
 from app.planning.placement import PlacedPlan
@@ -111,10 +112,18 @@ class ControlScan:
     def sentence(self, origin: float) -> str:
         """Say it in one line, the time counted from `origin` [s]."""
         order = self.order
-        return (
-            f"control scan {self.number} at {self.time - origin:.1f} s: {order.slices} slices of "
-            f"{order.slice_mm:g} mm about z {order.centre_mm:.1f} mm, {SEEN_WORDS[self.seen]}, "
-            f"{self.dose:.1f} mGy·cm ({TEACHING_ESTIMATE})"
+        return sentence(
+            "control scan {number} at {time:.1f} s: {order_slices} slices of "
+            "{order_slice_mm:g} mm about z {order_centre_mm:.1f} mm, {seen_words}, "
+            "{dose:.1f} mGy·cm ({teaching_estimate})",
+            number=self.number,
+            time=self.time - origin,
+            order_slices=order.slices,
+            order_slice_mm=order.slice_mm,
+            order_centre_mm=order.centre_mm,
+            seen_words=SEEN_WORDS[self.seen],
+            dose=self.dose,
+            teaching_estimate=TEACHING_ESTIMATE,
         )
 
 
@@ -151,8 +160,11 @@ def take(
     device = None if look is None else look.device
     if look is None or device is None or not look.pose.measured:
         raise ScanNotPossibleError(
-            "no control scan: the needle's depth is not measured now, so that a picture would be "
-            "a guess; nothing was counted. Let both cameras see the marker and press again"
+            sentence(
+                "no control scan: the needle's depth is not measured now, so that a picture "
+                "would be a guess; nothing was counted. Let both cameras see the marker and "
+                "press again"
+            )
         )
     length = float(np.linalg.norm(device.tip - device.hub))
     pose, to_patient = look.pose, placed.T_world_patient.inverse()

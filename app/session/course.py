@@ -16,6 +16,7 @@ from pydantic import Field, model_validator
 from app.core.configuration import Strict, load
 from app.core.errors import ConfigurationError
 from app.core.files import write_atomically
+from app.core.messages import sentence
 from app.exercises.guidance import Purpose
 from app.exercises.library import library
 from app.exercises.schema import Exercise
@@ -57,7 +58,13 @@ class CourseItem(Strict):
     @model_validator(mode="after")
     def _days_in_order(self) -> CourseItem:
         if self.opens and self.closes and self.closes < self.opens:
-            raise ValueError(f"closes on {self.closes}, before it opens on {self.opens}")
+            raise ValueError(
+                sentence(
+                    "closes on {closes}, before it opens on {opens}",
+                    closes=self.closes,
+                    opens=self.opens,
+                )
+            )
         return self
 
 
@@ -84,7 +91,12 @@ class Course(Strict):
         counts = Counter(item.exercise for item in self.items)
         twice = [name for name, count in counts.items() if count > 1]
         if twice:
-            raise ValueError(f"{twice[0]!r} stands there twice: an exercise has one place")
+            raise ValueError(
+                sentence(
+                    "{twice_first!r} stands there twice: an exercise has one place",
+                    twice_first=twice[0],
+                )
+            )
         return self
 
     def takes(self, person: Person) -> bool:
@@ -119,7 +131,13 @@ class Course(Strict):
         try:
             write_atomically(path, text)
         except OSError as error:
-            raise CourseError(f"cannot write {path}: {error.strerror or error}") from error
+            raise CourseError(
+                sentence(
+                    "cannot write {path}: {error_strerror}",
+                    path=path,
+                    error_strerror=error.strerror or error,
+                )
+            ) from error
         return path
 
 
@@ -159,7 +177,7 @@ def find_course(name: str, folder: Path | None = None) -> Course:
     if re.fullmatch(NAME, name) and path.is_file():
         return read_course(path)
     known = ", ".join(course.id for course in courses(folder)[0]) or "none"
-    raise CourseError(f"{name!r} is no course; there: {known}")
+    raise CourseError(sentence("{name!r} is no course; there: {known}", name=name, known=known))
 
 
 def newest_versions() -> dict[str, int]:
@@ -170,14 +188,23 @@ def newest_versions() -> dict[str, int]:
 def pinned_problems(course: Course) -> list[str]:
     """Say which exercises of a course are not in the library as they are pinned, one line each."""
     known = newest_versions()
-    found = []
+    found: list[str] = []
     for item in course.items:
         if item.exercise not in known:
-            found.append(f"{item.exercise}: no such exercise in the library")
+            found.append(
+                sentence(
+                    "{item_exercise}: no such exercise in the library", item_exercise=item.exercise
+                )
+            )
         elif known[item.exercise] != item.version:
             found.append(
-                f"{item.exercise}: the library has version {known[item.exercise]}, the course pins "
-                f"version {item.version}"
+                sentence(
+                    "{item_exercise}: the library has version {known}, the course pins "
+                    "version {item_version}",
+                    item_exercise=item.exercise,
+                    known=known[item.exercise],
+                    item_version=item.version,
+                )
             )
     return found
 
@@ -202,16 +229,24 @@ def why_not(
     place = next((n for n, item in enumerate(course.items) if item.exercise == exercise), None)
     if place is None:
         named = titled.get(exercise, exercise)
-        return f"{named} is no exercise of the course {course.title}"
+        return sentence(
+            "{named} is no exercise of the course {course_title}",
+            named=named,
+            course_title=course.title,
+        )
     item = course.items[place]
     if item.opens and today < item.opens:
-        return f"it opens on {item.opens}"
+        return sentence("it opens on {item_opens}", item_opens=item.opens)
     if item.closes and today > item.closes:
-        return f"it closed on {item.closes}"
+        return sentence("it closed on {item_closes}", item_closes=item.closes)
     done = attempts_used(own, item)
     if item.attempts is not None and len(done) >= item.attempts:
         many = item.attempts > 1
-        return f"all {item.attempts} attempts are used" if many else "the one attempt is used"
+        return (
+            sentence("all {item_attempts} attempts are used", item_attempts=item.attempts)
+            if many
+            else sentence("the one attempt is used")
+        )
     if course.ordered and place > 0:
         before = course.items[place - 1]
         tries = attempts_used(own, before)

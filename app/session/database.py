@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from app.core.descriptors import has_locks
 from app.core.files import step
+from app.core.messages import sentence
 from app.session.errors import SessionError
 
 if TYPE_CHECKING:
@@ -148,7 +149,12 @@ class Database:
                 for end in ("", "-wal", "-shm"):
                     self.path.with_name(self.path.name + end).unlink(missing_ok=True)
             except OSError as error:
-                raise self._error(f"cannot be deleted: {error.strerror or error}") from error
+                raise self._error(
+                    sentence(
+                        "cannot be deleted: {error_strerror}",
+                        error_strerror=error.strerror or error,
+                    )
+                ) from error
 
     @property
     def _why_read_only(self) -> str:
@@ -195,8 +201,12 @@ class Database:
         found = int(connection.exec_driver_sql("PRAGMA user_version").scalar() or 0)
         if found > self._version:
             raise self._error(
-                f"was written by a newer version of Acus (form {found}, this one knows "
-                f"{self._version}): use that version"
+                sentence(
+                    "was written by a newer version of Acus (form {result}, this one knows "
+                    "{version}): use that version",
+                    result=found,
+                    version=self._version,
+                )
             )
         return found
 
@@ -272,7 +282,14 @@ class Database:
     def _error(self, reason: str) -> DatabaseError:
         if reason == _NO_LOCKS and self._full():  # SQLite says the same of both
             reason = _FULL
-        return DatabaseError(f"the {self._what} {self.path or 'in memory'} {reason}")
+        return DatabaseError(
+            sentence(
+                "the {what} {path} {reason}",
+                what=self._what,
+                path=self.path or "in memory",
+                reason=reason,
+            )
+        )
 
 
 @cache

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from app.core.events import Event
+from app.core.messages import sentence
 
 KIND: Final = "model"
 """Kind of the event."""
@@ -34,7 +35,11 @@ class ModelChoice:
 
     def words(self) -> str:
         """Say it in one line."""
-        return f"effect {self.effect} is computed by its model {self.model} from here on"
+        return sentence(
+            "effect {effect} is computed by its model {model} from here on",
+            effect=self.effect,
+            model=self.model,
+        )
 
 
 def choices_of(events: Iterable[Event]) -> tuple[ModelChoice, ...]:

@@ -13,6 +13,7 @@ from pathlib import Path
 from uuid import uuid4
 
 from app.core import paths
+from app.core.messages import sentence
 from app.core.words import counted
 from app.session.errors import SessionError
 from app.session.header import TRASH
@@ -39,10 +40,12 @@ class Elsewhere:
         """Say in one line how many lie where, and what can be done about it."""
         count = len(self.records)
         lie = counted(count, "1 attempt lies", f"{count} attempts lie")
-        return (
-            f"{lie} in {self.folder}, where earlier versions kept attempts: "
-            f"`acus session gather` brings yours here, `acus session list --folder {self.folder}` "
-            "lists all"
+        return sentence(
+            "{lie} in {folder}, where earlier versions kept attempts: "
+            "`acus session gather` brings yours here, `acus session list --folder {folder}` "
+            "lists all",
+            lie=lie,
+            folder=self.folder,
         )
 
 
@@ -100,7 +103,13 @@ def gather(result: Elsewhere, folder: Path, people: People) -> int:
             journal.plan([*_steps(own, stage, folder), removal(stage), *_cleared(result, own)])
     except OSError as error:
         what = error.filename or folder
-        raise SessionError(f"cannot bring attempts here: {what}: {error.strerror}") from error
+        raise SessionError(
+            sentence(
+                "cannot bring attempts here: {what}: {error_strerror}",
+                what=what,
+                error_strerror=error.strerror,
+            )
+        ) from error
     return len(own)
 
 

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Final, NamedTuple
 
+from app.core.messages import sentence
 from app.session.errors import SessionError
 from app.session.header import TRASH
 from app.session.index import Index
@@ -107,4 +108,6 @@ def _remove(folder: Path, paths: Sequence[Path]) -> None:
     try:
         carry_out(steps)
     except OSError as error:
-        raise SessionError(f"cannot delete: {error.strerror or error}") from error
+        raise SessionError(
+            sentence("cannot delete: {error_strerror}", error_strerror=error.strerror or error)
+        ) from error

@@ -4,6 +4,7 @@ import json
 from typing import Final
 
 from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.planning.placement import PatientOrientation, PlacedPlan, Placement
 from app.planning.plan import Plan
 from app.session.errors import BrokenRecordingError
@@ -38,6 +39,10 @@ def placed_plan(record: dict[str, str]) -> PlacedPlan:
         placement = Placement(PatientOrientation(record["orientation"]), (x, y, z))
         return PlacedPlan.of(plan, placement, json.loads(record["fulcrum_m"]))
     except KeyError as error:
-        raise BrokenRecordingError(f"the record's plan has no {error}") from error
+        raise BrokenRecordingError(
+            sentence("the record's plan has no {error}", error=error)
+        ) from error
     except (AcusError, ValueError, TypeError) as error:
-        raise BrokenRecordingError(f"the record's plan is not usable: {error}") from error
+        raise BrokenRecordingError(
+            sentence("the record's plan is not usable: {error}", error=error)
+        ) from error

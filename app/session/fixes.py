@@ -28,6 +28,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.staleness import TRACKER_HOLD
 from app.core.units import MILLIMETRE
 from app.session.fusion import fix_depth, is_usable
@@ -90,13 +91,17 @@ class DepthGate:
     def _why(self) -> str:
         if self._agreed >= AGREEING:
             return ""
-        count = f"{self._agreed} of {AGREEING} pictures agree so far"
+        count = sentence(
+            "{agreed} of {agreeing} pictures agree so far", agreed=self._agreed, agreeing=AGREEING
+        )
         if self._jump > 0.0:
-            return (
-                f"the cameras' depth jumped by {self._jump / MILLIMETRE:.0f} mm, faster than a hand"
-                f" moves a needle: {count}"
+            return sentence(
+                "the cameras' depth jumped by {jump_mm:.0f} mm, faster than a hand"
+                " moves a needle: {count}",
+                jump_mm=self._jump / MILLIMETRE,
+                count=count,
             )
-        return f"the cameras have just found the marker: {count}"
+        return sentence("the cameras have just found the marker: {count}", count=count)
 
 
 UNSEEN: Final = 1.0

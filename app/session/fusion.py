@@ -33,6 +33,7 @@ import numpy as np
 from app.core import state_vector as slots
 from app.core.arrays import FloatArray, read_only
 from app.core.bend import Bend
+from app.core.messages import sentence
 from app.core.rotation import skew
 from app.core.staleness import ENCODER_ZERO, TRACKER_FRESH, TRACKER_HOLD
 from app.device.state import DeviceState
@@ -361,13 +362,15 @@ def encoder_time(device: DeviceState) -> float:
 
 def _device_fault(device: DeviceState, axis: FloatArray, now: float) -> str:
     if not (np.isfinite(axis).all() and 0.5 < float(np.linalg.norm(axis)) < 2.0):
-        return "the robot gives no needle direction"
+        return sentence("the robot gives no needle direction")
     if not (np.isfinite(device.tip).all() and np.isfinite(device.depth)):
-        return "the robot gives no needle position"
+        return sentence("the robot gives no needle position")
     age = now - encoder_time(device)
     if not np.isfinite(age) or age > ENCODER_ZERO:
-        return (
-            f"the encoder values are {_text_ms(age)} old, the limit is {ENCODER_ZERO * 1e3:.0f} ms"
+        return sentence(
+            "the encoder values are {text_ms} old, the limit is {encoder_zero:.0f} ms",
+            text_ms=_text_ms(age),
+            encoder_zero=ENCODER_ZERO * 1e3,
         )
     return ""
 
@@ -396,7 +399,7 @@ def _age(time: float, now: float) -> float:
 
 
 def _text_ms(age: float) -> str:
-    return f"{age * 1e3:.0f} ms" if np.isfinite(age) else "an unknown time"
+    return f"{age * 1e3:.0f} ms" if np.isfinite(age) else sentence("an unknown time")
 
 
 def moment(pose: NeedlePose) -> float:

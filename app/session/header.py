@@ -10,6 +10,7 @@ from typing import Final
 
 from app import __version__
 from app.core.disclaimer import DISCLAIMER
+from app.core.messages import sentence
 from app.session.errors import SessionError
 
 ID_PATTERN: Final = re.compile(r"[0-9A-Za-z][0-9A-Za-z._-]{0,63}")
@@ -115,8 +116,11 @@ def checked_id(session_id: str) -> str:
     """
     if not ID_PATTERN.fullmatch(session_id):
         raise SessionError(
-            f"session id {session_id!r} is not usable: letters, digits, '.', '_' and '-', "
-            "at most 64, beginning with a letter or digit"
+            sentence(
+                "session id {session_id!r} is not usable: letters, digits, '.', '_' and '-', "
+                "at most 64, beginning with a letter or digit",
+                session_id=session_id,
+            )
         )
     return session_id
 

@@ -27,6 +27,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from app.core.json_values import finite
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.scoring.conditions import Conditions, DeviceKind
 from app.session.admission import Admission, admissions, with_admission
@@ -300,13 +301,18 @@ class Index:
         if right is None:
             return []
         other = [name for name in SEALED if row[name] != right[name] and name != "record"]
-        told = [
-            f"{name}: {row[name]!r} in the index, {right[name]!r} by the record"
+        told: list[str] = [
+            sentence(
+                "{name}: {row!r} in the index, {right!r} by the record",
+                name=name,
+                row=row[name],
+                right=right[name],
+            )
             for name in other
             if name not in ("document", "under")
         ]
         if not told and (other or found[-1] != Sealer(key)(found[:-1])):
-            told = ["its row was not written by this station"]
+            told = [sentence("its row was not written by this station")]
         return told
 
     def content(self) -> str:

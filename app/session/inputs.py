@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen
 from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.device.readiness import ForceClearance
 from app.planning.placement import PlacedPlan
 from app.session.errors import NotReadyError
@@ -182,7 +183,7 @@ class Arming:
         """
         self.ask()
         if self.clearance is not None and not self.clearance.homed > 0.5:
-            raise NotReadyError(self.clearance.reason or "the robot is not homed")
+            raise NotReadyError(self.clearance.reason or sentence("the robot is not homed"))
 
     def ask(self) -> None:
         """Ask what the device is cleared for, and tell the loop if it has changed."""

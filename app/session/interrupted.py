@@ -25,6 +25,7 @@ from mcap.writer import MCAP0_MAGIC
 
 from app.core.descriptors import hold, is_held
 from app.core.files import replace, sync
+from app.core.messages import sentence
 from app.session.errors import SessionError
 from app.session.machine import FINAL
 from app.session.recording import open_recording, read_recording
@@ -107,8 +108,12 @@ def recover(folder: Path, session_id: str, now: float | None = None) -> Path:
         with path.open("rb") as stream:
             if _age(path, now) < QUIET_S or not _alone(stream):
                 raise SessionError(
-                    f"{path.stem} is being written by a running program: end its attempt there, or "
-                    f"try again {QUIET_S:.0f} s after that program has gone"
+                    sentence(
+                        "{path_stem} is being written by a running program: end its attempt "
+                        "there, or try again {quiet_s:.0f} s after that program has gone",
+                        path_stem=path.stem,
+                        quiet_s=QUIET_S,
+                    )
                 )
             end = _end(path, now)
             fd = os.open(beside, os.O_CREAT | os.O_TRUNC | os.O_WRONLY, 0o600)
@@ -124,7 +129,13 @@ def recover(folder: Path, session_id: str, now: float | None = None) -> Path:
         if os.name == "posix":
             sync(path.parent)
     except OSError as error:
-        raise SessionError(f"cannot recover {path}: {error.strerror or error}") from error
+        raise SessionError(
+            sentence(
+                "cannot recover {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
     finally:
         beside.unlink(missing_ok=True)
     return path
@@ -137,8 +148,12 @@ def _require_whole(path: Path) -> None:
     if altered or not open_recording(path).complete:
         why = f"altered after it was signed ({check.why})" if altered else "cut or damaged"
         raise SessionError(
-            f"{path.stem} was {why} and cannot be recovered from itself; a backup may hold it "
-            "whole (`acus store restore`)"
+            sentence(
+                "{path_stem} was {reason} and cannot be recovered from itself; a backup may hold "
+                "it whole (`acus store restore`)",
+                path_stem=path.stem,
+                reason=why,
+            )
         )
 
 

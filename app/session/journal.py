@@ -24,6 +24,7 @@ from typing import Final
 
 from app.core.descriptors import hold_alone
 from app.core.files import remove, replace, step, sweep, sync, write_atomically
+from app.core.messages import sentence
 from app.core.temporary import name_of_process, process_has_gone, tells_processes
 from app.session.errors import SessionError
 
@@ -115,7 +116,11 @@ class Journal:
                 self._path.unlink(missing_ok=True)
                 self._path.parent.rmdir()
             raise SessionError(
-                f"cannot write in {self._folder}: {error.strerror or error}; nothing was changed"
+                sentence(
+                    "cannot write in {folder}: {error_strerror}; nothing was changed",
+                    folder=self._folder,
+                    error_strerror=error.strerror or error,
+                )
             ) from error
         return self
 
@@ -166,8 +171,12 @@ class Journal:
         except OSError as problem:
             if error is None:
                 raise SessionError(
-                    f"cannot change {problem.filename or self._folder}: "
-                    f"{problem.strerror or problem}; it is tried again at the next start"
+                    sentence(
+                        "cannot change {problem_filename}: "
+                        "{problem_strerror}; it is tried again at the next start",
+                        problem_filename=problem.filename or self._folder,
+                        problem_strerror=problem.strerror or problem,
+                    )
                 ) from problem
         finally:
             self._close()
@@ -197,8 +206,12 @@ class Journal:
             if time.monotonic() > end:
                 self._close()
                 raise SessionError(
-                    f"another program has been changing {self._folder} for {_PATIENCE:g} s: "
-                    "wait until it is done, then try again"
+                    sentence(
+                        "another program has been changing {folder} for {patience:g} s: "
+                        "wait until it is done, then try again",
+                        folder=self._folder,
+                        patience=_PATIENCE,
+                    )
                 )
             time.sleep(0.01)
 

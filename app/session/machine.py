@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import Final
 
 from app.core.errors import NumericalError
+from app.core.messages import sentence
 from app.session.errors import IllegalTransitionError
 
 
@@ -142,12 +143,22 @@ def advance(attempt: Attempt, event: AttemptEvent, time: float, reason: str = ""
     if target is None:
         names = ", ".join(legal(attempt.state)) or "none (the attempt is over: start a new one)"
         raise IllegalTransitionError(
-            f"'{event}' is not possible while {attempt.state}; possible: {names}"
+            sentence(
+                "'{event}' is not possible while {attempt_state}; possible: {names}",
+                event=event,
+                attempt_state=attempt.state,
+                names=names,
+            )
         )
     first = attempt.state is State.READY
     if not isfinite(time) or (not first and time < attempt.since):
         raise NumericalError(
-            f"'{event}' at {time} s lies before the last change at {attempt.since} s"
+            sentence(
+                "'{event}' at {time} s lies before the last change at {attempt_since} s",
+                event=event,
+                time=time,
+                attempt_since=attempt.since,
+            )
         )
     return replace(
         attempt,

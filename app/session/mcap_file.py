@@ -20,6 +20,7 @@ from mcap.writer import CompressionType, Writer
 from app import __version__
 from app.core.descriptors import hold, hold_alone
 from app.core.files import step
+from app.core.messages import sentence
 from app.session.blocks import COLUMNS, SLOT_NAMES
 from app.session.errors import RecordingError
 from app.session.header import Attachment, SessionHeader
@@ -345,10 +346,15 @@ class McapFile:
         self.abandon()
         if isinstance(error, FileExistsError):
             return RecordingError(
-                f"session {self._header.id} exists already ({self.path}): "
-                "every attempt needs its own id"
+                sentence(
+                    "session {header_id} exists already ({path}): every attempt needs its own id",
+                    header_id=self._header.id,
+                    path=self.path,
+                )
             )
-        return RecordingError(f"cannot record to {self.path}: {_reason(error)}")
+        return RecordingError(
+            sentence("cannot record to {path}: {reason}", path=self.path, reason=_reason(error))
+        )
 
     def message(self, topic: str, nanoseconds: int, data: bytes) -> None:
         """Append one message."""
@@ -402,7 +408,7 @@ class McapFile:
 
     def _open_writer(self) -> Writer:
         if self._writer is None:
-            raise RecordingError(f"the record {self.path} is not open")
+            raise RecordingError(sentence("the record {path} is not open", path=self.path))
         return self._writer
 
     def _write_head(self, writer: Writer) -> None:
@@ -426,7 +432,9 @@ class McapFile:
 
 def _make_folder(folder: Path) -> None:
     if folder.exists() and not folder.is_dir():
-        raise RecordingError(f"cannot record to {folder}: it is a file, not a folder")
+        raise RecordingError(
+            sentence("cannot record to {folder}: it is a file, not a folder", folder=folder)
+        )
     folder.mkdir(parents=True, exist_ok=True)
 
 

@@ -21,6 +21,7 @@ from app.core import paths
 from app.core.arrays import FloatArray, read_only
 from app.core.bend import Bend, needle_curve
 from app.core.files import write_atomically
+from app.core.messages import sentence
 from app.core.transform import rotation_between
 from app.core.units import MILLIMETRE
 from app.planning.needle_overlay import NeedleOverlay
@@ -235,7 +236,9 @@ class ShownMotion:
             if not kept or motion.time[row] - motion.time[kept[-1]] >= SHOWN_EVERY - 1e-9:
                 kept.append(row)
         if not kept or motion.time[kept[-1]] - motion.time[kept[0]] < 1.0:
-            raise SessionError("the cameras saw the needle for less than a second of this attempt")
+            raise SessionError(
+                sentence("the cameras saw the needle for less than a second of this attempt")
+            )
         path = motion.placed.axis
         return cls(
             exercise, version, motion.time[kept], motion.axis[kept], motion.depth[kept], path
@@ -294,7 +297,9 @@ def show_expert(exercise: str) -> None:
 
 def _shown_file(exercise: str) -> Path:
     if not re.fullmatch(r"[a-z0-9][a-z0-9-]{0,63}", exercise):
-        raise SessionError(f"{exercise!r} is no identifier of an exercise")
+        raise SessionError(
+            sentence("{exercise!r} is no identifier of an exercise", exercise=exercise)
+        )
     return paths.data() / "demonstrations" / f"{exercise}.json"
 
 

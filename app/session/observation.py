@@ -11,6 +11,7 @@ import numpy as np
 from app.core import state_vector as slots
 from app.core.arrays import FloatArray, read_only
 from app.core.events import Event, EventQueue
+from app.core.messages import sentence
 from app.device.faults import Fault
 from app.device.state import DeviceState
 from app.planning.off_path import Offset
@@ -113,10 +114,10 @@ class Observation:
         `simulated` hand a needle that swings in it is none either, the attempt pauses for it.
         """
         if self.device is None:
-            return "" if self.time - began < LOOP_LIMIT else "the loop does not run"
+            return "" if self.time - began < LOOP_LIMIT else sentence("the loop does not run")
         age = self.time - self.device.time
         if age > LOOP_LIMIT:
-            return f"the loop has stopped: its newest state is {age:.1f} s old"
+            return sentence("the loop has stopped: its newest state is {age:.1f} s old", age=age)
         if self.device.time <= began + GRACE:
             return ""
         if self.encoder:
@@ -247,9 +248,13 @@ class RobotAndCameras:
             NotReadyError: saying which.
         """
         if self._loop.latest().tick == 0:
-            raise NotReadyError("the robot is still starting: begin once it reports its pose")
+            raise NotReadyError(
+                sentence("the robot is still starting: begin once it reports its pose")
+            )
         if failed:
-            raise NotReadyError("the program has had a fault: close the exercise, open it again")
+            raise NotReadyError(
+                sentence("the program has had a fault: close the exercise, open it again")
+            )
 
     def take(self, fix: NeedleFix, placed: PlacedPlan) -> None:
         """Take a fix."""
@@ -330,9 +335,17 @@ class BreathWatch:
     def _change(self, before: BreathHold) -> str:
         now = self.now
         if now.held and not before.held:
-            return f"the patient holds the breath, for {now.left:.0f} s at most"
+            return sentence(
+                "the patient holds the breath, for {now_left:.0f} s at most", now_left=now.left
+            )
         if now.spent and not before.spent:
-            return "the patient could hold no longer and breathes: release him, and ask again"
+            return sentence(
+                "the patient could hold no longer and breathes: release him, and ask again"
+            )
         if now.asked != before.asked:
-            return "the patient is told to hold" if now.asked else "the patient may breathe"
+            return (
+                sentence("the patient is told to hold")
+                if now.asked
+                else sentence("the patient may breathe")
+            )
         return ""

@@ -25,6 +25,7 @@ from uuid import uuid4
 
 from app.core import paths
 from app.core.files import beside, step
+from app.core.messages import sentence
 from app.session.database import BUSY_SECONDS, Database, number, words
 from app.session.errors import PeopleError
 from app.session.journal import Journal, Step, move, removal, settle
@@ -141,7 +142,9 @@ class People:
         wrapped = StationKey.of(self.folder).wrapped(recovery)
         with self.database.write() as connection:
             if _setting(connection, "password"):
-                raise PeopleError("there is an instructor already: change the password instead")
+                raise PeopleError(
+                    sentence("there is an instructor already: change the password instead")
+                )
             _set(connection, "password", hashed_secret(password))
             _set(connection, "wrapped", json.dumps(wrapped))
         return recovery
@@ -158,7 +161,9 @@ class People:
         """
         known = self._setting("password")
         if not known:
-            raise PeopleError("no instructor is set: `acus people instructor` sets a password")
+            raise PeopleError(
+                sentence("no instructor is set: `acus people instructor` sets a password")
+            )
         return self._tries().compare(INSTRUCTOR, known, password)
 
     def change_password(self, old: str, new: str) -> str:
@@ -194,13 +199,18 @@ class People:
         _checked_password(new)
         wrapped = self.wrapped_key()
         if not wrapped:
-            raise PeopleError("no instructor is set: `acus people instructor` sets a password")
+            raise PeopleError(
+                sentence("no instructor is set: `acus people instructor` sets a password")
+            )
         if not opens(wrapped):
             raise PeopleError(
-                "this recovery key is one of an earlier build, in a form that is no longer read: "
-                "change the password with the one that holds (`acus people instructor`), which "
-                f"prints a new recovery key; if nobody knows it, move {self.folder / PEOPLE} away "
-                "and begin a new list of people"
+                sentence(
+                    "this recovery key is one of an earlier build, in a form that is no longer "
+                    "read: change the password with the one that holds (`acus people "
+                    "instructor`), which prints a new recovery key; if nobody knows it, move "
+                    "{folder} away and begin a new list of people",
+                    folder=self.folder / PEOPLE,
+                )
             )
         StationKey.unwrapped(wrapped, recovery)
         with self.database.write() as connection:
@@ -250,7 +260,11 @@ class People:
             if wanted in (person.pseudonym.casefold(), person.key):
                 return person
         some = ", ".join(person.pseudonym for person in everybody[:5]) or "nobody"
-        raise PeopleError(f"{pseudonym!r} is no student here; there: {some}")
+        raise PeopleError(
+            sentence(
+                "{pseudonym!r} is no student here; there: {some}", pseudonym=pseudonym, some=some
+            )
+        )
 
     def add(self, line: RosterLine) -> tuple[Person, str]:
         """Add one student; returns the PIN as well, drawn if the line has none.
@@ -262,7 +276,12 @@ class People:
         if report.errors:
             raise PeopleError(report.errors[0])
         if report.updated:
-            raise PeopleError(f"{line.pseudonym!r} is taken: choose another pseudonym")
+            raise PeopleError(
+                sentence(
+                    "{line_pseudonym!r} is taken: choose another pseudonym",
+                    line_pseudonym=line.pseudonym,
+                )
+            )
         return self.find(line.pseudonym), report.pins.get(line.pseudonym, line.pin)
 
     def take_roster(self, lines: Sequence[RosterLine], partly: bool = False) -> RosterReport:
@@ -343,7 +362,9 @@ class People:
 
         if not (self.folder / PEOPLE).exists():
             matches("", pin)
-            raise WrongPasswordError(f"{NO_SIGN_IN}: try again")  # and no file is made of it
+            raise WrongPasswordError(
+                sentence("{no_sign_in}: try again", no_sign_in=NO_SIGN_IN)
+            )  # and no file is made of it
         table = _tables().tables["persons"].c
         with self.database.read() as connection:
             pins = {str(k): str(p) for k, p in connection.execute(select(table.key, table.pin))}
@@ -490,11 +511,20 @@ class People:
         except FileNotFoundError:
             return {}
         except OSError as error:
-            raise PeopleError(f"cannot read {path}: {error.strerror or error}") from error
+            raise PeopleError(
+                sentence(
+                    "cannot read {path}: {error_strerror}",
+                    path=path,
+                    error_strerror=error.strerror or error,
+                )
+            ) from error
         except (ValueError, AttributeError, RecursionError) as error:
             raise PeopleError(
-                f"{path} is damaged: bring it back from a backup, or move it away to go on "
-                "without names"
+                sentence(
+                    "{path} is damaged: bring it back from a backup, or move it away to go on "
+                    "without names",
+                    path=path,
+                )
             ) from error
 
     @contextmanager
@@ -536,7 +566,11 @@ class People:
                 planned = True
         except OSError as error:
             raise PeopleError(
-                f"cannot write in {self.folder}: {error.strerror or error}; nothing was changed"
+                sentence(
+                    "cannot write in {folder}: {error_strerror}; nothing was changed",
+                    folder=self.folder,
+                    error_strerror=error.strerror or error,
+                )
             ) from error
         finally:
             if not planned:
@@ -550,7 +584,12 @@ def people_folder() -> Path:
 
 def _checked_password(password: str) -> None:
     if len(password) < _SHORTEST_PASSWORD:
-        raise PeopleError(f"a password needs at least {_SHORTEST_PASSWORD} characters")
+        raise PeopleError(
+            sentence(
+                "a password needs at least {shortest_password} characters",
+                shortest_password=_SHORTEST_PASSWORD,
+            )
+        )
 
 
 def _setting(connection: Connection, name: str) -> str:

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
+from app.core.messages import sentence, sentence_of
 from app.session.backup_file import ArchiveError
 from app.session.errors import PeopleError
 from app.session.people import OF_PERSON, VERSION, People, tables
@@ -55,11 +56,16 @@ def read_rows(path: Path, whose: str) -> PeopleRows:
             version = int(source.execute("PRAGMA user_version").fetchone()[0])
             if version > VERSION:
                 raise ArchiveError(
-                    f"the people of {whose} were written by a newer version of Acus: use that "
-                    "version; nothing was changed"
+                    sentence(
+                        "the people of {whose} were written by a newer version of Acus: use that "
+                        "version; nothing was changed",
+                        whose=whose,
+                    )
                 )
             if source.execute("PRAGMA quick_check").fetchone()[0] != "ok" or version < 1:
-                raise ArchiveError(_no_people(whose, "it is empty, or of another program"))
+                raise ArchiveError(
+                    _no_people(whose, sentence("it is empty, or of another program"))
+                )
             kinds = dict(source.execute("SELECT name, type FROM sqlite_master").fetchall())
             return PeopleRows(
                 {
@@ -69,7 +75,7 @@ def read_rows(path: Path, whose: str) -> PeopleRows:
                 }
             )
     except (sqlite3.Error, UnicodeError) as error:  # of a text, or of a name in its definition
-        raise ArchiveError(_no_people(whose, str(error))) from error
+        raise ArchiveError(_no_people(whose, sentence_of(error))) from error
 
 
 def merged(here: PeopleRows, there: PeopleRows) -> PeopleRows:
@@ -107,12 +113,17 @@ def untaken(of: PeopleRows, left: PeopleRows, whose: str) -> list[str]:
         whose: the first one is, such as "of the backup".
     """
     gone = left.ids("erased")
-    lines, persons = [], {str(row[0]): str(row[1]) for row in of.rows("persons")}
+    lines: list[str] = []
+    persons = {str(row[0]): str(row[1]) for row in of.rows("persons")}
     missing = [persons[key] for key in sorted(persons) if key not in left.ids("persons") | gone]
     if missing:
         shown = ", ".join(sorted(missing)[:_TOLD]) + (", …" if len(missing) > _TOLD else "")
         words = count_words(len(missing), "student", whose)
-        lines.append(f"{words} ({shown}): their attempts are nobody's here")
+        lines.append(
+            sentence(
+                "{words} ({shown}): their attempts are nobody's here", words=words, shown=shown
+            )
+        )
     there, known = _said(of), _said(left)
     lost = left.ids("erased_attempts")
     for place, word in enumerate(("comment", "void mark", "release")):
@@ -170,7 +181,7 @@ def _columns() -> dict[str, Sequence[str]]:
 
 def _is_table(kinds: Mapping[str, str], name: str, whose: str) -> bool:
     if kinds.get(name) != "table":
-        raise ArchiveError(_no_people(whose, f"it has no table {name!r}"))
+        raise ArchiveError(_no_people(whose, sentence("it has no table {name!r}", name=name)))
     return True
 
 
@@ -197,14 +208,22 @@ def _check_persons(persons: Sequence[tuple[str, str]], whose: str) -> None:
     names = set()
     for key, pseudonym in persons:
         if not looks_like_a_key(key):
-            raise ArchiveError(_no_people(whose, f"persons.key holds {key[:40]!r}"))
+            raise ArchiveError(
+                _no_people(whose, sentence("persons.key holds {key!r}", key=key[:40]))
+            )
         try:
             names.add(checked_pseudonym(pseudonym).casefold())
         except PeopleError as error:
-            raise ArchiveError(_no_people(whose, f"persons.pseudonym: {error}")) from error
+            raise ArchiveError(
+                _no_people(whose, sentence("persons.pseudonym: {error}", error=error))
+            ) from error
     if len(names) < len(persons):
-        raise ArchiveError(_no_people(whose, "persons.pseudonym holds one twice"))
+        raise ArchiveError(_no_people(whose, sentence("persons.pseudonym holds one twice")))
 
 
 def _no_people(whose: str, reason: str) -> str:
-    return f"the people of {whose} cannot be restored: {reason}; nothing was changed"
+    return sentence(
+        "the people of {whose} cannot be restored: {reason}; nothing was changed",
+        whose=whose,
+        reason=reason,
+    )

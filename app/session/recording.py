@@ -12,6 +12,7 @@ import numpy as np
 
 from app.core.arrays import read_only
 from app.core.events import Event
+from app.core.messages import sentence
 from app.planning.placement import PlacedPlan
 from app.scoring.trajectory import Trajectory
 from app.session.budget import LONGEST_WORD
@@ -114,7 +115,10 @@ class Recording:
         """
         if PLAN not in self.metadata:
             raise BrokenRecordingError(
-                f"{self.path.name} holds no plan: it was cut off at its beginning"
+                sentence(
+                    "{path_name} holds no plan: it was cut off at its beginning",
+                    path_name=self.path.name,
+                )
             )
         return placed_plan(self.metadata[PLAN])
 
@@ -179,7 +183,8 @@ def read_recording(path: Path) -> Recording:
     content = scan(path)
     if "session" not in content.metadata:
         raise BrokenRecordingError(
-            f"{path.name} holds no session: " + "; ".join(content.problems or ["not ours"])
+            sentence("{path_name} holds no session: ", path_name=path.name)
+            + "; ".join(content.problems or ["not ours"])
         )
     problems = content.problems
     samples = _columns(content, problems) or _samples(content, problems)

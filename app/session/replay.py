@@ -20,6 +20,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.build import BUILD, build, changes
+from app.core.messages import sentence
 from app.scoring.met import Met
 from app.scoring.risks import RiskMark
 from app.session.blocks import CABLES, CLOCK, INPUTS, JUDGED, LATER, SLOT_NAMES, WIRE
@@ -29,7 +30,7 @@ from app.session.digest import MEASURED, digests
 from app.session.effect_models import ModelChoice, choices_of
 from app.session.errors import ReplayError
 from app.session.recording import Recording
-from app.session.risks import event_of, risk_marks, sentence
+from app.session.risks import event_of, mark_sentence, risk_marks
 from app.session.ticks import Inputs
 from app.session.tissues import tissues_met
 
@@ -215,15 +216,27 @@ class ReplayReport:
         """Say it, one line each."""
         lines = [self._verdict()]
         if not self.every_slot:
-            lines.append("compared were only the slots that the record holds by value")
+            lines.append(sentence("compared were only the slots that the record holds by value"))
         for first, count in self.gaps:
-            lines.append(f"{count} ticks from tick {first} on are not in the record")
+            lines.append(
+                sentence(
+                    "{count} ticks from tick {first} on are not in the record",
+                    count=count,
+                    first=first,
+                )
+            )
         if self.gaps:
             left = self.recorded_ticks - self.ticks
-            lines.append(f"the replay ends there: {left} recorded ticks were not recomputed")
+            lines.append(
+                sentence(
+                    "the replay ends there: {left} recorded ticks were not recomputed", left=left
+                )
+            )
         lines += [f"another build: {change}" for change in self.changes]
         if self.changes and not self.identical:
-            lines.append("with another build, differences in the last digits are expected")
+            lines.append(
+                sentence("with another build, differences in the last digits are expected")
+            )
         return lines
 
     def document(self) -> dict[str, Any]:
@@ -244,21 +257,46 @@ class ReplayReport:
 
     def _verdict(self) -> str:
         if self.first_difference is None:
-            return f"identical over {self.ticks} ticks ({self.seconds:.1f} s)"
-        text = f"differs from tick {self.first_difference.tick} on: {_words(self.first_difference)}"
+            return sentence(
+                "identical over {ticks} ticks ({seconds:.1f} s)",
+                ticks=self.ticks,
+                seconds=self.seconds,
+            )
+        text = sentence(
+            "differs from tick {first_difference_tick} on: {words}",
+            first_difference_tick=self.first_difference.tick,
+            words=_words(self.first_difference),
+        )
         most = self.largest_difference
         if most is not None and most != self.first_difference:
-            text += f"; the largest difference is in tick {most.seen_at}: {_words(most)}"
+            text += sentence(
+                "; the largest difference is in tick {most_seen_at}: {words}",
+                most_seen_at=most.seen_at,
+                words=_words(most),
+            )
         return text
 
 
 def _words(difference: Difference) -> str:
     d = difference
     if not d.slot:
-        return f"at {d.time:.4f} s, in a slot that is not recorded in every tick"
-    where = "" if d.seen_at == d.tick else f" (as seen in tick {d.seen_at})"
+        return sentence(
+            "at {d_time:.4f} s, in a slot that is not recorded in every tick", d_time=d.time
+        )
+    where = (
+        ""
+        if d.seen_at == d.tick
+        else sentence(" (as seen in tick {d_seen_at})", d_seen_at=d.seen_at)
+    )
     size = f", by {d.size:.2g}" if isfinite(d.size) else ""
-    return f"{d.slot} was {d.recorded!r}, is now {d.recomputed!r}{size}{where}"
+    return sentence(
+        "{d_slot} was {d_recorded!r}, is now {d_recomputed!r}{size}{where}",
+        d_slot=d.slot,
+        d_recorded=d.recorded,
+        d_recomputed=d.recomputed,
+        size=size,
+        where=where,
+    )
 
 
 def _document(difference: Difference | None) -> dict[str, Any] | None:
@@ -331,18 +369,23 @@ def replay(
 def why_not(inputs: Inputs) -> str:
     """Return why a record cannot be replayed; empty if it can."""
     if inputs.checkpoint is None:
-        return "it holds no checkpoint of the loop: its beginning is damaged"
+        return sentence("it holds no checkpoint of the loop: its beginning is damaged")
     if not len(inputs.values):
-        return "it holds no tick of the loop"
+        return sentence("it holds no tick of the loop")
     tick, start = int(inputs.column("tick")[0]), inputs.checkpoint.checkpoint.tick
     if tick != start + 1:
-        return f"ticks {start + 1} to {tick - 1} are missing at its beginning"
+        return sentence(
+            "ticks {start} to {tick} are missing at its beginning", start=start + 1, tick=tick - 1
+        )
     missing = set(inputs.checkpoint.slots) ^ set(SLOT_NAMES)
     missing -= {SLOT_NAMES[slot] for slot in sv.SUMS + sv.SCENE}  # later ones: nobody wrote them
     missing -= set(LATER)  # nor gave these
     missing -= {SLOT_NAMES[slot] for slot in sv.MACHINE}  # of machines that it was not
     if missing:
-        return f"its program's state had other slots than this one's: {', '.join(sorted(missing))}"
+        return sentence(
+            "its program's state had other slots than this one's: {missing}",
+            missing=", ".join(sorted(missing)),
+        )
     return ""
 
 
@@ -350,7 +393,7 @@ def _replayable(inputs: Inputs) -> int:
     """Count the rows up to the first gap, or up to the loop's end (a row without a step)."""
     reason = why_not(inputs)
     if reason:
-        raise ReplayError(f"this record cannot be replayed: {reason}")
+        raise ReplayError(sentence("this record cannot be replayed: {reason}", reason=reason))
     tick, dt = inputs.column("tick"), inputs.column("dt")
     stops = np.flatnonzero((np.diff(tick, prepend=tick[0] - 1.0) != 1.0) | (dt == 0.0))
     return int(stops[0]) if len(stops) else len(tick)
@@ -369,7 +412,7 @@ def _states(
     inputs = recording.inputs
     recorded = inputs.checkpoint
     if recorded is None:
-        raise ReplayError(f"this record cannot be replayed: {why_not(inputs)}")
+        raise ReplayError(sentence("this record cannot be replayed: {not_}", not_=why_not(inputs)))
     values = np.zeros((len(inputs.values), len(given)))  # an input that came later was never given
     for place, name in enumerate(given):
         if name in inputs.columns:
@@ -377,7 +420,9 @@ def _states(
     rerun = Rerun(table_of(recording), recorded.in_order_of(SLOT_NAMES), given)
     choices = choices_of(recording.events)
     if choices and change is None:
-        raise ReplayError("this record cannot be replayed: models were chosen while it ran")
+        raise ReplayError(
+            sentence("this record cannot be replayed: models were chosen while it ran")
+        )
     begin = int(inputs.column("tick")[0])
     at = [min(max(choice.tick - begin, 0), rows) for choice in choices]
     edges = sorted({0, rows, *at})
@@ -431,21 +476,33 @@ class ReplayContents:
 
     def sentences(self) -> list[str]:
         """Say it, one line each."""
-        robot = "the simulated robot" if self.simulated else "a real robot"
+        robot = sentence("the simulated robot") if self.simulated else "a real robot"
         lines = [
-            f"{self.ticks} ticks ({self.seconds:.1f} s at {self.rate_hz:.0f} Hz) of {robot}, "
-            f"{self.missed} deadlines missed",
-            "can be replayed: add --check" if not self.why_not else f"no replay: {self.why_not}",
+            sentence(
+                "{ticks} ticks ({seconds:.1f} s at {rate_hz:.0f} Hz) of {robot}, "
+                "{missed} deadlines missed",
+                ticks=self.ticks,
+                seconds=self.seconds,
+                rate_hz=self.rate_hz,
+                robot=robot,
+                missed=self.missed,
+            ),
+            sentence("can be replayed: add --check")
+            if not self.why_not
+            else f"no replay: {self.why_not}",
         ]
         stages = ", ".join(f"{name} ({size})" for name, size in self.stages.items())
         lines.append(f"stages: {stages or 'not recorded'}")
         inputs = ", ".join(f"{name} ({count})" for name, count in self.changing.items())
-        lines.append(f"inputs that change (how often): {inputs or 'none'}")
-        lines += [f"{count} ticks from tick {first} on are missing" for first, count in self.gaps]
+        lines.append(sentence("inputs that change (how often): {inputs}", inputs=inputs or "none"))
+        lines += [
+            sentence("{count} ticks from tick {first} on are missing", count=count, first=first)
+            for first, count in self.gaps
+        ]
         if self.ct.recipe is not None:
             lines.append(f"CT {self.ct.pseudonym}: {self.ct.words()}")
         lines += [scan.sentence(self.origin) for scan in self.scans]
-        lines += [sentence(mark) for mark in self.risks]
+        lines += [mark_sentence(mark) for mark in self.risks]
         lines += [met.sentence for met in self.met or ()]
         build = ", ".join(f"{name} {value}" for name, value in self.build.items())
         return [*lines, f"build: {build or 'not recorded'}"]

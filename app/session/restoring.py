@@ -18,6 +18,7 @@ from uuid import uuid4
 
 from app.core import paths
 from app.core.files import read_at_most, write_atomically
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.session.backup_file import ArchiveError, Manifest, read_manifest, unpack
 from app.session.erasing import finish_erasing
@@ -137,10 +138,21 @@ def restore_backup(
                 _restore(at, key, replace_people, progress)
                 journal.plan([*at.steps, *map(removal, stages.values())])
     except (zipfile.BadZipFile, EOFError, NotImplementedError, RuntimeError) as error:
-        raise ArchiveError(f"{source} is no backup of Acus, or damaged: {error}") from error
+        raise ArchiveError(
+            sentence(
+                "{source} is no backup of Acus, or damaged: {error}", source=source, error=error
+            )
+        ) from error
     except OSError as error:
         why = error.strerror or error
-        raise ArchiveError(f"cannot restore {source}: {why} ({error.filename or ''})") from error
+        raise ArchiveError(
+            sentence(
+                "cannot restore {source}: {reason} ({error_filename})",
+                source=source,
+                reason=why,
+                error_filename=error.filename or "",
+            )
+        ) from error
     finish_erasing(folder, people)
     return at.done
 
@@ -270,7 +282,11 @@ def _names(at: _Restoring) -> dict[str, str]:
         document = json.loads(read_at_most(at.stage(name, at.people.folder), _LARGEST_NAMES))
         return {str(key): str(text) for key, text in document.items()}
     except (OSError, ValueError, AttributeError, RecursionError) as error:
-        raise ArchiveError(f"the names in {at.source} are damaged; nothing was changed") from error
+        raise ArchiveError(
+            sentence(
+                "the names in {at_source} are damaged; nothing was changed", at_source=at.source
+            )
+        ) from error
 
 
 def _names_here(folder: Path) -> dict[str, str]:

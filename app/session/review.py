@@ -12,6 +12,7 @@ from app.core.arrays import FloatArray
 from app.core.errors import AcusError
 from app.core.events import Event
 from app.core.loading import ONE_AT_A_TIME
+from app.core.messages import sentence
 from app.core.units import DEGREE
 from app.exercises.scene import scene_of
 from app.exercises.schema import Exercise
@@ -323,7 +324,7 @@ def _withheld(recording: Recording) -> str:
     check = judge_whole(recording.path, this_station())
     if check.verdict is not Signed.ALTERED:
         return ""
-    return f"altered after it was signed: {check.why}; it has no points"
+    return sentence("altered after it was signed: {check}; it has no points", check=check.why)
 
 
 def only_measured(figures: Curves, measured: NDArray[np.bool_]) -> Curves:
@@ -346,7 +347,9 @@ def review_of_result(result: AttemptResult) -> Review:
     recording = result.recording
     if recording is None or (result.record is None and result.trajectory is None):
         raise SessionError(
-            result.unscored or result.reason or "the attempt left nothing to show: no valid pose"
+            result.unscored
+            or result.reason
+            or sentence("the attempt left nothing to show: no valid pose")
         )
     return review(recording)
 

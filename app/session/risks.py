@@ -18,6 +18,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.bend import CURVE_POINTS, Bend, needle_curve
 from app.core.events import Event
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.planning.placement import PlacedPlan
 from app.scoring.errors import TrajectoryError
@@ -100,7 +101,7 @@ def event_of(mark: RiskMark) -> Event:
         "breach_mm": mark.breach_mm,
         "depth_mm": mark.depth_mm,
     } | ({} if mark.inside_s is None else {"inside_s": mark.inside_s})
-    return Event(mark.time, KIND, sentence(mark), data)
+    return Event(mark.time, KIND, mark_sentence(mark), data)
 
 
 def risk_marks(events: Iterable[Event]) -> tuple[RiskMark, ...]:
@@ -121,16 +122,26 @@ def risk_marks(events: Iterable[Event]) -> tuple[RiskMark, ...]:
     return tuple(found)
 
 
-def sentence(mark: RiskMark) -> str:
+def mark_sentence(mark: RiskMark) -> str:
     """Say it in one line."""
     place = (
-        f"{-mark.closest_mm:.1f} mm deep in {mark.name}"
+        sentence(
+            "{mark_closest_mm:.1f} mm deep in {mark_name}",
+            mark_closest_mm=-mark.closest_mm,
+            mark_name=mark.name,
+        )
         if mark.closest_mm <= 0.0
         else f"{mark.closest_mm:.1f} mm from {mark.name}"
     )
     kept = "too near" if mark.breach_mm > 0.0 else "kept"
     inside = f"; inside for {mark.inside_s:.1f} s" if mark.inside_s else ""
-    return f"needle {place} at the closest; limit {mark.limit_mm:g} mm: {kept}{inside}"
+    return sentence(
+        "needle {place} at the closest; limit {mark_limit_mm:g} mm: {stored}{inside}",
+        place=place,
+        mark_limit_mm=mark.limit_mm,
+        stored=kept,
+        inside=inside,
+    )
 
 
 def needles_in_body(samples: Samples, placed: PlacedPlan) -> tuple[Any, FloatArray, FloatArray]:

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Final
 
 from app.core.files import read_at_most
+from app.core.messages import sentence
 from app.session.errors import PeopleError
 from app.session.header import LONGEST_PSEUDONYM
 
@@ -37,7 +38,7 @@ def checked_pin(pin: str, whose: str = "") -> str:
         PeopleError: if it is none; begins with `whose`.
     """
     if not _PIN.fullmatch(pin):
-        raise PeopleError(f"{whose}a PIN has 4 to 12 digits")
+        raise PeopleError(sentence("{whose}a PIN has 4 to 12 digits", whose=whose))
     return pin
 
 
@@ -49,16 +50,30 @@ def checked_pseudonym(text: str) -> str:
     """
     found = text.strip()
     if not found:
-        raise PeopleError("the pseudonym is empty: give one")
+        raise PeopleError(sentence("the pseudonym is empty: give one"))
     if len(found) > LONGEST_PSEUDONYM:
-        raise PeopleError(f"the pseudonym {found[:20]!r}… has over {LONGEST_PSEUDONYM} characters")
+        raise PeopleError(
+            sentence(
+                "the pseudonym {result!r}… has over {longest_pseudonym} characters",
+                result=found[:20],
+                longest_pseudonym=LONGEST_PSEUDONYM,
+            )
+        )
     if not _PSEUDONYM.fullmatch(found) or ".." in found:
         raise PeopleError(
-            f"{found!r} cannot be a pseudonym: letters, digits, blanks and . _ @ + - only, "
-            "beginning with a letter or digit"
+            sentence(
+                "{result!r} cannot be a pseudonym: letters, digits, blanks and . _ @ + - only, "
+                "beginning with a letter or digit",
+                result=found,
+            )
         )
     if _KEY.fullmatch(found):
-        raise PeopleError(f"{found!r} looks like a key of this program: choose another pseudonym")
+        raise PeopleError(
+            sentence(
+                "{result!r} looks like a key of this program: choose another pseudonym",
+                result=found,
+            )
+        )
     return found
 
 
@@ -76,7 +91,13 @@ def roster_in(path: Path) -> tuple[list[RosterLine], list[str]]:
     try:
         return read_roster(read_at_most(path))
     except OSError as error:
-        raise PeopleError(f"cannot read {path}: {error.strerror or error}") from error
+        raise PeopleError(
+            sentence(
+                "cannot read {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
 
 
 def read_roster(data: bytes) -> tuple[list[RosterLine], list[str]]:
@@ -142,7 +163,11 @@ def judged_lines(lines: Sequence[RosterLine]) -> tuple[list[RosterLine], list[st
             if line.pin:
                 checked_pin(line.pin, f"{pseudonym}: ")
             if pseudonym.casefold() in good:
-                raise PeopleError(f"{pseudonym!r} stands there twice: delete one row")
+                raise PeopleError(
+                    sentence(
+                        "{pseudonym!r} stands there twice: delete one row", pseudonym=pseudonym
+                    )
+                )
             good[pseudonym.casefold()] = RosterLine(pseudonym, line.name, line.pin, line.groups)
         except PeopleError as error:
             errors.append(str(error))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from app.core.events import Event, EventQueue
+from app.core.messages import sentence
 from app.core.staleness import TRACKER_HOLD
 from app.imaging.scan_order import ScanOrder
 from app.session import control_scan, machine
@@ -49,17 +50,19 @@ class DepthLoss:
             self._since = pose.time if self._since is None else self._since
             if self._lost and pose.time - self._since >= STEADY:
                 self._lost = False
-                return "the cameras see the needle again: the depth is measured"
+                return sentence("the cameras see the needle again: the depth is measured")
             return ""
         was_measured, self._since = self._since is not None, None
         if pose.depth_source is DepthSource.MODEL and was_measured and not self._lost:
             self._lost = True
-            why = pose.doubt or (
-                f"the cameras have not seen the needle for {TRACKER_HOLD * 1e3:.0f} ms"
+            why = pose.doubt or sentence(
+                "the cameras have not seen the needle for {tracker_hold:.0f} ms",
+                tracker_hold=TRACKER_HOLD * 1e3,
             )
-            return (
-                f"{why}: from now on the depth is not measured, and the force is held back as if "
-                "the needle could be anywhere"
+            return sentence(
+                "{reason}: from now on the depth is not measured, and the force is held back "
+                "as if the needle could be anywhere",
+                reason=why,
             )
         return ""
 
@@ -119,7 +122,11 @@ class RunningAttempt:
         """
         if self.attempt.running:
             raise IllegalTransitionError(
-                f"{what} while {self.attempt.state}: end the attempt first"
+                sentence(
+                    "{what} while {attempt_state}: end the attempt first",
+                    what=what,
+                    attempt_state=self.attempt.state,
+                )
             )
 
     def begin(
@@ -207,7 +214,10 @@ class RunningAttempt:
         """
         if self.log is None or not self.attempt.running or self.withdrawing:
             raise IllegalTransitionError(
-                f"a control scan is not possible while {self.attempt.state}: begin an attempt first"
+                sentence(
+                    "a control scan is not possible while {attempt_state}: begin an attempt first",
+                    attempt_state=self.attempt.state,
+                )
             )
         number = self.log.scans + 1
         data: dict[str, object] = {"number": number}
@@ -239,7 +249,7 @@ class RunningAttempt:
         if paused:
             self._tell_pause("the attempt ended while it was paused", now, over=True)
         if self.log is None:
-            raise IllegalTransitionError("no attempt has begun")
+            raise IllegalTransitionError(sentence("no attempt has begun"))
         if seen is not None and seen.time >= (self.attempt.began or 0.0):
             self.log.sample(seen.sample(self.attempt.state, inputs))
         return self.log.finish(self.attempt)

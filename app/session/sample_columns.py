@@ -20,6 +20,7 @@ import zstandard
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, read_only
+from app.core.messages import sentence
 from app.session import columns
 from app.session.budget import LONGEST_WORD, ReadingBudget, decompressed
 from app.session.errors import BrokenRecordingError
@@ -74,12 +75,29 @@ def unpack(data: bytes, budget: ReadingBudget) -> Samples:
         BudgetExceededError: if they hold more than a record of its size may.
     """
     if len(data) < _HEADER.size or data[:4] != MAGIC:
-        raise BrokenRecordingError(f"{SAMPLES_FILE} does not begin with {MAGIC.decode()}")
+        raise BrokenRecordingError(
+            sentence(
+                "{samples_file} does not begin with {magic}",
+                samples_file=SAMPLES_FILE,
+                magic=MAGIC.decode(),
+            )
+        )
     _, version, length, checksum = _HEADER.unpack_from(data)
     if version != VERSION:
-        raise BrokenRecordingError(f"{SAMPLES_FILE} has version {version}, not {VERSION}")
+        raise BrokenRecordingError(
+            sentence(
+                "{samples_file} has version {version}, not {version_2}",
+                samples_file=SAMPLES_FILE,
+                version=version,
+                version_2=VERSION,
+            )
+        )
     if crc32(data[_HEADER.size :]) != checksum:
-        raise BrokenRecordingError(f"{SAMPLES_FILE} is damaged: its checksum is another")
+        raise BrokenRecordingError(
+            sentence(
+                "{samples_file} is damaged: its checksum is another", samples_file=SAMPLES_FILE
+            )
+        )
     try:
         packed = data[_HEADER.size :]
         size = zstandard.frame_content_size(packed)  # -1 where it does not say: that is not ours
@@ -91,7 +109,11 @@ def unpack(data: bytes, budget: ReadingBudget) -> Samples:
     except BrokenRecordingError:  # also that it is too large
         raise
     except _UNREADABLE as error:
-        raise BrokenRecordingError(f"{SAMPLES_FILE} cannot be read: {error}") from error
+        raise BrokenRecordingError(
+            sentence(
+                "{samples_file} cannot be read: {error}", samples_file=SAMPLES_FILE, error=error
+            )
+        ) from error
 
 
 def same(a: Samples, b: Samples) -> str:
@@ -115,7 +137,14 @@ def _read(document: dict[str, Any], data: bytes, budget: ReadingBudget) -> Sampl
     rows, known = int(document["rows"]), document["fields"]
     count = sum(int(width) for _, _, width in known)
     if rows < 0 or min((int(w) for *_, w in known), default=0) < 0 or (rows and not data):
-        raise ValueError(f"{rows} rows of {count} columns in {len(data)} bytes")
+        raise ValueError(
+            sentence(
+                "{rows} rows of {count} columns in {data_count} bytes",
+                rows=rows,
+                count=count,
+                data_count=len(data),
+            )
+        )
     budget.take(4 * LONGEST_WORD * rows * sum(kind == "word" for _, kind, _ in known))
     table = columns.decode(data, rows, count, budget)[0] if rows else np.zeros((0, count))
     values, at = {}, 0
@@ -126,7 +155,7 @@ def _read(document: dict[str, Any], data: bytes, budget: ReadingBudget) -> Sampl
     wanted = {field.name: field for field in fields(Samples)}
     missing = [n for n, f in wanted.items() if n not in values and f.default is MISSING]
     if missing:
-        raise ValueError(f"it lacks {', '.join(missing)}")
+        raise ValueError(sentence("it lacks {missing}", missing=", ".join(missing)))
     return Samples(**{name: value for name, value in values.items() if name in wanted})
 
 
@@ -134,7 +163,9 @@ def _array(part: FloatArray, kind: str, words: list[str]) -> NDArray[Any]:
     flat = part[:, 0] if part.shape[1] == 1 else part
     if kind == "word":
         if any(len(str(word)) > LONGEST_WORD for word in words):
-            raise ValueError(f"a word of more than {LONGEST_WORD} characters")
+            raise ValueError(
+                sentence("a word of more than {longest_word} characters", longest_word=LONGEST_WORD)
+            )
         texts = np.array([str(word) for word in words], dtype=np.str_)
         return read_only(texts[flat.astype(np.int64)] if len(flat) else texts[:0])
     if kind == "flag":

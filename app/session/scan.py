@@ -31,6 +31,7 @@ from mcap.writer import MCAP0_MAGIC
 from zstandard import ZstdError
 
 from app.core.configuration import LARGEST_FILE
+from app.core.messages import sentence
 from app.session.budget import OBJECT_BYTES, RECORD_BYTES, ReadingBudget, decompressed
 from app.session.errors import BrokenRecordingError
 from app.session.header import TISSUE_FILE
@@ -93,7 +94,13 @@ def scan(path: Path) -> FileContents:
                 else:
                     _sort(record, topics, result)
     except OSError as error:
-        raise BrokenRecordingError(f"cannot read {path}: {error.strerror or error}") from error
+        raise BrokenRecordingError(
+            sentence(
+                "cannot read {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
     # Only now: the index at the end repeats the channels, should the first chunk be damaged.
     result.messages = {topics[i]: data for i, data in payloads.items() if i in topics}
     return result
@@ -112,7 +119,13 @@ def scan_by_index(path: Path, topic: str) -> FileContents | None:
         with path.open("rb") as stream:
             return _indexed(stream, path, topic)
     except OSError as error:
-        raise BrokenRecordingError(f"cannot read {path}: {error.strerror or error}") from error
+        raise BrokenRecordingError(
+            sentence(
+                "cannot read {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
     except (_UnsoundError, *_UNREADABLE):
         return None
 
@@ -194,7 +207,7 @@ def _chunked(
         body = place + _FRAME.size
         place = body + length
         if place > len(data):
-            raise ValueError("a record in it is cut off")
+            raise ValueError(sentence("a record in it is cut off"))
         if opcode == Opcode.MESSAGE:
             channel_id = _MESSAGE.unpack_from(data, body)[0]
             if ids is None or channel_id in ids:
@@ -213,11 +226,16 @@ def _unpacked(chunk: Chunk, budget: ReadingBudget) -> bytes:
         budget.take(size)
         data = decompressed(data, size)
     elif chunk.compression:
-        raise ValueError(f"a chunk is compressed by {chunk.compression[:20]!r}, not zstd")
+        raise ValueError(
+            sentence(
+                "a chunk is compressed by {chunk_compression!r}, not zstd",
+                chunk_compression=chunk.compression[:20],
+            )
+        )
     if len(data) != size:
-        raise ValueError(f"a chunk does not hold the {size} bytes that it says")
+        raise ValueError(sentence("a chunk does not hold the {size} bytes that it says", size=size))
     if chunk.uncompressed_crc and crc32(data) != chunk.uncompressed_crc:
-        raise ValueError("its crc is another")
+        raise ValueError(sentence("its crc is another"))
     return data
 
 
@@ -225,7 +243,13 @@ def _check_magic(stream: IO[bytes], path: Path) -> None:
     magic = stream.read(len(MCAP0_MAGIC))
     if magic != MCAP0_MAGIC:
         found = magic.hex(" ") or "nothing"
-        raise BrokenRecordingError(f"{path.name} is not an MCAP file: it begins with {found}")
+        raise BrokenRecordingError(
+            sentence(
+                "{path_name} is not an MCAP file: it begins with {result}",
+                path_name=path.name,
+                result=found,
+            )
+        )
 
 
 def _records(
@@ -284,7 +308,9 @@ def _parse(frame: bytes, offset: int, problems: list[str]) -> list[McapRecord]:
 
 def _damaged(offset: int, error: Exception) -> str:
     text = " ".join(str(error).split()) or type(error).__name__
-    return f"the record at byte {offset} is damaged and left out: {text}"
+    return sentence(
+        "the record at byte {offset} is damaged and left out: {text}", offset=offset, text=text
+    )
 
 
 def _sort(record: McapRecord, topics: dict[int, str], result: FileContents) -> None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.planning.placement import PlacedPlan
 from app.scoring.met import Met
@@ -86,7 +87,7 @@ def trajectory(
     )
     pointed: NDArray[np.bool_] = np.asarray(np.isfinite(samples.axis).all(axis=1))
     if not (rising & pointed).any():
-        raise SessionError("no sample of this attempt has a direction of the needle")
+        raise SessionError(sentence("no sample of this attempt has a direction of the needle"))
     tip, depth = samples.tip, samples.depth
     if not placed_at.any():
         tip, depth = np.broadcast_to(placed.p_entry, tip.shape), np.zeros(len(depth))

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.device.readiness import ForceClearance
 from app.device.state import DeviceState
@@ -126,11 +127,14 @@ def unmeasured(pose: NeedlePose) -> str:
     """Say that nobody measures the depth now, why, and what follows from it."""
     why = f" ({pose.doubt})" if pose.doubt else ""
     if not (isfinite(pose.depth_least) and isfinite(pose.depth_most)):
-        return f"depth not measured{why}"
+        return sentence("depth not measured{reason}", reason=why)
     low, high = pose.depth_least / MILLIMETRE, pose.depth_most / MILLIMETRE
-    return (
-        f"depth not measured{why}: it may be anywhere from {low:.0f} to {high:.0f} mm, and the "
-        "force is held back for the worst of it"
+    return sentence(
+        "depth not measured{reason}: it may be anywhere from {low:.0f} to {high:.0f} mm, and "
+        "the force is held back for the worst of it",
+        reason=why,
+        low=low,
+        high=high,
     )
 
 
@@ -170,15 +174,27 @@ def advice(
     if fix_status in _FIX_TEXT:
         found.append(_FIX_TEXT[fix_status])
     if pose.bends:
-        found.append(f"the needle bends: its tip is {pose.deflection * 1e3:.1f} mm off its line")
+        found.append(
+            sentence(
+                "the needle bends: its tip is {pose_deflection:.1f} mm off its line",
+                pose_deflection=pose.deflection * 1e3,
+            )
+        )
     if pose.depth_source is DepthSource.ONE_CAMERA:
-        found.append("depth from one camera and the needle's line: less exact")
+        found.append(sentence("depth from one camera and the needle's line: less exact"))
     elif pose.depth_source is DepthSource.HELD:
-        found.append(f"depth held for {pose.depth_age * 1e3:.0f} ms")
+        found.append(
+            sentence("depth held for {pose_depth_age:.0f} ms", pose_depth_age=pose.depth_age * 1e3)
+        )
     elif pose.depth_source is DepthSource.MODEL:
         found.append(unmeasured(pose))
     if recording is not None and recording.lost_rows:
-        found.append(f"{recording.lost_rows} ticks of the loop were not recorded")
+        found.append(
+            sentence(
+                "{recording_lost_rows} ticks of the loop were not recorded",
+                recording_lost_rows=recording.lost_rows,
+            )
+        )
     return tuple(found)
 
 

@@ -18,6 +18,7 @@ from typing import Any, Final
 from app.core import paths
 from app.core.files import beside as new_name_beside
 from app.core.files import step, write_atomically
+from app.core.messages import sentence
 from app.session.errors import SessionError
 
 _RECOVERY_BYTES: Final = 20
@@ -56,13 +57,20 @@ class StationKey:
             return cls(str(document["station"]), bytes.fromhex(document["secret"]))
         except OSError as error:
             raise SignatureError(
-                f"the station's key {path} cannot be used: {error.strerror or error}; attempts "
-                "stay unsigned until it can be read"
+                sentence(
+                    "the station's key {path} cannot be used: {error_strerror}; attempts "
+                    "stay unsigned until it can be read",
+                    path=path,
+                    error_strerror=error.strerror or error,
+                )
             ) from error
         except (ValueError, LookupError, TypeError) as error:
             raise SignatureError(
-                f"the station's key {path} is damaged: bring it back with `acus store restore` "
-                "and the recovery key, or move it away for a new one"
+                sentence(
+                    "the station's key {path} is damaged: bring it back with `acus store "
+                    "restore` and the recovery key, or move it away for a new one",
+                    path=path,
+                )
             ) from error
 
     def seal(self, document: Mapping[str, Any]) -> str:
@@ -105,23 +113,25 @@ class StationKey:
 
         if document and not opens(document):
             raise SignatureError(
-                "the station's key in this backup was sealed by an earlier build, in a form that "
-                "is no longer read: change the password where it was made (`acus people "
-                "instructor`), which prints a new recovery key, and make the backup again; or "
-                "restore it without `--key`, and admit its attempts"
+                sentence(
+                    "the station's key in this backup was sealed by an earlier build, in a form "
+                    "that is no longer read: change the password where it was made (`acus people "
+                    "instructor`), which prints a new recovery key, and make the backup again; "
+                    "or restore it without `--key`, and admit its attempts"
+                )
             )
         try:
             station, salt = str(document["station"]), bytes.fromhex(document["salt"])
             nonce, sealed = bytes.fromhex(document["nonce"]), bytes.fromhex(document["sealed"])
             if len(nonce) != _NONCE_BYTES:
-                raise ValueError(f"a nonce of {len(nonce)} bytes")
+                raise ValueError(sentence("a nonce of {nonce_count} bytes", nonce_count=len(nonce)))
         except (ValueError, LookupError, TypeError) as error:
-            raise SignatureError("the station's key in this backup is damaged") from error
+            raise SignatureError(sentence("the station's key in this backup is damaged")) from error
         try:
             secret = AESGCM(_stretched(recovery, salt)).decrypt(nonce, sealed, _context(station))
         except InvalidTag as error:
             raise SignatureError(
-                "that is not the recovery key that was printed: type it again"
+                sentence("that is not the recovery key that was printed: type it again")
             ) from error
         return cls(station, secret)
 
@@ -137,7 +147,13 @@ class StationKey:
             write_atomically(path, json.dumps(document) + "\n")
             path.chmod(0o600)
         except OSError as error:
-            raise SignatureError(f"cannot write {path}: {error.strerror or error}") from error
+            raise SignatureError(
+                sentence(
+                    "cannot write {path}: {error_strerror}",
+                    path=path,
+                    error_strerror=error.strerror or error,
+                )
+            ) from error
 
 
 def opens(document: Mapping[str, str]) -> bool:
@@ -220,6 +236,6 @@ def _stretched(recovery: str, salt: bytes) -> bytes:
     return hashlib.scrypt(raw, salt=salt, **_SCRYPT)
 
 
-_NO_RECOVERY_KEY: Final = (
+_NO_RECOVERY_KEY: Final = sentence(
     "a recovery key has eight groups of four letters and digits: type it again"
 )

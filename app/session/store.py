@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
+from app.core.messages import sentence
 from app.core.paths import sessions
 from app.session.admission import Admission, admissions, with_admission
 from app.session.calibration_flag import CalibrationFlags
@@ -73,7 +74,12 @@ def find(folder: Path, session_id: str) -> Path:
         return names[fitting[0]]
     what = "fits several sessions" if fitting and session_id else "is no session"
     raise SessionNotFoundError(
-        f"{session_id!r} {what} in {folder}: `acus session list` says which there are"
+        sentence(
+            "{session_id!r} {what} in {folder}: `acus session list` says which there are",
+            session_id=session_id,
+            what=what,
+            folder=folder,
+        )
     )
 
 
@@ -87,7 +93,12 @@ def delete(folder: Path, session_id: str) -> Path:
     settled(folder)
     path = find(folder, session_id)
     if under_way(path):
-        raise SessionError(f"{path.stem} is being recorded: end its attempt first, or wait 10 s")
+        raise SessionError(
+            sentence(
+                "{path_stem} is being recorded: end its attempt first, or wait 10 s",
+                path_stem=path.stem,
+            )
+        )
     with suppress(OSError):
         os.utime(sidecar(path))  # its time tells from now on when the record was deleted
     return _move(path, folder / TRASH, folder)
@@ -139,7 +150,11 @@ def records_folder(chosen: Path | None) -> Path:
     if chosen is None:
         return settled(sessions())
     if not chosen.is_dir():
-        raise SessionError(f"{chosen} is not a folder: give the folder that holds the records")
+        raise SessionError(
+            sentence(
+                "{chosen} is not a folder: give the folder that holds the records", chosen=chosen
+            )
+        )
     return settled(chosen)
 
 
@@ -154,7 +169,13 @@ def records(folder: Path) -> list[Path]:
     except FileNotFoundError:
         return []
     except OSError as error:
-        raise SessionError(f"cannot read the folder {folder}: {error.strerror or error}") from error
+        raise SessionError(
+            sentence(
+                "cannot read the folder {folder}: {error_strerror}",
+                folder=folder,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
 
 
 def beside(path: Path) -> tuple[Path, ...]:
@@ -176,12 +197,14 @@ def _move(path: Path, to: Path, folder: Path) -> Path:
     """Move a record with what stands beside it as one step of the folder of the records."""
     target = to / path.name
     if target.exists():
-        raise SessionError(f"{target} exists already: move it away first")
+        raise SessionError(sentence("{target} exists already: move it away first", target=target))
     with Journal(folder) as journal:
         steps = [move(a, b) for a, b in zip(beside(path), beside(target), strict=True)]
         try:
             journal.plan(steps)
         except OSError as error:
             why = error.strerror or error
-            raise SessionError(f"cannot move {path} to {to}: {why}") from error
+            raise SessionError(
+                sentence("cannot move {path} to {to}: {reason}", path=path, to=to, reason=why)
+            ) from error
     return target

@@ -11,6 +11,7 @@ import numpy as np
 from app import __version__
 from app.core.disclaimer import DISCLAIMER
 from app.core.json_values import finite
+from app.core.messages import sentence
 from app.scoring.conditions import Conditions
 from app.scoring.result import Score
 from app.session.machine import FINAL, State
@@ -99,7 +100,13 @@ class Summary:
                 document.
         """
         if document["version"] != _VERSION:
-            raise ValueError(f"version {document['version']!r}; only {_VERSION} is known")
+            raise ValueError(
+                sentence(
+                    "version {version!r}; only {version_2} is known",
+                    version=document["version"],
+                    version_2=_VERSION,
+                )
+            )
         exercise, score, known = document["exercise"], document["score"], document["conditions"]
         return cls(
             id=name,
@@ -153,7 +160,7 @@ def document_of(score: Score) -> Mapping[str, Any]:
 def checked_score(document: Any) -> Mapping[str, Any]:
     """Return a score that lists and tables can be made of; raises ValueError if it is none."""
     if not conforms(document, SCORE):
-        raise ValueError("not a stored score")
+        raise ValueError(sentence("not a stored score"))
     return MappingProxyType(document)
 
 

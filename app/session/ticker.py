@@ -5,6 +5,8 @@ import time
 from collections.abc import Callable
 from typing import Final
 
+from app.core.messages import sentence
+
 LONGEST_S: Final = 2.0
 """From here on [s] an attempt cannot go on: nobody knows what the needle did meanwhile."""
 
@@ -56,9 +58,10 @@ class Standstill:
 
 def standstill_words(seconds: float) -> str:
     """Say why the attempt ends."""
-    return (
-        f"the computer or the program slept for {seconds:.1f} s: what the needle did meanwhile is "
-        "not known"
+    return sentence(
+        "the computer or the program slept for {seconds:.1f} s: what the needle did "
+        "meanwhile is not known",
+        seconds=seconds,
     )
 
 

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, read_only
+from app.core.messages import sentence
 from app.session import blocks, checkpoint_file
 from app.session.blocks import TickBlock
 from app.session.checkpoint_file import RecordedCheckpoint
@@ -45,7 +46,11 @@ class Inputs:
         """
         if name not in self.columns:
             raise BrokenRecordingError(
-                f"no slot {name!r} in this record; it has {', '.join(self.columns)}"
+                sentence(
+                    "no slot {name!r} in this record; it has {columns}",
+                    name=name,
+                    columns=", ".join(self.columns),
+                )
             )
         result: FloatArray = self.values[:, self.columns.index(name)]
         return result

@@ -194,12 +194,12 @@ def _touching(field: TissueField, way: _Way, crossed: list[Crossed]) -> list[Cro
     along = np.concatenate([[0.0], np.cumsum(lengths)])
     around = way.places[:, None, :] + CONTACT_MM * directions(_PROBES)
     codes = field.codes_at(around.reshape(-1, 3)).reshape(len(along), _PROBES)
-    near = np.isin(codes, bones)
+    near = np.asarray(np.isin(codes, bones))
     for part in crossed:
         if part.code in bones:  # lain in, and told already
             inside = (along >= part.begin_mm - 1.0) & (along <= part.end_mm + 1.0)
             near[inside] = False
-    touched = near.any(axis=1)
+    touched = np.asarray(near.any(axis=1))
     first = np.flatnonzero(touched & ~np.concatenate([[False], touched[:-1]]))
     found = list(crossed)
     for n in first.tolist():
@@ -256,13 +256,13 @@ def _by_shaft(
     rows: NDArray[np.intp],
     lines: FloatArray,
     held: set[int],
-    found: list[Met],
+    by_tip: list[Met],
 ) -> list[Met]:
     """Return what shafts lie in that no tip has met, the longest of each tissue."""
     chosen = different_needles(lines)
     if len(chosen) > SHAFTS:
         chosen = chosen[np.linspace(0, len(chosen) - 1, SHAFTS).astype(np.intp)]
-    known = {(met.kind, met.name) for met in found}
+    known = {(met.kind, met.name) for met in by_tip}
     longest: dict[int, Met] = {}
     for n in chosen.tolist():
         row = int(rows[n])

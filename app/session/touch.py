@@ -6,6 +6,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray, frozen
 from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.tracking.fix import FixStatus, NeedleFix
 
@@ -86,8 +87,13 @@ class TouchCollector:
         count = len(self._fixes)
         if count < FEWEST:
             raise TouchError(
-                f"only {count} of {count + self._refused} fixes could be used, {FEWEST} are "
-                "needed: keep the marker in both pictures and hold still"
+                sentence(
+                    "only {count} of {count_2} fixes could be used, {fewest} are "
+                    "needed: keep the marker in both pictures and hold still",
+                    count=count,
+                    count_2=count + self._refused,
+                    fewest=FEWEST,
+                )
             )
         points = np.array([fix.p_tip_world for fix in self._fixes])
         mean = points.mean(axis=0)
@@ -95,8 +101,11 @@ class TouchCollector:
         spread = float(np.sqrt(np.mean(np.sum((points - mean) ** 2, axis=1))))
         if spread > max(STILL, 3.0 * float(np.sqrt(np.trace(noise)))):
             raise TouchError(
-                f"the tip moved by {spread / MILLIMETRE:.1f} mm while it was measured: rest it in "
-                "the mark and hold still for a second"
+                sentence(
+                    "the tip moved by {spread_mm:.1f} mm while it was measured: rest it in "
+                    "the mark and hold still for a second",
+                    spread_mm=spread / MILLIMETRE,
+                )
             )
         whole = np.mean([fix.covariance for fix in self._fixes], axis=0)
         scatter = np.cov(points.T)

@@ -10,6 +10,7 @@ from app.core.clock import Clock, SystemClock
 from app.core.errors import AcusError
 from app.core.events import EventQueue
 from app.core.latest import Latest
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.exercises.locks import Lock
 from app.imaging.field import TissueField
@@ -269,8 +270,11 @@ class Trainer:
             now = self._clock.now()
             if not self._running.attempt.running:
                 raise IllegalTransitionError(
-                    f"nobody can take the needle over while {self._running.attempt.state}: no "
-                    "attempt is running"
+                    sentence(
+                        "nobody can take the needle over while {running_attempt_state}: no "
+                        "attempt is running",
+                        running_attempt_state=self._running.attempt.state,
+                    )
                 )
             pose = self._sources.newest(self._placed, now).pose
             depth = float(pose.depth) if pose.measured else None
@@ -296,8 +300,12 @@ class Trainer:
         """
         if Lock.ASSISTANCE in self._exercise.locked:
             raise ControlLockedError(
-                f"exercise {self._exercise.id} keeps the assistance at {self._dial:g}; it can be "
-                "turned in exercises that do not lock it"
+                sentence(
+                    "exercise {exercise_id} keeps the assistance at {dial:g}; it can be "
+                    "turned in exercises that do not lock it",
+                    exercise_id=self._exercise.id,
+                    dial=self._dial,
+                )
             )
         self._inputs.assist(value)
 
@@ -324,8 +332,11 @@ class Trainer:
         """
         if Lock.MODELS in self._exercise.locked:
             raise ControlLockedError(
-                f"exercise {self._exercise.id} keeps the models by which its effects are computed; "
-                "they can be chosen in exercises that do not lock them"
+                sentence(
+                    "exercise {exercise_id} keeps the models by which its effects are computed; "
+                    "they can be chosen in exercises that do not lock them",
+                    exercise_id=self._exercise.id,
+                )
             )
         with self._lock:
             choice = ModelChoice(change(self._loop), effect, model)
@@ -340,8 +351,11 @@ class Trainer:
         """
         if self._breath is None:
             raise SessionError(
-                f"the patient of exercise {self._exercise.id} does not hold the breath on command; "
-                "breathing with `model: on_command` does"
+                sentence(
+                    "the patient of exercise {exercise_id} does not hold the breath on command; "
+                    "breathing with `model: on_command` does",
+                    exercise_id=self._exercise.id,
+                )
             )
         self._inputs.hold_breath(held)
 

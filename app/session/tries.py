@@ -14,6 +14,7 @@ from functools import cache
 from hashlib import blake2b
 from typing import TYPE_CHECKING, Final
 
+from app.core.messages import sentence
 from app.session.database import Database, DatabaseError
 from app.session.errors import PeopleError
 
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
 INSTRUCTOR: Final = "the instructor"
 """The account of the password."""
-NO_SIGN_IN: Final = "pseudonym or PIN is wrong"
+NO_SIGN_IN: Final = sentence("pseudonym or PIN is wrong")
 
 _FREE_TRIES: Final = 3
 _FIRST_DELAY, _LONGEST_DELAY = 5.0, 300.0
@@ -79,14 +80,20 @@ class Tries:
             if not error.unwritable:
                 raise
             early, count, right = self._compared_here(account, known, given)
-            why = f"{error}; until then wrong tries are not kept"
+            why = sentence("{error}; until then wrong tries are not kept", error=error)
         if early > 0.0:
-            raise WrongPasswordError(f"too many wrong tries: wait {early:.0f} s, then try again")
+            raise WrongPasswordError(
+                sentence("too many wrong tries: wait {early:.0f} s, then try again", early=early)
+            )
         if right:
             return why
         wait = _delay(count)
-        more = f": wait {wait:.0f} s before the next try" if wait else ": try again"
-        what = "the password is wrong" if account == INSTRUCTOR else NO_SIGN_IN
+        more = (
+            sentence(": wait {wait:.0f} s before the next try", wait=wait)
+            if wait
+            else ": try again"
+        )
+        what = sentence("the password is wrong") if account == INSTRUCTOR else NO_SIGN_IN
         raise WrongPasswordError(what + more)
 
     def _compared_in_file(self, account: str, known: str, given: str) -> tuple[float, int, bool]:

@@ -13,6 +13,7 @@ from typing import Any, Final
 from pydantic import ValidationError
 
 from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.scoring.conditions import Conditions
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import ScoreFormatError
@@ -48,7 +49,12 @@ class Change:
 
     def sentence(self) -> str:
         """Say it in one line."""
-        return f"{self.what}: {_word(self.written)} written, {_word(self.recomputed)} by the record"
+        return sentence(
+            "{what}: {word} written, {word_2} by the record",
+            what=self.what,
+            word=_word(self.written),
+            word_2=_word(self.recomputed),
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,32 +109,50 @@ class Verification:
         if not self.finished or (self.written is None and self.recomputed is None):
             return ()
         if self.cut:
-            return ("the score cannot be computed again: not all samples are in the record",)
+            return (
+                sentence("the score cannot be computed again: not all samples are in the record"),
+            )
         if self.written is not None and not self.same_rules:
             now = _points(self.recomputed) if self.recomputed is not None else "no score"
             return (
-                f"scored by version {self.written.version}: {_points(self.written)}, by today's "
-                f"rules: {now}",
+                sentence(
+                    "scored by version {written_version}: {points}, by today's rules: {now}",
+                    written_version=self.written.version,
+                    points=_points(self.written),
+                    now=now,
+                ),
             )
         if self.confirmed:
             return ()
         most = "; ".join(change.sentence() for change in self.changes[:3])
         more = f"; and {len(self.changes) - 3} more" if len(self.changes) > 3 else ""
-        return (f"the score in this record is not what its samples give: {most}{more}",)
+        return (
+            sentence(
+                "the score in this record is not what its samples give: {most}{more}",
+                most=most,
+                more=more,
+            ),
+        )
 
     def sentences(self) -> list[str]:
         """Say all of it, one line each."""
         if not self.finished:
-            return ["the attempt was not finished: it has no score to verify"]
+            return [sentence("the attempt was not finished: it has no score to verify")]
         remarks = [] if self.same_rules and not self.cut else [*self.remarks()]
         if not self.same_rules:
-            known = f"this program has the rules of version {SCORING_VERSION} only"
-            remarks.append(f"it cannot be checked: {known}")
+            known = sentence(
+                "this program has the rules of version {scoring_version} only",
+                scoring_version=SCORING_VERSION,
+            )
+            remarks.append(sentence("it cannot be checked: {known}", known=known))
         if not self.confirmed:
             cut = (self.cut,) if self.cut else ()
             return [*remarks, *cut, *(change.sentence() for change in self.changes)]
         if self.recomputed is None:
-            return [*remarks, f"not scored, as written: {self.unscored}"]
+            return [
+                *remarks,
+                sentence("not scored, as written: {unscored}", unscored=self.unscored),
+            ]
         rows = len(self.recomputed.rows)
         return [*remarks, f"confirmed: {_points(self.recomputed)}, {rows} metrics"]
 

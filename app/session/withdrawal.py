@@ -14,6 +14,7 @@ from math import hypot, isfinite
 from typing import Final
 
 from app.core import state_vector as sv
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.device.state import DeviceState
 from app.session.inputs import LoopInputs
@@ -184,10 +185,12 @@ class Withdrawal:
             return ""
         if not (pose.measured and pose.depth > 0.0 and tip_outside(pose) is Outside.NO):
             return ""
-        return (
-            f"the cameras saw the tip {pose.depth / MILLIMETRE:.0f} mm inside the skin "
-            f"{now - self._confirmed:.1f} s after you said that the needle is out; withdraw it and "
-            "begin again"
+        return sentence(
+            "the cameras saw the tip {pose_depth_mm:.0f} mm inside the skin "
+            "{now:.1f} s after you said that the needle is out; withdraw it and "
+            "begin again",
+            pose_depth_mm=pose.depth / MILLIMETRE,
+            now=now - self._confirmed,
         )
 
     def stop(self) -> None:

@@ -6,6 +6,7 @@ Views and metrics declare in their own files what they read; whoever compiles ha
 from dataclasses import dataclass
 from typing import Final
 
+from app.core.messages import sentence
 from app.core.state_vector import slots_named
 from app.simulation.errors import SimulationError
 
@@ -71,8 +72,12 @@ class DevicePort:
         unknown = sorted(set(self.renders) - set(DEVICE_AXES))
         if unknown:
             raise SimulationError(
-                f"device {self.name!r} renders {unknown[0]!r}; "
-                f"known axes are {', '.join(DEVICE_AXES)}"
+                sentence(
+                    "device {name!r} renders {unknown_first!r}; known axes are {device_axes}",
+                    name=self.name,
+                    unknown_first=unknown[0],
+                    device_axes=", ".join(DEVICE_AXES),
+                )
             )
 
     def consumers(self) -> tuple[Consumer, ...]:

@@ -14,6 +14,7 @@ import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.parameters import Stage
 from app.simulation.consumers import IN_WORDS, Consumer, DevicePort
 from app.simulation.effects import Effect, array_of, declaration, load
@@ -131,8 +132,12 @@ class SimulationPlan:
         bound = float(module.energy_bound(self.stage(stored)[2]))
         if not 0.0 <= bound < math.inf:
             raise SimulationError(
-                f"effect {stored.name}: energy_bound is {bound} J; give a finite number of 0 or"
-                " more"
+                sentence(
+                    "effect {stored_name}: energy_bound is {bound} J; give a finite number of 0 "
+                    "or more",
+                    stored_name=stored.name,
+                    bound=bound,
+                )
             )
         return bound
 
@@ -207,9 +212,13 @@ def _senseless(request: EffectRequest, declared: Effect, scene: Scene) -> str:
     """Return why the scene itself has no use for an effect; empty if it has."""
     for need in declared.needs:
         if not getattr(scene, need):
-            return f"dropped: it needs {need}, and the scene has none"
+            return sentence("dropped: it needs {need}, and the scene has none", need=need)
     if request.organ and scene.target_organ and request.organ != scene.target_organ:
-        return f"dropped: it acts on {request.organ}, and the target lies in {scene.target_organ}"
+        return sentence(
+            "dropped: it acts on {request_organ}, and the target lies in {scene_target_organ}",
+            request_organ=request.organ,
+            scene_target_organ=scene.target_organ,
+        )
     return ""
 
 
@@ -234,24 +243,31 @@ def _demanded(
 
 
 def _feeds(name: str) -> str:
-    return f"effect {name} builds on it"
+    return sentence("effect {name} builds on it", name=name)
 
 
 def _because(declared: Effect, consumers: tuple[str, ...]) -> str:
-    return f"simulated: it gives {_in_words(declared.gives)}; {'; '.join(consumers)}"
+    return sentence(
+        "simulated: it gives {in_words}; {consumers}",
+        in_words=_in_words(declared.gives),
+        consumers="; ".join(consumers),
+    )
 
 
 def _nobody(declared: Effect, device: DevicePort) -> str:
     if declared.pictures:
-        return (
+        return sentence(
             "dropped: it changes the pictures of simulated cameras, and there are none: the"
             " cameras are real, and so are their pictures"
         )
     axes = ", ".join(sorted(device.renders)) or "no"
-    return (
-        f"dropped: it gives {_in_words(declared.writes)}, and nobody asks for that: device "
-        f"{device.name} renders {axes} force, and no view that is shown, no metric that is scored "
-        "and no other effect needs it"
+    return sentence(
+        "dropped: it gives {in_words}, and nobody asks for that: device {device_name} "
+        "renders {axes} force, and no view that is shown, no metric that is scored and no "
+        "other effect needs it",
+        in_words=_in_words(declared.writes),
+        device_name=device.name,
+        axes=axes,
     )
 
 
@@ -259,7 +275,9 @@ def _in_words(slots: Sequence[str]) -> str:
     """Say what slots hold, each thing once; the axes of one vector are one thing."""
     stems = [name[:-2] if name.endswith(("_x", "_y", "_z")) else name for name in slots]
     words = [IN_WORDS.get(stem, stem.replace("_", " ")) for stem in stems]
-    named = [word for word in dict.fromkeys(words) if word] or ["nothing but its own account"]
+    named = [word for word in dict.fromkeys(words) if word] or [
+        sentence("nothing but its own account")
+    ]
     return " and ".join([", ".join(named[:-1]), named[-1]] if len(named) > 1 else named)
 
 
@@ -282,5 +300,8 @@ def _ordered(stored: dict[str, Effect]) -> list[str]:
     except CycleError as error:
         circle = " -> ".join(error.args[1])
         raise SimulationError(
-            f"effects need each other's results in a circle: {circle}; take one of them out"
+            sentence(
+                "effects need each other's results in a circle: {circle}; take one of them out",
+                circle=circle,
+            )
         ) from error

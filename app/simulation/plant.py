@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import unit
+from app.core.messages import sentence
 from app.core.parameters import Stage, packed
 from app.mechanisms import hand_motion
 from app.mechanisms.errors import MechanismError
@@ -45,7 +46,11 @@ class SimulatedHand:
         for name in self.__slots__:
             if not (np.isfinite(getattr(self, name)) and getattr(self, name) >= 0.0):
                 raise SimulationError(
-                    f"hand {name} is {getattr(self, name)}; give a finite value of 0 or more"
+                    sentence(
+                        "hand {name} is {value}; give a finite value of 0 or more",
+                        name=name,
+                        value=getattr(self, name),
+                    )
                 )
 
 
@@ -79,13 +84,22 @@ def initial_plant(profile: DeviceProfile, axis: ArrayLike, depth: float) -> dict
     """
     direction, machine = unit(axis, "axis"), profile.machine
     if direction[2] >= 0.0:
-        raise SimulationError(f"needle direction {direction.tolist()} does not point down")
+        raise SimulationError(
+            sentence(
+                "needle direction {direction} does not point down", direction=direction.tolist()
+            )
+        )
     try:
         left, right = machine.usable(direction).tolist()
     except MechanismError as error:
         raise SimulationError(
-            f"device {profile.name} cannot hold the needle along {direction.tolist()}; "
-            f"its tilt limit is {profile.tilt_limit_deg:g} degrees"
+            sentence(
+                "device {profile_name} cannot hold the needle along {direction}; "
+                "its tilt limit is {profile_tilt_limit_deg:g} degrees",
+                profile_name=profile.name,
+                direction=direction.tolist(),
+                profile_tilt_limit_deg=profile.tilt_limit_deg,
+            )
         ) from error
     low, high = profile.depth_range
     return {

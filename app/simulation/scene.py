@@ -10,6 +10,7 @@ import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, frozen
+from app.core.messages import sentence
 from app.simulation.errors import SimulationError
 
 SETTLING: Final = 1.0
@@ -87,22 +88,39 @@ class TissueLayer:
             value = getattr(self, quantity)
             if not (np.isfinite(value) and value >= 0.0):
                 raise SimulationError(
-                    f"layer {self.name!r}: {quantity} is {value}; give a finite value of 0 or more"
+                    sentence(
+                        "layer {name!r}: {quantity} is {value}; give a finite value of 0 or more",
+                        name=self.name,
+                        quantity=quantity,
+                        value=value,
+                    )
                 )
         if self.moves is not None and not 0.0 <= self.moves <= 1.0:
             raise SimulationError(
-                f"layer {self.name!r}: moves is {self.moves}; give a share from 0 to 1, or leave it"
-                " out"
+                sentence(
+                    "layer {name!r}: moves is {moves}; give a share from 0 to 1, or leave it out",
+                    name=self.name,
+                    moves=self.moves,
+                )
             )
         if self.relaxation_share >= 1.0 or self.relaxation_time == 0.0:
             raise SimulationError(
-                f"layer {self.name!r}: relaxation_share is {self.relaxation_share} and "
-                f"relaxation_time {self.relaxation_time}; give 0 to below 1, and above 0 s"
+                sentence(
+                    "layer {name!r}: relaxation_share is {relaxation_share} and "
+                    "relaxation_time {relaxation_time}; give 0 to below 1, and above 0 s",
+                    name=self.name,
+                    relaxation_share=self.relaxation_share,
+                    relaxation_time=self.relaxation_time,
+                )
             )
         if self.puncture_force > 0.0 and self.indentation(self.puncture_force) == np.inf:
             raise SimulationError(
-                f"layer {self.name!r}: a membrane that is punctured at {self.puncture_force} N "
-                "needs an indentation_stiffness or indentation_hardening above 0"
+                sentence(
+                    "layer {name!r}: a membrane that is punctured at {puncture_force} N "
+                    "needs an indentation_stiffness or indentation_hardening above 0",
+                    name=self.name,
+                    puncture_force=self.puncture_force,
+                )
             )
 
     def indentation(self, force: float) -> float:
@@ -123,12 +141,20 @@ def check_order(layers: Sequence[TissueLayer]) -> None:
     for above, below in pairwise(layers):
         if above.rigid:
             raise SimulationError(
-                f"layer {below.name!r} lies below {above.name!r}, which is rigid: the needle stops "
-                "there; let the rigid layer be the last one"
+                sentence(
+                    "layer {below_name!r} lies below {above_name!r}, which is rigid: the needle "
+                    "stops there; let the rigid layer be the last one",
+                    below_name=below.name,
+                    above_name=above.name,
+                )
             )
         if below.name.strip().casefold() == "skin":
             raise SimulationError(
-                f"layer 'skin' lies below {above.name!r}; layers are given from the skin inwards"
+                sentence(
+                    "layer 'skin' lies below {above_name!r}; layers are given from the skin "
+                    "inwards",
+                    above_name=above.name,
+                )
             )
 
 
@@ -143,7 +169,13 @@ class Needle:
         for quantity in ("length", "outer_diameter"):
             value = getattr(self, quantity)
             if not (np.isfinite(value) and value > 0.0):
-                raise SimulationError(f"needle {quantity} is {value}; give a finite value above 0")
+                raise SimulationError(
+                    sentence(
+                        "needle {quantity} is {value}; give a finite value above 0",
+                        quantity=quantity,
+                        value=value,
+                    )
+                )
 
 
 SKIN: Final = TissueLayer(
@@ -249,7 +281,9 @@ class Scene:
     def __post_init__(self) -> None:
         rotation = frozen(self.R_world_patient, (3, 3), "R_world_patient")
         if np.abs(rotation @ rotation.T - np.eye(3)).max() > 1e-6:
-            raise SimulationError(f"R_world_patient {rotation.tolist()} is not a rotation")
+            raise SimulationError(
+                sentence("R_world_patient {rotation} is not a rotation", rotation=rotation.tolist())
+            )
         object.__setattr__(self, "R_world_patient", rotation)
         check_order(self.layers)
         if self.has_field and not self.tissues:
@@ -260,7 +294,12 @@ class Scene:
         names = [request.name for request in self.effects]
         twice = sorted({name for name in names if names.count(name) > 1})
         if twice:
-            raise SimulationError(f"effect {twice[0]!r} stands twice in the scene; name it once")
+            raise SimulationError(
+                sentence(
+                    "effect {twice_first!r} stands twice in the scene; name it once",
+                    twice_first=twice[0],
+                )
+            )
 
     @property
     def shares_moved(self) -> tuple[float, ...]:

@@ -23,6 +23,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.core.messages import sentence
 from app.simulation.errors import SimulationError
 
 
@@ -159,5 +160,11 @@ def find_skill(skill: str | Skill) -> Skill:
     if isinstance(skill, Skill):
         return skill
     if skill not in SKILLS:
-        raise SimulationError(f"there is no skill {skill!r}; there are {', '.join(SKILLS)}")
+        raise SimulationError(
+            sentence(
+                "there is no skill {skill!r}; there are {skills}",
+                skill=skill,
+                skills=", ".join(SKILLS),
+            )
+        )
     return SKILLS[skill]

@@ -14,6 +14,7 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray, read_only, unit
+from app.core.messages import sentence
 from app.simulation.errors import SimulationError
 from app.simulation.skills import Skill, find_skill
 from app.simulation.trainee import (
@@ -81,8 +82,12 @@ def write_touch_script(
     depths = np.linalg.norm(ways, axis=-1)
     if not len(ways) or not (depths > radius).all():
         raise SimulationError(
-            f"targets to be touched lie {depths.tolist()} m deep; each must lie deeper than their"
-            f" radius of {radius} m"
+            sentence(
+                "targets to be touched lie {depths} m deep; each must lie deeper than their"
+                " radius of {radius} m",
+                depths=depths.tolist(),
+                radius=radius,
+            )
         )
     random = np.random.default_rng([seed, 2])
     basis = tangent_basis(way)

@@ -20,6 +20,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, read_only, unit
 from app.core.compiled import njit, stage
+from app.core.messages import sentence
 from app.core.parameters import Stage, numbered, packed
 from app.mechanisms.hand_motion import grip_direction
 from app.simulation.errors import SimulationError
@@ -91,7 +92,9 @@ def write_script(axis: FloatArray, depth: float, skill: Skill, seed: int) -> Tra
         SimulationError: if the depth is not a finite length above zero.
     """
     if not (np.isfinite(depth) and depth > 0.0):
-        raise SimulationError(f"the target lies at depth {depth} m; it must be above 0")
+        raise SimulationError(
+            sentence("the target lies at depth {depth} m; it must be above 0", depth=depth)
+        )
     random = np.random.default_rng([seed, 1])
     basis = tangent_basis(unit(axis, "axis"))
     moves = _moves(unit(axis, "axis"), basis, depth, skill, random)
@@ -270,7 +273,7 @@ def trainee_stage(
         SimulationError: for an unknown skill, a depth not above 0 or a speed outside 0.05-20.
     """
     if not 0.05 <= speed <= 20.0:
-        raise SimulationError(f"speed factor is {speed}; give 0.05 to 20")
+        raise SimulationError(sentence("speed factor is {speed}; give 0.05 to 20", speed=speed))
     script = write_script(axis, depth, find_skill(skill), seed)
     told = packed(_HOLDS, depth=depth) if holds else np.zeros(0)
     return Stage("trainee", step, _parameters(script, unit(axis, "axis"), speed, told))
@@ -297,7 +300,7 @@ def traced_script(
     """
     numbers = np.column_stack([time, axes, depth])
     if len(numbers) < 2 or not np.isfinite(numbers).all():
-        raise SimulationError("a movement to be shown needs two finite samples at least")
+        raise SimulationError(sentence("a movement to be shown needs two finite samples at least"))
     basis = tangent_basis(unit(axis, "axis"))
     e1, e2 = tangents(axes, unit(axis, "axis"), basis)
     hover = round(1.0 / STEP)  # the hand comes to where the movement begins

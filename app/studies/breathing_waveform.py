@@ -12,6 +12,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
+from app.core.messages import sentence
 from app.simulation.effects import breathing
 from app.simulation.effects.breathing import lujan
 from app.studies.in_use import called
@@ -113,7 +114,9 @@ def _run(often: Callable[..., None], phases: FloatArray, by: Any) -> Prepared:
 def _by_cosines(case: Case) -> Prepared:
     phases, shape = case.data
     if shape != int(shape):
-        raise ValueError(f"n = {shape:g} is no whole number: the sum has no end")
+        raise ValueError(
+            sentence("n = {shape:g} is no whole number: the sum has no end", shape=shape)
+        )
     return _run(_cosines_often, phases, weights_of(int(shape)))
 
 

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from app.core.messages import sentence
 from app.studies.errors import StudyError
 
 Cell = str | float | int
@@ -27,12 +28,24 @@ class Sheet:
 
     def __post_init__(self) -> None:
         if len(set(self.columns)) != len(self.columns):  # files keep a row as heading: value
-            raise StudyError(f"table {self.name}: two of its headings are alike: {self.columns}")
+            raise StudyError(
+                sentence(
+                    "table {name}: two of its headings are alike: {columns}",
+                    name=self.name,
+                    columns=self.columns,
+                )
+            )
         for row in self.rows:
             if len(row) != len(self.columns):
                 raise StudyError(
-                    f"table {self.name}: a row has {len(row)} cells, there are "
-                    f"{len(self.columns)} headings: {row}"
+                    sentence(
+                        "table {name}: a row has {row_count} cells, there are "
+                        "{columns_count} headings: {row}",
+                        name=self.name,
+                        row_count=len(row),
+                        columns_count=len(self.columns),
+                        row=row,
+                    )
                 )
 
 
@@ -66,7 +79,7 @@ class Findings:
 
 
 def _nothing(*_: Any) -> Findings:
-    raise StudyError("this survey has no measure=...; see 'How to add a study'")
+    raise StudyError(sentence("this survey has no measure=...; see 'How to add a study'"))
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,6 +11,7 @@ from pkgutil import iter_modules
 from typing import Any, Final
 
 from app.core import plugin_folders
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.studies import hard_cases
 from app.studies.errors import StudyError
@@ -51,9 +52,13 @@ def cases() -> tuple[HardCase, ...]:
             gathered += getattr(module, "CASES", ())
     called = [case.name for case in gathered]
     if twice := sorted({name for name in called if called.count(name) > 1}):
-        raise StudyError(f"two hard cases are called {twice[0]!r}; rename one")
+        raise StudyError(
+            sentence("two hard cases are called {twice_first!r}; rename one", twice_first=twice[0])
+        )
     if bare := set(SUBSYSTEMS) - {case.subsystem for case in gathered}:
-        raise StudyError(f"subsystems without a hard case: {', '.join(sorted(bare))}")
+        raise StudyError(
+            sentence("subsystems without a hard case: {bare}", bare=", ".join(sorted(bare)))
+        )
     return tuple(sorted(gathered, key=lambda case: SUBSYSTEMS.index(case.subsystem)))
 
 

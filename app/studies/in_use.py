@@ -8,6 +8,7 @@ from collections.abc import Callable
 from inspect import signature
 from typing import Any
 
+from app.core.messages import sentence
 from app.studies.errors import StudyError
 
 
@@ -23,7 +24,13 @@ def called(caller: Callable[..., Any], name: str) -> object:
     """
     function: Any = getattr(caller, "py_func", caller)
     if name not in function.__code__.co_names or name not in function.__globals__:
-        raise StudyError(f"{function.__qualname__} does not call {name}")
+        raise StudyError(
+            sentence(
+                "{function_qualname} does not call {name}",
+                function_qualname=function.__qualname__,
+                name=name,
+            )
+        )
     return function.__globals__[name]
 
 
@@ -35,5 +42,9 @@ def default_of(caller: Callable[..., Any], parameter: str) -> object:
     """
     found = signature(getattr(caller, "py_func", caller)).parameters.get(parameter)
     if found is None or found.default is found.empty:
-        raise StudyError(f"{caller!r} has no default for {parameter}")
+        raise StudyError(
+            sentence(
+                "{caller!r} has no default for {parameter}", caller=caller, parameter=parameter
+            )
+        )
     return found.default

@@ -18,6 +18,7 @@ from typing import Any, Final
 from app import __version__
 from app.core import plugin_folders
 from app.core.files import write_atomically
+from app.core.messages import sentence
 from app.studies.errors import StudyError
 from app.studies.findings import Findings, Sheet
 from app.studies.rule import departure, sweet_spot
@@ -78,7 +79,13 @@ def kept(name: str) -> Kept:
     """
     path = place(name)
     if not path.is_file():
-        raise StudyError(f"no table of study {name!r} is kept; there are {', '.join(kept_names())}")
+        raise StudyError(
+            sentence(
+                "no table of study {name!r} is kept; there are {names}",
+                name=name,
+                names=", ".join(kept_names()),
+            )
+        )
     return read(path)
 
 
@@ -108,8 +115,13 @@ def read(path: Path) -> Kept:
         return Kept(_result(data), **data["measured"])
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise StudyError(
-            f"{path} is no table of a study ({type(error).__name__}: {error}); "
-            "write it anew with: acus study NAME --write"
+            sentence(
+                "{path} is no table of a study ({error_type}: {error}); "
+                "write it anew with: acus study NAME --write",
+                path=path,
+                error_type=type(error).__name__,
+                error=error,
+            )
         ) from error
 
 
@@ -201,8 +213,8 @@ def _findings(data: dict[str, Any]) -> Findings | None:
 
 
 def _cannot(case: Case) -> Prepared:
-    raise StudyError("a kept table cannot be measured again; run the study of its name")
+    raise StudyError(sentence("a kept table cannot be measured again; run the study of its name"))
 
 
 def _no_case(setting: Setting) -> Case:
-    raise StudyError("a kept table cannot be measured again; run the study of its name")
+    raise StudyError(sentence("a kept table cannot be measured again; run the study of its name"))

@@ -14,6 +14,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import STAGE_TYPE, njit
+from app.core.messages import sentence
 from app.simulation.consumers import DevicePort
 from app.simulation.effects import lateral_tissue as effect
 from app.simulation.errors import SimulationError
@@ -62,7 +63,13 @@ def beam_moment(k: float, ei: float, depth: float, turn: float) -> float:
     """
     if not (k > 0.0 and ei > 0.0 and 0.0 <= depth < np.inf):
         raise SimulationError(
-            f"a beam needs k > 0, EI > 0 and depth >= 0; given k = {k}, EI = {ei}, depth = {depth}"
+            sentence(
+                "a beam needs k > 0, EI > 0 and depth >= 0; given k = {k}, EI = {ei}, depth = "
+                "{depth}",
+                k=k,
+                ei=ei,
+                depth=depth,
+            )
         )
     beta = (k / (4.0 * ei)) ** 0.25
     z = beta * depth

@@ -18,6 +18,7 @@ import numpy as np
 from app.core import plugin_folders
 from app.core.arrays import FloatArray, cross, unit
 from app.core.compiled import njit
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.core.units import DEGREE, MILLIMETRE
 from app.mechanisms.errors import MechanismError
@@ -138,7 +139,10 @@ def _pantograph() -> ComparedMachine:
     def tool(d: FloatArray) -> FloatArray:
         if np.hypot(d[0], d[1]) > -d[2] * np.tan(profile.tilt_limit) * (1.0 + 1e-12):
             raise MechanismError(
-                f"unreachable: the ball joint stops at {profile.tilt_limit_deg:g}° of tilt"
+                sentence(
+                    "unreachable: the ball joint stops at {profile_tilt_limit_deg:g}° of tilt",
+                    profile_tilt_limit_deg=profile.tilt_limit_deg,
+                )
             )
         return np.asarray(foot - d[:2] / d[2] * height)
 

@@ -29,6 +29,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.studies.findings import Findings, Sheet
 from app.studies.in_use import called
@@ -263,7 +264,13 @@ def _places(
     pixels = gather(image, outline, blur_px, noise_grey)
     count = len(pixels.places)
     if not seen or count == 0:
-        raise TrackingError(f"camera {model.name} has no picture of a band at {p_camera} m")
+        raise TrackingError(
+            sentence(
+                "camera {model_name} has no picture of a band at {p_camera} m",
+                model_name=model.name,
+                p_camera=p_camera,
+            )
+        )
     ground, every = np.zeros((count, 2 * SIDE)), np.arange(count)
     for k in range(3):
         ground[every, pixels.first + k] += pixels.weights[:, k]
@@ -344,7 +351,13 @@ def _shot(
     true = model.pixel(scene.p_world)
     shift = centroid_shift(model, rig.needle.shape, scene.p_world, scene.axis_world)
     if true is None or shift is None:
-        raise TrackingError(f"camera {model.name} does not see the band at {scene.p_world}")
+        raise TrackingError(
+            sentence(
+                "camera {model_name} does not see the band at {scene_p_world}",
+                model_name=model.name,
+                scene_p_world=scene.p_world,
+            )
+        )
     noisy = clean + rng.normal(0.0, rig.noise_grey, clean.shape)
     bound = position_bound(at, renderer.band(scene), model, scene.p_world, rig.noise_grey)
     joint = joint_bound(

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from app.core.extras import not_installed
+from app.core.messages import sentence
 from app.studies.errors import StudyError
 from app.studies.findings import Figure
 from app.studies.study import Point, Result
@@ -61,7 +62,9 @@ def _save(figure: Any, path: Path) -> Path:
         with _matplotlib()[1].rc_context(own):
             figure.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)
     except (OSError, ValueError) as error:
-        raise StudyError(f"cannot write the picture {path}: {error}") from error
+        raise StudyError(
+            sentence("cannot write the picture {path}: {error}", path=path, error=error)
+        ) from error
     return path
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.core.plugins import TEXT, Declaration, PluginKind
 from app.core.progress import Progress
 from app.studies.errors import StudyError
@@ -55,7 +56,11 @@ def find_study(name: str) -> Study | Survey:
     found = getattr(KIND.load(declared), "STUDY", None)
     if not isinstance(found, Study | Survey):
         raise StudyError(
-            f"study file {declared.path} must define STUDY, a Study or Survey of {name!r}"
+            sentence(
+                "study file {declared_path} must define STUDY, a Study or Survey of {name!r}",
+                declared_path=declared.path,
+                name=name,
+            )
         )
     return replace(
         found,
@@ -101,7 +106,12 @@ def run(
     """
     chosen = find_study(study) if isinstance(study, str) else study
     if not isinstance(chosen, Study):
-        raise StudyError(f"study {chosen.name} has no ways to time; examine() runs a survey")
+        raise StudyError(
+            sentence(
+                "study {chosen_name} has no ways to time; examine() runs a survey",
+                chosen_name=chosen.name,
+            )
+        )
     lent = _lent(chosen, lend)
     points: list[Point] = []
     failures: list[Failure] = []
@@ -141,9 +151,19 @@ def examine(
     """
     chosen = find_study(survey) if isinstance(survey, str) else survey
     if not isinstance(chosen, Survey):
-        raise StudyError(f"study {chosen.name} compares ways by time; run() runs it")
+        raise StudyError(
+            sentence(
+                "study {chosen_name} compares ways by time; run() runs it", chosen_name=chosen.name
+            )
+        )
     if inputs and not chosen.inputs:
-        raise StudyError(f"study {chosen.name} takes no folders; leave {inputs[0]} out")
+        raise StudyError(
+            sentence(
+                "study {chosen_name} takes no folders; leave {inputs_first} out",
+                chosen_name=chosen.name,
+                inputs_first=inputs[0],
+            )
+        )
     measure = (chosen.quick if quick else None) or chosen.measure
     given = (inputs,) if inputs else ()
     return SurveyResult(chosen, measure(progress, *given, *_lent(chosen, lend)))
@@ -153,8 +173,12 @@ def _lent(chosen: Study | Survey, lend: Callable[[str], Any] | None) -> tuple[An
     """Return what a study borrows; refuse one that does where nobody lends."""
     if chosen.borrows and lend is None:
         raise StudyError(
-            f"study {chosen.name} needs {', '.join(chosen.borrows)} from a room above; "
-            f"run it by: acus study {chosen.name}"
+            sentence(
+                "study {chosen_name} needs {chosen_borrows} from a room above; "
+                "run it by: acus study {chosen_name}",
+                chosen_name=chosen.name,
+                chosen_borrows=", ".join(chosen.borrows),
+            )
         )
     return tuple(lend(name) for name in chosen.borrows) if lend is not None else ()
 
@@ -165,7 +189,7 @@ def _point(
     prepared = way.prepare(case)
     error = float(case.error(prepared.run()))  # the warm-up: compiles, fills caches
     if not math.isfinite(error):
-        raise StudyError(f"its result is not finite (error {error})")
+        raise StudyError(sentence("its result is not finite (error {error})", error=error))
     seconds = statistics.median(_timed(prepared, clock) for _ in range(repeats))
     return Point(
         way.name,

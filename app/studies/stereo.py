@@ -10,6 +10,7 @@ from typing import Any, Final
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.studies.findings import Figure, Findings, Sheet
 from app.studies.in_use import called
@@ -64,7 +65,13 @@ def _rays(rig: RigProfile, pixels: FloatArray) -> tuple[FloatArray, FloatArray]:
     for i, model in enumerate(rig.models):
         found = normalised(model, pixels[i], _SIGMAS[i] ** 2 * np.eye(2))
         if found is None:
-            raise ValueError(f"no ray of camera {model.name} for {pixels[i]}")
+            raise ValueError(
+                sentence(
+                    "no ray of camera {model_name} for {pixels}",
+                    model_name=model.name,
+                    pixels=pixels[i],
+                )
+            )
         rays[i], covariances[i] = found
     return rays, covariances
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from app.core.messages import sentence
 from app.studies.errors import StudyError
 from app.studies.findings import Findings
 
@@ -117,12 +118,23 @@ class Study:
         for kind, items in (("way", self.ways), ("setting", self.settings)):
             names = [item.name for item in items]
             if not names or len(set(names)) != len(names):
-                raise StudyError(f"study {self.name}: each {kind} needs a name of its own: {names}")
+                raise StudyError(
+                    sentence(
+                        "study {name}: each {kind} needs a name of its own: {names}",
+                        name=self.name,
+                        kind=kind,
+                        names=names,
+                    )
+                )
         ways = [way.name for way in self.ways]
         if self.default not in ways:
             raise StudyError(
-                f"study {self.name}: its default {self.default!r} is no way; "
-                f"there are {', '.join(ways)}"
+                sentence(
+                    "study {name}: its default {default!r} is no way; there are {ways}",
+                    name=self.name,
+                    default=self.default,
+                    ways=", ".join(ways),
+                )
             )
 
 

@@ -95,6 +95,6 @@ STUDY: Final = Study(
         "app.compose.trial:Trials",
         "app.compose.trial:attempt",
         "app.compose.trial:trial_plan",
-        "app.compose.trial:run_trial",
+        "app.compose.skill_scores:run_trial",
     ),
 )

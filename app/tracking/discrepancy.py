@@ -23,6 +23,7 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.tracking.following import Following, following
 
@@ -53,31 +54,38 @@ SWAPPED: Final = (
 
 def bent(size: float) -> str:
     """Speak of a needle that bends by so much at the deepest [m]."""
-    return f"the needle bends: up to {size / MILLIMETRE:.1f} mm off its line at the band"
+    return sentence(
+        "the needle bends: up to {size_mm:.1f} mm off its line at the band",
+        size_mm=size / MILLIMETRE,
+    )
 
 
 def lean(turn: float) -> str:
     """Speak of an axis by the cameras that is turned from the robot's [rad]."""
-    return (
-        f"the cameras see the needle turned by {np.degrees(turn):.1f}° from the robot's direction: "
-        "home the robot again, then run the daily check"
+    return sentence(
+        "the cameras see the needle turned by {turn_deg:.1f}° from the robot's direction: "
+        "home the robot again, then run the daily check",
+        turn_deg=np.degrees(turn),
     )
 
 
 def unclear(rms: float) -> str:
     """Speak of a distance beside the line [m] without a cause."""
-    return (
-        f"the cameras see the needle {rms / MILLIMETRE:.1f} mm beside the robot's line: move it "
-        "through its whole depth to tell a bent needle from a camera that was moved"
+    return sentence(
+        "the cameras see the needle {rms_mm:.1f} mm beside the robot's line: move it "
+        "through its whole depth to tell a bent needle from a camera that was moved",
+        rms_mm=rms / MILLIMETRE,
     )
 
 
 def slipped(slip: float) -> str:
     """Speak of a marker that is off along the needle [m]."""
-    where = "towards the tip" if slip > 0.0 else "towards the hub"
-    return (
-        f"the tip touches known places {abs(slip) / MILLIMETRE:.1f} mm from where the cameras see "
-        f"it: the marker has slipped {where}; set it back to its mark"
+    where = sentence("towards the tip") if slip > 0.0 else sentence("towards the hub")
+    return sentence(
+        "the tip touches known places {slip_mm:.1f} mm from where the cameras see "
+        "it: the marker has slipped {where}; set it back to its mark",
+        slip_mm=abs(slip) / MILLIMETRE,
+        where=where,
     )
 
 

@@ -17,7 +17,3 @@ class CameraError(TrackingError):
 
 class CalibrationError(TrackingError):
     """Pictures, boards or files from which no calibration can be had."""
-
-
-class PenError(TrackingError):
-    """A pen with printed markers that cannot be described, found or calibrated."""

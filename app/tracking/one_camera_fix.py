@@ -16,6 +16,7 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray, read_only
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
 from app.tracking.confidence import chi_square_quantile
@@ -153,34 +154,56 @@ class OneCameraSolver:
             outline: whether the pixel is the centroid of the outline; else the band's centre.
         """
         name, other = self._models[camera].name, self._models[1 - camera].name
-        lost = f"the marker is out of view of the {other} camera"
+        lost = sentence("the marker is out of view of the {other} camera", other=other)
         point = self._point(camera, uv, covariance, axis, np.zeros(2))
         if outline and point is not None and point.status is RayStatus.FOUND:
             shift = centroid_shift(self._models[camera], self._shape, point.p_world, axis)
             point = shift if shift is None else self._point(camera, uv, covariance, axis, shift)
         if point is None:
-            return OneEyed(None, True, f"{lost}; the {name} camera's pixel has no ray")
+            return OneEyed(
+                None,
+                True,
+                sentence("{lost}; the {name} camera's pixel has no ray", lost=lost, name=name),
+            )
         if point.status is RayStatus.ALONG_THE_SHAFT:
             return OneEyed(
                 None,
                 True,
-                f"{lost}, and the {name} camera looks along the needle, within "
-                f"{np.degrees(LEAST_ANGLE):.0f}°: it cannot tell the depth",
+                sentence(
+                    "{lost}, and the {name} camera looks along the needle, within "
+                    "{least_angle_deg:.0f}°: it cannot tell the depth",
+                    lost=lost,
+                    name=name,
+                    least_angle_deg=np.degrees(LEAST_ANGLE),
+                ),
             )
         if point.status is not RayStatus.FOUND:
-            return OneEyed(None, True, f"{lost}; the {name} camera sees it off the needle's line")
+            return OneEyed(
+                None,
+                True,
+                sentence(
+                    "{lost}; the {name} camera sees it off the needle's line", lost=lost, name=name
+                ),
+            )
         if point.chi_square > self._limit:
             pixels = float(np.linalg.norm(point.residual * self._models[camera].intrinsics[:2]))
             return OneEyed(
                 point,
                 False,
-                f"{lost}; the {name} camera sees it {pixels:.1f} px beside the needle's line",
+                sentence(
+                    "{lost}; the {name} camera sees it {pixels:.1f} px beside the needle's line",
+                    lost=lost,
+                    name=name,
+                    pixels=pixels,
+                ),
                 point.covariance,
             )
         return OneEyed(
             point,
             True,
-            f"{lost}: depth by the {name} camera and the needle's line",
+            sentence(
+                "{lost}: depth by the {name} camera and the needle's line", lost=lost, name=name
+            ),
             self._with_calibration(camera, point, covariance, axis),
         )
 

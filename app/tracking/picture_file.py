@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from app import MOST_PIXELS
 from app.core.files import read_at_most
+from app.core.messages import sentence
 from app.tracking.errors import TrackingError
 
 LARGEST_PICTURE: Final = 1 << 28
@@ -36,17 +37,18 @@ def read_pixels(path: Path) -> NDArray[np.uint8]:
     except cv2.error as error:
         if "CV_IO_MAX_IMAGE" in error.err:
             raise TrackingError(_TOO_MANY) from error
-        raise TrackingError(f"is no picture: {error.err}") from error
+        raise TrackingError(sentence("is no picture: {error_err}", error_err=error.err)) from error
     if image is None:
-        raise TrackingError("is no picture or is damaged")
+        raise TrackingError(sentence("is no picture or is damaged"))
     check_size(image.shape[1], image.shape[0])  # somebody may have loaded OpenCV before us
     return np.asarray(image, dtype=np.uint8)
 
 
 _SIDE: Final = round(MOST_PIXELS**0.5)
-_TOO_MANY: Final = (
-    f"has more than {_SIDE} x {_SIDE} pixels, which are the most: make it smaller, or take it out "
-    "of the folder"
+_TOO_MANY: Final = sentence(
+    "has more than {side} x {side} pixels, which are the most: make it smaller, or take it out "
+    "of the folder",
+    side=_SIDE,
 )
 
 
@@ -93,4 +95,6 @@ def _as_stored(data: bytes) -> bytes:
 
 def no_folder(path: Path) -> str:
     """Say that a path is no folder: a file, or not there."""
-    return f"{path} is a file" if path.is_file() else f"there is no folder {path}"
+    return (
+        f"{path} is a file" if path.is_file() else sentence("there is no folder {path}", path=path)
+    )

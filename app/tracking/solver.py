@@ -12,6 +12,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray, frozen, unit
 from app.core.compiled import njit
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.tracking.confidence import chi_square_quantile
 from app.tracking.fix import GATE, FixStatus, NeedleFix, without_point
@@ -300,7 +301,11 @@ class FixSolver:
         pixels = (sightings[0].uv, sightings[1].uv)
         found = self._located(sightings, axis)
         if found is None or found.status is not StereoStatus.FOUND:
-            why = "a pixel has no ray" if found is None else f"the rays are {found.status.value}"
+            why = (
+                sentence("a pixel has no ray")
+                if found is None
+                else sentence("the rays are {status}", status=found.status.value)
+            )
             return without_point(FixStatus.INCONSISTENT, pixels, time, reason=why)
         covariance = self._with_calibration(found)
         beside, summary = np.empty(3), np.full(SUMMARY, np.inf)
@@ -450,8 +455,13 @@ def _contradiction(square: float, residual: float, beside: FloatArray, off_line:
     """
     apart, off = square > _RESIDUAL_LIMIT, not off_line <= _LINE_LIMIT
     if apart and (residual > _GROSS_PX or not off):
-        return f"the pictures disagree by {residual:.1f} px: two red things, or a moved camera"
+        return sentence(
+            "the pictures disagree by {residual:.1f} px: two red things, or a moved camera",
+            residual=residual,
+        )
     if off:  # a wrong axis also spoils the outline correction, by a pixel at most
         distance = float(np.linalg.norm(beside)) / MILLIMETRE
-        return f"the marker seems {distance:.1f} mm beside the needle's line"
+        return sentence(
+            "the marker seems {distance:.1f} mm beside the needle's line", distance=distance
+        )
     return ""

@@ -17,6 +17,7 @@ from app.core.arrays import FloatArray
 from app.core.clock import Clock
 from app.core.events import Event, EventQueue
 from app.core.latest import Latest
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.tracking.agreement import Continuity, EpipolarGate
 from app.tracking.cameras.camera import Camera, CameraFrame, Image
@@ -179,8 +180,10 @@ def with_cause(fix: NeedleFix, markers: Markers, names: Sequence[str]) -> Needle
         return replace(fix, reason=words)
     if fix.status is FixStatus.ONE_CAMERA:
         for name, word in seen.items():
-            lost = f"the marker is out of view of the {name} camera"
-            instead = f"the {name} camera does not measure the marker ({word})"
+            lost = sentence("the marker is out of view of the {name} camera", name=name)
+            instead = sentence(
+                "the {name} camera does not measure the marker ({word})", name=name, word=word
+            )
             return replace(fix, reason=fix.reason.replace(lost, instead))
     return fix
 
@@ -228,7 +231,11 @@ class Tracker:
         colour: ColourModel = RED,
     ) -> None:
         if len(cameras) != 2:
-            raise TrackingError(f"the tracker needs two cameras, got {len(cameras)}")
+            raise TrackingError(
+                sentence(
+                    "the tracker needs two cameras, got {cameras_count}", cameras_count=len(cameras)
+                )
+            )
         self.latest: Latest[NeedleFix] = Latest()
         self.events = events if events is not None else EventQueue()
         self._clock = clock
@@ -292,11 +299,11 @@ class Tracker:
             TrackingError: if there is no picture at all.
         """
         if left is None and right is None:
-            raise TrackingError("a step of the tracker needs at least one picture")
+            raise TrackingError(sentence("a step of the tracker needs at least one picture"))
         frames = self._times.sound((left, right))
         times = [frame.time for frame in frames if frame is not None]
         if not times:
-            reason = "the pictures' capture times run backwards"
+            reason = sentence("the pictures' capture times run backwards")
             return without_point(
                 FixStatus.NO_PICTURE, (None, None), self._times.newest, self._names, reason
             )
@@ -354,7 +361,11 @@ class Tracker:
         picture = self._pictures.get(camera)
         if picture is None:
             raise TrackingError(
-                f"camera {camera!r} has given no picture; there are {', '.join(self._names)}"
+                sentence(
+                    "camera {camera!r} has given no picture; there are {names}",
+                    camera=camera,
+                    names=", ".join(self._names),
+                )
             )
         colour = learn(picture.image, pixel)
         self.extractors = default_extractors(self.rig, colour=colour)

@@ -10,10 +10,11 @@ import pytest
 from typer.testing import CliRunner
 
 from app.commands import build
+from app.core.configuration import load
 from app.core.errors import ConfigurationError
 from app.tracking.calibration.formats.own import load_calibration
 from app.tracking.errors import CalibrationError
-from app.tracking.pen.settings import load_webcam
+from app.tracking.optics.calibration import CameraCalibration
 from app.tracking.simulated.board import BoardRenderer
 from tests.tracking.calibration_rig import usual_rig
 
@@ -118,16 +119,15 @@ def test_mono_calibrates_each_camera_that_the_names_speak_of(folder: Path) -> No
     assert text.count("k3") == 2
 
 
-def test_the_lens_of_one_camera_is_written_as_the_pen_reads_it(folder: Path, tmp_path: Path):
+def test_the_lens_of_one_camera_is_written_alone(folder: Path, tmp_path: Path):
     lefts, lens = tmp_path / "left", tmp_path / "lens.yaml"
     lefts.mkdir()
     for path in folder.glob("left*.png"):
         (lefts / path.name).write_bytes(path.read_bytes())
     run("mono", "--images", str(lefts), *BOARD, "--hold-back", "0", "--out", str(lens))
-    webcam = load_webcam(lens)
-    assert not webcam.guessed
-    assert webcam.calibration.views > 2
-    assert np.sqrt(webcam.parameter_covariance[0, 0]) > 0.0
+    calibration = load(lens, CameraCalibration)
+    assert calibration.views > 2
+    assert calibration.covariance[0][0] > 0.0
     with pytest.raises(ConfigurationError, match="left, right"):
         run("mono", "--images", str(folder), *BOARD, "--out", str(tmp_path / "two.yaml"))
 

@@ -8,7 +8,8 @@ import pytest
 from typer.testing import CliRunner
 
 from app.commands import build
-from app.tracking.errors import CameraError, PenError
+from app.tracking.errors import CameraError
+from app.tracking.pen.errors import PenError
 from app.tracking.pen.settings import load_settings
 from app.tracking.simulated.pen_scene import PenScene, body_pose
 from tests.tracking.pen_rig import ENTRY, camera, picture, renderer, webcam

@@ -158,6 +158,106 @@ def test_a_command_of_a_folder_is_added_to_the_command_line(foreign):
     assert "claw" in [command.name for command in build().registered_commands]
 
 
+ENDS = {
+    "exits": ("raise SystemExit(5)", "SystemExit: 5"),
+    "a base": ("raise GeneratorExit", "GeneratorExit"),
+    "half": ("root.command('half')(lambda: None); 1 / 0", "ZeroDivisionError: division by zero"),
+    "no type": (
+        "root.command('odd')(lambda x: None)\n    root.command('y')(odd)",
+        "AssertionError",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", ENDS)
+def test_a_command_of_a_folder_that_ends_the_program_is_refused_and_adds_nothing(foreign, name):
+    from typer.testing import CliRunner
+
+    from app.commands import build
+
+    body, reason = ENDS[name]
+    write(foreign / "commands" / "__init__.py", "")
+    text = f"def odd(x: int | str): ...\n\n\ndef register(root):\n    {body}\n"
+    path = write(foreign / "commands" / "claw.py", text)
+    root = build()
+    said = plugin_folders.refused[path]
+    assert said.startswith(f"{path}: register() does not work: {reason}")
+    names = {command.name for command in root.registered_commands}
+    assert names.isdisjoint({"half", "odd", "y"})
+    assert CliRunner().invoke(root, ["--help"]).exit_code == 0
+
+
+@pytest.mark.parametrize("error", ["SystemExit", "KeyboardInterrupt", "GeneratorExit"])
+def test_a_file_whose_import_ends_the_program_is_refused(foreign, error):
+    from app.commands import build
+
+    write(foreign / "commands" / "__init__.py", "")
+    path = write(foreign / "commands" / "claw.py", f"raise {error}\n")
+    build()
+    assert error in plugin_folders.refused[path]
+
+
+@pytest.fixture
+def listed(tmp_path, monkeypatch):
+    """List folders in ACUS_PLUGINS, each of which has an `__init__.py`; return what is found."""
+
+    def listing(*names, missing=()):
+        folders = [tmp_path / name for name in names]
+        for folder in folders:
+            if folder.name not in missing:
+                write(folder / "__init__.py", "")
+        monkeypatch.setenv("ACUS_PLUGINS", os.pathsep.join(map(str, folders)))
+        monkeypatch.setattr(sys, "path", [*sys.path])
+        importlib.invalidate_caches()
+        plugin_folders.folders.cache_clear()
+        return [folder.path for folder in plugin_folders.folders() if not folder.is_own]
+
+    yield listing
+    monkeypatch.undo()
+    plugin_folders.folders.cache_clear()
+    plugin_folders.refused.clear()
+
+
+def test_two_folders_of_one_list_are_both_found_in_its_order(listed, tmp_path):
+    names = ("zeta/second_claw", "alpha/first_claw")
+    assert listed(*names) == [tmp_path / name for name in names]
+    assert not plugin_folders.refused
+
+
+def test_a_folder_of_the_list_that_is_missing_is_named_and_the_other_is_found(listed, tmp_path):
+    seen = listed("gone_claw", "there_claw", missing=("gone_claw",))
+    assert seen == [tmp_path / "there_claw"]
+    gone = tmp_path / "gone_claw"
+    assert plugin_folders.refused == {gone: f"{gone}: there is no such folder"}
+
+
+def test_a_folder_of_the_list_that_cannot_be_read_is_named_and_the_other_is_found(
+    listed, tmp_path, monkeypatch
+):
+    shut, is_file = tmp_path / "shut_claw", Path.is_file
+
+    def refuses(path):  # as for who is not root
+        if path.is_relative_to(shut):
+            raise PermissionError(13, "Permission denied", str(path))
+        return is_file(path)
+
+    write(shut / "__init__.py", "")
+    monkeypatch.setattr(Path, "is_file", refuses)
+    assert listed("shut_claw", "open_claw") == [tmp_path / "open_claw"]
+    assert plugin_folders.refused == {shut: f"{shut} cannot be read: Permission denied"}
+
+
+def test_of_two_folders_of_one_name_the_first_is_found_and_the_second_is_named(listed, tmp_path):
+    seen = listed("zeta/twin_claw", "alpha/twin_claw")
+    first, second = tmp_path / "zeta" / "twin_claw", tmp_path / "alpha" / "twin_claw"
+    assert seen == [first]
+    assert list(plugin_folders.refused) == [second]
+    assert (
+        f"'twin_claw' is no package that can be imported: {first} has that name"
+        in (plugin_folders.refused[second])
+    )
+
+
 def test_an_edit_in_a_machine_of_a_folder_of_the_programs_own_changes_the_digest(program):
     text = "from app.core.compiled import njit\n\nLENGTH = 1.0\n"
     kernels = write(program / "claw" / "machines" / "claw" / "kernels.py", text)

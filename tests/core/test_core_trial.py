@@ -7,6 +7,7 @@ import pytest
 from numba.core.runtime import _nrt_python
 
 from app.core import state_vector as sv
+from app.core import trial as core_trial
 from app.core.compiled import is_stage, njit, stage
 from app.core.trial import Trial
 from app.core.trial_states import RUN, STATES, StageTrial, run_of, words
@@ -185,6 +186,7 @@ def trial(tmp_path, monkeypatch):
     monkeypatch.setenv("ACUS_CACHE", str(tmp_path / "cache"))
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     (tmp_path / "a_program.py").write_text(PROGRAM)
+    core_trial._in_memory.clear()
     return Trial("a_program")
 
 
@@ -221,6 +223,36 @@ def test_a_verdict_is_remembered_until_the_file_or_one_that_it_imports_changes(t
     other.write_text("ANSWER = 'refused now'\n")
     assert trial.known(path) == {}
     assert trial.fault(path) == "refused now"
+
+
+def test_the_verdict_of_a_trial_that_did_not_say_what_it_imported_is_in_memory_alone(
+    trial, tmp_path
+):
+    """Kept on disk it would stand when the file beside it, which ended the process, is mended."""
+    path, beside = tmp_path / "plugin.py", tmp_path / "helper_beside.py"
+    beside.write_text("import os\nos._exit(3)\n")
+    path.write_text("import helper_beside\n\ndef work(argument):\n    return argument\n")
+    assert "ended its process with code 3" in trial.fault(path)
+    assert "code 3" in trial.known(path)["reason"]
+    assert not list((tmp_path / "cache").rglob("verdicts/*.json"))
+    beside.write_text("")
+    core_trial._in_memory.clear()  # another start of the program
+    assert trial.fault(path) == ""
+    assert len(list((tmp_path / "cache").rglob("verdicts/*.json"))) == 1
+
+
+def test_a_refusal_is_known_whatever_the_argument_was_until_the_file_changes(trial, tmp_path):
+    path = tmp_path / "plugin.py"
+    path.write_text("def work(argument):\n    return argument\n")
+    assert trial.fault(path) == trial.refusal(path) == ""
+    assert trial.fault(path, "not on this device") == "not on this device"
+    assert trial.refusal(path) == "not on this device"
+    path.write_text("def work(argument):\n    return ''\n")
+    assert trial.refusal(path) == ""
+    path.write_text("def work(argument):\n    import os; os._exit(3)\n")
+    assert trial.fault(path) == trial.refusal(path) != ""
+    path.write_text("def work(argument):\n    return None\n")
+    assert trial.refusal(path) == ""
 
 
 def test_the_words_for_what_is_done_fit_the_page_however_long_they_are():

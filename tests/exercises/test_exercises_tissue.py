@@ -5,7 +5,7 @@ from collections.abc import Callable
 import pytest
 
 from app.compose.explaining import explanation
-from app.compose.trainer import _conditions
+from app.compose.run_context import conditions_of
 from app.exercises.parts import LayersFrom, OwnPlan
 from app.exercises.scene import device_of, plan_of, scene_of
 from app.exercises.schema import Exercise
@@ -64,8 +64,8 @@ def test_attempts_stay_comparable_whatever_path_the_student_chose(
 ) -> None:
     asks = exercise(layers_from="ct")
     taken = with_tissue(asks, volume, plan_of(asks))
-    assert _conditions(taken) == _conditions(asks)
-    assert _conditions(asks) != _conditions(exercise())
+    assert conditions_of(taken) == conditions_of(asks)
+    assert conditions_of(asks) != conditions_of(exercise())
 
 
 def test_what_is_simulated_is_explained_with_the_layers_of_the_ct(

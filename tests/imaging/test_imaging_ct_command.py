@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from app.__main__ import main
+from app.imaging.phantom.anatomy import anatomy
+from app.imaging.phantom.series import phantom_series
 from tests.imaging.dicom_factory import Slices
 from tests.imaging.test_imaging_enhanced import write_enhanced
 
@@ -185,3 +187,20 @@ def test_bad_folders_are_one_line_and_exit_code_two(ct, tmp_path, verb):
         assert code == 2
         assert words in err
         assert err.count("\n") == 1
+
+
+def test_path_says_what_a_straight_line_meets_and_how_sure_that_is(ct):
+    folder, plan = phantom_series(1, slices=60, rows=64), anatomy(1)
+    ends = [",".join(f"{value:.1f}" for value in p) for p in (plan.entry_mm, plan.lesion_mm)]
+    code, out, _ = ct("path", folder, f"--entry={ends[0]}", f"--target={ends[1]}", "--json")
+    answer = json.loads(out)["facts"]
+    assert code == 0
+    assert [row["words"] for row in answer["tissues"] if row["length_mm"] > 1.0] == [
+        *("skin", "fat", "muscle", "fat", "liver", "lesion"),
+    ]
+    assert {row["source"] for row in answer["tissues"]} == {"recipe"}
+    code, out, _ = ct("path", folder, f"--entry={ends[0]}", f"--target={ends[1]}")
+    assert "liver, 41." in out
+    code, _, said = ct("path", folder, "--entry=1,2", f"--target={ends[1]}")
+    assert code != 0
+    assert "three numbers X,Y,Z" in said

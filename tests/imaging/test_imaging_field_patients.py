@@ -40,9 +40,14 @@ def field_about_entry(seed):
     return field_of_recipe(seed, grid_about(anatomy(seed).entry_mm), Progress())
 
 
+@lru_cache(maxsize=2)
+def tubes_of(seed):
+    return vasculature(make_patient(seed))
+
+
 def by_recipe(seed, points_mm):
     """Say what the recipe has at points: names of kinds, vessels under 2 mm as what they lie in."""
-    patient, tubes = make_patient(seed), vasculature(make_patient(seed))
+    patient, tubes = make_patient(seed), tubes_of(seed)
     p = points_mm / np.array(patient.scale)
     x, y, z = p.T
     at = organs.place_of(patient, x, y, z)
@@ -159,9 +164,9 @@ def test_bent_needles_meet_what_the_recipe_says_within_half_a_millimetre():
 
 
 @pytest.mark.long("statistics")
-@pytest.mark.timeout(1800)
-def test_a_thousand_bent_needles_meet_what_the_recipe_says_within_half_a_millimetre():
-    assert check((1, 2, 3, 4), 250) >= 0.95
+@pytest.mark.parametrize("seed", [1, 2, 3, 4])
+def test_a_thousand_bent_needles_meet_what_the_recipe_says_within_half_a_millimetre(seed):
+    assert check((seed,), 250) >= 0.95
 
 
 def test_the_default_path_meets_neither_bone_nor_lung_nor_gut():

@@ -95,7 +95,10 @@ def test_one_that_is_not_offered_is_refused_for_a_series_that_cannot_be_read_as_
     save("never", "return False")
     UNEVEN.write(tmp_path / "ct")
     (series,) = scan_folder(tmp_path / "ct").series
-    with pytest.raises(SeriesRefusedError, match=r"asking to never series .* does not help"):
+    with pytest.raises(
+        SeriesRefusedError,
+        match=r"the remedy 'never' does not help series .*it can be read if you ask to resample",
+    ):
         read_with(series, "never")
 
 

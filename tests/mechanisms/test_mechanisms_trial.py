@@ -91,3 +91,39 @@ def test_the_machine_of_the_page_is_tried_once_whatever_needle_is_mounted(gimbal
     monkeypatch.setattr(device, "_passed", set())
     monkeypatch.setattr("app.core.trial._run", again)
     assert profile.with_needle(0.18).machine.holds((0.0, 0.0, -1.0))
+
+
+@pytest.mark.long("statistics")
+def test_the_list_of_plugins_names_a_machine_that_its_trial_has_refused(gimbal):
+    """By whatever profile; without that no trial is known, and it is imported only."""
+    from app.compose.plugins import plugin_files
+
+    folder, path = gimbal
+
+    def listed(tried=True):
+        (machine,) = [file for file in plugin_files(tried) if file.path == folder]
+        return machine
+
+    assert (listed().refused, listed(False).refused) == ("", "")
+    after, added, reason = HARMFUL["arms"]
+    text = (folder / "machine.py").read_text()
+    (folder / "machine.py").write_text(text.replace(after, after + added))
+    assert listed().refused == ""
+    with pytest.raises(ConfigurationError):
+        load_profile(path).machine.holds((0.0, 0.0, -1.0))
+    for tried in (True, False):
+        assert re.search(reason, listed(tried).refused)
+        assert listed(tried).title == ""
+
+
+@pytest.mark.long("statistics")
+def test_the_list_of_plugins_tries_a_machine_with_the_profiles_that_are_known(gimbal, monkeypatch):
+    from app.compose.plugins import plugin_files
+
+    folder, path = gimbal
+    monkeypatch.setattr(device, "_profiles", lambda: {"bench_gimbal": path})
+    after, added, reason = HARMFUL["outside"]
+    text = (folder / "machine.py").read_text()
+    (folder / "machine.py").write_text(text.replace(after, after + added))
+    (machine,) = [file for file in plugin_files(True) if file.path == folder]
+    assert re.search(reason, machine.refused)

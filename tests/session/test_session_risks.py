@@ -18,7 +18,7 @@ from app.scoring.errors import TrajectoryError
 from app.scoring.risks import RiskMark
 from app.session.recording import read_recording
 from app.session.replay import contents
-from app.session.risks import Risk, event_of, risk_marks, sentence
+from app.session.risks import Risk, event_of, mark_sentence, risk_marks
 
 ENTRY = np.array([-12.5, -98.0, 310.2])
 """Of the bench's plan, DICOM LPS [mm]; the path runs along +P."""
@@ -83,11 +83,11 @@ def test_a_needle_inside_is_negative_and_scores_no_distance(bench: Bench) -> Non
     assert values["risk_distance"] == 0.0
     assert values["risk_breach"] == pytest.approx(3.0 + 5.0, abs=0.1)  # 5 mm in
     (mark,) = result.trajectory.risks
-    assert "deep in lung" in sentence(mark)
+    assert "deep in lung" in mark_sentence(mark)
     assert mark.inside_s is not None
     assert 0.0 < mark.inside_s <= result.duration
     assert values["risk_time"] == mark.inside_s
-    assert "; inside for " in sentence(mark)
+    assert "; inside for " in mark_sentence(mark)
     assert risk_marks([event_of(mark)]) == (mark,)
 
 

@@ -2,9 +2,6 @@
 
 import json
 import os
-import shutil
-import struct
-import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -23,6 +20,7 @@ from app.session.sidecar import cached, fresh_summary, read_summary, sidecar, ve
 from app.session.station import StationKey
 from app.session.store import computed, list_sessions
 from app.session.verify import verify
+from tests.kept_records import of_today, with_score
 
 FOLDER = Path(__file__).parents[1] / "data" / "records"
 TOTAL = 22.22222222222222
@@ -36,27 +34,8 @@ def folder(tmp_path: Path) -> Path:
     Their scores are of today's rules, which score them as those of version 5 did.
     """
     for path in FOLDER.glob("*.mcap"):
-        shutil.copyfile(path, tmp_path / path.name)
-        with_score(
-            tmp_path / path.name, '"scoring_version":5', f'"scoring_version":{SCORING_VERSION}'
-        )
+        of_today(path, tmp_path)
     return tmp_path
-
-
-def with_score(path: Path, change: str, to: str) -> None:
-    """Rewrite the score inside a record as an editor would: same length, right CRC."""
-    data = bytearray(path.read_bytes())
-    name = data.index(b"score.json")
-    start = name - 4 - 16 - 9  # opcode and length, two times, length of the name
-    size = struct.unpack_from("<Q", data, start + 1)[0]
-    body = start + 9
-    old, new = change.encode(), to.encode()
-    assert len(old) == len(new)
-    at = data.index(old, body, body + size)
-    data[at : at + len(old)] = new
-    crc = zlib.crc32(data[body : body + size - 4])
-    struct.pack_into("<I", data, body + size - 4, crc)
-    path.write_bytes(data)
 
 
 def run(*words: str) -> tuple[int, str]:

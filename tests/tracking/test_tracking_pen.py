@@ -9,11 +9,11 @@ from app.core.configuration import parse
 from app.core.errors import ConfigurationError
 from app.core.transform import RigidTransform
 from app.tracking.confidence import chi_square_quantile
-from app.tracking.errors import PenError
 from app.tracking.fix import FixStatus
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.pen.body import BodyProfile, PenProfile, load_pen, shipped_pens
 from app.tracking.pen.detector import MarkerDetector
+from app.tracking.pen.errors import PenError
 from app.tracking.pen.locator import BoardLocator
 from app.tracking.pen.needle import PenTip, solve_needle
 from app.tracking.pen.pose import PoseStatus, parameter_jacobians, projection_jacobians

@@ -9,9 +9,10 @@ from pen_rig import BASE, BODY, DOWN, ENTRY, PEN, TIP, camera, sighting, step, w
 from app.core.transform import RigidTransform
 from app.tracking.cameras.camera import CameraFrame
 from app.tracking.confidence import chi_square_quantile
-from app.tracking.errors import CameraError, PenError
+from app.tracking.errors import CameraError
 from app.tracking.pen.calibrating import PoseCollector, relative_pose
 from app.tracking.pen.drawing import draw_observation
+from app.tracking.pen.errors import PenError
 from app.tracking.pen.locator import BoardLocator
 from app.tracking.pen.pose import PoseStatus
 from app.tracking.pen.settings import PenSettings, load_settings, save_pen, save_settings

@@ -6,8 +6,8 @@ import pytest
 from app.core.arrays import unit
 from app.core.transform import RigidTransform
 from app.tracking.confidence import chi_square_quantile
-from app.tracking.errors import PenError
 from app.tracking.pen.calibrating import axis_by_mount, axis_by_rolling
+from app.tracking.pen.errors import PenError
 from app.tracking.pen.pivot import MeasuredPose, pivot
 
 TIP = np.array([0.001, -0.002, 0.176])

@@ -8,7 +8,6 @@ from pen_rig import ENTRY, PEN, TIP, camera, picture, renderer, step
 
 from app.core.errors import ConfigurationError
 from app.core.transform import RigidTransform
-from app.tracking.errors import PenError
 from app.tracking.pen.calibrating import (
     EVERY,
     LEANT,
@@ -19,6 +18,7 @@ from app.tracking.pen.calibrating import (
     held_back,
     lean_of,
 )
+from app.tracking.pen.errors import PenError
 from app.tracking.pen.needle import PenTip
 from app.tracking.pen.pivot import FEWEST, MeasuredPose
 from app.tracking.pen.pose import BoardPose, PoseStatus

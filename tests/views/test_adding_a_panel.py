@@ -1,37 +1,57 @@
-"""A panel is added in just the way that docs/extending.md says: one file."""
+"""A panel is added as docs/extending.md says: one file of a folder of plug-ins."""
 
-import importlib.util
 import re
+import sys
 from pathlib import Path
 
 import pytest
 from window_rig import plan
 
+from app.core import plugin_folders
 from app.planning.placement import Placement
+from app.views.shell.feature_plugins import with_plugins
 from app.views.shell.features import FEATURES
 from app.views.shell.window import MainWindow
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "extending.md"
+OWN = tuple(one for one in FEATURES if one.__module__.startswith("app.views."))
 
 
 @pytest.fixture
-def feature(tmp_path):
-    """The class of the page."""
-    section = PAGE.read_text(encoding="utf-8").split("## How to add a panel")[1].split("\n## ")[0]
-    block = re.search(r"```python\n(.*?)```", section, re.DOTALL)
+def panel_section():
+    """What the page says of panels."""
+    return PAGE.read_text(encoding="utf-8").split("## How to add a panel")[1].split("\n## ")[0]
+
+
+@pytest.fixture
+def order(tmp_path, monkeypatch, panel_section):
+    """The window's features with the one of the page, saved where the page says."""
+    block = re.search(r"Save this as `([\w/.]+)`.*?```python\n(.*?)```", panel_section, re.DOTALL)
     assert block is not None
-    path = tmp_path / "slope.py"
-    path.write_text(block.group(1), encoding="utf-8")
-    spec = importlib.util.spec_from_file_location("slope", path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module.SlopeFeature
+    folder = tmp_path / "acus_slope"
+    path = folder / block.group(1)
+    path.parent.mkdir(parents=True)
+    (folder / "__init__.py").touch()
+    path.write_text(block.group(2), encoding="utf-8")
+    monkeypatch.setenv("ACUS_PLUGINS", str(folder))
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    plugin_folders.folders.cache_clear()
+    yield with_plugins(OWN)
+    plugin_folders.folders.cache_clear()
+    for name in [name for name in sys.modules if name.split(".")[0] == folder.name]:
+        del sys.modules[name]
 
 
 @pytest.fixture
-def longer(application, services, destroy, feature):
+def feature(order):
+    """The class of the page."""
+    return next(one for one in order if one.__name__ == "SlopeFeature")
+
+
+@pytest.fixture
+def longer(application, services, destroy, order):
     """A window that has one feature more."""
-    window = MainWindow(services, (*FEATURES, feature))
+    window = MainWindow(services, order)
     destroy(window)
     window.show()
     yield window
@@ -47,7 +67,7 @@ def test_the_panel_of_the_page_stands_beside_the_others_and_follows_the_plan(
     longer, feature, patient, settle
 ):
     panel, side = longer.feature(feature).panel, longer.workspace.side
-    assert side.names()[-1] == "Slope"
+    assert side.names()[side.names().index("Measure") + 1] == "Slope"
     longer.show_patient(patient)
     plan(longer)
     assert panel.text() == "0° from straight down"
@@ -77,3 +97,10 @@ def test_the_panel_of_the_page_says_nothing_of_a_patient_who_left(longer, featur
     longer.editor.saved(Path("kept"))
     longer.conductor.leave_patient()
     assert longer.feature(feature).panel.text() == ""
+
+
+def test_the_page_names_every_feature_behind_which_a_panel_can_stand(panel_section):
+    names = panel_section.split("\n- `after` is")[1].split(", or the file of another")[0]
+    modules = (one.__module__.split(".") for one in OWN)
+    own = [file if file != "feature" else folder for *_, folder, file in modules]
+    assert re.findall(r"`(\w+)`", names) == own

@@ -508,7 +508,7 @@ def test_another_ct_in_the_exercises_folder_is_said(opened, form, author, settle
     opened.context.services.exercises()
     conductor.set_exercise(load_exercise("mine"))
     conductor.set_patient(replace(conductor.patient, volume=other))
-    assert "another one than the exercise was made on" in str(errors[0])
+    assert "not the one the exercise was made on" in str(errors[0])
 
 
 def edit_cell(box, row, place, text):
@@ -684,7 +684,7 @@ def test_layers_from_a_ct_with_bone_on_the_path_come_with_a_warning(author, form
     assert layers[-1]["rigid"]
     assert before < length
     assert f"▲ {len(layers)} layers along the path" in said(form)
-    assert f"Bone stands in the way at {before:.0f} mm" in said(form)
+    assert f"Bone is in the way at {before:.0f} mm" in said(form)
 
 
 def test_the_keys_of_undo_are_the_forms_wherever_the_cursor_is(author, form):

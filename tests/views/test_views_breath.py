@@ -49,7 +49,7 @@ def test_button_and_key_say_and_ask_the_other_of_what_is(command):
         (HELD, "Held, 12 s left: Push"),
         (
             BreathHold(asked=True, spent=True),
-            "He breathes by himself (A releases, A asks anew): Push",
+            "The patient breathes freely (A releases, A asks again): Push",
         ),
     ],
 )

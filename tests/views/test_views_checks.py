@@ -170,7 +170,7 @@ def test_an_imported_calibration_makes_no_agreement_green_and_says_why():
     assert agreement_item(agreement).verdict is Verdict.GOOD
     item = agreement_item(agreement, known=False)
     assert item.verdict is Verdict.WARNING
-    assert item.text.endswith("the calibration's own uncertainty is not known")
+    assert item.text.endswith("the calibration's own uncertainty is unknown")
 
 
 def test_the_outline_is_the_shadow_of_the_ellipsoid():

@@ -76,7 +76,7 @@ def test_start_waits_until_the_attempts_are_looked_up(opened, exercise, settle, 
     monkeypatch.setattr(opened.conductor.controller, "set_waiting", waited.append)
     opened.conductor.set_exercise(exercise)
     assert settle(lambda: len(waited) == 2)
-    assert "Start waits" in waited[0]
+    assert "Start has to wait" in waited[0]
     assert waited[1] == ""
 
 

@@ -27,7 +27,9 @@ def scores(values, blocked=()):
     return PathScores(
         target_mm=frozen(np.array(TARGET)), entries_mm=entries, score=score, block=block,
         length_mm=np.linspace(40.0, 60.0, count), angle_deg=np.linspace(5.0, 30.0, count),
-        bone_mm=np.zeros(count), nearest_mm=np.linspace(4.0, 9.0, count),
+        bone_mm=np.zeros(count), lung_mm=np.zeros(count), vessel_mm=np.zeros(count),
+        gut_mm=np.zeros(count), heart_mm=np.zeros(count), pleural_deg=np.full(count, np.nan),
+        nearest_mm=np.linspace(4.0, 9.0, count),
         nearest=np.zeros(count, np.intp), names=("Aorta",),
     )  # fmt: skip
 

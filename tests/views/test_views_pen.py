@@ -30,6 +30,8 @@ from app.views.pen.feature import PenFeature
 from app.views.pen.tip_step import DirectionsView, TipStep
 from app.views.pen.words import accuracy_line, status_lines
 from app.views.robot.feature import RobotFeature
+from app.views.shell.shortcuts import groups
+from app.views.slices.bindings import OHIF
 
 MODEL = camera()
 
@@ -365,6 +367,15 @@ def test_the_robot_s_menu_opens_the_same_page(window):
     entry.trigger()
     assert window.feature(PenFeature).dialog is not None
     window.feature(PenFeature).dialog.reject()
+
+
+def test_without_a_pen_neither_the_robot_s_menu_nor_the_sheet_of_keys_names_one(window):
+    window.equipment.offers_pen = False
+    menu = window.feature(RobotFeature).menu.robots
+    menu.aboutToShow.emit()
+    assert not any("pen" in action.text().split() for action in menu.actions())
+    sheets = [str(groups(OHIF, pen=there)) for there in (True, False)]
+    assert ["pen and webcam" in sheet for sheet in sheets] == [True, False]
 
 
 def test_pen_and_page_stay_closed_while_an_attempt_runs(window, patient, settle):

@@ -129,7 +129,7 @@ def test_no_action_that_a_student_may_not_use_is_enabled_or_does_anything(
     new = student - STUDENTS_MAY - NOT_OURS
     assert not new, f"open to students: close them, or add them to STUDENTS_MAY: {sorted(new)}"
     closed = instructor - student
-    assert {"Make an exercise from what is open…", "Comment…", "Back up everything…"} <= closed
+    assert {"Make an exercise from the open patient…", "Comment…", "Back up everything…"} <= closed
     before = files()
     for action in window.findChildren(QAction):
         if text_of(action) in closed:

@@ -179,7 +179,7 @@ def test_what_was_done_before_the_robot_was_switched_on_anew_counts_no_more(wiza
     bench.info = replace(bench.info, boot=8)
     verdict, words, _ = state_of(bench, RoutineName.HOMING)
     assert verdict is Verdict.BAD
-    assert "before it was switched on anew" in words
+    assert "before it was switched on again" in words
 
 
 def test_the_summary_tells_what_was_found_with_its_date(wizard, bench):

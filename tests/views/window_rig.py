@@ -195,7 +195,7 @@ class FakeServices:
         self.lives.append(FakeLive(side))
         return self.lives[-1]
 
-    def open_pen(self, settings, progress):
+    def open_source(self, name, settings, progress):
         if self.refuses:
             raise AcusError(self.refuses)
         self.pens.append(FakePen(settings, self.seen))

@@ -330,7 +330,7 @@ def test_a_radius_without_the_calibrations_error_says_so(qt):
     assert table.text("radius") == "± 0.31 mm + calibration (not known)"
     assert "calibrate with pictures of a board" in table._values["radius"].toolTip()
     table.show_figures(shown, 0.31e-3)
-    assert "not known" not in table._values["radius"].toolTip()
+    assert "unknown" not in table._values["radius"].toolTip()
     table.deleteLater()
 
 

@@ -142,7 +142,7 @@ def test_the_gauge_shows_dashes_until_somebody_accounts_for_energy(qt):
         "stored –",
         "left –",
         "– no energy account",
-        "taken out by the guard –",
+        "removed by the guard –",
     )
     gauge.show_energy(None)
     assert not gauge.grab().isNull()

@@ -27,6 +27,7 @@ from app.arm.motion import FulcrumError, HeldTool, Pivot
 from app.arm.scene import ArmScene
 from app.core.arrays import FloatArray, cross, unit
 from app.core.compiled import njit
+from app.core.messages import sentence_of
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.mechanisms.errors import MechanismError, UnreachableError
@@ -110,7 +111,7 @@ class ArmInTrocar:
         try:
             return self.pivot.held(d, self.depth)
         except FulcrumError as error:
-            raise UnreachableError(str(error)) from error
+            raise UnreachableError(sentence_of(error)) from error
 
     def turning(self, q: FloatArray) -> FloatArray:
         """Return dd/dq, shape (3, 7), of motions that keep the shaft in the fulcrum."""

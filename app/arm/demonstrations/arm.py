@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.exercises.schema import Exercise
 
 if TYPE_CHECKING:
@@ -50,12 +51,17 @@ def prepare(exercise: Exercise, simulated: bool, tell: Callable[[str], None]) ->
     """
     if exercise.touch is not None:
         raise AcusError(
-            f"in {exercise.id} targets are touched, and the arm inserts along a path: name another"
-            " exercise, or leave out --device arm"
+            sentence(
+                "in {exercise_id} targets are touched, and the arm inserts along a path: name "
+                "another exercise, or leave out --device arm",
+                exercise_id=exercise.id,
+            )
         )
     if not simulated:
         raise AcusError(
-            "the arm works before its own simulated cameras; leave out --pen and --cameras"
+            sentence(
+                "the arm works before its own simulated cameras; leave out --pen and --cameras"
+            )
         )
     from app.arm.motion.searching import import_ompl
     from app.arm.motion.timing import import_ruckig

@@ -18,7 +18,7 @@ from app.views.exercise.offer import BriefingOffer
 from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.menu_entries import add_entries
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, translated
 from app.views.shell.feature import Context, Feature
 
 if TYPE_CHECKING:
@@ -236,7 +236,7 @@ class ArmFeature(Feature):
         self.bar.offer.setText(
             tr("Let it stand {angle:.0f}° further round, and try again", angle=abs(turn))
         )
-        self.bar.tell(str(error), self.bar.offer, self.bar.stop)
+        self.bar.tell(translated(error), self.bar.offer, self.bar.stop)
 
     def _stand_elsewhere(self) -> None:
         if self._task is None and self.play is None:

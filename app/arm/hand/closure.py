@@ -31,6 +31,7 @@ from scipy.spatial import ConvexHull, QhullError
 from app.arm.hand.errors import GraspError
 from app.core.arrays import FloatArray, frozen, unit
 from app.core.compiled import njit
+from app.core.messages import sentence
 
 EDGES: Final = 8
 """Edges of the friction cone in space, unless asked otherwise."""
@@ -81,14 +82,29 @@ class Contacts:
         points = frozen(self.points, name="points")
         normals = frozen(self.normals, name="normals")
         if points.ndim != 2 or points.shape[1] not in (2, 3) or len(points) == 0:
-            raise GraspError(f"points have shape {points.shape}; (n, 2) or (n, 3) is needed")
+            raise GraspError(
+                sentence(
+                    "points have shape {points_shape}; (n, 2) or (n, 3) is needed",
+                    points_shape=points.shape,
+                )
+            )
         if normals.shape != points.shape:
-            raise GraspError(f"{points.shape} points have normals of shape {normals.shape}")
+            raise GraspError(
+                sentence(
+                    "{points_shape} points have normals of shape {normals_shape}",
+                    points_shape=points.shape,
+                    normals_shape=normals.shape,
+                )
+            )
         for name in ("friction", "soft"):
             if not 0.0 <= (value := getattr(self, name)) < inf:
-                raise GraspError(f"{name} is {value}; give 0 or more")
+                raise GraspError(
+                    sentence("{name} is {value}; give 0 or more", name=name, value=value)
+                )
         if self.soft and points.shape[1] == 2:
-            raise GraspError("in the plane no contact turns about its normal; leave soft at 0")
+            raise GraspError(
+                sentence("in the plane no contact turns about its normal; leave soft at 0")
+            )
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "normals", frozen([unit(n, "normal") for n in normals]))
 
@@ -136,7 +152,7 @@ class Closure:
             GraspError: if the grasp is open: no force holds it.
         """
         if not self.closed:
-            raise GraspError(f"no force holds the tool: {self.reason}")
+            raise GraspError(sentence("no force holds the tool: {reason}", reason=self.reason))
         return wrench / self.margin
 
 
@@ -153,14 +169,20 @@ def wrenches(contacts: Contacts, edges: int = EDGES, scale: float | None = None)
             without one.
     """
     if not contacts.planar and edges < 3:
-        raise GraspError(f"a friction cone in space with {edges} edges; give 3 or more")
+        raise GraspError(
+            sentence("a friction cone in space with {edges} edges; give 3 or more", edges=edges)
+        )
     levers = contacts.points - contacts.points.mean(axis=0)
     if scale is None:
         scale = float(np.linalg.norm(levers, axis=1).max())
         if not scale > 0.0:
-            raise GraspError("all contacts are one point: torques have no scale; give scale=...")
+            raise GraspError(
+                sentence("all contacts are one point: torques have no scale; give scale=...")
+            )
     if not 0.0 < scale < inf:
-        raise GraspError(f"the torque scale is {scale} m; a positive length is needed")
+        raise GraspError(
+            sentence("the torque scale is {scale} m; a positive length is needed", scale=scale)
+        )
     mu, soft = contacts.friction, contacts.soft
     found = []
     for lever, normal in zip(levers, contacts.normals, strict=True):
@@ -293,7 +315,7 @@ def shot(rays: FloatArray, direction: FloatArray) -> tuple[float, FloatArray]:
     cost[k], right[d] = -1.0, 1.0
     found = _solved(cost, equal, right)
     if found is None:
-        raise GraspError("the origin is outside the wrenches' hull: no ray ends in it")
+        raise GraspError(sentence("the origin is outside the wrenches' hull: no ray ends in it"))
     return -float(found.fun), np.asarray(found.eqlin.marginals[:d], np.float64)
 
 
@@ -308,8 +330,12 @@ def pair_margin(rays: FloatArray) -> float:
     """
     if rays.shape != (4, 3):
         raise GraspError(
-            f"no closed form for {len(rays)} rays of {rays.shape[1]} dimensions, only for two"
-            " contacts in the plane"
+            sentence(
+                "no closed form for {rays_count} rays of {rays_shape_second} dimensions, only "
+                "for two contacts in the plane",
+                rays_count=len(rays),
+                rays_shape_second=rays.shape[1],
+            )
         )
     return float(pair_kernel(rays))
 
@@ -342,10 +368,10 @@ def pair_closed(contacts: Contacts) -> bool:
         GraspError: for other contacts, or points that coincide.
     """
     if not contacts.planar or len(contacts.points) != 2:
-        raise GraspError("this test is for two contacts in the plane")
+        raise GraspError(sentence("this test is for two contacts in the plane"))
     line = contacts.points[1] - contacts.points[0]
     if not line.any():
-        raise GraspError("both contacts are one point: no line joins them")
+        raise GraspError(sentence("both contacts are one point: no line joins them"))
     half = atan(contacts.friction)
     one, other = contacts.normals
     return any(
@@ -389,5 +415,11 @@ def _solved(
     if found.status == 2:
         return None
     if found.status != 0:
-        raise GraspError(f"a linear programme of {len(cost)} unknowns ended with: {found.message}")
+        raise GraspError(
+            sentence(
+                "a linear programme of {cost_count} unknowns ended with: {message}",
+                cost_count=len(cost),
+                message=found.message,
+            )
+        )
     return found

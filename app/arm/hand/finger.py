@@ -25,6 +25,7 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen
 from app.core.compiled import njit
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
 from app.mechanisms.errors import MechanismError, UnreachableError
@@ -85,24 +86,50 @@ class HandGeometry:
     def __post_init__(self) -> None:
         for name in ("knuckle", "proximal", "distal", "half_base", "joint_height", "palm_radius"):
             if not 0.0 < (value := getattr(self, name)) < inf:
-                raise MechanismError(f"hand: {name} is {value} m; a positive length is needed")
+                raise MechanismError(
+                    sentence(
+                        "hand: {name} is {value} m; a positive length is needed",
+                        name=name,
+                        value=value,
+                    )
+                )
         for name in ("most_proximal", "most_distal", "most_spread"):
             if not 0.0 < (value := getattr(self, name)) <= pi:
-                raise MechanismError(f"hand: {name} is {value} rad; give more than 0, at most π")
+                raise MechanismError(
+                    sentence(
+                        "hand: {name} is {value} rad; give more than 0, at most π",
+                        name=name,
+                        value=value,
+                    )
+                )
         if not 0.0 <= self.pad < self.distal:
             raise MechanismError(
-                f"hand: pad is {self.pad} m; give 0 or more, less than distal, {self.distal} m"
+                sentence(
+                    "hand: pad is {pad} m; give 0 or more, less than distal, {distal} m",
+                    pad=self.pad,
+                    distal=self.distal,
+                )
             )
         if not 0.0 <= self.bend < pi:
-            raise MechanismError(f"hand: bend is {self.bend} rad; give 0 or more, less than π")
+            raise MechanismError(
+                sentence("hand: bend is {bend} rad; give 0 or more, less than π", bend=self.bend)
+            )
         if not 0.0 < self.distal_gear < self.proximal_gear < inf:
             raise MechanismError(
-                f"hand: gears {self.proximal_gear} (proximal) and {self.distal_gear} (distal);"
-                " the distal one must be positive and the smaller, or the tip would open in closing"
+                sentence(
+                    "hand: gears {proximal_gear} (proximal) and {distal_gear} (distal); the "
+                    "distal one must be positive and the smaller, or the tip would open in "
+                    "closing",
+                    proximal_gear=self.proximal_gear,
+                    distal_gear=self.distal_gear,
+                )
             )
         if not 0.0 < self.breakaway < inf:
             raise MechanismError(
-                f"hand: breakaway is {self.breakaway} N·m; a positive torque is needed"
+                sentence(
+                    "hand: breakaway is {breakaway} N·m; a positive torque is needed",
+                    breakaway=self.breakaway,
+                )
             )
 
     @property
@@ -282,7 +309,14 @@ def inverse(
     x, y, z = (float(v) / MILLIMETRE for v in np.asarray(p_finger, np.float64))
     why = "; ".join(f"{pose.side}: {pose.refused}" for pose in found)
     raise UnreachableError(
-        f"finger {finger.name.lower()} does not reach ({x:.6g}, {y:.6g}, {z:.6g}) mm: {why}"
+        sentence(
+            "finger {finger_name} does not reach ({x:.6g}, {y:.6g}, {z:.6g}) mm: {reason}",
+            finger_name=finger.name.lower(),
+            x=x,
+            y=y,
+            z=z,
+            reason=why,
+        )
     )
 
 
@@ -319,8 +353,12 @@ def driven(
     held = motor if broken_at is None else broken_at
     if not 0.0 <= held <= motor < inf:
         raise MechanismError(
-            f"the motor stands at {motor} rad and joint 2 broke away at {broken_at} rad;"
-            " give 0 ≤ broken_at ≤ motor"
+            sentence(
+                "the motor stands at {motor} rad and joint 2 broke away at {broken_at} rad;"
+                " give 0 ≤ broken_at ≤ motor",
+                motor=motor,
+                broken_at=broken_at,
+            )
         )
     phi2 = held / geometry.proximal_gear
     return phi2, motor / geometry.distal_gear - phi2
@@ -372,16 +410,21 @@ def _beyond(geometry: HandGeometry, status: int, phi2: float, phi3: float, reach
     if status == UNREACHABLE:
         near = abs(geometry.proximal - geometry.distal) / MILLIMETRE
         far = (geometry.proximal + geometry.distal) / MILLIMETRE
-        return (
-            f"it is {reach / MILLIMETRE:.4g} mm from joint 2,"
-            f" the links reach from {near:.4g} to {far:.4g} mm"
+        return sentence(
+            "it is {reach_mm:.4g} mm from joint 2, the links reach from {near:.4g} to {far:.4g} mm",
+            reach_mm=reach / MILLIMETRE,
+            near=near,
+            far=far,
         )
     for name, angle, most in (
         ("φ2", phi2, geometry.most_proximal),
         ("φ3", phi3, geometry.most_distal),
     ):
         if not -_ROUNDING <= angle <= most + _ROUNDING:
-            return (
-                f"{name} would be {angle / DEGREE:.4g}°, its limits are 0 and {most / DEGREE:.4g}°"
+            return sentence(
+                "{name} would be {angle_deg:.4g}°, its limits are 0 and {most_deg:.4g}°",
+                name=name,
+                angle_deg=angle / DEGREE,
+                most_deg=most / DEGREE,
             )
     return ""

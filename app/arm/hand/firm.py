@@ -27,6 +27,7 @@ from app.arm.hand.errors import GraspError
 from app.arm.hand.finger import HandGeometry, forward
 from app.core.arrays import FloatArray, cross, frozen, read_only, unit
 from app.core.compiled import njit
+from app.core.messages import sentence
 
 FINE: Final = 10
 """Parts of a period at which the force is looked at."""
@@ -61,8 +62,12 @@ class Lever:
     def __post_init__(self) -> None:
         if not (0.0 < self.free < inf and 0.0 < self.alone < inf):
             raise GraspError(
-                f"closing moves the grasp point by {self.free:.4g} m/rad, with joint 2 held by"
-                f" {self.alone:.4g} m/rad; both must be into the tool: choose another posture"
+                sentence(
+                    "closing moves the grasp point by {free:.4g} m/rad, with joint 2 held by"
+                    " {alone:.4g} m/rad; both must be into the tool: choose another posture",
+                    free=self.free,
+                    alone=self.alone,
+                )
             )
 
     @classmethod
@@ -121,7 +126,15 @@ class SoftContact:
             value = getattr(self, name)
             if not (0.0 <= value < inf and (value > 0.0 or name != "stiffness")):
                 least = "more than 0" if name == "stiffness" else "0 or more"
-                raise GraspError(f"contact: {name} is {value} {unit_name}; give {least}")
+                raise GraspError(
+                    sentence(
+                        "contact: {name} is {value} {unit_name}; give {least}",
+                        name=name,
+                        value=value,
+                        unit_name=unit_name,
+                        least=least,
+                    )
+                )
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,9 +166,15 @@ class FirmGrasp:
     def __post_init__(self) -> None:
         for name in ("goal", "lag", "period", "top_speed"):
             if not 0.0 < (value := getattr(self, name)) < inf:
-                raise GraspError(f"firm grasp: {name} is {value}; give more than 0")
+                raise GraspError(
+                    sentence(
+                        "firm grasp: {name} is {value}; give more than 0", name=name, value=value
+                    )
+                )
         if self.gain is not None and not 0.0 < self.gain < inf:
-            raise GraspError(f"firm grasp: gain is {self.gain} rad/s per N; give more than 0")
+            raise GraspError(
+                sentence("firm grasp: gain is {gain} rad/s per N; give more than 0", gain=self.gain)
+            )
         self.check(self.contact)
 
     @property
@@ -187,9 +206,15 @@ class FirmGrasp:
         most = stable_gain(contact, travel, self.lag, self.period)
         if not self.used_gain < most:
             raise GraspError(
-                f"a gain of {self.used_gain:.4g} rad/s per N makes a contact of"
-                f" {contact.stiffness:.4g} N/m and {contact.damping:.4g} N·s/m oscillate ever more;"
-                f" give less than {most:.4g}, or leave it out"
+                sentence(
+                    "a gain of {used_gain:.4g} rad/s per N makes a contact of "
+                    "{contact_stiffness:.4g} N/m and {contact_damping:.4g} N·s/m oscillate ever "
+                    "more; give less than {most:.4g}, or leave it out",
+                    used_gain=self.used_gain,
+                    contact_stiffness=contact.stiffness,
+                    contact_damping=contact.damping,
+                    most=most,
+                )
             )
 
 
@@ -222,8 +247,13 @@ class Press:
         off = np.flatnonzero(np.abs(self.force - goal) > share * goal)
         if len(off) and off[-1] == len(self.force) - 1:
             raise GraspError(
-                f"after {self.times[-1]:.3g} s the force is {self.force[-1]:.4g} N, not {goal:.4g}"
-                " N; give it more time, or a gain for a softer contact"
+                sentence(
+                    "after {times_last:.3g} s the force is {force_last:.4g} N, not {goal:.4g}"
+                    " N; give it more time, or a gain for a softer contact",
+                    times_last=self.times[-1],
+                    force_last=self.force[-1],
+                    goal=goal,
+                )
             )
         return float(self.times[off[-1] + 1]) if len(off) else float(self.times[0])
 
@@ -241,7 +271,12 @@ def press(law: FirmGrasp, contact: SoftContact, duration: float) -> Press:
     count = duration / law.period
     if not 1.0 <= count <= 1e6:
         raise GraspError(
-            f"a press of {duration} s has {count:.4g} periods of {law.period} s; give 1 to 1e6"
+            sentence(
+                "a press of {duration} s has {count:.4g} periods of {law_period} s; give 1 to 1e6",
+                duration=duration,
+                count=count,
+                law_period=law.period,
+            )
         )
     law.check(contact)
     out = np.empty((round(count) * FINE, 3))

@@ -9,6 +9,7 @@ from pydantic import Field
 from app.arm.hand.finger import HandGeometry
 from app.core.configuration import Strict, load
 from app.core.errors import ConfigurationError
+from app.core.messages import sentence
 from app.mechanisms.profile.mechanics import Distance, Length, Section, Torque
 
 HalfTurn = Annotated[float, Field(gt=0.0, le=180.0)]
@@ -101,7 +102,11 @@ def load_hand(name_or_path: str | Path = "bh8-282") -> HandProfile:
     path = Path(name_or_path)
     if path.suffix not in (".yaml", ".yml"):
         raise ConfigurationError(
-            f"no hand {text!r}; valid names: {', '.join(hand_names())}, or the path of a .yaml file"
+            sentence(
+                "no hand {text!r}; valid names: {hand_names}, or the path of a .yaml file",
+                text=text,
+                hand_names=", ".join(hand_names()),
+            )
         )
     return load(path, HandProfile)
 

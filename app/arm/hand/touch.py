@@ -30,6 +30,7 @@ from app.arm.hand.finger import (
 )
 from app.core.arrays import FloatArray, cross, frozen, unit
 from app.core.compiled import njit
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
 
@@ -74,7 +75,12 @@ class ToolShaft:
 
     def __post_init__(self) -> None:
         if not 0.0 < self.diameter < inf:
-            raise GraspError(f"a tool of diameter {self.diameter} m; a positive one is needed")
+            raise GraspError(
+                sentence(
+                    "a tool of diameter {diameter} m; a positive one is needed",
+                    diameter=self.diameter,
+                )
+            )
         object.__setattr__(self, "position", frozen(self.position, (3,), "position"))
         object.__setattr__(self, "axis", frozen(unit(frozen(self.axis, (3,), "axis"), "axis")))
 
@@ -207,8 +213,11 @@ def approach(
     across = away - tool_world.axis * (away @ tool_world.axis)
     if np.linalg.norm(across) <= _ALONG:
         raise GraspError(
-            "the palm would come along the tool's axis; give a direction across it"
-            f" (the axis is {tool_world.axis.round(6).tolist()})"
+            sentence(
+                "the palm would come along the tool's axis; give a direction across it"
+                " (the axis is {round})",
+                round=tool_world.axis.round(6).tolist(),
+            )
         )
     z = unit(across)
     x = tool_world.axis
@@ -218,9 +227,15 @@ def approach(
     chosen = most if height is None else height
     if not least <= chosen <= most:
         raise GraspError(
-            f"the tool's axis at {chosen / MILLIMETRE:.4g} mm above joint 2: the tips meet on a"
-            f" tool of {tool_world.diameter / MILLIMETRE:.4g} mm from {least / MILLIMETRE:.4g} to"
-            f" {most / MILLIMETRE:.4g} mm"
+            sentence(
+                "the tool's axis at {chosen_mm:.4g} mm above joint 2: the tips meet on a"
+                " tool of {tool_world_diameter_mm:.4g} mm from {least_mm:.4g} to"
+                " {most_mm:.4g} mm",
+                chosen_mm=chosen / MILLIMETRE,
+                tool_world_diameter_mm=tool_world.diameter / MILLIMETRE,
+                least_mm=least / MILLIMETRE,
+                most_mm=most / MILLIMETRE,
+            )
         )
     return RigidTransform(rotation, tool_world.position - chosen * z)
 
@@ -244,8 +259,12 @@ def heights(geometry: HandGeometry, radius: float) -> tuple[float, float]:
     if free is None:
         widest = geometry.knuckle + geometry.proximal + geometry.distal * cos(geometry.bend)
         raise GraspError(
-            f"a tool of {2.0 * radius / MILLIMETRE:.4g} mm: the fingers open to"
-            f" {2.0 * widest / MILLIMETRE:.4g} mm and cannot close on it"
+            sentence(
+                "a tool of {radius_mm:.4g} mm: the fingers open to"
+                " {widest_mm:.4g} mm and cannot close on it",
+                radius_mm=2.0 * radius / MILLIMETRE,
+                widest_mm=2.0 * widest / MILLIMETRE,
+            )
         )
     most = float(forward_kernel(0.0, free, geometry.coupling * free, *links)[2])
     lowest = _first(lambda phi2: apart(phi2, geometry.most_distal), geometry.most_proximal)
@@ -256,8 +275,12 @@ def heights(geometry: HandGeometry, radius: float) -> tuple[float, float]:
     least = max(tip, radius - geometry.joint_height)
     if not least <= most:
         raise GraspError(
-            f"a tool of {2.0 * radius / MILLIMETRE:.4g} mm would be met at"
-            f" {most / MILLIMETRE:.4g} mm above joint 2, where it is in the palm"
+            sentence(
+                "a tool of {radius_mm:.4g} mm would be met at"
+                " {most_mm:.4g} mm above joint 2, where it is in the palm",
+                radius_mm=2.0 * radius / MILLIMETRE,
+                most_mm=most / MILLIMETRE,
+            )
         )
     return least, most
 
@@ -276,8 +299,11 @@ def close_hand(geometry: HandGeometry, tool_hand: ToolShaft, spread: float = 0.0
     """
     if not 0.0 <= spread <= geometry.most_spread:
         raise GraspError(
-            f"spread {spread / DEGREE:.4g}°; its limits are 0 and"
-            f" {geometry.most_spread / DEGREE:.4g}°"
+            sentence(
+                "spread {spread_deg:.4g}°; its limits are 0 and {geometry_most_spread_deg:.4g}°",
+                spread_deg=spread / DEGREE,
+                geometry_most_spread_deg=geometry.most_spread / DEGREE,
+            )
         )
     _clear_of_the_palm(geometry, tool_hand)
     found: list[FingerTouch] = []
@@ -303,15 +329,22 @@ def _closed(
         share = _first_touch(geometry, tool, link, opened, shut)
         if share == 0.0:
             raise GraspError(
-                f"finger {finger.name.lower()} stands in the tool with its {link} link when open;"
-                " move the hand back, or change the spread"
+                sentence(
+                    "finger {finger_name} stands in the tool with its {link} link when open;"
+                    " move the hand back, or change the spread",
+                    finger_name=finger.name.lower(),
+                    link=link,
+                )
             )
         if share is not None:
             touching.append((share, link))
     if not touching:
         raise GraspError(
-            f"finger {finger.name.lower()} closes to its limit without touching the tool;"
-            " bring the hand nearer, or change the spread"
+            sentence(
+                "finger {finger_name} closes to its limit without touching the tool;"
+                " bring the hand nearer, or change the spread",
+                finger_name=finger.name.lower(),
+            )
         )
     share, link = min(touching)
     held = between_kernel(opened, shut, share)
@@ -404,6 +437,10 @@ def _clear_of_the_palm(geometry: HandGeometry, tool: ToolShaft) -> None:
     if under > 0.0:
         deep = f"{under / MILLIMETRE:.3g} mm deep" if under < inf else "along its axis"
         raise GraspError(
-            f"the tool stands in the palm, {deep}; the palm lies"
-            f" {geometry.joint_height / MILLIMETRE:.3g} mm below joint 2: move the hand back"
+            sentence(
+                "the tool stands in the palm, {deep}; the palm lies"
+                " {geometry_joint_height_mm:.3g} mm below joint 2: move the hand back",
+                deep=deep,
+                geometry_joint_height_mm=geometry.joint_height / MILLIMETRE,
+            )
         )

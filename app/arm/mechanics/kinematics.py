@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from app.arm.mechanics import kernels
 from app.arm.mechanics.profile import JOINTS, TWISTS, ArmProfile
 from app.core.arrays import FloatArray, frozen
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.mechanisms.errors import MechanismError, NotFiniteError
 from app.mechanisms.status import check
@@ -99,9 +100,15 @@ def seven(values: ArrayLike, name: str = "q") -> FloatArray:
     """
     array = np.ascontiguousarray(values, dtype=np.float64)
     if array.shape != (JOINTS,):
-        raise MechanismError(f"{name} has shape {array.shape}; (7,) is needed")
+        raise MechanismError(
+            sentence(
+                "{name} has shape {array_shape}; (7,) is needed", name=name, array_shape=array.shape
+            )
+        )
     if not np.isfinite(array).all():
-        raise NotFiniteError(f"{name} is not finite: {array.tolist()}")
+        raise NotFiniteError(
+            sentence("{name} is not finite: {array}", name=name, array=array.tolist())
+        )
     return array
 
 
@@ -259,12 +266,26 @@ def in_words(arm: ArmProfile, pose: RigidTransform) -> str:
     reach = float(np.linalg.norm(away))
     least, most = abs(arm.upper_arm - arm.forearm), arm.upper_arm + arm.forearm
     x, y, z = pose.translation
-    words = (
-        f"wrist centre ({x:.6g}, {y:.6g}, {z:.6g}) m is {reach:.6g} m from the shoulder; the links"
-        f" span {least:.4g} to {most:.4g} m"
+    words = sentence(
+        "wrist centre ({x:.6g}, {y:.6g}, {z:.6g}) m is {reach:.6g} m from the shoulder; the "
+        "links span {least:.4g} to {most:.4g} m",
+        x=x,
+        y=y,
+        z=z,
+        reach=reach,
+        least=least,
+        most=most,
     )
     within = min(max(reach, least), most)
     if within == reach or not 0.0 < reach < float("inf"):
-        return f"{words}; nearest_pose gives the nearest that is within the joint limits"
+        return sentence(
+            "{words}; nearest_pose gives the nearest that is within the joint limits", words=words
+        )
     x, y, z = shoulder + within / reach * away
-    return f"{words}; the nearest that they reach is ({x:.4f}, {y:.4f}, {z:.4f}) m (nearest_pose)"
+    return sentence(
+        "{words}; the nearest that they reach is ({x:.4f}, {y:.4f}, {z:.4f}) m (nearest_pose)",
+        words=words,
+        x=x,
+        y=y,
+        z=z,
+    )

@@ -16,6 +16,7 @@ from pydantic import Field
 from app.core.arrays import FloatArray, frozen
 from app.core.configuration import Strict, load
 from app.core.errors import ConfigurationError
+from app.core.messages import sentence
 from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
 from app.mechanisms.errors import MechanismError
@@ -83,8 +84,12 @@ class ArmProfile:
         for name in ("pedestal", "upper_arm", "forearm", "flange"):
             if not 0.0 < getattr(self, name) < float("inf"):
                 raise MechanismError(
-                    f"arm {self.name}: {name} is {getattr(self, name)} m; a positive length is"
-                    " needed"
+                    sentence(
+                        "arm {name}: {name_2} is {value} m; a positive length is needed",
+                        name=self.name,
+                        name_2=name,
+                        value=getattr(self, name),
+                    )
                 )
         for name in ("lower", "upper", "speed", "acceleration", "jerk", "torque"):
             object.__setattr__(self, name, frozen(getattr(self, name), (JOINTS,), name))
@@ -92,8 +97,13 @@ class ArmProfile:
             object.__setattr__(self, name, frozen(getattr(self, name), (6, 6), name))
         if not (self.lower < 0.0).all() or not (self.upper > 0.0).all():
             raise MechanismError(
-                f"arm {self.name}: limits {self.lower.tolist()} to {self.upper.tolist()} rad;"
-                " every joint must turn both ways from zero"
+                sentence(
+                    "arm {name}: limits {lower} to {upper} rad;"
+                    " every joint must turn both ways from zero",
+                    name=self.name,
+                    lower=self.lower.tolist(),
+                    upper=self.upper.tolist(),
+                )
             )
 
     @property
@@ -193,7 +203,10 @@ def load_arm(name_or_path: str | Path = "iiwa14") -> ArmProfile:
         path = PROFILES / f"{name_or_path}.yaml"
         if not path.is_file():
             raise ConfigurationError(
-                f"no arm {str(name_or_path)!r}; there is iiwa14, or the path of a .yaml file"
+                sentence(
+                    "no arm {name_or_path!r}; there is iiwa14, or the path of a .yaml file",
+                    name_or_path=str(name_or_path),
+                )
             )
     file = load(path, _ArmFile)
     limit = np.radians(file.joints.limit_deg)

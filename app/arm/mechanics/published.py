@@ -14,6 +14,7 @@ from pydantic import Field
 from app.core.arrays import FloatArray, cross, frozen
 from app.core.configuration import Strict, load
 from app.core.errors import ConfigurationError
+from app.core.messages import sentence
 from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
 
@@ -107,7 +108,9 @@ def published_arm(name: str = "iiwa14") -> PublishedArm:
     """
     path = _PUBLISHED / f"{name}.yaml"
     if not path.is_file():
-        raise ConfigurationError(f"no published description of arm {name!r}; there is iiwa14")
+        raise ConfigurationError(
+            sentence("no published description of arm {name!r}; there is iiwa14", name=name)
+        )
     return load(path, PublishedArm)
 
 

@@ -41,6 +41,7 @@ from app.arm.mechanics.least_squares import CLOSED, WORK, iterate_kernel
 from app.arm.mechanics.profile import JOINTS, ROOM_FOR_ROUNDING, ArmProfile
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.status import NOT_FINITE, OK, check
@@ -417,8 +418,13 @@ def solve(arm: ArmProfile, pose: RigidTransform, near: ArrayLike | None = None) 
     angle, _, within, margin, joint, bits = told.tolist()
     if not within:
         raise JointLimitError(
-            f"joint {int(joint) + 1} would stand {np.degrees(-margin):.3g}° beyond its limits, at"
-            f" the best arm angle tried: {in_words(arm, pose)}"
+            sentence(
+                "joint {joint} would stand {margin_deg:.3g}° beyond its limits, at"
+                " the best arm angle tried: {in_words}",
+                joint=int(joint) + 1,
+                margin_deg=np.degrees(-margin),
+                in_words=in_words(arm, pose),
+            )
         )
     return solution(arm, best, angle, int(bits))
 

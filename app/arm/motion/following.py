@@ -31,6 +31,7 @@ from app.arm.motion.errors import MotionError
 from app.arm.motion.path import Bends, JointPath
 from app.arm.motion.pivot import LEAST_DEXTERITY, SHAFT_OFF, Pivot
 from app.core.arrays import FloatArray, cross, frozen, unit
+from app.core.messages import sentence, sentence_of
 from app.core.rotation import rotation_exp, rotation_log
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
@@ -116,8 +117,14 @@ class PoseArc:
         (up, radius), (other, its) = self._about(self.start), self._about(self.end)
         if radius < 1e-9 or abs(up - other) > 1e-9 or abs(radius - its) > 1e-9:
             raise MotionError(
-                f"no arc: the start is {radius:.6g} m from the axis and {up:.6g} m along it, the"
-                f" end {its:.6g} m and {other:.6g} m; both must be alike, and off the axis"
+                sentence(
+                    "no arc: the start is {radius:.6g} m from the axis and {up:.6g} m along it, "
+                    "the end {its:.6g} m and {other:.6g} m; both must be alike, and off the axis",
+                    radius=radius,
+                    up=up,
+                    its=its,
+                    other=other,
+                )
             )
 
     def _about(self, pose: RigidTransform) -> tuple[float, float]:
@@ -172,10 +179,17 @@ class Sweep:
     def __post_init__(self) -> None:
         tips = frozen(self.tips, name="tips")
         if tips.ndim != 2 or tips.shape[1] != 3 or len(tips) < 2:
-            raise MotionError(f"tips have shape {tips.shape}; (n, 3) with two or more are needed")
+            raise MotionError(
+                sentence(
+                    "tips have shape {tips_shape}; (n, 3) with two or more are needed",
+                    tips_shape=tips.shape,
+                )
+            )
         lengths = np.linalg.norm(np.diff(tips, axis=0), axis=1)
         if not lengths.min() > 0.0:
-            raise MotionError("a sweep has two places of the tip that follow and are the same")
+            raise MotionError(
+                sentence("a sweep has two places of the tip that follow and are the same")
+            )
         s = np.append(0.0, np.cumsum(lengths)) / lengths.sum()
         object.__setattr__(self, "tips", tips)
         object.__setattr__(self, "_spline", CubicSpline(s, tips))
@@ -250,13 +264,24 @@ class MotionRefusedError(MotionError):
         looked: bool = False,
     ) -> None:
         x, y, z = p_world.tolist()
-        message = f"the arm gets {100.0 * at:.3g} % of the way, to ({x:.4g}, {y:.4g}, {z:.4g}) m: "
-        message += reason
+        message = sentence(
+            "the arm gets {share:.3g} % of the way, to ({x:.4g}, {y:.4g}, {z:.4g}) m: {reason}",
+            share=100.0 * at,
+            x=x,
+            y=y,
+            z=z,
+            reason=reason,
+        )
         if placement is not None:
             px, py, pz = placement.translation.tolist()
-            message += f"; with its base at ({px:.4g}, {py:.4g}, {pz:.4g}) m it could"
+            message += sentence(
+                "; with its base at ({x:.4g}, {y:.4g}, {z:.4g}) m it could", x=px, y=py, z=pz
+            )
         elif looked:
-            message += f"; no base within {_SHIFTS[-1]:g} m of where it stands was found that could"
+            message += sentence(
+                "; no base within {away:g} m of where it stands was found that could",
+                away=_SHIFTS[-1],
+            )
         super().__init__(message)
         self.why, self.at, self.p_world, self.placement = reason, at, p_world, placement
 
@@ -376,7 +401,7 @@ class _Job:
         try:
             found = [solve(self.arm, pose)]
         except MechanismError as error:
-            raise self.refused(str(error), 0.0) from error
+            raise self.refused(sentence_of(error), 0.0) from error
         for branch in ARM_BRANCHES:
             for low, high in feasible(self.arm, pose, branch):
                 count = 1 + int((high - low) / 0.8)
@@ -392,9 +417,9 @@ class _Job:
                 return self.checked(*self.postures(start, count))
             except _CoarseError as error:
                 if error.size > _SHRINKS * last or count == _KNOTS[-1]:
-                    raise self.refused(str(error), error.s) from error
+                    raise self.refused(sentence_of(error), error.s) from error
                 last = error.size
-        raise AssertionError("the last count returns or raises")
+        raise AssertionError(sentence("the last count returns or raises"))
 
     def postures(self, start: FloatArray, count: int) -> tuple[FloatArray, FloatArray]:
         s, q = np.linspace(0.0, 1.0, count), np.empty((count, 7))
@@ -409,14 +434,22 @@ class _Job:
             step = abs(float(q[k, joint] - near[joint]))
             if k == 0 and step > 1e-6:
                 raise self.refused(
-                    f"joint {joint + 1} stands {np.degrees(step):.3g}° from the posture that the"
-                    " motion begins with",
+                    sentence(
+                        "joint {joint} stands {step_deg:.3g}° from the posture that the"
+                        " motion begins with",
+                        joint=joint + 1,
+                        step_deg=np.degrees(step),
+                    ),
                     0.0,
                 )
             if step > _LARGEST_STEP and jump is None:
                 jump = _CoarseError(
-                    f"joint {joint + 1} would jump by {np.degrees(step):.3g}°: to go on it needs"
-                    " another posture",
+                    sentence(
+                        "joint {joint} would jump by {step_deg:.3g}°: to go on it needs"
+                        " another posture",
+                        joint=joint + 1,
+                        step_deg=np.degrees(step),
+                    ),
                     float(s[k - 1]),
                     step,
                 )
@@ -491,7 +524,12 @@ class _Job:
             off = self.pivot.off(path)
             if off > SHAFT_OFF:
                 raise _CoarseError(
-                    f"the shaft would pass the fulcrum at {off / MILLIMETRE:.3g} mm", 0.0, off
+                    sentence(
+                        "the shaft would pass the fulcrum at {off_mm:.3g} mm",
+                        off_mm=off / MILLIMETRE,
+                    ),
+                    0.0,
+                    off,
                 )
         kept = margins(self.arm, path)
         if kept.dexterity < self.least_dexterity:
@@ -499,12 +537,19 @@ class _Job:
             seen = arm_singularity(self.arm, path.at(worst), 0.05)
             names = ", ".join(seen.kinds) or "aligned joints"
             raise self.refused(
-                f"its dexterity falls to {kept.dexterity:.2g} ({names});"
-                f" {self.least_dexterity:g} is the least",
+                sentence(
+                    "its dexterity falls to {dexterity:.2g} ({names});"
+                    " {least_dexterity:g} is the least",
+                    dexterity=kept.dexterity,
+                    names=names,
+                    least_dexterity=self.least_dexterity,
+                ),
                 float(worst),
             )
         if kept.joint < 0.0:
-            raise _CoarseError("a joint would pass its limit between two postures", 0.0, 0.0)
+            raise _CoarseError(
+                sentence("a joint would pass its limit between two postures"), 0.0, 0.0
+            )
         return Followed(path, float(misses.max()), turn_miss, off, kept)
 
     def narrow(

@@ -26,6 +26,7 @@ from app.arm.mechanics.profile import JOINTS
 from app.arm.motion.errors import MotionError
 from app.core.arrays import FloatArray, frozen, read_only
 from app.core.compiled import njit
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 
 FINE: Final = 4
@@ -55,7 +56,9 @@ class JointPath:
         s = frozen(self.s, name="s")
         q = frozen(self.q, (len(s), JOINTS), "q")
         if len(s) < 2 or not (np.diff(s) > 0.0).all():
-            raise MotionError(f"a path needs two knots or more, ascending; s is {s.tolist()}")
+            raise MotionError(
+                sentence("a path needs two knots or more, ascending; s is {s}", s=s.tolist())
+            )
         object.__setattr__(self, "s", s)
         object.__setattr__(self, "q", q)
         object.__setattr__(self, "_spline", CubicSpline(s, q))

@@ -31,6 +31,7 @@ from app.arm.motion.pivot import HeldTool, Pivot
 from app.arm.motion.searching import Budget, Collisions, SearchError, search
 from app.arm.motion.timing import JointMotion, import_ruckig, timed
 from app.core.arrays import FloatArray, angle_between, cross
+from app.core.messages import joined, sentence, sentence_of
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.mechanisms.errors import MechanismError
@@ -165,7 +166,9 @@ class NotPlacedError(MotionError):
     """
 
     def __init__(self, stuck: _StuckError, tried: tuple[str, ...]) -> None:
-        super().__init__("no grip brings the tool into the trocar: " + "; ".join(tried))
+        super().__init__(
+            sentence("no grip brings the tool into the trocar: {tried}", tried=joined("; ", tried))
+        )
         self.phase, self.hindrance, self.why = stuck.phase, stuck.hindrance, stuck.why
         self.tried = tried
 
@@ -239,7 +242,7 @@ def _first(
     q0 = seven(start, "start")
 
     def failed(grip: str, error: _StuckError) -> None:
-        tried.append(f"{grip}: {error}")
+        tried.append(sentence("{grip}: {reason}", grip=grip, reason=error))
         stuck.append(error)
 
     for sign in (1.0, -1.0):
@@ -270,7 +273,7 @@ class _StuckError(MotionError):
     """A phase that cannot be."""
 
     def __init__(self, phase: PhaseName, hindrance: Hindrance, reason: str) -> None:
-        super().__init__(f"{phase.value}: {reason}")
+        super().__init__(sentence("{phase}: {reason}", phase=phase.value, reason=reason))
         self.phase, self.hindrance, self.why = phase, hindrance, reason
 
 
@@ -314,14 +317,18 @@ class _Planning:
         try:
             made = follow(self.arm, motion, self.pivot.tool.T_tool_needle, suggest=False, **more)
         except (MotionRefusedError, MechanismError) as error:
-            raise _StuckError(name, Hindrance.REACH, str(error)) from error
+            raise _StuckError(name, Hindrance.REACH, sentence_of(error)) from error
         return made.path
 
     def clear(self, name: PhaseName, path: JointPath, things: Collisions) -> None:
         if (s := things.stopped(self.arm, path)) is not None:
             share = 100.0 * (s - path.s[0]) / (path.s[-1] - path.s[0])
             what = things.touched(path.at(s))
-            raise _StuckError(name, Hindrance.TOUCH, f"{what} after {share:.0f} %")
+            raise _StuckError(
+                name,
+                Hindrance.TOUCH,
+                sentence("{what} after {share:.0f} %", what=what, share=share),
+            )
 
     def way(self, name: PhaseName, things: Collisions, a: FloatArray, b: FloatArray) -> list[_Leg]:
         """Search a way; none is needed where the arm is there already."""
@@ -329,11 +336,15 @@ class _Planning:
             return []
         for q in (a, b):
             if not things.free(q):
-                raise _StuckError(name, Hindrance.TOUCH, f"{things.touched(q)} at its end")
+                raise _StuckError(
+                    name,
+                    Hindrance.TOUCH,
+                    sentence("{things_touched} at its end", things_touched=things.touched(q)),
+                )
         try:
             found = search(self.arm, things, a, b, budget=self.budget)
         except SearchError as error:
-            raise _StuckError(name, Hindrance.WAY, str(error)) from error
+            raise _StuckError(name, Hindrance.WAY, sentence_of(error)) from error
         return [_Leg(name, path, name is PhaseName.TRANSFER) for path in found.paths]
 
     def picked(self) -> list[_Leg]:
@@ -369,7 +380,7 @@ class _Planning:
                     )
                     self.clear(PhaseName.INSERT, path, self.inside)
                 except MechanismError as error:
-                    stuck = _StuckError(PhaseName.INSERT, Hindrance.REACH, str(error))
+                    stuck = _StuckError(PhaseName.INSERT, Hindrance.REACH, sentence_of(error))
                     failed(f"roll {np.degrees(roll):.0f}°", stuck)
                     continue
                 except _StuckError as error:

@@ -31,6 +31,7 @@ from app.arm.mechanics.kinematics import seven
 from app.arm.motion.errors import FulcrumError
 from app.arm.motion.path import Bends, JointPath
 from app.core.arrays import FloatArray, angle_between, cross, frozen, unit
+from app.core.messages import sentence
 from app.core.rotation import rotation_exp, rotation_log
 from app.core.transform import RigidTransform, rotation_between
 from app.core.units import DEGREE, MILLIMETRE
@@ -69,8 +70,12 @@ class HeldTool:
     def __post_init__(self) -> None:
         if not 0.0 < self.grip <= self.length < float("inf"):
             raise NoGripError(
-                f"the tool of {self.length} m is gripped {self.grip} m from its tip; grip it on its"
-                " length"
+                sentence(
+                    "the tool of {length} m is gripped {grip} m from its tip; grip it on its"
+                    " length",
+                    length=self.length,
+                    grip=self.grip,
+                )
             )
         object.__setattr__(self, "axis_tool", frozen(unit(self.axis_tool, "axis_tool"), (3,)))
 
@@ -150,7 +155,10 @@ class Pivot:
         object.__setattr__(self, "inward_world", frozen(inward, (3,)))
         if not 0.0 < self.tilt < 0.5 * np.pi:
             raise FulcrumError(
-                f"largest tilt of the shaft is {self.tilt / DEGREE}°; it must be within (0°, 90°)"
+                sentence(
+                    "largest tilt of the shaft is {tilt_deg}°; it must be within (0°, 90°)",
+                    tilt_deg=self.tilt / DEGREE,
+                )
             )
 
     def aim(self, tip_world: ArrayLike) -> tuple[FloatArray, float]:
@@ -165,9 +173,13 @@ class Pivot:
         depth = float(np.linalg.norm(away))
         if depth < LEAST_DEPTH:
             raise FulcrumError(
-                f"the tip is {depth / MILLIMETRE:.3g} mm from the fulcrum: there it has no"
-                f" direction, and its scale no value; from {LEAST_DEPTH / MILLIMETRE:g} mm on it"
-                " has, nearer the tool is slid along a given one"
+                sentence(
+                    "the tip is {depth_mm:.3g} mm from the fulcrum: there it has no"
+                    " direction, and its scale no value; from {least_depth_mm:g} mm on it"
+                    " has, nearer the tool is slid along a given one",
+                    depth_mm=depth / MILLIMETRE,
+                    least_depth_mm=LEAST_DEPTH / MILLIMETRE,
+                )
             )
         axis = away / depth
         self._allows(axis, depth)
@@ -177,15 +189,24 @@ class Pivot:
         tilt = angle_between(axis, self.inward_world)
         if tilt > self.tilt + 1e-12:
             raise FulcrumError(
-                f"the shaft would lean {tilt / DEGREE:.4g}° from the trocar's axis; it grazes"
-                f" beyond {self.tilt / DEGREE:.4g}°"
+                sentence(
+                    "the shaft would lean {tilt_deg:.4g}° from the trocar's axis; it grazes"
+                    " beyond {tilt_deg_2:.4g}°",
+                    tilt_deg=tilt / DEGREE,
+                    tilt_deg_2=self.tilt / DEGREE,
+                )
             )
         outside = self.tool.grip - depth
         if outside < self.clearance:
             raise NoGripError(
-                f"at a depth of {depth / MILLIMETRE:.4g} mm the grip would be"
-                f" {outside / MILLIMETRE:.4g} mm from the fulcrum; at least"
-                f" {self.clearance / MILLIMETRE:.4g} mm are needed: grip the tool further back"
+                sentence(
+                    "at a depth of {depth_mm:.4g} mm the grip would be"
+                    " {outside_mm:.4g} mm from the fulcrum; at least"
+                    " {clearance_mm:.4g} mm are needed: grip the tool further back",
+                    depth_mm=depth / MILLIMETRE,
+                    outside_mm=outside / MILLIMETRE,
+                    clearance_mm=self.clearance / MILLIMETRE,
+                )
             )
 
     def pose(self, axis_world: ArrayLike, depth: float, roll: float = 0.0) -> RigidTransform:
@@ -255,8 +276,13 @@ class Pivot:
             else:
                 troubles.append(
                     SingularError(
-                        f"the arm's dexterity is {dexterity:.2g} with the tool rolled by"
-                        f" {roll / DEGREE:.0f}°; holding needs {LEAST_DEXTERITY:g}"
+                        sentence(
+                            "the arm's dexterity is {dexterity:.2g} with the tool rolled by"
+                            " {roll_deg:.0f}°; holding needs {least_dexterity:g}",
+                            dexterity=dexterity,
+                            roll_deg=roll / DEGREE,
+                            least_dexterity=LEAST_DEXTERITY,
+                        )
                     )
                 )
         if best is None:
@@ -326,8 +352,13 @@ class Pivot:
         if seen.dexterity < LEAST_DEXTERITY:
             names = ", ".join(arm_singularity(self.arm, angles, 0.02).kinds) or "aligned joints"
             raise SingularError(
-                f"the arm's dexterity is {seen.dexterity:.2g} ({names}); rates need"
-                f" {LEAST_DEXTERITY:g}: plan around it"
+                sentence(
+                    "the arm's dexterity is {seen_dexterity:.2g} ({names}); rates need"
+                    " {least_dexterity:g}: plan around it",
+                    seen_dexterity=seen.dexterity,
+                    names=names,
+                    least_dexterity=LEAST_DEXTERITY,
+                )
             )
         tip = self.tool.needle_pose(self.arm, angles).translation
         asked = self.rates(tip, velocity, roll_rate)

@@ -32,6 +32,7 @@ from app.arm.motion.pivot import Pivot
 from app.arm.motion.timing import timed
 from app.core.arrays import FloatArray, frozen
 from app.core.extras import not_installed
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.mechanisms.errors import MechanismError
 
@@ -97,7 +98,7 @@ class Collisions:
     def touched(self, q: FloatArray) -> str:
         """Say what a posture touches, as the end of a sentence."""
         what = self.names(q) if self.names is not None else None
-        return what or "the arm touches something"
+        return what or sentence("the arm touches something")
 
     def stopped(self, arm: ArmProfile, path: JointPath) -> float | None:
         """Return where along a path something is touched, or a joint is beyond its limit; None:
@@ -215,13 +216,22 @@ def search(
     run = _Run(budget or Budget(), collisions.free)
     for name, q in (("start", a), ("goal", b)):
         if not arm.allows(q):
-            raise SearchError(f"the {name} has a joint {arm.beyond(q).max():.3g} rad beyond")
+            raise SearchError(
+                sentence(
+                    "the {name} has a joint {arm_beyond_max:.3g} rad beyond",
+                    name=name,
+                    arm_beyond_max=arm.beyond(q).max(),
+                )
+            )
         if not collisions.free(q):
             raise SearchError(
-                f"the arm touches something at the {name}: begin and end where it is free"
+                sentence(
+                    "the arm touches something at the {name}: begin and end where it is free",
+                    name=name,
+                )
             )
     if not np.abs(b - a).max() > 0.0:
-        raise SearchError("start and goal are the same posture: there is nothing to move")
+        raise SearchError(sentence("start and goal are the same posture: there is nothing to move"))
     counted = Collisions(run.valid, collisions.distance, collisions.beyond, collisions.step)
 
     def clear(path: JointPath) -> bool:
@@ -309,10 +319,13 @@ def search_tips(
         pivot.aim(place)
         if not valid(place):
             raise SearchError(
-                f"with the tip at the {name} the arm touches something, or has no posture"
+                sentence(
+                    "with the tip at the {name} the arm touches something, or has no posture",
+                    name=name,
+                )
             )
     if not np.linalg.norm(goal - tip) > 0.0:
-        raise SearchError("the tip is where it shall go: there is nothing to move")
+        raise SearchError(sentence("the tip is where it shall go: there is nothing to move"))
     if clear(tip, goal) and (direct := followed([np.array([tip, goal])])) is not None:
         return run.found(direct, float(np.linalg.norm(goal - tip)))
     deepest = pivot.tool.grip - pivot.clearance
@@ -326,8 +339,11 @@ def search_tips(
         if paths is not None:
             return run.found(paths, first)
     raise SearchError(
-        f"{_ATTEMPTS} ways of the tip were found, but the arm's postures along them touch"
-        " something: begin with another posture or roll"
+        sentence(
+            "{attempts} ways of the tip were found, but the arm's postures along them touch"
+            " something: begin with another posture or roll",
+            attempts=_ATTEMPTS,
+        )
     )
 
 
@@ -373,9 +389,17 @@ class _Run:
         found = _places(box, (start, goal), valid, step, planner, seed, self.spent)
         if found is None:
             raise SearchError(
-                f"{planner.value} found no way in {time.perf_counter() - self.begun:.3g} s and"
-                f" {self.tests} tests (budget {self.budget.seconds:g} s, {self.budget.tests} tests,"
-                f" seed {self.budget.seed}): give it more, or make room"
+                sentence(
+                    "{planner} found no way in {time_perf_counter:.3g} s and"
+                    " {tests} tests (budget {budget_seconds:g} s, {budget_tests} tests,"
+                    " seed {budget_seed}): give it more, or make room",
+                    planner=planner.value,
+                    time_perf_counter=time.perf_counter() - self.begun,
+                    tests=self.tests,
+                    budget_seconds=self.budget.seconds,
+                    budget_tests=self.budget.tests,
+                    budget_seed=self.budget.seed,
+                )
             )
         return found
 

@@ -28,6 +28,7 @@ from app.arm.motion.errors import MotionError, PlannerMissingError
 from app.arm.motion.path import JointPath
 from app.core.arrays import FloatArray, frozen, read_only
 from app.core.extras import not_installed
+from app.core.messages import sentence
 
 BLOCKS: Final = (1, 2, 4, 8, 16, 32)
 """Numbers of blocks tried."""
@@ -125,9 +126,11 @@ def timed(arm: ArmProfile, path: JointPath, scale: float = 1.0) -> JointMotion:
         MotionError: if the scale is not in (0, 1], or the path does not move.
     """
     if not 0.0 < scale <= 1.0:
-        raise MotionError(f"a scale of {scale} was asked for; it must be in (0, 1]")
+        raise MotionError(
+            sentence("a scale of {scale} was asked for; it must be in (0, 1]", scale=scale)
+        )
     if not np.ptp(path.q, axis=0).max() > 0.0:
-        raise MotionError("the path does not move: it has one posture only")
+        raise MotionError(sentence("the path does not move: it has one posture only"))
     ways = [(1, 0.0)] if len(path.s) == 2 else [(n, share) for n in BLOCKS for share in SHARES]
     found = [_timed(arm, path, count, share, scale) for count, share in ways]
     return JointMotion(min(found, key=lambda one: float(one.t[-1])), path)
@@ -258,7 +261,7 @@ def _ruckig(
     ]
     answer = _asked(*ends, *most)
     if isinstance(answer, str):
-        raise MotionError(f"Ruckig finds no motion: {answer}")
+        raise MotionError(sentence("Ruckig finds no motion: {answer}", answer=answer))
     t, terms = answer
     terms *= orders[:, None]
     terms[:, 0] += start[0]

@@ -34,6 +34,7 @@ from app.arm.scene.layout import ArmScene
 from app.arm.scene.mjcf import ARM_RADIUS
 from app.arm.scene.running import RunningScene, SceneClearance
 from app.core.arrays import FloatArray, angle_between, frozen, read_only, unit
+from app.core.messages import sentence, sentence_of
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.mechanisms.errors import MechanismError
@@ -132,7 +133,9 @@ class Insertion:
         for name in ("normal", "axis"):
             object.__setattr__(self, name, frozen(unit(getattr(self, name), name), (3,), name))
         if not 0.0 < self.depth < float("inf"):
-            raise SimulationError(f"insertion: depth is {self.depth} m; give more than 0")
+            raise SimulationError(
+                sentence("insertion: depth is {depth} m; give more than 0", depth=self.depth)
+            )
 
     @classmethod
     def known(
@@ -190,7 +193,7 @@ def plan(
     except NotPlacedError as error:
         raise _in_words(error) from error
     except FulcrumError as error:
-        raise CarryError(CarryFailure.UNREACHABLE, str(error)) from error
+        raise CarryError(CarryFailure.UNREACHABLE, sentence_of(error)) from error
 
 
 def could_carry(
@@ -275,7 +278,7 @@ def _job(
     try:
         pose = approach(hand, ToolShaft(tool.p_grip, tool.axis_world, body.shaft_diameter), -_UP)
     except MechanismError as error:
-        raise CarryError(CarryFailure.CANNOT_CLOSE, str(error)) from error
+        raise CarryError(CarryFailure.CANNOT_CLOSE, sentence_of(error)) from error
     height = float((pose.inverse() @ tool.p_grip)[2])
     # what the planner moves is where the hand has the shaft
     grip = RigidTransform.from_translation([0.0, 0.0, height])
@@ -299,7 +302,7 @@ def _job(
         try:
             fingers = _closed_on(scene, shaft)
         except MechanismError as error:
-            raise CarryError(CarryFailure.CANNOT_CLOSE, str(error)) from error
+            raise CarryError(CarryFailure.CANNOT_CLOSE, sentence_of(error)) from error
         in_hand = grip @ held.T_tool_needle @ RigidTransform.from_translation([0, 0, -body.length])
         return things(SceneClearance(thought, fingers, lying, in_hand, in_trocar))
 
@@ -340,9 +343,14 @@ def _has_room(scene: ArmScene, wanted: Insertion) -> None:
         lean = np.degrees(angle_between(wanted.axis, -wanted.normal))
         raise CarryError(
             CarryFailure.TOUCHED,
-            f"the path leans {lean:.0f}° from the trocar's axis, which leaves a gap of"
-            f" {gap / MILLIMETRE:.1f} mm round the shaft; {ROOM / MILLIMETRE:g} mm are needed: lay"
-            " the trocar for this path",
+            sentence(
+                "the path leans {lean:.0f}° from the trocar's axis, which leaves a gap of"
+                " {gap_mm:.1f} mm round the shaft; {room_mm:g} mm are needed: lay"
+                " the trocar for this path",
+                lean=lean,
+                gap_mm=gap / MILLIMETRE,
+                room_mm=ROOM / MILLIMETRE,
+            ),
         )
 
 
@@ -365,8 +373,12 @@ _DOING: Final = {
 def _in_words(error: NotPlacedError) -> CarryError:
     return CarryError(
         _WHY[error.hindrance],
-        f"the arm cannot {_DOING[error.phase]}: {error.why}; let it stand elsewhere round the entry"
-        " or choose another path",
+        sentence(
+            "the arm cannot {doing}: {error}; let it stand elsewhere round the entry"
+            " or choose another path",
+            doing=_DOING[error.phase],
+            error=error.why,
+        ),
     )
 
 
@@ -388,9 +400,9 @@ def _grasp(running: RunningScene, wanted: Insertion, force: float) -> dict[str, 
     try:
         running.grasp(shaft.seen_from(hand.inverse()), force)
     except MechanismError as error:
-        raise CarryError(CarryFailure.CANNOT_CLOSE, str(error)) from error
+        raise CarryError(CarryFailure.CANNOT_CLOSE, sentence_of(error)) from error
     except SimulationError as error:
-        raise CarryError(CarryFailure.NOT_HELD, str(error)) from error
+        raise CarryError(CarryFailure.NOT_HELD, sentence_of(error)) from error
     state = running.state
     # The fingers put it between their tips: so it is thought to lie in the hand.
     thought = hand.inverse() @ _lying(scene, tool)
@@ -426,9 +438,13 @@ def _at_the_trocar(
     if name is PhaseName.INSERT and (aside > ring.inner or depth < 0.5 * wanted.depth):
         raise CarryError(
             CarryFailure.MISSED,
-            f"the tool is not in the trocar: its axis passes {aside / MILLIMETRE:.1f} mm from the"
-            f" ring's centre, its tip is {depth / MILLIMETRE:.0f} mm beyond it; look again, and"
-            " grasp the tool anew",
+            sentence(
+                "the tool is not in the trocar: its axis passes {aside_mm:.1f} mm from the"
+                " ring's centre, its tip is {depth_mm:.0f} mm beyond it; look again, and"
+                " grasp the tool anew",
+                aside_mm=aside / MILLIMETRE,
+                depth_mm=depth / MILLIMETRE,
+            ),
         )
     return errors
 
@@ -443,8 +459,12 @@ def _pressed(running: RunningScene) -> float:
     if pressed > PRESSED:
         raise CarryError(
             CarryFailure.TOUCHED,
-            f"the shaft pressed the trocar's ring with {pressed:.1f} N; up to {PRESSED:g} N are"
-            " allowed: look again, or lay the trocar for this path",
+            sentence(
+                "the shaft pressed the trocar's ring with {pressed:.1f} N; up to {pressed_2:g} N "
+                "are allowed: look again, or lay the trocar for this path",
+                pressed=pressed,
+                pressed_2=PRESSED,
+            ),
         )
     return pressed
 
@@ -473,7 +493,8 @@ def _slipped(running: RunningScene, held: RigidTransform) -> dict[str, float]:
     state = running.state
     if not state.forces.any():
         raise CarryError(
-            CarryFailure.DROPPED, "the tool has fallen: no finger touches it; grasp more firmly"
+            CarryFailure.DROPPED,
+            sentence("the tool has fallen: no finger touches it; grasp more firmly"),
         )
     now, grip = state.T_hand_tool, running.scene.tool.grip
     moved = float(np.linalg.norm((now @ [0.0, 0.0, grip]) - (held @ [0.0, 0.0, grip])))
@@ -481,9 +502,15 @@ def _slipped(running: RunningScene, held: RigidTransform) -> dict[str, float]:
     if moved > SLIP or turned > SLIP_TURN:
         raise CarryError(
             CarryFailure.SLIPPED,
-            f"the tool moved by {moved / MILLIMETRE:.2g} mm and {np.degrees(turned):.2g}° in the"
-            f" hand; up to {SLIP / MILLIMETRE:g} mm and {np.degrees(SLIP_TURN):g}° are allowed:"
-            " grasp more firmly",
+            sentence(
+                "the tool moved by {moved_mm:.2g} mm and {turned_deg:.2g}° in the"
+                " hand; up to {slip_mm:g} mm and {slip_turn_deg:g}° are allowed:"
+                " grasp more firmly",
+                moved_mm=moved / MILLIMETRE,
+                turned_deg=np.degrees(turned),
+                slip_mm=SLIP / MILLIMETRE,
+                slip_turn_deg=np.degrees(SLIP_TURN),
+            ),
         )
     return {"slip_mm": moved / MILLIMETRE, "slip_deg": float(np.degrees(turned))}
 

@@ -24,6 +24,7 @@ from app.arm.laparoscopy import (
 )
 from app.arm.mechanics import ArmProfile, PublishedArm, load_arm, published_arm
 from app.core.arrays import FloatArray, frozen, unit
+from app.core.messages import sentence
 from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE
@@ -88,11 +89,21 @@ class ArmScene:
     def __post_init__(self) -> None:
         for name in ("hand_mass", "finger_stiffness", "friction", "step"):
             if not 0.0 < (value := getattr(self, name)) < float("inf"):
-                raise SimulationError(f"scene of the arm: {name} is {value}; give more than 0")
+                raise SimulationError(
+                    sentence(
+                        "scene of the arm: {name} is {value}; give more than 0",
+                        name=name,
+                        value=value,
+                    )
+                )
         if not self.arm.allows(self.home):
             raise SimulationError(
-                f"scene of the arm: home {np.degrees(self.home).round(1).tolist()}° is beyond the"
-                f" joint limits ±{np.degrees(self.arm.upper).round(1).tolist()}°"
+                sentence(
+                    "scene of the arm: home {home_deg_round}° is beyond the"
+                    " joint limits ±{arm_upper_deg_round}°",
+                    home_deg_round=np.degrees(self.home).round(1).tolist(),
+                    arm_upper_deg_round=np.degrees(self.arm.upper).round(1).tolist(),
+                )
             )
         x, y, _ = self.trocar.p_world
         on = [box for box in self.boxes if box.name == "skin"]
@@ -102,8 +113,14 @@ class ArmScene:
             for box in on
         ):
             raise SimulationError(
-                f"scene of the arm: the trocar at ({1e3 * x:.0f}, {1e3 * y:.0f}) mm does not lie"
-                f" on the skin, {on[0].low[:2]} to {on[0].high[:2]} m"
+                sentence(
+                    "scene of the arm: the trocar at ({x:.0f}, {y:.0f}) mm does not lie"
+                    " on the skin, {on_first_low} to {on_first_high} m",
+                    x=1e3 * x,
+                    y=1e3 * y,
+                    on_first_low=on[0].low[:2],
+                    on_first_high=on[0].high[:2],
+                )
             )
 
     @classmethod

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from app.arm.scene.carrying import CarryFailure, CarryPhase
 from app.arm.scene.layout import ArmScene
 from app.core.arrays import FloatArray, angle_between, frozen, unit
+from app.core.messages import sentence
 from app.core.rotation import rotation_exp, rotation_log
 from app.core.transform import RigidTransform
 from app.simulation.errors import SimulationError
@@ -73,21 +74,31 @@ class ArmTimeline:
             values = np.array(getattr(self, name), dtype=np.float64)
             if values.shape != (count, *shape) or not np.isfinite(values).all():
                 raise SimulationError(
-                    f"timeline of the arm: {name} has shape {values.shape} or is not finite;"
-                    f" {(count, *shape)} finite numbers are needed"
+                    sentence(
+                        "timeline of the arm: {name} has shape {values_shape} or is not finite;"
+                        " {count} finite numbers are needed",
+                        name=name,
+                        values_shape=values.shape,
+                        count=(count, *shape),
+                    )
                 )
             values.setflags(write=False)
             object.__setattr__(self, name, values)
         if count < 2 or not (np.diff(self.time) > 0.0).all():
             raise SimulationError(
-                "timeline of the arm: its time must rise, over two moments or more"
+                sentence("timeline of the arm: its time must rise, over two moments or more")
             )
         phase = np.asarray(self.phase)
         if phase.shape != (count,) or np.asarray(self.held).shape != (count,):
-            raise SimulationError("timeline of the arm: phase and held need one entry a moment")
+            raise SimulationError(
+                sentence("timeline of the arm: phase and held need one entry a moment")
+            )
         if not (0 <= phase.min() and phase.max() < len(self.names) and (np.diff(phase) >= 0).all()):
             raise SimulationError(
-                f"timeline of the arm: phases must go through {', '.join(self.names)} in order"
+                sentence(
+                    "timeline of the arm: phases must go through {names} in order",
+                    names=", ".join(self.names),
+                )
             )
 
     @property
@@ -104,7 +115,9 @@ class ArmTimeline:
         rows = np.flatnonzero(self.phase == (self.names.index(name) if name in self.names else -1))
         if not len(rows):
             there = ", ".join(self.names[k] for k in np.unique(self.phase))
-            raise SimulationError(f"the arm has no phase {name!r}; there are {there}")
+            raise SimulationError(
+                sentence("the arm has no phase {name!r}; there are {there}", name=name, there=there)
+            )
         return float(self.time[rows[0]])
 
     def at(self, t: float) -> ArmMoment:

@@ -33,6 +33,7 @@ from app.arm.hand.firm import moved_kernel
 from app.arm.scene.layout import ArmScene
 from app.arm.scene.mjcf import finger_joint, write_scene
 from app.core.arrays import FloatArray, frozen, read_only
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.simulation.errors import SimulationError
 from app.simulation.mjcf import import_mujoco
@@ -209,8 +210,11 @@ class RunningScene:
         if beyond.max(initial=0.0) > 1e-9:
             k = int(np.argmax(beyond.max(axis=0)))
             raise SimulationError(
-                f"the path takes joint {k + 1} {np.degrees(beyond[:, k].max()):.3g}° beyond its"
-                " limits"
+                sentence(
+                    "the path takes joint {k} {beyond_max_deg:.3g}° beyond its limits",
+                    k=k + 1,
+                    beyond_max_deg=np.degrees(beyond[:, k].max()),
+                )
             )
         step = self.scene.step
         before = np.vstack([path[:1], path[:-1]])
@@ -271,7 +275,11 @@ class RunningScene:
                     for finger, one, share in zip(HandFinger, forces, _SHARES, strict=True)
                 )
                 raise SimulationError(
-                    f"the hand does not hold the tool after {_PATIENCE:g} s: {have}"
+                    sentence(
+                        "the hand does not hold the tool after {patience:g} s: {have}",
+                        patience=_PATIENCE,
+                        have=have,
+                    )
                 )
         self._law = None
         for motor in self._motors.values():
@@ -335,13 +343,16 @@ class RunningScene:
             return np.ascontiguousarray(self._renderer.render()[:, :, ::-1])
         except Exception as error:  # what a missing driver raises differs from one to another
             raise SimulationError(
-                f"MuJoCo cannot draw without a display here ({error}); install EGL (libegl1), or"
-                " set MUJOCO_GL=osmesa"
+                sentence(
+                    "MuJoCo cannot draw without a display here ({error}); install EGL (libegl1), "
+                    "or set MUJOCO_GL=osmesa",
+                    error=error,
+                )
             ) from error
 
     def _of(self) -> Any:
         if self._data is None:
-            raise SimulationError("the scene of the arm is not open; call open() first")
+            raise SimulationError(sentence("the scene of the arm is not open; call open() first"))
         return self._data
 
     @property
@@ -578,7 +589,7 @@ def _drawing(mujoco: Any) -> None:
     """Refuse to draw where MuJoCo was loaded for a display that is not there."""
     window = mujoco.GLContext.__module__ == "mujoco.glfw"
     if window and sys.platform == "linux" and not os.environ.get("DISPLAY"):
-        raise SimulationError("it was loaded for a display, and there is none")
+        raise SimulationError(sentence("it was loaded for a display, and there is none"))
 
 
 def _opened(scene: ArmScene) -> tuple[Any, Any, Any]:
@@ -587,7 +598,9 @@ def _opened(scene: ArmScene) -> tuple[Any, Any, Any]:
     try:
         model = mujoco.MjModel.from_xml_string(write_scene(scene))
     except ValueError as error:
-        raise SimulationError(f"MuJoCo refuses the scene of the arm: {error}") from error
+        raise SimulationError(
+            sentence("MuJoCo refuses the scene of the arm: {error}", error=error)
+        ) from error
     return mujoco, model, mujoco.MjData(model)
 
 

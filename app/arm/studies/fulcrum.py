@@ -33,6 +33,7 @@ from app.arm.eyes import (
 )
 from app.arm.laparoscopy import ToolBody, TrocarRing
 from app.core.arrays import FloatArray, angle_between, unit
+from app.core.messages import sentence
 from app.core.units import DEGREE, MILLIMETRE
 from app.studies.findings import Figure, Findings, Sheet
 from app.studies.in_use import called
@@ -128,7 +129,12 @@ def by_planes(poses: tuple[ToolPose, ...]) -> Fulcrum:
 
 def _required(result: Fulcrum) -> FloatArray:
     if result.status is not FulcrumStatus.FOUND:
-        raise TrackingError(f"no fulcrum: {result.status.value}; turn the tool further")
+        raise TrackingError(
+            sentence(
+                "no fulcrum: {result_status}; turn the tool further",
+                result_status=result.status.value,
+            )
+        )
     return result.p_world
 
 
@@ -161,7 +167,7 @@ def _from_trocar(case: Case) -> Prepared:
     def centre(pictures: Pair) -> FloatArray:
         found = stand.eyes.trocar(pictures)
         if found.status is not TrocarStatus.FOUND:
-            raise TrackingError(f"no trocar: {found.status.value}")
+            raise TrackingError(sentence("no trocar: {status}", status=found.status.value))
         return np.asarray(found.p_world)
 
     return Prepared(lambda: [centre(one.pictures) for one in moved], len(moved))

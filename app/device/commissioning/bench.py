@@ -17,6 +17,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock, VirtualClock
 from app.core.compiled import njit, stage
+from app.core.messages import sentence
 from app.core.parameters import Stage, numbered, packed
 from app.device.commissioning.force_scale import ForceScaleRoutine, GaugeRoutine
 from app.device.commissioning.friction import FrictionRoutine
@@ -232,7 +233,7 @@ class Bench(Lifetime):
             CommissioningError: if the bench is closed.
         """
         if self._loop is None:
-            raise CommissioningError("the bench is closed; open it first")
+            raise CommissioningError(sentence("the bench is closed; open it first"))
         return self._loop
 
     @property
@@ -243,7 +244,7 @@ class Bench(Lifetime):
             CommissioningError: if the bench was never opened.
         """
         if self._record is None:
-            raise CommissioningError("the bench was not opened; open it first")
+            raise CommissioningError(sentence("the bench was not opened; open it first"))
         return self._record
 
     def clearance(self) -> ForceClearance:
@@ -268,13 +269,19 @@ class Bench(Lifetime):
         """
         if step in NEEDS_HOMING and not self.done(RoutineName.HOMING, RoutineName.OFFSETS):
             raise CommissioningError(
-                f"{step.value} needs the device to be homed since it was switched on; run"
-                " `--step homing` first"
+                sentence(
+                    "{step} needs the device to be homed since it was switched on; run"
+                    " `--step homing` first",
+                    step=step.value,
+                )
             )
         if step in NEEDS_SIGNS and not self.done(RoutineName.SIGNS):
             raise CommissioningError(
-                f"{step.value} pushes, so the signs must be checked since the device was switched"
-                " on; run `--step signs` first"
+                sentence(
+                    "{step} pushes, so the signs must be checked since the device was switched"
+                    " on; run `--step signs` first",
+                    step=step.value,
+                )
             )
         return self._make(step, by_hand)
 

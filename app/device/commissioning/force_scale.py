@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, unit
+from app.core.messages import sentence
 from app.device.commissioning.results import ForceScale, Gauge, RoutineName, RoutineReport
 from app.device.commissioning.routine import Routine, Script
 from app.device.control.loop import Loop
@@ -90,7 +91,7 @@ class ForceScaleRoutine(Routine):
                 break  # never command more of what is already far too strong
         factor, residual = fit(FORCES[: len(readings)], readings)
         if reason := refusal(factor, residual, self._profile.gear):
-            raise CommissioningError(f"{self.TITLE}: {reason}")
+            raise CommissioningError(sentence("{title}: {reason}", title=self.TITLE, reason=reason))
         return ForceScale(
             commanded=FORCES,
             readings_g=tuple(readings),
@@ -105,8 +106,11 @@ class ForceScaleRoutine(Routine):
         across = self._direction - (self._direction @ axis) * axis
         if np.linalg.norm(across) < 0.5:
             raise CommissioningError(
-                f"{self.TITLE}: the force would point along the needle, where the robot cannot"
-                " push; hold the needle upright"
+                sentence(
+                    "{title}: the force would point along the needle, where the robot cannot"
+                    " push; hold the needle upright",
+                    title=self.TITLE,
+                )
             )
         return unit(across, "direction")
 
@@ -126,12 +130,19 @@ def fit(commanded: ArrayLike, readings_g: ArrayLike) -> tuple[float, float]:
     grams = np.atleast_1d(np.asarray(readings_g, dtype=np.float64))
     if len(grams) == 0 or len(grams) != len(wanted):
         raise CommissioningError(
-            f"Force scale: {len(grams)} readings for {len(wanted)} forces; give one reading in"
-            " grams for each"
+            sentence(
+                "Force scale: {grams_count} readings for {wanted_count} forces; give one reading "
+                "in grams for each",
+                grams_count=len(grams),
+                wanted_count=len(wanted),
+            )
         )
     if not np.isfinite(grams).all():
         raise CommissioningError(
-            f"Force scale: the readings {grams.tolist()} g are not all numbers; weigh again"
+            sentence(
+                "Force scale: the readings {grams} g are not all numbers; weigh again",
+                grams=grams.tolist(),
+            )
         )
     measured = grams * 1e-3 * GRAVITY
     factor = float(wanted @ measured / (wanted @ wanted))
@@ -146,30 +157,39 @@ def refusal(factor: float, residual: float, gear: float) -> str:
         residual: root mean square from the line [N].
         gear: motor turns per joint turn.
     """
-    text = f"measured over commanded force is {factor:.3f}"
+    text = sentence("measured over commanded force is {factor:.3f}", factor=factor)
     if abs(factor - 1.0) <= SCALE_TOLERANCE:
         if residual <= _RESIDUAL:
             return ""
-        return (
-            f"the readings scatter by {residual:.3f} N about a line (at most {_RESIDUAL:g} N):"
-            " tare the scale, keep the needle still, and weigh again"
+        return sentence(
+            "the readings scatter by {residual:.3f} N about a line (at most {residual_2:g} "
+            "N): tare the scale, keep the needle still, and weigh again",
+            residual=residual,
+            residual_2=_RESIDUAL,
         )
     allowed = f"{text}, outside 1 ± {SCALE_TOLERANCE:g}: "
     if abs(factor) < _NOTHING:
-        return allowed + "the scale does not feel the robot; check thread, tare and motor supply"
+        return allowed + sentence(
+            "the scale does not feel the robot; check thread, tare and motor supply"
+        )
     if factor < 0.0:
-        return allowed + "the sign is wrong; check the direction of the set-up, then the signs"
+        return allowed + sentence(
+            "the sign is wrong; check the direction of the set-up, then the signs"
+        )
     if gear > 1.0 and _near(factor, gear):
-        return allowed + (
-            f"the gear ratio {gear:g}:1 seems to be missing in the torque factor: the board takes"
-            " the joint torque for the motor shaft's; divide its torque factor by the gear ratio"
+        return allowed + sentence(
+            "the gear ratio {gear:g}:1 seems to be missing in the torque factor: the board "
+            "takes the joint torque for the motor shaft's; divide its torque factor by the "
+            "gear ratio",
+            gear=gear,
         )
     if gear > 1.0 and _near(factor, 1.0 / gear):
-        return allowed + (
-            f"the gear ratio {gear:g}:1 seems to be applied twice; multiply the board's torque"
-            " factor by the gear ratio"
+        return allowed + sentence(
+            "the gear ratio {gear:g}:1 seems to be applied twice; multiply the board's torque"
+            " factor by the gear ratio",
+            gear=gear,
         )
-    return allowed + (
+    return allowed + sentence(
         "check torque constant, amplifier gain and lengths in the profile against the device"
     )
 
@@ -213,8 +233,11 @@ class GaugeRoutine(Routine):
         state = yield from self._say("looking for the gauge")
         if state.row[sv.GAUGE] != 1.0:
             raise CommissioningError(
-                f"{self.TITLE}: the board measures no force; connect the gauge's amplifier, or"
-                " leave this step out: forces are then shown as estimated"
+                sentence(
+                    "{title}: the board measures no force; connect the gauge's amplifier, or"
+                    " leave this step out: forces are then shown as estimated",
+                    title=self.TITLE,
+                )
             )
         readings = []
         for weight in self._weights_g:
@@ -242,22 +265,35 @@ def fit_gauge(weights_g: ArrayLike, readings: ArrayLike) -> Gauge:
     shown = np.atleast_1d(np.asarray(readings, dtype=np.float64))
     if len(weights) != len(shown) or not len(weights) or np.ptp(weights) <= 0.0:
         raise CommissioningError(
-            "Gauge calibration: give one reading for each of at least two different weights"
+            sentence(
+                "Gauge calibration: give one reading for each of at least two different weights"
+            )
         )
     if not (np.isfinite(weights).all() and np.isfinite(shown).all()):
-        raise CommissioningError("Gauge calibration: a reading is not a number; read again")
+        raise CommissioningError(
+            sentence("Gauge calibration: a reading is not a number; read again")
+        )
     force = weights * 1e-3 * GRAVITY
     slope, zero = (float(value) for value in np.polyfit(force, shown, 1))
     if not _SCALES[0] <= slope <= _SCALES[1]:
         raise CommissioningError(
-            f"Gauge calibration: the reading changes by {slope:.3f} N per newton (valid"
-            f" {_SCALES[0]:g} to {_SCALES[1]:g}): check the amplifier's gain and polarity, and"
-            " which way the weights pull"
+            sentence(
+                "Gauge calibration: the reading changes by {slope:.3f} N per newton (valid "
+                "{scales_first:g} to {scales_second:g}): check the amplifier's gain and "
+                "polarity, and which way the weights pull",
+                slope=slope,
+                scales_first=_SCALES[0],
+                scales_second=_SCALES[1],
+            )
         )
     residual = float(np.sqrt(np.mean(((shown - zero) / slope - force) ** 2)))
     if residual > _GAUGE_RESIDUAL:
         raise CommissioningError(
-            f"Gauge calibration: the readings lie {residual:.2f} N off a line (at most"
-            f" {_GAUGE_RESIDUAL:g} N): let the weights hang still and free"
+            sentence(
+                "Gauge calibration: the readings lie {residual:.2f} N off a line (at most"
+                " {gauge_residual:g} N): let the weights hang still and free",
+                residual=residual,
+                gauge_residual=_GAUGE_RESIDUAL,
+            )
         )
     return Gauge(zero=zero, scale=1.0 / slope, residual=residual, weights_g=tuple(weights.tolist()))

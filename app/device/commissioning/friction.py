@@ -7,6 +7,7 @@ import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.device.commissioning.pulses import (
     LARGEST,
     LET_GO_AND_CONFIRM,
@@ -66,8 +67,13 @@ class FrictionRoutine(PulseRoutine):
                 )
                 if not moved.any():
                     raise CommissioningError(
-                        f"{self.TITLE}: the {side} joint does not move up to {LARGEST:g} N·m; let"
-                        " go of the needle, or look for what rubs"
+                        sentence(
+                            "{title}: the {side} joint does not move up to {largest:g} N·m; let"
+                            " go of the needle, or look for what rubs",
+                            title=self.TITLE,
+                            side=side,
+                            largest=LARGEST,
+                        )
                     )
                 q, torque = rows[:, sv.Q_LEFT + own], rows[:, torque_slot(side)]
                 torques.append(breakaway(rows[:, sv.TIME], sign * q, sign * torque, inertia))
@@ -105,8 +111,14 @@ class FrictionRoutine(PulseRoutine):
             q = float(state.q[own])
             if self._now - begin > _PATIENCE + 2.0 * _TRAVEL / abs(speed):
                 raise CommissioningError(
-                    f"{self.TITLE}: the {side} joint does not keep {abs(speed):g} rad/s with"
-                    f" {LARGEST:g} N·m; take the needle out, or look for what rubs"
+                    sentence(
+                        "{title}: the {side} joint does not keep {speed:g} rad/s with"
+                        " {largest:g} N·m; take the needle out, or look for what rubs",
+                        title=self.TITLE,
+                        side=side,
+                        speed=abs(speed),
+                        largest=LARGEST,
+                    )
                 )
         return self._mean(side, tick, centre)
 
@@ -130,7 +142,9 @@ def steady(time: FloatArray, q: FloatArray, torque: FloatArray) -> tuple[float, 
         torque: sent [N·m], shape (n,).
     """
     if len(time) < 10:
-        raise CommissioningError("too few readings while the joint moved; is the link slow?")
+        raise CommissioningError(
+            sentence("too few readings while the joint moved; is the link slow?")
+        )
     bend, speed, _ = np.polyfit(time - time.mean(), q, 2)
     return float(speed), float(2.0 * bend), float(torque.mean())
 
@@ -155,7 +169,10 @@ def breakaway(time: FloatArray, q: FloatArray, torque: FloatArray, inertia: floa
             found.append(float(torque[part].mean() - inertia * 2.0 * bend))
     if not found:
         raise CommissioningError(
-            "Friction: the joint moved at once, without a ramp; is the torque factor far too large?"
+            sentence(
+                "Friction: the joint moved at once, without a ramp; is the torque factor far too "
+                "large?"
+            )
         )
     return max(found)
 

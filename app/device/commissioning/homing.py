@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.device.commissioning.results import Homing, RoutineName
 from app.device.commissioning.routine import Part, Routine, Script
 from app.device.control.loop import Loop
@@ -53,9 +54,11 @@ class HomingRoutine(Routine):
     def instruction(self) -> str:
         """Say what the user does to reach the reference pose."""
         left, right = np.degrees(self.known())
-        return (
+        return sentence(
             "move both links outwards against their stops"
-            f" (left {left:.1f}°, right {right:.1f}°), hold them there and confirm"
+            " (left {left:.1f}°, right {right:.1f}°), hold them there and confirm",
+            left=left,
+            right=right,
         )
 
     def _script(self) -> Script:
@@ -97,10 +100,16 @@ class HomingRoutine(Routine):
         tilt = self._require_pose(angles, "the pose with the needle upright")
         if tilt > _UPRIGHT_DEG:
             raise CommissioningError(
-                f"{self.TITLE}: with the needle upright the angles give a tilt of {tilt:.0f}°"
-                f" (at most {_UPRIGHT_DEG:g}° by eye); an encoder counts the wrong way or not at"
-                " all, the reference pose was not reached, or counts_per_turn"
-                f" ({self._profile.encoder.counts_per_turn}) is wrong"
+                sentence(
+                    "{title}: with the needle upright the angles give a tilt of {tilt:.0f}° (at "
+                    "most {upright_deg:g}° by eye); an encoder counts the wrong way or not at "
+                    "all, the reference pose was not reached, or counts_per_turn "
+                    "({encoder_counts_per_turn}) is wrong",
+                    title=self.TITLE,
+                    tilt=tilt,
+                    upright_deg=_UPRIGHT_DEG,
+                    encoder_counts_per_turn=self._profile.encoder.counts_per_turn,
+                )
             )
 
     def _require_pose(self, angles: FloatArray, what: str) -> float:
@@ -110,8 +119,15 @@ class HomingRoutine(Routine):
         except MechanismError as error:
             left, right = np.degrees(angles)
             raise CommissioningError(
-                f"{self.TITLE}: {what} (left {left:.1f}°, right {right:.1f}°) is none that the"
-                f" links can take: {error}; check home_offsets and the link lengths"
+                sentence(
+                    "{title}: {what} (left {left:.1f}°, right {right:.1f}°) is none that the"
+                    " links can take: {error}; check home_offsets and the link lengths",
+                    title=self.TITLE,
+                    what=what,
+                    left=left,
+                    right=right,
+                    error=error,
+                )
             ) from error
         return float(np.degrees(np.arctan2(np.hypot(*axis[:2]), -axis[2])))
 
@@ -129,7 +145,7 @@ class JigHomingRoutine(HomingRoutine):
 
     def instruction(self) -> str:
         """Say what the user does to reach the reference pose."""
-        return "put the needle into the jig that holds it vertical and confirm"
+        return sentence("put the needle into the jig that holds it vertical and confirm")
 
     def _check(self) -> Part:
         """Lean the needle: both encoders must agree on a pose within the joint's cone."""
@@ -139,6 +155,11 @@ class JigHomingRoutine(HomingRoutine):
         limit = self._profile.tilt_limit_deg
         if tilt > limit + 3.0:
             raise CommissioningError(
-                f"{self.TITLE}: the angles give a tilt of {tilt:.0f}°, the ball joint allows"
-                f" {limit:g}°; an encoder counts the wrong way, or the jig is not vertical"
+                sentence(
+                    "{title}: the angles give a tilt of {tilt:.0f}°, the ball joint allows"
+                    " {limit:g}°; an encoder counts the wrong way, or the jig is not vertical",
+                    title=self.TITLE,
+                    tilt=tilt,
+                    limit=limit,
+                )
             )

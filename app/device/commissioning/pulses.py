@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
+from app.core.messages import joined, sentence
 from app.device.commissioning.results import RobotLatency, RoutineName, Side, Signs
 from app.device.commissioning.routine import Part, Routine, Script
 from app.device.control.loop import Loop
@@ -165,7 +166,9 @@ class SignRoutine(PulseRoutine):
                 response[index(side)] += 0.5 * sign * moved
                 self._progress += 0.15
         if problems := diagnose(response):
-            raise CommissioningError(f"{self.TITLE}: " + "; ".join(problems))
+            raise CommissioningError(
+                sentence("{title}: ", title=self.TITLE) + joined("; ", problems)
+            )
         (ll, lr), (rl, rr) = response.tolist()
         return Signs(response=((ll, lr), (rl, rr)), by_hand=self._by_hand)
 
@@ -180,7 +183,9 @@ class SignRoutine(PulseRoutine):
         self._progress += 0.15
         moved, own = after - before, index(side)
         if problem := hand_problem(side, moved, own):
-            raise CommissioningError(f"{self.TITLE}: {problem}")
+            raise CommissioningError(
+                sentence("{title}: {problem}", title=self.TITLE, problem=problem)
+            )
 
 
 def hand_problem(side: Side, moved: ArrayLike, own: int) -> str:
@@ -193,19 +198,23 @@ def hand_problem(side: Side, moved: ArrayLike, own: int) -> str:
     """
     turned = np.asarray(moved, dtype=np.float64)
     if not np.abs(turned).max() >= _TURN:
-        return (
-            f"no encoder saw the {side} link move (at least {np.degrees(_TURN):.0f}° were asked"
-            " for): check the encoder's cable and supply"
+        return sentence(
+            "no encoder saw the {side} link move (at least {turn_deg:.0f}° were asked"
+            " for): check the encoder's cable and supply",
+            side=side,
+            turn_deg=np.degrees(_TURN),
         )
     if abs(turned[own]) < abs(turned[1 - own]):
-        return (
-            f"the other encoder moved more when the {side} link was turned: the encoders of left"
-            " and right are swapped (exchange their plugs), or the wrong link was turned"
+        return sentence(
+            "the other encoder moved more when the {side} link was turned: the encoders of "
+            "left and right are swapped (exchange their plugs), or the wrong link was turned",
+            side=side,
         )
     if turned[own] * _OUTWARDS[side] < 0.0:
-        return (
-            f"the {side} encoder counts backwards: exchange its channels A and B, or reverse it in"
-            " the board's settings"
+        return sentence(
+            "the {side} encoder counts backwards: exchange its channels A and B, or reverse "
+            "it in the board's settings",
+            side=side,
         )
     return ""
 
@@ -222,25 +231,36 @@ def diagnose(response: ArrayLike) -> list[str]:
     idle = [side for side in SIDES if not np.abs(moved[index(side)]).max() > 0.0]
     if len(idle) == 2:
         return [
-            "no motor moves anything: check the switch of the motor supply, the amplifiers' enable"
-            " and the motor cables, and that nothing blocks the needle"
+            sentence(
+                "no motor moves anything: check the switch of the motor supply, the amplifiers' "
+                "enable and the motor cables, and that nothing blocks the needle"
+            )
         ]
     if idle:
         return [
-            f"the {idle[0]} motor moves nothing up to 0.03 N·m: its joint is blocked, or its"
-            " amplifier has no power or no enable"
+            sentence(
+                "the {idle_first} motor moves nothing up to 0.03 N·m: its joint is blocked, or "
+                "its amplifier has no power or no enable",
+                idle_first=idle[0],
+            )
         ]
     if strongest == [1, 0]:
-        return ["the motors are swapped: exchange the motor cables of left and right"]
+        return [sentence("the motors are swapped: exchange the motor cables of left and right")]
     if strongest[0] == strongest[1]:
         other = SIDES[1 - strongest[0]]
         return [
-            f"both motors move the same encoder: the {other} encoder does not count, its joint is"
-            " blocked, or both motors are wired to one amplifier"
+            sentence(
+                "both motors move the same encoder: the {other} encoder does not count, its "
+                "joint is blocked, or both motors are wired to one amplifier",
+                other=other,
+            )
         ]
     return [
-        f"the {side} motor turns backwards: exchange its two leads, or reverse it in the board's"
-        " settings"
+        sentence(
+            "the {side} motor turns backwards: exchange its two leads, or reverse it in the "
+            "board's settings",
+            side=side,
+        )
         for side in SIDES
         if moved[index(side), index(side)] < 0.0
     ]
@@ -289,8 +309,12 @@ class LatencyRoutine(PulseRoutine):
             state = yield from self._say("torque step on the left joint")
             if self._now - begin > _STEP_PATIENCE:
                 raise CommissioningError(
-                    f"{self.TITLE}: the left joint does not follow a step of {_TORQUE:g} N·m; run"
-                    " the sign check, and take the needle out"
+                    sentence(
+                        "{title}: the left joint does not follow a step of {torque:g} N·m; run"
+                        " the sign check, and take the needle out",
+                        title=self.TITLE,
+                        torque=_TORQUE,
+                    )
                 )
         rows = self._loop.rows(since)
         return dead_time(
@@ -333,9 +357,14 @@ def dead_time(time: FloatArray, torque: FloatArray, moved: FloatArray, count: fl
     used = (way >= _FIT_FROM * count) & (way <= _FIT_TO * count)
     if len(sent) == 0 or used.sum() < 3:
         raise CommissioningError(
-            "Latency: too few readings between rest and motion; is the link slow or the step lost?"
+            sentence(
+                "Latency: too few readings between rest and motion; is the link slow or the step "
+                "lost?"
+            )
         )
     slope, offset = np.polyfit(time[used] - time[sent[0]], np.sqrt(way[used]), 1)
     if not slope > 0.0:
-        raise CommissioningError("Latency: the joint does not speed up under a constant torque")
+        raise CommissioningError(
+            sentence("Latency: the joint does not speed up under a constant torque")
+        )
     return max(float(-offset / slope), 0.0)

@@ -12,6 +12,7 @@ from app.core import paths
 from app.core.configuration import Strict, load
 from app.core.errors import ConfigurationError
 from app.core.files import write_atomically
+from app.core.messages import sentence
 from app.device.commissioning.results import (
     AnyResult,
     ForceScale,
@@ -71,7 +72,11 @@ class DeviceRecord(Strict):
         """
         entry = self.newest(*(steps or tuple(RoutineName)))
         if entry is None:
-            raise RecordError(f"device {self.device} has no calibration that could be undone")
+            raise RecordError(
+                sentence(
+                    "device {device} has no calibration that could be undone", device=self.device
+                )
+            )
         undone = entry.model_copy(update={"undone": True})
         entries = tuple(undone if one is entry else one for one in self.entries)
         return self.model_copy(update={"entries": entries})
@@ -129,8 +134,11 @@ def device_key(info: BoardInfo) -> str:
     key = info.serial or f"unnumbered-{info.profile or 'device'}"
     if not _SAFE.fullmatch(key):
         raise RecordError(
-            f"the board calls itself {key!r}; a serial number is up to 64 letters, digits, '.',"
-            " '-' and '_': set another one in its firmware"
+            sentence(
+                "the board calls itself {key!r}; a serial number is up to 64 letters, digits, "
+                "'.', '-' and '_': set another one in its firmware",
+                key=key,
+            )
         )
     return key
 
@@ -154,12 +162,20 @@ def load_record(info: BoardInfo, folder: Path | None = None) -> DeviceRecord:
         record = load(path, DeviceRecord)
     except ConfigurationError as error:
         raise RecordError(
-            f"the calibration record is damaged: {error}; mend it, or move it away and calibrate"
-            " anew (nothing was changed)"
+            sentence(
+                "the calibration record is damaged: {error}; mend it, or move it away and "
+                "calibrate anew (nothing was changed)",
+                error=error,
+            )
         ) from error
     if record.device != key:
         raise RecordError(
-            f"{path} belongs to device {record.device!r}, not {key!r}; it was copied or renamed"
+            sentence(
+                "{path} belongs to device {record_device!r}, not {key!r}; it was copied or renamed",
+                path=path,
+                record_device=record.device,
+                key=key,
+            )
         )
     return record
 
@@ -176,8 +192,12 @@ def save_record(record: DeviceRecord, folder: Path | None = None) -> Path:
         write_atomically(path, yaml.safe_dump(document, sort_keys=False, allow_unicode=True))
     except OSError as error:
         raise RecordError(
-            f"cannot write {path}: {error.strerror or error}; set ACUS_DATA to a folder that can"
-            " be written"
+            sentence(
+                "cannot write {path}: {error_strerror}; set ACUS_DATA to a folder that can"
+                " be written",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
         ) from error
     return path
 
@@ -236,7 +256,11 @@ def settle(bench: RecordedDevice, step: RoutineName, report: RoutineReport) -> s
         return report.failure
     while _counts(bench, step):
         bench.undo(step)
-    return f"{report.failure} ({CHECKS[step]} counts no more: do this step again)"
+    return sentence(
+        "{report_failure} ({checks} counts no more: do this step again)",
+        report_failure=report.failure,
+        checks=CHECKS[step],
+    )
 
 
 def _counts(bench: RecordedDevice, step: RoutineName) -> bool:

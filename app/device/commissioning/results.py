@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from app.core.configuration import Strict
+from app.core.messages import sentence
 from app.device.readiness import SCALE_TOLERANCE
 
 
@@ -45,7 +46,12 @@ class Homing(Strict):
     def summary(self) -> str:
         """One line for people."""
         left, right = self.offsets
-        return f"encoder offsets left {left:+.5f} rad, right {right:+.5f} rad (by {self.reference})"
+        return sentence(
+            "encoder offsets left {left:+.5f} rad, right {right:+.5f} rad (by {reference})",
+            left=left,
+            right=right,
+            reference=self.reference,
+        )
 
 
 class Signs(Strict):
@@ -62,8 +68,8 @@ class Signs(Strict):
 
     def summary(self) -> str:
         """One line for people."""
-        how = "by hand and by pulses" if self.by_hand else "by pulses only"
-        return f"motors and encoders agree, checked {how}"
+        how = sentence("by hand and by pulses") if self.by_hand else sentence("by pulses only")
+        return sentence("motors and encoders agree, checked {how}", how=how)
 
 
 class JointFriction(Strict):
@@ -120,10 +126,16 @@ class RobotLatency(Strict):
     def summary(self) -> str:
         """One line for people."""
         median, high, largest = (1e3 * value for value in self.round_trip)
-        return (
-            f"round trip {median:.2f} ms (99 %: {high:.2f}, largest {largest:.2f}),"
-            f" lost {100 * self.lost:.2f} %, torque to motion {1e3 * self.dead_time:.1f}"
-            f" ± {1e3 * self.dead_time_spread:.1f} ms"
+        return sentence(
+            "round trip {median:.2f} ms (99 %: {high:.2f}, largest {largest:.2f}),"
+            " lost {lost:.2f} %, torque to motion {dead_time:.1f}"
+            " ± {dead_time_spread:.1f} ms",
+            median=median,
+            high=high,
+            largest=largest,
+            lost=100 * self.lost,
+            dead_time=1e3 * self.dead_time,
+            dead_time_spread=1e3 * self.dead_time_spread,
         )
 
 
@@ -153,7 +165,12 @@ class ForceScale(Strict):
     def summary(self) -> str:
         """One line for people."""
         verdict = "verified" if self.verified else "not verified"
-        return f"force scale {self.factor:.3f}, residual {self.residual:.3f} N: {verdict}"
+        return sentence(
+            "force scale {factor:.3f}, residual {residual:.3f} N: {verdict}",
+            factor=self.factor,
+            residual=self.residual,
+            verdict=verdict,
+        )
 
 
 class Gauge(Strict):
@@ -174,7 +191,12 @@ class Gauge(Strict):
 
     def summary(self) -> str:
         """One line for people."""
-        return f"gauge zero {self.zero:+.3f} N, scale {self.scale:.4f}, ± {self.residual:.3f} N"
+        return sentence(
+            "gauge zero {zero:+.3f} N, scale {scale:.4f}, ± {residual:.3f} N",
+            zero=self.zero,
+            scale=self.scale,
+            residual=self.residual,
+        )
 
 
 AnyResult = Homing | Signs | Friction | RobotLatency | ForceScale | Gauge

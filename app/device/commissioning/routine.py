@@ -11,6 +11,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.device.commissioning.results import AnyResult, RoutineName, RoutineReport
 from app.device.control.loop import Loop
 from app.device.errors import CommissioningError
@@ -92,10 +93,17 @@ class Routine(ABC):
                 question stays.
         """
         if not self._report.needs:
-            raise CommissioningError(f"{self.TITLE}: nothing is asked; there is nothing to answer")
+            raise CommissioningError(
+                sentence("{title}: nothing is asked; there is nothing to answer", title=self.TITLE)
+            )
         if self._report.unit and (value is None or not isfinite(value)):
             raise CommissioningError(
-                f"{self.TITLE}: {value} is not a number; type the reading in {self._report.unit}"
+                sentence(
+                    "{title}: {value} is not a number; type the reading in {report_unit}",
+                    title=self.TITLE,
+                    value=value,
+                    report_unit=self._report.unit,
+                )
             )
         self._answers.append(value)
         self._report = replace(self._report, needs="", unit="")
@@ -178,8 +186,11 @@ class Routine(ABC):
                 return angles.mean(axis=0)
             if self._now > end:
                 raise CommissioningError(
-                    f"{self.TITLE}: the joints do not stand still, or are not read; hold the"
-                    " needle still, or check the encoder cables"
+                    sentence(
+                        "{title}: the joints do not stand still, or are not read; hold the"
+                        " needle still, or check the encoder cables",
+                        title=self.TITLE,
+                    )
                 )
 
     def _angles(self, since: int) -> FloatArray:
@@ -203,7 +214,13 @@ class Routine(ABC):
     def _checked(self) -> DeviceState:
         state = self._loop.latest()
         if self._powered and state.fault is not Fault.NONE:
-            raise CommissioningError(f"{self.TITLE}: {state.fault.message}")
+            raise CommissioningError(
+                sentence(
+                    "{title}: {state_fault_message}",
+                    title=self.TITLE,
+                    state_fault_message=state.fault.message,
+                )
+            )
         return state
 
     def _quiet(self) -> None:
@@ -219,7 +236,11 @@ class Routine(ABC):
 
 def _why_not_armed(state: DeviceState) -> str:
     if state.tick == 0:
-        return "the loop does not tick; start it before the routine"
+        return sentence("the loop does not tick; start it before the routine")
     if state.fault is Fault.NONE:
-        return "the loop does not answer in time to arm the forces; close other programs, try again"
-    return f"the forces cannot be armed: {state.fault.message}"
+        return sentence(
+            "the loop does not answer in time to arm the forces; close other programs, try again"
+        )
+    return sentence(
+        "the forces cannot be armed: {state_fault_message}", state_fault_message=state.fault.message
+    )

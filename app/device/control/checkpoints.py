@@ -16,6 +16,7 @@ import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, IntArray
+from app.core.messages import sentence
 from app.core.parameters import Stage
 from app.device.checkpoint import ADDRESSED, Checkpoint
 from app.device.control import kernel
@@ -31,7 +32,7 @@ from app.device.control.kernel import (
     compiled,
     run_stages,
 )
-from app.device.control.table import SCRATCH, SINCE, WITHOUT_MEMORY, Table
+from app.device.control.table import AROUND_MACHINE, SCRATCH, SINCE, WITHOUT_MEMORY, Table
 from app.device.errors import LoopError, RerunError
 
 from numba import types  # isort: skip  (after core.compiled)
@@ -80,7 +81,10 @@ class CheckpointRequests:
         while self._counters[ANSWERED] != self._counters[ASKED]:
             if time.monotonic() > end:
                 raise LoopError(
-                    f"the loop has not answered within {_PATIENCE:g} s: it does not tick"
+                    sentence(
+                        "the loop has not answered within {patience:g} s: it does not tick",
+                        patience=_PATIENCE,
+                    )
                 )
             time.sleep(_POLL)
 
@@ -129,7 +133,11 @@ class Rerun:
         self._state = np.array(checkpoint.state, dtype=np.float64)
         if self._state.shape != (sv.SLOTS,):
             raise RerunError(
-                f"the checkpoint's state has {self._state.size} slots, this program's {sv.SLOTS}"
+                sentence(
+                    "the checkpoint's state has {state_size} slots, this program's {sv_slots}",
+                    state_size=self._state.size,
+                    sv_slots=sv.SLOTS,
+                )
             )
         self.table = Table.of(
             Stage(stage.name, stage.function, values)
@@ -159,7 +167,9 @@ class Rerun:
 
 def _slot(name: str) -> int:
     if name not in sv.INDEX:
-        raise RerunError(f"this program's state has no slot {name!r}, which the record gives")
+        raise RerunError(
+            sentence("this program's state has no slot {name!r}, which the record gives", name=name)
+        )
     return sv.INDEX[name]
 
 
@@ -175,7 +185,12 @@ def _memories(table: Table, checkpoint: Checkpoint) -> list[tuple[Stage, FloatAr
     ]
     pairs: list[tuple[Stage, FloatArray]] = []
     shared: dict[int, FloatArray] = {}
+    around = {name for names in AROUND_MACHINE.values() for name in names}
     for stage in table:
+        if stage.name in around:  # what they hold is of one tick, and of this program
+            values = stage.parameters.copy()
+            pairs.append((stage, shared.setdefault(id(stage.parameters), values)))
+            continue
         if stage.name in WITHOUT_MEMORY and stage.name not in checkpoint.names:
             pairs.append((stage, stage.parameters.copy()))  # from before machines had stages
             continue
@@ -185,16 +200,25 @@ def _memories(table: Table, checkpoint: Checkpoint) -> list[tuple[Stage, FloatAr
             left.pop(0)
         if not left:
             raise RerunError(
-                f"the record has no stage {stage.name!r} in this place; its stages are "
-                f"{', '.join(checkpoint.names)}"
+                sentence(
+                    "the record has no stage {stage_name!r} in this place; its stages are "
+                    "{checkpoint_names}",
+                    stage_name=stage.name,
+                    checkpoint_names=", ".join(checkpoint.names),
+                )
             )
         values = as_now(stage.name, np.array(left.pop(0)[1]))
         if stage.name in SCRATCH:  # as large as the state, which may have grown since
             values = np.zeros_like(stage.parameters)
         if len(values) != len(stage.parameters):
             raise RerunError(
-                f"stage {stage.name!r} has {len(values)} numbers in the record and "
-                f"{len(stage.parameters)} in this program: another version recorded it"
+                sentence(
+                    "stage {stage_name!r} has {values_count} numbers in the record and "
+                    "{stage_parameters_count} in this program: another version recorded it",
+                    stage_name=stage.name,
+                    values_count=len(values),
+                    stage_parameters_count=len(stage.parameters),
+                )
             )
         values[: ADDRESSED.get(stage.name, 0)] = stage.parameters[: ADDRESSED.get(stage.name, 0)]
         pairs.append((stage, shared.setdefault(id(stage.parameters), values)))

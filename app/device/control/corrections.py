@@ -13,6 +13,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import stage
+from app.core.messages import sentence
 from app.core.parameters import Stage, numbered, packed
 from app.device.errors import DeviceError
 
@@ -109,5 +110,12 @@ class Corrections:
 
 def _finite(what: str, first: float, second: float) -> tuple[float, float]:
     if not (isfinite(first) and isfinite(second)):
-        raise DeviceError(f"{what} are {first} and {second}; both must be finite: calibrate anew")
+        raise DeviceError(
+            sentence(
+                "{what} are {first} and {second}; both must be finite: calibrate anew",
+                what=what,
+                first=first,
+                second=second,
+            )
+        )
     return first, second

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Final
 
 from app.core.errors import ConfigurationError
+from app.core.messages import sentence
 from app.core.plugins import (
     ENERGY,
     PARAMETERS,
@@ -40,9 +41,13 @@ class Law(StageDeclaration):
         if "hold" in self.writes and not profile.holds_direction:
             able = ", ".join(_holding())
             raise LawError(
-                f"law {self.name!r}: {profile.name} cannot hold a direction by itself, its motors"
-                " push; take the law 'fixture'"
-                + (able and f", or a device that can, such as {able}")
+                sentence(
+                    "law {name!r}: {profile_name} cannot hold a direction by itself, its motors"
+                    " push; take the law 'fixture'",
+                    name=self.name,
+                    profile_name=profile.name,
+                )
+                + (able and sentence(", or a device that can, such as {able}", able=able))
             )
         return complete(KIND, self, given, profile)
 

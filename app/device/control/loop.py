@@ -13,6 +13,7 @@ from typing import Any
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock, VirtualClock
+from app.core.messages import sentence
 from app.core.parameters import Stage
 from app.device.checkpoint import Checkpoint
 from app.device.control import kernel
@@ -181,7 +182,10 @@ class Loop(Lifetime):
             self._thread.join(_POLL)
         if self._thread.is_alive():
             raise LoopError(
-                f"the loop did not stop in {_STOP_TIMEOUT:g} s: a stage does not return"
+                sentence(
+                    "the loop did not stop in {stop_timeout:g} s: a stage does not return",
+                    stop_timeout=_STOP_TIMEOUT,
+                )
             )
         self._thread = None
 
@@ -211,7 +215,7 @@ class Loop(Lifetime):
             LoopError: if the loop is closed, or does not answer within a second.
         """
         if not self._is_open:
-            raise LoopError("the loop is closed; call open() before checkpoint()")
+            raise LoopError(sentence("the loop is closed; call open() before checkpoint()"))
         with self._asking:
             idle = (self._state, self._packed[1]) if self._thread is None else None
             return self._requests.checkpoint(idle)
@@ -227,9 +231,11 @@ class Loop(Lifetime):
             LoopError: if the loop is closed, or its clock is not virtual.
         """
         if not isinstance(self.clock, VirtualClock):
-            raise LoopError("step needs a loop on a VirtualClock; this one runs by itself")
+            raise LoopError(
+                sentence("step needs a loop on a VirtualClock; this one runs by itself")
+            )
         if not self._is_open:
-            raise LoopError("the loop is closed; call open() before step()")
+            raise LoopError(sentence("the loop is closed; call open() before step()"))
         self._tick(self.clock.now(), ticks)
         self.clock.sleep(ticks / self.rate_hz)
 
@@ -241,7 +247,7 @@ class Loop(Lifetime):
         """
         if self._is_open:
             raise LoopError(
-                "the table can be swapped only while the loop is closed; close it first"
+                sentence("the table can be swapped only while the loop is closed; close it first")
             )
         self.table = stages if isinstance(stages, Table) else Table.of(stages)
 
@@ -263,7 +269,9 @@ class Loop(Lifetime):
             LoopError: if the loop is closed, ends meanwhile, or does not answer within a second.
         """
         if not self._is_open:
-            raise LoopError("the loop is closed; a table is exchanged while it runs, see swap()")
+            raise LoopError(
+                sentence("the loop is closed; a table is exchanged while it runs, see swap()")
+            )
         wanted = _Exchange(table, carry)
         with self._asking:
             if self._thread is None:
@@ -282,7 +290,9 @@ class Loop(Lifetime):
             if time.monotonic() > end or not thread.is_alive():
                 self._history.counters[EXCHANGE] = 0
                 self._raise_failure()
-                raise LoopError("the loop does not tick: the way it computes stays as it was")
+                raise LoopError(
+                    sentence("the loop does not tick: the way it computes stays as it was")
+                )
 
     def _take(self, wanted: _Exchange) -> None:
         """Go on with another table; called by the loop's host, or while nobody runs it."""
@@ -365,7 +375,7 @@ class Loop(Lifetime):
             raise LoopError(endless)
         if self._failure is not None:
             why = self._watch.ended(self._failure)
-            raise LoopError(f"the loop has ended: {why}") from self._failure
+            raise LoopError(sentence("the loop has ended: {reason}", reason=why)) from self._failure
 
 
 def _pack(stages: Iterable[Stage]) -> tuple[StageList, ArrayList]:
@@ -377,5 +387,11 @@ def _pack(stages: Iterable[Stage]) -> tuple[StageList, ArrayList]:
 
 def _slot(name: str) -> int:
     if name not in sv.INDEX:
-        raise LoopError(f"the state has no slot {name!r}; valid names: {', '.join(sv.INDEX)}")
+        raise LoopError(
+            sentence(
+                "the state has no slot {name!r}; valid names: {sv_index}",
+                name=name,
+                sv_index=", ".join(sv.INDEX),
+            )
+        )
     return sv.INDEX[name]

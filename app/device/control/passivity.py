@@ -30,6 +30,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.messages import sentence
 from app.core.parameters import Stage, numbered, packed
 from app.device.control.law_kernels import STOP_GIVES, longest_lever
 from app.device.control.vectors import snapped
@@ -346,7 +347,10 @@ class PassivityGuard:
         """
         if not 0.0 <= self.bound < np.inf:
             raise DeviceError(
-                f"the declared energy is {self.bound} J; give a finite number of 0 or more"
+                sentence(
+                    "the declared energy is {bound} J; give a finite number of 0 or more",
+                    bound=self.bound,
+                )
             )
         coulomb, viscous = self.friction
         parameters = packed(

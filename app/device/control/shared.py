@@ -6,6 +6,7 @@ import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.device.control import kernel
 from app.device.control.kernel import COUNTERS, HEAD
 from app.device.errors import UnknownInputError
@@ -31,7 +32,11 @@ class Inbox:
         for name in values:
             if name not in INPUT_NAMES:
                 raise UnknownInputError(
-                    f"the loop has no input {name!r}; valid names: {', '.join(INPUT_NAMES)}"
+                    sentence(
+                        "the loop has no input {name!r}; valid names: {input_names}",
+                        name=name,
+                        input_names=", ".join(INPUT_NAMES),
+                    )
                 )
         slots = np.array([sv.INDEX[name] for name in values], dtype=np.int64)
         numbers = np.array(list(values.values()), dtype=np.float64)

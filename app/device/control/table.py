@@ -7,19 +7,24 @@ FORCE_CAP, HOMED, HEARTBEAT), time, kinematics and the slots of governor, guard 
 therefore the loop's own when the stages behind them look. What laws may write goes through all the
 limits behind them; a value there that is not finite holds the force at zero.
 
-Stages of a machine that is not the program's own stand between two such stages too, and write what
-`MachineStages` says of each. They cannot raise a torque that safety has let through.
+Stages of a machine that is not the program's own, its simulated plant among them, stand between two
+such stages too, and write what `MachineStages` says of each. What they make of the torques that
+safety has let through is one share of both, 0 to 1: no larger, and never the other way. What they
+ask of cables and winches is finite and within the profile's limits, and winches stand while safety
+holds the force at zero.
 """
 
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
+from math import isfinite
 from typing import Final
 
 import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
-from app.core.compiled import stage
+from app.core.compiled import njit, stage
+from app.core.messages import sentence
 from app.core.parameters import Stage
 from app.device.control.depth_interval import DepthInterval
 from app.device.control.governor import SpeedGovernor
@@ -42,6 +47,11 @@ _SIZE: Final = sv.SLOTS + len(_THEIRS)
 
 SCRATCH: Final = ("keep", "give back")
 """Names of stages whose arrays hold nothing from one tick to the next."""
+
+AROUND_MACHINE: Final = {
+    part: (f"keep for {part}", f"give back after {part}") for part in MACHINE_WRITES
+}
+"""Part of somebody else's machine -> names of the two stages around it, likewise."""
 
 
 WITHOUT_MEMORY: Final = ("machine", "dynamics")
@@ -74,20 +84,68 @@ def give_back_stage(state: FloatArray, p: FloatArray) -> None:
         place += 1
 
 
-@stage
-def give_back_others_stage(state: FloatArray, p: FloatArray) -> None:
-    """Take the state back, but for the slots that p names; a torque may only have become less.
-
-    p holds the state, how many slots there are, and their numbers.
-    """
+@njit
+def _give_back_others(state: FloatArray, p: FloatArray) -> None:
     first = sv.SLOTS + 1
     for place in range(first, first + int(p[sv.SLOTS])):
         slot = int(p[place])
-        is_torque = slot == sv.TORQUE_LEFT or slot == sv.TORQUE_RIGHT
-        if not is_torque or abs(state[slot]) <= abs(p[slot]):
-            p[slot] = state[slot]
+        p[slot] = state[slot]
     for slot in range(sv.SLOTS):
         state[slot] = p[slot]
+
+
+@stage
+def give_back_others_stage(state: FloatArray, p: FloatArray) -> None:
+    """Take the state back, but for the slots that p names.
+
+    p holds the state, how many slots there are, and their numbers.
+    """
+    _give_back_others(state, p)
+
+
+_FORCES: Final = tuple(range(sv.FORCE.start, sv.FORCE.stop)) + tuple(
+    range(sv.GUIDE.start, sv.GUIDE.stop)
+)
+_TOLD: Final = tuple(
+    sv.INDEX[name]
+    for vector in ("felt", "felt_most", "guidance_limit", "guidance_limited_by", "shortfall")
+    for name in sv.slots_named(vector)
+)
+
+
+@njit
+def _share(now: float, before: float) -> float:
+    """Share of a number that is left of it, 0 to 1; 0 where it has turned round or is NaN."""
+    if before == 0.0:
+        return 1.0
+    share = now / before
+    return min(share, 1.0) if share > 0.0 else 0.0
+
+
+@stage
+def give_back_efforts_stage(state: FloatArray, p: FloatArray) -> None:
+    """Do as `give_back_others_stage`, and bound what is asked of motors, cables and winches.
+
+    p holds, behind what that stage needs, the largest tension [N] and the fastest speed of reeling
+    in [m/s].
+    """
+    most, fastest = p[len(p) - 2], p[len(p) - 1]
+    left, right = p[sv.TORQUE_LEFT], p[sv.TORQUE_RIGHT]
+    share = min(_share(state[sv.TORQUE_LEFT], left), _share(state[sv.TORQUE_RIGHT], right))
+    state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = share * left, share * right
+    for slot in _FORCES:
+        state[slot] = _share(state[slot], p[slot]) * p[slot]
+    for slot in _TOLD:
+        if not isfinite(state[slot]):
+            state[slot] = p[slot]
+    state[sv.HOLDING] = 1.0 if state[sv.HOLDING] > 0.5 else 0.0
+    if not p[sv.SAFETY_SCALE] > 0.0:
+        fastest = 0.0
+    for k in range(4):
+        tension, rate = state[sv.TENSION_1 + k], state[sv.REEL_RATE_1 + k]
+        state[sv.TENSION_1 + k] = min(max(tension, 0.0), most) if isfinite(tension) else 0.0
+        state[sv.REEL_RATE_1 + k] = min(max(rate, -fastest), fastest) if isfinite(rate) else 0.0
+    _give_back_others(state, p)
 
 
 def protected(stages: Iterable[Stage]) -> list[Stage]:
@@ -106,10 +164,33 @@ def _guarded(part: str, stages: Iterable[Stage], profile: DeviceProfile) -> list
     inner = list(stages)
     if not inner or is_own(profile.kind):
         return inner
-    theirs = sorted(MACHINE_WRITES[part])
-    memory = np.concatenate([np.zeros(sv.SLOTS), [len(theirs)], theirs])
-    keep = Stage(f"keep for {part}", keep_stage, memory)
-    return [keep, *inner, Stage(f"give back after {part}", give_back_others_stage, memory)]
+    theirs, back = sorted(MACHINE_WRITES[part]), give_back_others_stage
+    limits: list[float] = []
+    if part == "efforts":
+        _, most = profile.tension_range or (0.0, 0.0)
+        limits, back = [most, profile.fastest_reel], give_back_efforts_stage
+        if not all(isfinite(limit) and limit >= 0.0 for limit in limits):
+            raise DeviceError(
+                sentence(
+                    "device {profile_name}: its largest tension is {most} N and its fastest reel"
+                    " {profile_fastest_reel} m/s; give finite numbers of 0 or more",
+                    profile_name=profile.name,
+                    most=most,
+                    profile_fastest_reel=profile.fastest_reel,
+                )
+            )
+    memory = np.concatenate([np.zeros(sv.SLOTS), [len(theirs)], theirs, limits])
+    before, after = AROUND_MACHINE[part]
+    return [Stage(before, keep_stage, memory), *inner, Stage(after, back, memory)]
+
+
+def _guarded_plant(stages: Iterable[Stage], profile: DeviceProfile) -> list[Stage]:
+    """Return a link's write stages, with what moves somebody else's simulated machine guarded."""
+    return [
+        guarded
+        for stage in (Stage(*given) for given in stages)
+        for guarded in (_guarded("plant", [stage], profile) if stage.name == "plant" else [stage])
+    ]
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,7 +280,11 @@ def _dynamics(machine: MachineStages, laws: Iterable[Stage], device: str) -> lis
         return []
     if machine.dynamics is None:
         raise DeviceError(
-            f"law {readers[0]!r} needs the dynamics of the machine, and {device} states none"
+            sentence(
+                "law {readers_first!r} needs the dynamics of the machine, and {device} states none",
+                readers_first=readers[0],
+                device=device,
+            )
         )
     return [machine.dynamics]
 
@@ -235,12 +320,13 @@ def machine_stages(
         corrections: of what the link reads, on readings that are believed.
 
     Raises:
-        DeviceError: if the bound is no finite number of 0 or more, or a law needs dynamics that the
-            machine does not state.
+        DeviceError: if the bound is no finite number of 0 or more, a law needs dynamics that the
+            machine does not state, or somebody else's machine has a stage of a name that another
+            has (memory goes from table to table by names), or no finite limits of its cables.
     """
     machine, laws = profile.machine.stages(), [Stage(*law) for law in laws]
     guard = [] if energy_bound is None else [PassivityGuard.of(profile, energy_bound).stage()]
-    return Table.of(
+    table = Table.of(
         [
             *before,
             *judged(link, profile, corrections),
@@ -257,5 +343,18 @@ def machine_stages(
             Safety.of(profile).stage(),
             *_guarded("efforts", machine.efforts, profile),
         ],
-        link.write,
+        _guarded_plant(link.write, profile),
     )
+    if not is_own(profile.kind):
+        names = [stage.name for stage in table]
+        theirs = [machine.pose, *machine.watch, *filter(None, [machine.dynamics]), *machine.efforts]
+        for name in (stage.name for stage in theirs if names.count(stage.name) > 1):
+            raise DeviceError(
+                sentence(
+                    "machine {profile_kind!r}: its stage is named {name!r}, and so is another of "
+                    "the loop; give it a name of its own",
+                    profile_kind=profile.kind,
+                    name=name,
+                )
+            )
+    return table

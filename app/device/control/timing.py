@@ -19,6 +19,7 @@ import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import IntArray
+from app.core.messages import sentence
 from app.device.control.kernel import HEAD, MISSED, RUNNING
 from app.device.control.shared import TickHistory
 from app.device.control.table import Table
@@ -115,12 +116,17 @@ class TickWatch:
         if running == 0:
             return str(error)
         text = f"{type(error).__name__}: {error}".rstrip(": ")
-        return f"{self._named(running)} raises {text}; mend or remove it, and start again"
+        return sentence(
+            "{named} raises {text}; mend or remove it, and start again",
+            named=self._named(running),
+            text=text,
+        )
 
     def _words(self, running: int) -> str:
-        return (
-            f"{self._named(running)} does not return: there is no force any more; end the program,"
-            " mend or remove it, and start again"
+        return sentence(
+            "{named} does not return: there is no force any more; end the program,"
+            " mend or remove it, and start again",
+            named=self._named(running),
         )
 
     def _named(self, running: int) -> str:
@@ -128,7 +134,11 @@ class TickWatch:
         law = "keep" in self._names and (
             self._names.index("keep") < running - 1 < self._names.index("give back")
         )
-        return f"the force law or effect {name!r}" if law else f"the stage {name!r} of the loop"
+        return (
+            sentence("the force law or effect {name!r}", name=name)
+            if law
+            else sentence("the stage {name!r} of the loop", name=name)
+        )
 
 
 def _used(thread: threading.Thread) -> tuple[float, float]:

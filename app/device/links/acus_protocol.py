@@ -8,6 +8,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.messages import sentence
 from app.device.errors import BoardVersionError
 from app.device.links import framing, wire
 from app.device.links import host_end as host
@@ -88,9 +89,15 @@ def read_info(payload: bytes, wanted: int = VERSION) -> tuple[BoardInfo, int, fl
     if len(payload) < 2 or payload[1] != wanted or len(payload) != INFO_BYTES:
         theirs = payload[1] if len(payload) > 1 else 0
         raise BoardVersionError(
-            f"the board speaks version {theirs} of the protocol, this program version {wanted}"
-            f" ({len(payload)} bytes): update the"
-            f" {'board' if theirs < wanted else 'program'} (docs/protocol.md)"
+            sentence(
+                "the board speaks version {theirs} of the protocol, this program version {wanted}"
+                " ({payload_count} bytes): update the"
+                " {text} (docs/protocol.md)",
+                theirs=theirs,
+                wanted=wanted,
+                payload_count=len(payload),
+                text="board" if theirs < wanted else "program",
+            )
         )
     _, version, major, minor, boot, counts, torque, features, watchdog, serial, name = (
         struct.unpack(INFO_FORMAT, payload)

@@ -21,6 +21,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
+from app.core.messages import sentence
 from app.device.errors import LinkError
 from app.device.links import acus_protocol as acus
 from app.device.links import board_layout as at
@@ -375,9 +376,20 @@ class Faults:
             LinkError: if there is no such fault, or the value is out of range; names those valid.
         """
         if name not in _SWITCHES:
-            raise LinkError(f"no fault {name!r}; valid names: {', '.join(FAULTS)}")
+            raise LinkError(
+                sentence(
+                    "no fault {name!r}; valid names: {faults}", name=name, faults=", ".join(FAULTS)
+                )
+            )
         most, factor, places = _SWITCHES[name]
         if not 0.0 <= value <= most:
-            raise LinkError(f"fault {name} is {value:g}; it must be from 0 to {most:g}")
+            raise LinkError(
+                sentence(
+                    "fault {name} is {value:g}; it must be from 0 to {most:g}",
+                    name=name,
+                    value=value,
+                    most=most,
+                )
+            )
         for place in places:
             self.array[place] = value * factor

@@ -15,6 +15,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
+from app.core.messages import sentence
 
 LARGEST_PAYLOAD: Final = 64
 """Longest payload [bytes], without its CRC."""
@@ -125,7 +126,13 @@ def frame(payload: bytes) -> bytes:
         ValueError: if it is empty or longer than `LARGEST_PAYLOAD`.
     """
     if not 1 <= len(payload) <= LARGEST_PAYLOAD:
-        raise ValueError(f"payload of {len(payload)} bytes; a frame holds 1 to {LARGEST_PAYLOAD}")
+        raise ValueError(
+            sentence(
+                "payload of {payload_count} bytes; a frame holds 1 to {largest_payload}",
+                payload_count=len(payload),
+                largest_payload=LARGEST_PAYLOAD,
+            )
+        )
     buffer, out = np.zeros(FRAME_BYTES, np.uint8), np.zeros(2 * FRAME_BYTES, np.uint8)
     buffer[: len(payload)] = np.frombuffer(payload, np.uint8)
     return out[: encode(buffer, len(payload), out, 0)].tobytes()

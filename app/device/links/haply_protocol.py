@@ -16,6 +16,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.messages import sentence
 from app.device.links import host_end as host
 from app.device.links import wire
 from app.mechanisms.profile import DeviceProfile, HaplySection
@@ -70,8 +71,11 @@ def section_of(profile: DeviceProfile) -> HaplySection:
 
     if profile.haply is None:
         raise ConfigurationError(
-            f"device profile {profile.name} speaks the protocol haply but has no section haply;"
-            " add it (see resources/devices/haply-2diy.yaml)"
+            sentence(
+                "device profile {profile_name} speaks the protocol haply but has no section "
+                "haply; add it (see resources/devices/haply-2diy.yaml)",
+                profile_name=profile.name,
+            )
         )
     return profile.haply
 

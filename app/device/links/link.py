@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import Final
 
+from app.core.messages import sentence
 from app.core.parameters import Stage
 
 """(name, compiled function, parameters): a stage of the tick."""
@@ -129,4 +130,7 @@ def describe_error(code: int) -> str:
     """Text for a board's error number, known or not."""
     if code in tuple(BoardError):
         return BoardError(code).message
-    return f"the board reports error {code}, which this program does not know; see its firmware"
+    return sentence(
+        "the board reports error {code}, which this program does not know; see its firmware",
+        code=code,
+    )

@@ -11,6 +11,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import stage
+from app.core.messages import sentence
 from app.core.parameters import Stage
 from app.device.errors import LinkError
 from app.device.links import board, line, wire
@@ -170,7 +171,7 @@ class MemoryLink(DeviceLink):
             LinkError: before `open`.
         """
         if not hasattr(self, "_info"):
-            raise LinkError("the link has not been opened yet; call open() first")
+            raise LinkError(sentence("the link has not been opened yet; call open() first"))
         return self._info
 
     def _say(self, data: bytes) -> bytes:

@@ -11,6 +11,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import stage
+from app.core.messages import sentence
 from app.core.parameters import Stage, numbered, packed
 from app.device.errors import LinkError
 from app.device.links.link import Link
@@ -68,7 +69,9 @@ class PenLink:
         """
         values = np.array([*q, time], dtype=np.float64)
         if values.shape != (len(_ROW),) or not np.isfinite(values).all():
-            raise LinkError(f"the pen's joint angles {values.tolist()} are not finite")
+            raise LinkError(
+                sentence("the pen's joint angles {values} are not finite", values=values.tolist())
+            )
         if time <= self._last:
             return
         self._last = time

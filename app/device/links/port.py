@@ -8,6 +8,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, Final
 
+from app.core.messages import sentence
 from app.device.errors import LinkError
 
 ANSWER_TIME = 0.06
@@ -90,7 +91,9 @@ class Port:
         try:
             import serial
         except ImportError as error:
-            raise LinkError(f"serial ports cannot be used on this system: {error}") from error
+            raise LinkError(
+                sentence("serial ports cannot be used on this system: {error}", error=error)
+            ) from error
         try:
             self._serial = serial.Serial(
                 self.path, self.baud, timeout=0, write_timeout=0, exclusive=True
@@ -147,24 +150,32 @@ def reason(path: str, baud: int, error: Exception) -> str:
         code = cause.args[0]  # termios names its errors by number only
     if code in (errno.ENOENT, errno.ENXIO, errno.ENODEV):
         there = ", ".join(port.path for port in ports()) or "none"
-        return (
-            f"there is no port {path}; serial ports here: {there}. Plug the robot in and look with"
-            " `acus device list`"
+        return sentence(
+            "there is no port {path}; serial ports here: {there}. Plug the robot in and look "
+            "with `acus device list`",
+            path=path,
+            there=there,
         )
     if code == errno.EACCES or code == errno.EPERM:
-        return (
-            f"you may not open {path}: add yourself to the group that owns it with"
-            " `sudo usermod -aG dialout $USER`, then log out and in again"
+        return sentence(
+            "you may not open {path}: add yourself to the group that owns it with"
+            " `sudo usermod -aG dialout $USER`, then log out and in again",
+            path=path,
         )
     if code in (errno.EAGAIN, errno.EWOULDBLOCK, errno.EBUSY):
-        return (
-            f"{path} is busy: another program is using this robot; close it"
-            f" (`fuser -v {path}` names it)"
+        return sentence(
+            "{path} is busy: another program is using this robot; close it"
+            " (`fuser -v {path}` names it)",
+            path=path,
         )
     if isinstance(error, ValueError) or code == errno.EINVAL:
-        return f"{path} cannot be set to {baud} baud; correct wire.baud in the device profile"
+        return sentence(
+            "{path} cannot be set to {baud} baud; correct wire.baud in the device profile",
+            path=path,
+            baud=baud,
+        )
     if code in (errno.ENOTTY, errno.EISDIR):
-        return f"{path} is not a serial port; see `acus device list`"
+        return sentence("{path} is not a serial port; see `acus device list`", path=path)
     if code == errno.EIO:
-        return f"{path} has gone; plug the robot in again"
-    return f"{path} cannot be used: {error}"
+        return sentence("{path} has gone; plug the robot in again", path=path)
+    return sentence("{path} cannot be used: {error}", path=path, error=error)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.device.errors import LinkError
 from app.device.links import acus_protocol as acus
 from app.device.links import cable_protocol as cables
@@ -74,25 +75,41 @@ class AcusSpeech(Speech):
             for payload in deframer.feed(data):
                 if payload[0] == acus.INFO:
                     return self._checked(payload)
-        raise LinkError(silence(seen, "no board that speaks Acus' protocol"))
+        raise LinkError(silence(seen, sentence("no board that speaks Acus' protocol")))
 
     def _checked(self, payload: bytes) -> BoardInfo:
         info, counts, _, watchdog = acus.read_info(payload, self._version)
         wanted = self._profile
         if info.profile and info.profile != wanted.name:
             raise LinkError(
-                f"the board says that it belongs to a robot of the profile {info.profile!r}, the"
-                f" program was started for {wanted.name!r}; choose the profile {info.profile}"
+                sentence(
+                    "the board says that it belongs to a robot of the profile {info_profile!r}, "
+                    "the program was started for {wanted_name!r}; choose the profile "
+                    "{info_profile_2}",
+                    info_profile=info.profile,
+                    wanted_name=wanted.name,
+                    info_profile_2=info.profile,
+                )
             )
         if counts != wanted.encoder.counts_per_turn:
             raise LinkError(
-                f"the board counts {counts} per turn, the profile {wanted.name} says"
-                f" {wanted.encoder.counts_per_turn}; correct the profile or the firmware"
+                sentence(
+                    "the board counts {counts} per turn, the profile {wanted_name} says"
+                    " {encoder_counts_per_turn}; correct the profile or the firmware",
+                    counts=counts,
+                    wanted_name=wanted.name,
+                    encoder_counts_per_turn=wanted.encoder.counts_per_turn,
+                )
             )
         if watchdog > wanted.wire.watchdog_ms * 1e-3 + 1e-9:
             raise LinkError(
-                f"the board's watchdog waits {watchdog * 1e3:g} ms, the profile {wanted.name}"
-                f" allows {wanted.wire.watchdog_ms:g} ms; update the firmware"
+                sentence(
+                    "the board's watchdog waits {watchdog:g} ms, the profile {wanted_name}"
+                    " allows {wanted_wire_watchdog_ms:g} ms; update the firmware",
+                    watchdog=watchdog * 1e3,
+                    wanted_name=wanted.name,
+                    wanted_wire_watchdog_ms=wanted.wire.watchdog_ms,
+                )
             )
         return info
 
@@ -128,7 +145,9 @@ class HaplySpeech(Speech):
             seen += len(data)
             if len(data) == haply.REPLY_BYTES and data[0] == number:
                 return self._found()
-        raise LinkError(silence(seen, f"no Haply board with number {number}"))
+        raise LinkError(
+            silence(seen, sentence("no Haply board with number {number}", number=number))
+        )
 
     def _found(self) -> BoardInfo:
         # A number that no other connection has, of any program: records outlive them.
@@ -163,13 +182,17 @@ def speech_of(profile: DeviceProfile) -> Speech:
 def silence(seen: int, whom: str) -> str:
     """Say that nobody answers, and why that may be."""
     if seen:
-        return (
-            f"{whom} answers: {seen} bytes came, but they make no sense; check that this is the"
-            " robot's port (acus device list), its profile, and the baud rate there (wire.baud)"
+        return sentence(
+            "{whom} answers: {seen} bytes came, but they make no sense; check that this is "
+            "the robot's port (acus device list), its profile, and the baud rate there "
+            "(wire.baud)",
+            whom=whom,
+            seen=seen,
         )
-    return (
-        f"{whom} answers; check its power and cable, that this is the robot's port (acus device"
-        " list), its profile, and the baud rate there (wire.baud)"
+    return sentence(
+        "{whom} answers; check its power and cable, that this is the robot's port (acus "
+        "device list), its profile, and the baud rate there (wire.baud)",
+        whom=whom,
     )
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
 from app.core.events import Event, EventQueue
+from app.core.messages import sentence
 from app.core.parameters import Stage
 from app.device.errors import BoardVersionError, LinkError
 from app.device.links import host_end as host
@@ -201,7 +202,9 @@ class SerialLink(DeviceLink):
             LinkError: before the first.
         """
         if self._info is None:
-            raise LinkError(f"nobody was greeted on {self.port} yet; call open() first")
+            raise LinkError(
+                sentence("nobody was greeted on {port} yet; call open() first", port=self.port)
+            )
         return self._info
 
     @property
@@ -251,8 +254,13 @@ class SerialLink(DeviceLink):
             info = replace(info, emulated=info.emulated or port.is_pseudo_terminal)
             if serial is not None and info.serial != serial:
                 raise LinkError(
-                    f"another robot answers on {self.port} (serial number {info.serial!r} instead"
-                    f" of {serial!r}); plug the first one in again, or close and open the link"
+                    sentence(
+                        "another robot answers on {port} (serial number {info_serial!r} instead"
+                        " of {serial!r}); plug the first one in again, or close and open the link",
+                        port=self.port,
+                        info_serial=info.serial,
+                        serial=serial,
+                    )
                 )
         except BaseException:
             port.close()
@@ -271,7 +279,7 @@ class SerialLink(DeviceLink):
         try:
             return self._speech.greet(port.exchange)
         except LinkError as error:
-            raise type(error)(f"{self.port}: {error}") from error
+            raise type(error)(sentence("{port}: {error}", port=self.port, error=error)) from error
 
     def _find_again(self) -> None:
         self._say(f"the robot on {self.port} is gone; looking for it")
@@ -297,6 +305,9 @@ class SerialLink(DeviceLink):
 def _need_linux() -> None:
     if sys.platform != "linux":
         raise LinkError(
-            f"serial robots are driven from inside the compiled loop, which exists on Linux only;"
-            f" this is {sys.platform}: use the simulated robot here"
+            sentence(
+                "serial robots are driven from inside the compiled loop, which exists on Linux "
+                "only; this is {sys_platform}: use the simulated robot here",
+                sys_platform=sys.platform,
+            )
         )

@@ -9,13 +9,19 @@ from typing import Any
 
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.messages import sentence
 from app.device.errors import LinkError
 from app.device.links import wire
 
 from numba import types  # isort: skip  (after core.compiled)
 
 if sys.platform != "linux":
-    raise LinkError(f"serial robots are driven on Linux only; this is {sys.platform}")
+    raise LinkError(
+        sentence(
+            "serial robots are driven on Linux only; this is {sys_platform}",
+            sys_platform=sys.platform,
+        )
+    )
 
 _MONOTONIC = 1
 _READABLE = 0x001

@@ -74,10 +74,10 @@ def field_of(
     progress = progress or Progress()
     progress.report(0.0, "looking for the tissue field in the cache")
     place = _place(volume, structures, entry_mm, reach_mm, spacing_mm)
-    kept = _kept(place)
-    if kept is not None:
+    there = _cached(place)
+    if there is not None:
         progress.report(1.0, "the tissue field was there")
-        return kept
+        return there
     field = make(volume, structures, entry_mm, reach_mm, spacing_mm, progress, body)
     _keep(field, place)
     return field
@@ -181,7 +181,7 @@ def _version() -> str:
     return digest.hexdigest()
 
 
-def _kept(place: Path) -> TissueField | None:
+def _cached(place: Path) -> TissueField | None:
     try:
         field = read(place)
         place.touch()

@@ -13,6 +13,7 @@ from typing import Any
 
 from app.core.errors import ConfigurationError
 from app.core.extras import not_installed
+from app.core.messages import sentence
 from app.core.progress import Cancelled, Progress
 from app.imaging.pacs.encryption import client_context, server_context, shake_hands
 from app.imaging.pacs.errors import (
@@ -60,8 +61,13 @@ def receiving(
         )
     except OSError as error:
         raise PacsError(
-            f"port {settings.own_port} on {address} cannot be used to receive pictures: "
-            f"{error.strerror or error}; name another as own_port, or retrieve with C-GET"
+            sentence(
+                "port {settings_own_port} on {address} cannot be used to receive pictures: "
+                "{error_strerror}; name another as own_port, or retrieve with C-GET",
+                settings_own_port=settings.own_port,
+                address=address,
+                error_strerror=error.strerror or error,
+            )
         ) from error
     try:
         yield
@@ -177,7 +183,13 @@ def _closed(sockets: list[socket.socket]) -> Iterator[None]:
 def _too_much(settings: PacsSettings, limits: RequestLimits) -> PacsDataError | None:
     if not limits.problem:
         return None
-    return PacsDataError(f"{settings.name}: {limits.problem}; nothing was taken into the library")
+    return PacsDataError(
+        sentence(
+            "{settings_name}: {limits_problem}; nothing was taken into the library",
+            settings_name=settings.name,
+            limits_problem=limits.problem,
+        )
+    )
 
 
 @contextmanager
@@ -216,15 +228,27 @@ def require(linked: Any, status: Any, settings: PacsSettings, doing: str) -> int
         raise lost(settings, doing)
     code = int(status.Status)
     if code >> 12 in (0xA, 0xC) or code >> 8 in (0x01, 0x02):
-        raise PacsError(f"{settings.name} refused while {doing}: {words(code)}")
+        raise PacsError(
+            sentence(
+                "{settings_name} refused while {doing}: {words}",
+                settings_name=settings.name,
+                doing=doing,
+                words=words(code),
+            )
+        )
     return code
 
 
 def lost(settings: PacsSettings, doing: str) -> PacsUnreachableError:
     """Return the error for a connection that ended, or an answer that did not come."""
     return PacsUnreachableError(
-        f"{settings.name} gave no answer while {doing}: the connection was lost, or it was silent "
-        f"for {settings.timeout_s:g} s; nothing was taken into the library"
+        sentence(
+            "{settings_name} gave no answer while {doing}: the connection was lost, or it was "
+            "silent for {settings_timeout_s:g} s; nothing was taken into the library",
+            settings_name=settings.name,
+            doing=doing,
+            settings_timeout_s=settings.timeout_s,
+        )
     )
 
 
@@ -233,21 +257,34 @@ def _refused(settings: PacsSettings, linked: Any) -> PacsError:
     if linked.is_rejected:
         why = rejected(linked.acceptor.primitive)
         return PacsRefusedError(
-            f"{where} rejects the connection of {settings.own_title} to {settings.title}: {why}"
+            sentence(
+                "{where} rejects the connection of {settings_own_title} to {settings_title}: "
+                "{reason}",
+                where=where,
+                settings_own_title=settings.own_title,
+                settings_title=settings.title,
+                reason=why,
+            )
         )
     if linked.acceptor.primitive is not None:
-        return PacsRefusedError(f"{where} supports nothing of what is needed for this request")
+        return PacsRefusedError(
+            sentence("{where} supports nothing of what is needed for this request", where=where)
+        )
     tls = settings.tls
     wish = (
-        "; perhaps it wants a certificate of our own (tls: certificate, key)"
+        sentence("; perhaps it wants a certificate of our own (tls: certificate, key)")
         if tls is not None and not tls.certificate
-        else "; perhaps that port wants TLS"
+        else sentence("; perhaps that port wants TLS")
         if tls is None
         else ""
     )
     return PacsUnreachableError(
-        f"{where} cannot be reached: something listens there, but it does not answer as a DICOM "
-        f"service{wish}"
+        sentence(
+            "{where} cannot be reached: something listens there, but it does not answer as a "
+            "DICOM service{wish}",
+            where=where,
+            wish=wish,
+        )
     )
 
 
@@ -268,7 +305,7 @@ def _connect(settings: PacsSettings) -> None:
     except OSError as error:
         why = error.strerror or type(error).__name__
     if why:
-        raise PacsUnreachableError(f"{where}: {why}")
+        raise PacsUnreachableError(sentence("{where}: {reason}", where=where, reason=why))
 
 
 def own_address(settings: PacsSettings) -> str:
@@ -288,5 +325,9 @@ def own_address(settings: PacsSettings) -> str:
             return str(probe.getsockname()[0])
     except OSError as error:
         raise PacsUnreachableError(
-            f"no way leads from this computer to {settings.host}: {error.strerror or error}"
+            sentence(
+                "no way leads from this computer to {settings_host}: {error_strerror}",
+                settings_host=settings.host,
+                error_strerror=error.strerror or error,
+            )
         ) from error

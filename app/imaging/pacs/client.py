@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import closing, suppress
 from typing import Any
 
+from app.core.messages import sentence
 from app.core.progress import Cancelled, Progress
 from app.imaging.pacs import statuses
 from app.imaging.pacs.association import association, lost, network, receiving, require
@@ -72,8 +73,11 @@ class Pacs:
                 found.append(found_study(answer))
                 if len(found) > MOST_STUDIES:
                     raise PacsError(
-                        f"more than {MOST_STUDIES} studies match; narrow the search by date or "
-                        "patient"
+                        sentence(
+                            "more than {most_studies} studies match; narrow the search by date "
+                            "or patient",
+                            most_studies=MOST_STUDIES,
+                        )
                     )
         return sorted(found, key=lambda study: study.date, reverse=True)
 
@@ -111,7 +115,11 @@ class Pacs:
             keys = series_keys(study_uid, "", series_uid)
             known = found or list(self._answers(linked, keys, "looking for the series"))
         if not known:
-            raise PacsDataError(f"{self.settings.name} has no such study or series")
+            raise PacsDataError(
+                sentence(
+                    "{settings_name} has no such study or series", settings_name=self.settings.name
+                )
+            )
         return tuple(dict.fromkeys(uid for uid in found if uid))
 
     def retrieve(
@@ -181,14 +189,24 @@ class Pacs:
             code = require(linked, status, self.settings, "sending the pictures")
             if code not in statuses.PENDING:
                 if code == statuses.CANCELLED:
-                    raise PacsError(f"{self.settings.name} cancelled the retrieval")
+                    raise PacsError(
+                        sentence(
+                            "{settings_name} cancelled the retrieval",
+                            settings_name=self.settings.name,
+                        )
+                    )
                 return int(status.get("NumberOfFailedSuboperations", 0) or 0)
-        raise lost(self.settings, "sending the pictures")
+        raise lost(self.settings, sentence("sending the pictures"))
 
     def _require_right(self, incoming: Incoming) -> None:
         if incoming.problems:
             raise PacsDataError(
-                f"{self.settings.name}: {incoming.problems[0]}; nothing was taken into the library"
+                sentence(
+                    "{settings_name}: {incoming_problems_first}; nothing was taken into the "
+                    "library",
+                    settings_name=self.settings.name,
+                    incoming_problems_first=incoming.problems[0],
+                )
             ) from None
 
     def _check(
@@ -205,11 +223,19 @@ class Pacs:
         missing = sum(not incoming.has(uid) for uid in listed)
         if missing or failed:
             raise PacsDataError(
-                f"{name} did not send {max(missing, failed)} of {len(listed) or 'the'} pictures; "
-                f"repeat the retrieval: only those are fetched{refused}"
+                sentence(
+                    "{name} did not send {missing_max} of {listed_count} pictures; "
+                    "repeat the retrieval: only those are fetched{refused}",
+                    name=name,
+                    missing_max=max(missing, failed),
+                    listed_count=len(listed) or "the",
+                    refused=refused,
+                )
             )
         if incoming.count() == 0:
-            raise PacsDataError(f"{name} sent nothing{refused}")
+            raise PacsDataError(
+                sentence("{name} sent nothing{refused}", name=name, refused=refused)
+            )
 
     def _answers(self, linked: Any, keys: Any, doing: str) -> Iterator[Any]:
         given = 0
@@ -219,7 +245,12 @@ class Pacs:
                 given += 1
                 if given > MOST_PICTURES:
                     raise PacsDataError(
-                        f"{self.settings.name} gave more than {MOST_PICTURES} answers while {doing}"
+                        sentence(
+                            "{settings_name} gave more than {most_pictures} answers while {doing}",
+                            settings_name=self.settings.name,
+                            most_pictures=MOST_PICTURES,
+                            doing=doing,
+                        )
                     )
                 yield answer
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from app.core.errors import ConfigurationError
+from app.core.messages import sentence
 from app.imaging.pacs.limits import RequestLimits, may_send
 from app.imaging.pacs.settings import PacsSettings, TlsSettings
 
@@ -68,8 +69,11 @@ def server_context(settings: PacsSettings, limits: RequestLimits) -> ListeningCo
         return None
     if not tls.certificate:
         raise ConfigurationError(
-            f"{settings.name}: C-MOVE with TLS needs a certificate of our own "
-            "(tls: certificate, key); or retrieve with C-GET"
+            sentence(
+                "{settings_name}: C-MOVE with TLS needs a certificate of our own "
+                "(tls: certificate, key); or retrieve with C-GET",
+                settings_name=settings.name,
+            )
         )
     context = ListeningContext(ssl.PROTOCOL_TLS_SERVER)
     context.limits, context.settings = limits, settings
@@ -92,14 +96,20 @@ def shake_hands(connection: socket.socket, settings: PacsSettings) -> str:
         with context.wrap_socket(connection, server_hostname=settings.host):
             return ""
     except ssl.SSLCertVerificationError as error:
-        return f"its certificate is not trusted: {error.verify_message}"
+        return sentence(
+            "its certificate is not trusted: {error_verify_message}",
+            error_verify_message=error.verify_message,
+        )
     except ssl.SSLError as error:
         why = (error.reason or "").replace("_", " ").lower()
-        return f"no encrypted connection comes about ({why or 'TLS error'}); is that its TLS port?"
+        return sentence(
+            "no encrypted connection comes about ({reason}); is that its TLS port?",
+            reason=why or "TLS error",
+        )
     except TimeoutError:
-        return "it does not answer to TLS; is that its TLS port?"
+        return sentence("it does not answer to TLS; is that its TLS port?")
     except OSError:
-        return "it closes the connection when TLS begins; is that its TLS port?"
+        return sentence("it closes the connection when TLS begins; is that its TLS port?")
 
 
 def _trust(context: ssl.SSLContext, tls: TlsSettings) -> None:
@@ -110,7 +120,9 @@ def _trust(context: ssl.SSLContext, tls: TlsSettings) -> None:
     try:
         context.load_verify_locations(cafile=tls.authority)
     except (ssl.SSLError, OSError):
-        raise _unusable(tls.authority, "authority", "it holds no certificate in PEM") from None
+        raise _unusable(
+            tls.authority, "authority", sentence("it holds no certificate in PEM")
+        ) from None
 
 
 def _own(context: ssl.SSLContext, tls: TlsSettings) -> None:
@@ -135,8 +147,10 @@ def _readable(file: str, name: str) -> None:
             pass
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or "no such file"
-        raise _unusable(file, name, f"it cannot be read: {why}") from None
+        raise _unusable(file, name, sentence("it cannot be read: {reason}", reason=why)) from None
 
 
 def _unusable(file: str, name: str, reason: str) -> ConfigurationError:
-    return ConfigurationError(f"tls {name} {file}: {reason}")
+    return ConfigurationError(
+        sentence("tls {name} {file}: {reason}", name=name, file=file, reason=reason)
+    )

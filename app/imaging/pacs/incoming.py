@@ -17,6 +17,7 @@ import pydicom
 
 from app.core import paths
 from app.core.files import sync
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.errors import FileDamagedError, WorkerError
 from app.imaging.pacs.limits import LARGEST_PICTURE, SPARE_BYTES, SPOOLED, RequestLimits
@@ -145,24 +146,29 @@ class Incoming:
 
     def _room(self, sop_class: str, sop_uid: str, file: Path) -> tuple[int, str]:
         if sop_class not in STORAGE_CLASSES:
-            return WRONG_CLASS, "it sent an object that is no CT or MR picture"
+            return WRONG_CLASS, sentence("it sent an object that is no CT or MR picture")
         if self._listed and sop_uid not in self._listed:
-            return WRONG_CLASS, "it sent a picture that it had not listed"
+            return WRONG_CLASS, sentence("it sent a picture that it had not listed")
         if not self._listed and self.count() >= MOST_PICTURES:
-            return WRONG_CLASS, f"it sent more than {MOST_PICTURES} pictures"
+            return WRONG_CLASS, sentence(
+                "it sent more than {most_pictures} pictures", most_pictures=MOST_PICTURES
+            )
         if size_of(file) > LARGEST_PICTURE:
-            return NO_ROOM, f"it sent a file of more than {LARGEST_PICTURE // 1024**3} GB"
+            return NO_ROOM, sentence(
+                "it sent a file of more than {largest_picture} GB",
+                largest_picture=LARGEST_PICTURE // 1024**3,
+            )
         if shutil.disk_usage(self.folder).free < SPARE_BYTES:
-            return NO_ROOM, "the disk is full"
+            return NO_ROOM, sentence("the disk is full")
         return ACCEPTED, ""
 
     def _repeated(self, sop_uid: str, file: Path) -> tuple[int, str]:
         """Leave what has come as it is; the same once more is no harm, another one is."""
         self._again += 1
         if not filecmp.cmp(file, self._path(sop_uid), shallow=False):
-            return WRONG_CLASS, "it sent two different pictures under one name"
+            return WRONG_CLASS, sentence("it sent two different pictures under one name")
         if self._again > max(len(self._listed), self.count()):
-            return WRONG_CLASS, "it sent the same pictures again and again"
+            return WRONG_CLASS, sentence("it sent the same pictures again and again")
         return ACCEPTED, ""
 
     def _kept(self, sop_class: str, sop_uid: str, file: Path) -> tuple[int, str]:
@@ -174,13 +180,16 @@ class Incoming:
                 os.replace(file, self._path(sop_uid))
             return status, problem
         except OSError as error:
-            return NO_ROOM, f"a picture cannot be kept: {error.strerror or 'disk error'}"
+            return NO_ROOM, sentence(
+                "a picture cannot be kept: {error_strerror}",
+                error_strerror=error.strerror or "disk error",
+            )
 
     def _judged(self, path: Path, sop_class: str, sop_uid: str) -> tuple[int, str]:
         try:
             said = self._said(path)
         except FileDamagedError:  # whatever bytes came, they are no DICOM data set
-            return NOT_UNDERSTOOD, "it sent something that is no DICOM data set"
+            return NOT_UNDERSTOOD, sentence("it sent something that is no DICOM data set")
         except WorkerError as error:
             return NO_ROOM, str(error)
         problem = self._mistaken(sop_class, sop_uid, said)
@@ -193,13 +202,13 @@ class Incoming:
     def _mistaken(self, sop_class: str, sop_uid: str, answer: Identity) -> str:
         """Say what of a picture's identity is not what was asked for; empty where all is."""
         if answer[:2] != (sop_class, sop_uid):
-            return "it sent a picture under another one's name"
+            return sentence("it sent a picture under another one's name")
         if answer[2] != self.series_uid:
-            return "it sent a picture of another series"
+            return sentence("it sent a picture of another series")
         if self.study_uid and answer[3] != self.study_uid:
-            return "it sent a picture of another study"
+            return sentence("it sent a picture of another study")
         if self._patient not in (None, answer[4]):
-            return "it sent pictures of several patients"
+            return sentence("it sent pictures of several patients")
         self._patient = answer[4]
         return ""
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from app.core.errors import ConfigurationError
+from app.core.messages import sentence
 
 _DATES = re.compile(r"(\d{8})?(-(\d{8})?)?")
 STUDY_WANTED = (
@@ -52,12 +53,16 @@ class Query:
     def __post_init__(self) -> None:
         if not _DATES.fullmatch(self.date):
             raise ConfigurationError(
-                f"date {self.date!r}: use YYYYMMDD, or a range YYYYMMDD-YYYYMMDD"
+                sentence(
+                    "date {date!r}: use YYYYMMDD, or a range YYYYMMDD-YYYYMMDD", date=self.date
+                )
             )
         if not (self.patient_id or self.name or self.date or self.accession or self.study_uid):
             raise ConfigurationError(
-                "say what to look for: a patient, a date, an accession number or a study; a list "
-                "of everything would be thousands of patients"
+                sentence(
+                    "say what to look for: a patient, a date, an accession number or a study; a "
+                    "list of everything would be thousands of patients"
+                )
             )
 
 

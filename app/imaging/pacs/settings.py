@@ -10,6 +10,7 @@ from app.core import paths
 from app.core.configuration import Strict, load
 from app.core.errors import ConfigurationError
 from app.core.files import write_atomically
+from app.core.messages import sentence
 
 Port = Annotated[int, Field(ge=1, le=65535)]
 Host = Annotated[str, Field(min_length=1, max_length=253)]
@@ -99,11 +100,18 @@ def chosen(name: str | None) -> PacsSettings:
             return server
     if not servers:
         raise ConfigurationError(
-            f"no PACS is configured; acus pacs add NAME --host HOST --port PORT --title AE "
-            f"writes {pacs_path()}"
+            sentence(
+                "no PACS is configured; acus pacs add NAME --host HOST --port PORT --title AE "
+                "writes {pacs_path}",
+                pacs_path=pacs_path(),
+            )
         )
     names = ", ".join(server.name for server in servers)
-    raise ConfigurationError(f"no PACS {name!r}" if name else f"name one of the PACS: {names}")
+    raise ConfigurationError(
+        sentence("no PACS {name!r}", name=name)
+        if name
+        else sentence("name one of the PACS: {names}", names=names)
+    )
 
 
 def keep(servers: tuple[PacsSettings, ...]) -> None:

@@ -2,6 +2,8 @@
 
 from typing import Any
 
+from app.core.messages import sentence
+
 SUCCESS = 0x0000
 CANCELLED = 0xFE00
 PENDING = (0xFF00, 0xFF01)
@@ -55,7 +57,11 @@ def words(status: int) -> str:
     """Say a status in words, with its number."""
     text = _WORDS.get(status)
     if text is None:
-        text = "it cannot process the request" if status >> 12 == 0xC else "an unknown answer"
+        text = (
+            sentence("it cannot process the request")
+            if status >> 12 == 0xC
+            else sentence("an unknown answer")
+        )
     return f"{text} (status 0x{status:04X})"
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.errors import FileDamagedError, SeriesRefusedError
 from app.imaging.library import CtLibrary, Imported, ImportFailedError
@@ -70,7 +71,12 @@ def fetch(
         series = scan_folder(incoming.folder, progress.part(0.9, 1.0)).series
         if not series:
             incoming.forget()
-            raise PacsDataError(f"{pacs.settings.name} sent nothing that can be read")
+            raise PacsDataError(
+                sentence(
+                    "{pacs_settings_name} sent nothing that can be read",
+                    pacs_settings_name=pacs.settings.name,
+                )
+            )
         best = max(series, key=lambda one: _worth(one, remedy))
         _require_remedy(best, remedy)
     except RemedyWantedError:
@@ -92,11 +98,17 @@ def _require_remedy(series: Series, remedy: str | None) -> None:
     if series.usable:
         return
     if not series.remedies:
-        raise SeriesRefusedError(f"this series cannot be used: {series.reason}")
+        raise SeriesRefusedError(
+            sentence("this series cannot be used: {series_reason}", series_reason=series.reason)
+        )
     if remedy not in (None, *series.remedies):
         raise RemedyWantedError(
-            f"this series cannot be used as it is: {series.reason}{offer(series)}; what has come "
-            "is kept aside for a day and not fetched again"
+            sentence(
+                "this series cannot be used as it is: {series_reason}{offer}; what has come "
+                "is kept aside for a day and not fetched again",
+                series_reason=series.reason,
+                offer=offer(series),
+            )
         )
 
 

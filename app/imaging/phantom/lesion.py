@@ -8,6 +8,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.errors import NumericalError
+from app.core.messages import sentence
 from app.imaging.phantom import organs, skeleton
 from app.imaging.phantom.patient import Patient, Point, draw_patient
 from app.imaging.phantom.tubes import Tubes
@@ -63,7 +64,9 @@ def planned_patient(seed: int) -> tuple[Patient, Point]:
         moved = rng.uniform((-100.0, -38.0, 165.0), (-66.0, -10.0, 205.0))
         patient = replace(patient, lesion_mm=(float(moved[0]), float(moved[1]), float(moved[2])))
     raise NumericalError(
-        f"no lesion with a safe path was found for phantom seed {seed}; take another"
+        sentence(
+            "no lesion with a safe path was found for phantom seed {seed}; take another", seed=seed
+        )
     )
 
 

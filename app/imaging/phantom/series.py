@@ -21,6 +21,7 @@ from scipy import ndimage
 
 from app.core import paths
 from app.core.errors import ConfigurationError
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.phantom import trunk
 from app.imaging.phantom.canvas import AIR, Canvas
@@ -225,8 +226,13 @@ def phantom_series(
     """
     if seed < 0 or not 2 <= slices <= 2000 or not 16 <= rows <= 2048:
         raise ConfigurationError(
-            f"phantom seed {seed}, {slices} slices, {rows} rows: the seed must be 0 or more, "
-            "slices 2 to 2000 and rows 16 to 2048"
+            sentence(
+                "phantom seed {seed}, {slices} slices, {rows} rows: the seed must be 0 or more, "
+                "slices 2 to 2000 and rows 16 to 2048",
+                seed=seed,
+                slices=slices,
+                rows=rows,
+            )
         )
     name = f"seed{seed}-{slices}x{rows}"
     folder = paths.cache() / "phantom" / f"{name}-{_version()}"

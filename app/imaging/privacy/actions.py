@@ -10,6 +10,7 @@ from pydicom.dataelem import DataElement
 from pydicom.dataset import Dataset
 from pydicom.tag import BaseTag
 
+from app.core.messages import sentence
 from app.imaging.privacy import dates
 from app.imaging.privacy.errors import PrivacyError
 from app.imaging.privacy.forms import fits, values
@@ -127,7 +128,9 @@ def _code(value: str, meaning: str) -> Dataset:
 
 def _treated(dataset: Dataset, rules: Rules, tally: Tally, depth: int) -> Dataset:
     if depth > _DEEPEST:
-        raise PrivacyError(f"its sequences are nested deeper than {_DEEPEST} levels")
+        raise PrivacyError(
+            sentence("its sequences are nested deeper than {deepest} levels", deepest=_DEEPEST)
+        )
     result = Dataset()
     for tag in list(dataset.keys()):
         kept = rules.profile.kept.get(int(tag))

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydicom.dataset import Dataset
 
+from app.core.messages import sentence
 from app.imaging.privacy.errors import AnnotatedError, BurnedInError
 from app.imaging.privacy.forms import values
 
@@ -55,11 +56,19 @@ class MaskBox:
 
     def __post_init__(self) -> None:
         if self.picture is not None and self.picture < 1:
-            raise BurnedInError(f"picture {self.picture}: pictures are counted from 1")
+            raise BurnedInError(
+                sentence("picture {picture}: pictures are counted from 1", picture=self.picture)
+            )
         if min(self.column, self.row) < 0 or min(self.columns, self.rows) < 1:
             raise BurnedInError(
-                f"box {self.column},{self.row},{self.columns},{self.rows}: column and row must be "
-                "0 or more, width and height 1 or more"
+                sentence(
+                    "box {column},{row},{columns},{rows}: column and row must be "
+                    "0 or more, width and height 1 or more",
+                    column=self.column,
+                    row=self.row,
+                    columns=self.columns,
+                    rows=self.rows,
+                )
             )
 
 
@@ -76,7 +85,13 @@ def check_numbers(boxes: Sequence[MaskBox], count: int) -> None:
     """
     for box in boxes:
         if box.picture is not None and box.picture > count:
-            raise BurnedInError(f"there is no picture {box.picture}: the series has {count}")
+            raise BurnedInError(
+                sentence(
+                    "there is no picture {box_picture}: the series has {count}",
+                    box_picture=box.picture,
+                    count=count,
+                )
+            )
 
 
 def check(dataset: Dataset, boxes: Sequence[MaskBox]) -> None:
@@ -87,20 +102,28 @@ def check(dataset: Dataset, boxes: Sequence[MaskBox]) -> None:
         BurnedInError: if it is a picture of a screen or a secondary capture, boxes or not.
     """
     if str(dataset.get("SOPClassUID", "")).startswith(_SECONDARY_CAPTURE):
-        raise BurnedInError("it is a secondary capture: such pictures often carry a name")
+        raise BurnedInError(sentence("it is a secondary capture: such pictures often carry a name"))
     kinds = " ".join(map(str, values(dataset.get("ImageType", None)))).upper()
     if found := _SCREENS.intersection(re.split(r"[\s_]+", kinds)):
-        raise BurnedInError(f"it is a picture of a screen (ImageType {sorted(found)[0]})")
+        raise BurnedInError(
+            sentence("it is a picture of a screen (ImageType {first})", first=sorted(found)[0])
+        )
     if str(dataset.get("ConversionType", "") or "").strip().upper() in _CONVERTED:
-        raise BurnedInError("it was converted from a film, a video or paper (ConversionType)")
+        raise BurnedInError(
+            sentence("it was converted from a film, a video or paper (ConversionType)")
+        )
     described = str(dataset.get("SeriesDescription", "") or "").lower()
     if _DESCRIBED.search(described.replace("_", " ")):
-        raise BurnedInError("its series is described as pictures of a screen or a dose report")
+        raise BurnedInError(
+            sentence("its series is described as pictures of a screen or a dose report")
+        )
     annotated = str(dataset.get("BurnedInAnnotation", "") or "").strip().upper()
     if annotated == "YES" and not boxes:
         raise AnnotatedError(
-            "its pictures carry writing (BurnedInAnnotation YES), which may be a name; draw boxes "
-            "over the writing (--mask COL,ROW,WIDTH,HEIGHT) or choose another series"
+            sentence(
+                "its pictures carry writing (BurnedInAnnotation YES), which may be a name; draw "
+                "boxes over the writing (--mask COL,ROW,WIDTH,HEIGHT) or choose another series"
+            )
         )
 
 
@@ -118,8 +141,14 @@ def blackened(
     for box in boxes:
         if box.row >= rows or box.column >= columns:
             raise BurnedInError(
-                f"box at column {box.column}, row {box.row} lies outside the picture of "
-                f"{columns} × {rows} pixels"
+                sentence(
+                    "box at column {box_column}, row {box_row} lies outside the picture of "
+                    "{columns} × {rows} pixels",
+                    box_column=box.column,
+                    box_row=box.row,
+                    columns=columns,
+                    rows=rows,
+                )
             )
         area = np.s_[box.row : box.row + box.rows, box.column : box.column + box.columns]
         result[area] = lowest

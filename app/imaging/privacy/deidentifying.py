@@ -23,6 +23,7 @@ from pydicom.uid import UID, ExplicitVRLittleEndian
 
 from app.core.descriptors import hold
 from app.core.files import sync
+from app.core.messages import sentence
 from app.core.progress import Cancelled, Progress
 from app.imaging.decoding import read_stored, stored_type
 from app.imaging.errors import FileDamagedError
@@ -174,31 +175,52 @@ def verify(path: Path, secrets: Secrets, old_uids: frozenset[str], pixels: str) 
     """
     written = pydicom.dcmread(path)
     if (written.preamble or b"").strip(b"\0"):
-        raise NotCleanError(f"{path.name}: the preamble is not empty")
+        raise NotCleanError(sentence("{path_name}: the preamble is not empty", path_name=path.name))
     for part in (written.file_meta, written):
         for element in _elements(part, 0):
             _check(path, element, secrets, old_uids)
     if pixel_digest(written) != pixels:
-        raise NotCleanError(f"{path.name}: its pixels are not those that were read")
+        raise NotCleanError(
+            sentence("{path_name}: its pixels are not those that were read", path_name=path.name)
+        )
     end = written["PixelData"].file_tell or path.stat().st_size
     whole = path.read_bytes()
     head = whole[:end]
     for secret in secrets.texts:
         if len(secret) >= _SHORTEST_NUMBER and not _numeric(secret) and _in(secret, head):
-            raise NotCleanError(f"{path.name}: a text of the original header stands in it")
+            raise NotCleanError(
+                sentence(
+                    "{path_name}: a text of the original header stands in it", path_name=path.name
+                )
+            )
     if any(len(name) >= _SHORTEST_IN_PIXELS and _in(name, whole) for name in secrets.names):
-        raise NotCleanError(f"{path.name}: a name or number of the patient stands in its pixels")
+        raise NotCleanError(
+            sentence(
+                "{path_name}: a name or number of the patient stands in its pixels",
+                path_name=path.name,
+            )
+        )
 
 
 def _check(path: Path, element: DataElement, secrets: Secrets, old: frozenset[str]) -> None:
     name = element.keyword or str(element.tag)
     known = int(element.tag) in secrets.profile.kept or element.keyword in _ADDED
     if element.tag.is_private or not (known or element.tag.group == 2):
-        raise NotCleanError(f"{path.name}: {name} should have been removed")
+        raise NotCleanError(
+            sentence("{path_name}: {name} should have been removed", path_name=path.name, name=name)
+        )
     if element.VR == "UI" and old.intersection(str(value) for value in values(element.value)):
-        raise NotCleanError(f"{path.name}: {name} still has its old UID")
+        raise NotCleanError(
+            sentence("{path_name}: {name} still has its old UID", path_name=path.name, name=name)
+        )
     if secrets.repeats(element):
-        raise NotCleanError(f"{path.name}: {name} repeats what the original said elsewhere")
+        raise NotCleanError(
+            sentence(
+                "{path_name}: {name} repeats what the original said elsewhere",
+                path_name=path.name,
+                name=name,
+            )
+        )
 
 
 def _elements(dataset: Dataset, depth: int) -> Iterator[DataElement]:
@@ -251,20 +273,21 @@ def face_warning(dataset: Dataset) -> str:
     """Return what to say about a face in these slices; empty where none is to be expected."""
     part = str(dataset.get("BodyPartExamined", "") or "").strip().upper()
     if _HEAD.fullmatch(part):
-        return (
-            f"a face may be recognisable in the 3D view (body part {part}): nothing was removed "
-            "from the pictures; keep this CT where patients' pictures may be kept"
+        return sentence(
+            "a face may be recognisable in the 3D view (body part {part}): nothing was "
+            "removed from the pictures; keep this CT where patients' pictures may be kept",
+            part=part,
         )
     recognisable = str(dataset.get("RecognizableVisualFeatures", "") or "").strip().upper()
     if recognisable == "YES" or any(_SPOKEN.search(str(dataset.get(k, "") or "")) for k in _TEXTS):
-        return (
-            "the files' own texts speak of a head or neck: a face may be recognisable in the 3D "
-            "view; nothing was removed from the pictures"
+        return sentence(
+            "the files' own texts speak of a head or neck: a face may be recognisable in the "
+            "3D view; nothing was removed from the pictures"
         )
     if not part:
-        return (
-            "the files do not say which body part they show: if it is the head, a face may be "
-            "recognisable in the 3D view"
+        return sentence(
+            "the files do not say which body part they show: if it is the head, a face may "
+            "be recognisable in the 3D view"
         )
     return ""
 
@@ -282,11 +305,18 @@ def read_original(header: SliceHeader) -> Dataset:
         dataset = pydicom.dcmread(header.path, force=True)
         dataset["PixelData"]  # not every file has got any
     except OSError as error:
-        raise FileDamagedError(f"it cannot be read: {error.strerror or 'no such file'}") from None
+        raise FileDamagedError(
+            sentence(
+                "it cannot be read: {error_strerror}",
+                error_strerror=error.strerror or "no such file",
+            )
+        ) from None
     except Exception as error:  # hostile bytes make the parser raise nearly anything
-        raise FileDamagedError(f"it cannot be read ({type(error).__name__})") from None
+        raise FileDamagedError(
+            sentence("it cannot be read ({error_type})", error_type=type(error).__name__)
+        ) from None
     if str(dataset.get("SOPInstanceUID", "")).strip(" \0") != header.identity.sop_uid:
-        raise FileDamagedError("it has changed since the folder was looked at")
+        raise FileDamagedError(sentence("it has changed since the folder was looked at"))
     return dataset
 
 
@@ -338,7 +368,7 @@ def _redraw(header: SliceHeader, result: Dataset, boxes: Sequence[MaskBox]) -> N
     """Write the pixels anew, boxes black."""
     form = header.format
     if form.frames != 1:
-        raise BurnedInError("boxes can be drawn on files of one picture only")
+        raise BurnedInError(sentence("boxes can be drawn on files of one picture only"))
     stored = np.empty((form.rows, form.columns), stored_type(form))
     read_stored(header, stored)
     slope = header.rescale.slope if header.rescale else 1.0
@@ -371,7 +401,9 @@ def _write(result: Dataset, to: Path, syntax: UID) -> None:
     except MemoryError:
         raise
     except Exception as error:  # a value that pydicom will not write; its message would quote it
-        raise PrivacyError(f"it cannot be written anew ({type(error).__name__})") from None
+        raise PrivacyError(
+            sentence("it cannot be written anew ({error_type})", error_type=type(error).__name__)
+        ) from None
     sync(to)
 
 
@@ -468,7 +500,9 @@ def _counted(number: int, count: int, work: Callable[[], _Made]) -> _Made:
     except Cancelled:
         raise
     except (PrivacyError, FileDamagedError) as error:
-        raise type(error)(f"file {number} of {count}: {error}") from None
+        raise type(error)(
+            sentence("file {number} of {count}: {error}", number=number, count=count, error=error)
+        ) from None
 
 
 def _rules(first: SliceHeader) -> Rules:

@@ -13,6 +13,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from app.core import paths
+from app.core.messages import sentence
 from app.imaging.privacy.errors import KeyDamagedError
 
 BYTES = 32
@@ -37,13 +38,22 @@ def installation_key() -> bytes:
         key = _read(path, known.st_mtime_ns, known.st_ino)
     except OSError as error:
         raise KeyDamagedError(
-            f"the privacy key {path} cannot be read or made: {error.strerror or error}; "
-            "pseudonyms need it: make the folder writable"
+            sentence(
+                "the privacy key {path} cannot be read or made: {error_strerror}; "
+                "pseudonyms need it: make the folder writable",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
         ) from error
     if len(key) != BYTES:
         raise KeyDamagedError(
-            f"the privacy key {path} has {len(key)} bytes, {BYTES} are needed; put the kept copy "
-            "back, or delete it: then every patient gets a new pseudonym"
+            sentence(
+                "the privacy key {path} has {key_count} bytes, {bytes} are needed; put the kept "
+                "copy back, or delete it: then every patient gets a new pseudonym",
+                path=path,
+                key_count=len(key),
+                bytes=BYTES,
+            )
         )
     return key
 

@@ -17,6 +17,7 @@ from pydicom.dataset import Dataset
 from pydicom.encaps import encapsulate
 from pydicom.uid import UID, ExplicitVRLittleEndian, JPEGLSLossless
 
+from app.core.messages import sentence
 from app.imaging import codecs, codestream
 from app.imaging.decoding import read_stored, stored_type
 from app.imaging.errors import FileDamagedError
@@ -26,7 +27,7 @@ from app.imaging.pixel_finding import Fragments, Place, frame_bytes, frame_place
 from app.imaging.privacy.code_streams import NotKnownError, only_pixels
 from app.imaging.privacy.errors import PrivacyError
 
-_UNLIKE = "its pixels cannot be parted from what else stands with them"
+_UNLIKE = sentence("its pixels cannot be parted from what else stands with them")
 
 
 def take_pixels(header: SliceHeader, original: Dataset, result: Dataset) -> tuple[UID, bool]:

@@ -10,6 +10,7 @@ from pydicom.datadict import tag_for_keyword
 from app.core import paths
 from app.core.configuration import read_yaml
 from app.core.errors import ConfigurationError
+from app.core.messages import sentence
 from app.imaging.privacy.known_words import body_parts
 
 KINDS = ("number", "uid", "date", "age", "kernel", "tag", "items", "pixels")
@@ -68,7 +69,14 @@ def _actions() -> dict[int, str]:
         rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
     for row in rows:
         if row["action"] not in ACTIONS:
-            raise ConfigurationError(f"{path}: {row['tag']}: no action {row['action']!r}")
+            raise ConfigurationError(
+                sentence(
+                    "{path}: {tag}: no action {action!r}",
+                    path=path,
+                    tag=row["tag"],
+                    action=row["action"],
+                )
+            )
     return {int(row["tag"], 16): row["action"] for row in rows}
 
 
@@ -78,7 +86,14 @@ def _kept() -> dict[int, KeptAttribute]:
     for keyword, form in read_yaml(path).items():
         tag = tag_for_keyword(keyword)
         if tag is None or not (isinstance(form, list) or form in (*KINDS, BODY_PART)):
-            raise ConfigurationError(f"{path}: {keyword}: {form}: no such keyword or form")
+            raise ConfigurationError(
+                sentence(
+                    "{path}: {keyword}: {form}: no such keyword or form",
+                    path=path,
+                    keyword=keyword,
+                    form=form,
+                )
+            )
         if isinstance(form, list):
             found[tag] = KeptAttribute(keyword, "words", frozenset(map(str, form)))
         elif form == BODY_PART:

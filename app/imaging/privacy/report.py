@@ -8,6 +8,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from app.core.messages import sentence
+
 LOCK = ".lock"
 """File in a folder that is being written; whoever writes there holds it."""
 
@@ -86,16 +88,19 @@ class RemovalReport:
             ("written empty", self.emptied),
             ("replaced", self.replaced),
             ("dates moved", self.shifted),
-            ("removed, because the value had another form", self.unfit),
+            (sentence("removed, because the value had another form"), self.unfit),
         )
         lines = [f"{title}: {', '.join(counts)}" for title, counts in parts if counts]
-        lines.append(f"private attributes removed: {self.private}")
+        lines.append(sentence("private attributes removed: {private}", private=self.private))
         if self.masked:
-            lines.append(f"pixels blackened in {self.masked} files")
+            lines.append(sentence("pixels blackened in {masked} files", masked=self.masked))
         if self.stripped:
             lines.append(
-                f"left out of the pixel data of {self.stripped} files: what is not pixels "
-                "(comments, unused bits, bytes behind the last one)"
+                sentence(
+                    "left out of the pixel data of {stripped} files: what is not pixels "
+                    "(comments, unused bits, bytes behind the last one)",
+                    stripped=self.stripped,
+                )
             )
         return (*lines, *(f"look at this: {warning}" for warning in self.warnings))
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.core.plugins import TEXT, Declaration, Field, PluginKind
 from app.imaging.errors import ImagingError
 from app.imaging.series import NO_REMEDY, Recipe, Series
@@ -91,7 +92,12 @@ def refused() -> dict[Path, str]:
 def _check(declared: Remedy) -> None:
     if declared.name == NO_REMEDY:
         raise ImagingError(
-            f"{declared.path}: {NO_REMEDY!r} means that a series is read as it is; rename the file"
+            sentence(
+                "{declared_path}: {no_remedy!r} means that a series is read as it is; rename the "
+                "file",
+                declared_path=declared.path,
+                no_remedy=NO_REMEDY,
+            )
         )
 
 

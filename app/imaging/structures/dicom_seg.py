@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydicom import dcmread
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.errors import brief
 from app.imaging.structures.errors import StructureFileError
@@ -122,8 +123,11 @@ def write_seg_file(
     except (AttributeError, TypeError, ValueError) as error:
         lacking = getattr(error, "name", None) or brief(error)
         raise StructureFileError(
-            f"this CT lacks what a DICOM segmentation has to repeat of it ({lacking}); "
-            "write a .seg.nrrd instead"
+            sentence(
+                "this CT lacks what a DICOM segmentation has to repeat of it ({lacking}); "
+                "write a .seg.nrrd instead",
+                lacking=lacking,
+            )
         ) from error
     segmentation.save_as(to)
 
@@ -133,7 +137,11 @@ def _header(path: Path, number: int) -> Any:
         return dcmread(path, stop_before_pixels=True)
     except Exception as error:  # hostile bytes make the parser raise nearly anything
         raise StructureFileError(
-            f"file {number} of this CT is gone or damaged ({brief(error)})"
+            sentence(
+                "file {number} of this CT is gone or damaged ({brief})",
+                number=number,
+                brief=brief(error),
+            )
         ) from error
 
 

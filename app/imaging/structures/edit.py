@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import ndimage
 
+from app.core.messages import sentence
 from app.imaging.structures.errors import StructureError
 from app.imaging.structures.structure import Index, Mask, Structure, cropped
 from app.imaging.volume import Volume
@@ -34,7 +35,9 @@ def threshold(
     if within is not None:
         mask &= within
     if not mask.any():
-        raise StructureError(f"no voxel has {low:g} to {high:g} HU: widen the threshold")
+        raise StructureError(
+            sentence("no voxel has {low:g} to {high:g} HU: widen the threshold", low=low, high=high)
+        )
     return cropped(mask)
 
 
@@ -61,12 +64,17 @@ def grown(
     at = np.rint(volume.voxel(seed_mm)).astype(int) - corner
     inside = np.asarray(volume.contains(seed_mm))
     if not inside:
-        raise StructureError("the point to grow from lies outside the CT")
+        raise StructureError(sentence("the point to grow from lies outside the CT"))
     own = float(hu[at[2], at[1], at[0]])
     if not low <= own <= high:
         raise StructureError(
-            f"the point has {own:.0f} HU, which is not from {low:g} to {high:g}: click inside the "
-            "structure, or move the limits"
+            sentence(
+                "the point has {own:.0f} HU, which is not from {low:g} to {high:g}: click inside "
+                "the structure, or move the limits",
+                own=own,
+                low=low,
+                high=high,
+            )
         )
     within = (hu >= low) & (hu <= high) & _ball(volume, seed_mm, reach_mm, span, corner)
     labels, _ = ndimage.label(within)

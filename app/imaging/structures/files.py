@@ -9,6 +9,7 @@ from uuid import uuid4
 from app.core import paths
 from app.core.errors import AcusError
 from app.core.files import sync
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.errors import FileDamagedError
 from app.imaging.structures.errors import StructureFileError
@@ -53,11 +54,17 @@ def read_structures(path: Path, volume: Volume, progress: Progress | None = None
         parsed = shared_worker().call(STRUCTURES, arguments, _allowed(volume), progress)
         structures = tuple(_structure(one, volume) for one in parsed.structures)
     except FileDamagedError as error:  # WorkerLostError is one too
-        raise StructureFileError(f"{path.name}: {error}") from error
+        raise StructureFileError(
+            sentence("{path_name}: {error}", path_name=path.name, error=error)
+        ) from error
     except OSError as error:
         if isinstance(error, AcusError):
             raise
-        raise StructureFileError(f"{path} cannot be read: {error.strerror}") from error
+        raise StructureFileError(
+            sentence(
+                "{path} cannot be read: {error_strerror}", path=path, error_strerror=error.strerror
+            )
+        ) from error
     progress.report(1.0, "structures placed")
     return StructureSet(structures, parsed.notes)
 
@@ -72,7 +79,9 @@ def _structure(item: PlacedStructure, volume: Volume) -> Structure:
     ends = [first + count for first, count in zip(item.corner, item.mask.shape[::-1], strict=True)]
     inside = all(end <= size for end, size in zip(ends, volume.size, strict=True))
     if min(item.corner) < 0 or not inside:
-        raise StructureFileError(f"{item.name[:LONGEST_NAME]} lies outside this CT")
+        raise StructureFileError(
+            sentence("{item_name} lies outside this CT", item_name=item.name[:LONGEST_NAME])
+        )
     return Structure(
         item.name, item.kind, item.colour, item.mask, item.corner, volume.affine_mm, item.warn_mm
     )
@@ -98,19 +107,24 @@ def write_structures(
         _write_seg(path, structures, volume, progress or Progress())
     else:
         raise StructureFileError(
-            f"{path.name}: structures are written as .seg.nrrd (3D Slicer) or .dcm (DICOM SEG)"
+            sentence(
+                "{path_name}: structures are written as .seg.nrrd (3D Slicer) or .dcm (DICOM SEG)",
+                path_name=path.name,
+            )
         )
 
 
 def _write_seg(path: Path, structures: StructureSet, volume: Volume, progress: Progress) -> None:
     """Have it written beside its place: it repeats what foreign files say, so the worker does."""
     if not len(structures):
-        raise StructureFileError("there are no structures to write")
+        raise StructureFileError(sentence("there are no structures to write"))
     headers = volume.series.slices
     if len(headers) != volume.size[2] or len(set(volume.series.files)) != volume.size[2]:
         raise StructureFileError(
-            "this volume is not slice for slice that of DICOM files (it was resampled, or comes "
-            "from another format); write a .seg.nrrd instead"
+            sentence(
+                "this volume is not slice for slice that of DICOM files (it was resampled, or "
+                "comes from another format); write a .seg.nrrd instead"
+            )
         )
     beside = path.absolute().with_name(f".{path.name}.{uuid4().hex}")
     files = tuple(header.path.absolute() for header in headers)
@@ -123,11 +137,19 @@ def _write_seg(path: Path, structures: StructureSet, volume: Volume, progress: P
         sync(beside)
         os.replace(beside, path)
     except FileDamagedError as error:
-        raise StructureFileError(f"{path.name}: {error}") from error
+        raise StructureFileError(
+            sentence("{path_name}: {error}", path_name=path.name, error=error)
+        ) from error
     except OSError as error:
         if isinstance(error, AcusError):
             raise
-        raise StructureFileError(f"{path} cannot be written: {error.strerror or error}") from error
+        raise StructureFileError(
+            sentence(
+                "{path} cannot be written: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
     finally:
         beside.unlink(missing_ok=True)
 

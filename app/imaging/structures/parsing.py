@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.elements import FURTHEST_MM
 from app.imaging.errors import brief
@@ -44,20 +45,38 @@ def read_labels(path: Path) -> Found:
         if len(shape) == 4 and shape[3] == 1:
             shape = shape[:3]
         if len(shape) != 3 or min(shape) < 1 or np.prod(shape, dtype=np.float64) > LARGEST:
-            raise StructureFileError(f"{path.name} has sizes {image.shape}; three are read")
+            raise StructureFileError(
+                sentence(
+                    "{path_name} has sizes {image_shape}; three are read",
+                    path_name=path.name,
+                    image_shape=image.shape,
+                )
+            )
         values = np.asanyarray(image.dataobj).reshape(shape)
     except (StructureFileError, MemoryError):
         raise
     except Exception as error:  # nibabel raises whatever the bytes lead it to
         what = brief(error)
-        raise StructureFileError(f"{path.name} cannot be read as NIfTI ({what})") from error
+        raise StructureFileError(
+            sentence("{path_name} cannot be read as NIfTI ({what})", path_name=path.name, what=what)
+        ) from error
     exact = values.dtype.kind in "iub"
     if not exact and (not np.isfinite(values).all() or (np.rint(values) != values).any()):
-        raise StructureFileError(f"{path.name} holds fractions; a label map holds whole numbers")
+        raise StructureFileError(
+            sentence(
+                "{path_name} holds fractions; a label map holds whole numbers", path_name=path.name
+            )
+        )
     labels = [int(label) for label in np.unique(values) if label > 0]
     if not labels or len(labels) > MOST_LABELS:
         raise StructureFileError(
-            f"{path.name} holds {len(labels)} labels above 0; a label map holds 1 to {MOST_LABELS}"
+            sentence(
+                "{path_name} holds {labels_count} labels above 0; a label map holds 1 to "
+                "{most_labels}",
+                path_name=path.name,
+                labels_count=len(labels),
+                most_labels=MOST_LABELS,
+            )
         )
     stem = path.name.split(".")[0]
     names = [stem] if len(labels) == 1 else [f"{stem} {label}" for label in labels]
@@ -70,21 +89,38 @@ def _affine(image: Any, path: Path) -> Any:
     """Voxel (i, j, k) -> LPS [mm]."""
     header = image.header
     if not hasattr(header, "get_sform"):
-        raise StructureFileError(f"{path.name} is {type(image).__name__}, not NIfTI")
+        raise StructureFileError(
+            sentence(
+                "{path_name} is {image_type}, not NIfTI",
+                path_name=path.name,
+                image_type=type(image).__name__,
+            )
+        )
     sform, s_code = header.get_sform(coded=True)
     qform, q_code = header.get_qform(coded=True)
     if not s_code and not q_code:
         raise StructureFileError(
-            f"{path.name} does not say where it lies (neither sform nor qform is set)"
+            sentence(
+                "{path_name} does not say where it lies (neither sform nor qform is set)",
+                path_name=path.name,
+            )
         )
     unit = _UNITS_MM[header.get_xyzt_units()[0]]
     affine = np.array(sform if s_code else qform, np.float64)
     affine[:3] *= unit
     affine[:2] *= -1.0  # RAS -> LPS
     if (np.abs(affine) > FURTHEST_MM).any():
-        raise StructureFileError(f"{path.name} lies further away than {FURTHEST_MM:g} mm")
+        raise StructureFileError(
+            sentence(
+                "{path_name} lies further away than {furthest_mm:g} mm",
+                path_name=path.name,
+                furthest_mm=FURTHEST_MM,
+            )
+        )
     if not np.isfinite(affine).all() or abs(np.linalg.det(affine[:3, :3])) < 1e-9:
-        raise StructureFileError(f"{path.name}: its axes span no volume")
+        raise StructureFileError(
+            sentence("{path_name}: its axes span no volume", path_name=path.name)
+        )
     return affine
 
 
@@ -168,12 +204,18 @@ def _grid(size: tuple[int, int, int], affine_mm: tuple[float, ...], frame: str) 
 
 def _read(path: Path, volume: Volume, own: frozenset[str]) -> Found:
     if path.exists() and not path.is_file():  # opening a pipe would wait for ever
-        raise StructureFileError(f"{path.name} is not a regular file")
+        raise StructureFileError(sentence("{path_name} is not a regular file", path_name=path.name))
     try:
         with path.open("rb") as file:
             head = file.read(352)
     except OSError as error:
-        raise StructureFileError(f"{path} cannot be read: {error.strerror or error}") from error
+        raise StructureFileError(
+            sentence(
+                "{path} cannot be read: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
     if head[:4] == b"NRRD":
         from app.imaging.structures.seg_nrrd import read_nrrd
 
@@ -191,7 +233,7 @@ def _read(path: Path, volume: Volume, own: frozenset[str]) -> Found:
     ):
         return read_labels(path)
     if head[128:132] != b"DICM" and not starts_like_dicom(head):
-        raise _unknown(path, "no file of structures")
+        raise _unknown(path, sentence("no file of structures"))
     return _read_dicom(path, volume, own)
 
 
@@ -204,7 +246,11 @@ def _read_dicom(path: Path, volume: Volume, own: frozenset[str]) -> Found:
     except MemoryError:
         raise
     except Exception as error:  # pydicom raises whatever the bytes lead it to
-        raise StructureFileError(f"{path.name} cannot be read ({brief(error)})") from error
+        raise StructureFileError(
+            sentence(
+                "{path_name} cannot be read ({brief})", path_name=path.name, brief=brief(error)
+            )
+        ) from error
     if kind in (SEG, LABEL_SEG):
         from app.imaging.structures.seg_reading import read_seg
 
@@ -214,7 +260,7 @@ def _read_dicom(path: Path, volume: Volume, own: frozenset[str]) -> Found:
 
         return read_rtstruct(dataset, path, volume)
     what = f"a DICOM file of modality {name[:16]} ({_class_name(kind)})"
-    raise _unknown(path, what if kind else "no structures")
+    raise _unknown(path, what if kind else sentence("no structures"))
 
 
 def _class_name(uid: str) -> str:
@@ -223,10 +269,14 @@ def _class_name(uid: str) -> str:
     from pydicom.uid import UID
 
     name = UID(uid, config.IGNORE).name
-    return "of an unknown SOP class" if name == uid else name
+    return sentence("of an unknown SOP class") if name == uid else name
 
 
 def _unknown(path: Path, what: str) -> StructureFileError:
     return StructureFileError(
-        f"{path.name} is {what}; DICOM SEG, RTSTRUCT, .seg.nrrd and NIfTI labels are read"
+        sentence(
+            "{path_name} is {what}; DICOM SEG, RTSTRUCT, .seg.nrrd and NIfTI labels are read",
+            path_name=path.name,
+            what=what,
+        )
     )

@@ -10,6 +10,7 @@ import numpy as np
 from scipy import ndimage
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.structures.errors import FrameOfReferenceError, StructureError
 from app.imaging.structures.structure import (
@@ -105,10 +106,14 @@ def place(
         placed = placed.with_one(structure)
     if result.count and not len(placed):
         if empty == result.count:
-            raise StructureError("the structures in the file are empty: nothing is drawn in them")
+            raise StructureError(
+                sentence("the structures in the file are empty: nothing is drawn in them")
+            )
         raise StructureError(
-            "none of the structures in the file lies in this CT: they belong to another patient "
-            "or another scan"
+            sentence(
+                "none of the structures in the file lies in this CT: they belong to another "
+                "patient or another scan"
+            )
         )
     return StructureSet(placed.structures, tuple(said))
 
@@ -119,19 +124,27 @@ def _same_frame(result: Found, own: str, uids: frozenset[str]) -> list[str]:
     if not named and result.drawn_on & uids:
         return []
     if not named:
-        return ["the file names no frame of reference: placed by its coordinates alone"]
+        return [sentence("the file names no frame of reference: placed by its coordinates alone")]
     if not own or named == own:
         return []
     if result.drawn_on & uids:
         return [
-            f"the file names another frame of reference (…{named[-12:]}) than this CT "
-            f"(…{own[-12:]}), but also this very series as the one that it was drawn on: placed "
-            "by its coordinates; check that the outlines fit the picture"
+            sentence(
+                "the file names another frame of reference (…{named}) than this CT "
+                "(…{own}), but also this very series as the one that it was drawn on: placed "
+                "by its coordinates; check that the outlines fit the picture",
+                named=named[-12:],
+                own=own[-12:],
+            )
         ]
     raise FrameOfReferenceError(
-        "the structures were drawn on another frame of reference "
-        f"(…{named[-12:]}) than that of this CT (…{own[-12:]}), and the file does not name this "
-        "series: open the CT that they belong to"
+        sentence(
+            "the structures were drawn on another frame of reference "
+            "(…{named}) than that of this CT (…{own}), and the file does not name this "
+            "series: open the CT that they belong to",
+            named=named[-12:],
+            own=own[-12:],
+        )
     )
 
 
@@ -164,9 +177,13 @@ def _onto(labelled: Labelled, volume: Volume) -> tuple[Mask | None, str]:
         if mask is not None:
             whole = mask if whole is None else whole | mask
     if not there:
-        return None, f"{labelled.name} is empty in the file and was left out"
+        return None, sentence(
+            "{labelled_name} is empty in the file and was left out", labelled_name=labelled.name
+        )
     if whole is None or not whole.any():
-        return None, f"{labelled.name} lies outside this CT and was left out"
+        return None, sentence(
+            "{labelled_name} lies outside this CT and was left out", labelled_name=labelled.name
+        )
     return whole, _lost(labelled.name, whole, (there, outside / there, all_exact), volume)
 
 
@@ -181,11 +198,15 @@ def _lost(name: str, mask: Mask, before: tuple[float, float, bool], volume: Volu
     there, outside, exact = before
     here = abs(np.linalg.det(volume.affine_mm[:3, :3])) * mask.sum()
     if outside > 0.005:
-        return f"{100.0 * outside:.0f} % of {name} lie outside this CT"
+        return sentence(
+            "{outside:.0f} % of {name} lie outside this CT", outside=100.0 * outside, name=name
+        )
     if not exact and abs(here / there - 1.0) > 0.1:
-        return (
-            f"{name} has {here / 1000.0:.2f} ml on the grid of this CT, "
-            f"{there / 1000.0:.2f} ml in the file"
+        return sentence(
+            "{name} has {here:.2f} ml on the grid of this CT, {there:.2f} ml in the file",
+            name=name,
+            here=here / 1000.0,
+            there=there / 1000.0,
         )
     return ""
 

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.imaging.structures.contours import ONE_PLANE_MM, ContourPlane, gathered, stacked
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.structure import Colour, StructureKind
@@ -57,7 +58,13 @@ class ContourRegion:
     def notes(self) -> list[str]:
         """Say what was left out, a line for each reason."""
         return [
-            f"{self.name}: {count} contour{'s' if count > 1 else ''} {reason} left out"
+            sentence(
+                "{name}: {count} contour{text} {reason} left out",
+                name=self.name,
+                count=count,
+                text="s" if count > 1 else "",
+                reason=reason,
+            )
             for reason, count in self.left_out.items()
         ]
 
@@ -167,7 +174,12 @@ class Layers:
             slices * shape[0] * shape[1] > LARGEST_CONTOURS
         ):
             raise StructureFileError(
-                f"its contours spread over {shape[1]} × {shape[0]} × {slices} voxels"
+                sentence(
+                    "its contours spread over {shape_second} × {shape_first} × {slices} voxels",
+                    shape_second=shape[1],
+                    shape_first=shape[0],
+                    slices=slices,
+                )
             )
         pixel_mm = np.linalg.norm(self.frame[:, :2], axis=0)
         planes = [self._plane(group, low, shape, pixel_mm) for group in self.groups()]
@@ -198,12 +210,16 @@ class Layers:
 
 
 def _remarks(planes: Sequence[ContourPlane]) -> list[str]:
-    said = []
+    said: list[str] = []
     if repeated := sum(plane.repeated for plane in planes):
-        times = "contour that is" if repeated == 1 else "contours that are"
-        said.append(f"{repeated} {times} in the file twice counted once")
+        times = sentence("contour that is") if repeated == 1 else sentence("contours that are")
+        said.append(
+            sentence(
+                "{repeated} {times} in the file twice counted once", repeated=repeated, times=times
+            )
+        )
     if any(plane.crossed for plane in planes):
-        said.append("contours that cross one another were joined")
+        said.append(sentence("contours that cross one another were joined"))
     return said
 
 

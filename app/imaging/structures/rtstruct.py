@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.imaging.elements import FURTHEST_MM
 from app.imaging.errors import brief
 from app.imaging.structures.errors import StructureFileError
@@ -70,7 +71,13 @@ def read_rtstruct(dataset: Any, path: Path, volume: Volume) -> Found:
         found.append(Labelled(region.name, mask, affine, region.kind, region.colour))
     if not found:
         why = f" ({'; '.join(notes)})" if notes else ""
-        raise StructureFileError(f"{path.name} holds no closed contour that can be used{why}")
+        raise StructureFileError(
+            sentence(
+                "{path_name} holds no closed contour that can be used{reason}",
+                path_name=path.name,
+                reason=why,
+            )
+        )
     return Found(found, len(found), regions[0].frame, tuple(notes), _named_images(dataset))
 
 
@@ -127,7 +134,11 @@ def _needed(dataset: Any, keyword: str, path: Path) -> list[Any]:
         raise
     except Exception as error:  # hostile bytes make the parser raise nearly anything
         raise StructureFileError(
-            f"{path.name} is no whole RT Structure Set ({brief(error)})"
+            sentence(
+                "{path_name} is no whole RT Structure Set ({brief})",
+                path_name=path.name,
+                brief=brief(error),
+            )
         ) from error
 
 

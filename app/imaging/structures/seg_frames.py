@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.imaging.elements import FURTHEST_MM
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.structure import Mask
@@ -210,9 +211,11 @@ def spacing_note(frames: Sequence[SegFrame]) -> str:
     counts = gaps / between if between > 0.0 else np.array([0.5])
     if (np.abs(counts - np.rint(counts)) <= 0.1).all() and counts.min() > 0.5:
         return ""
-    return (
-        f"its SpacingBetweenSlices ({between:g} mm) contradicts its frames (at least "
-        f"{gaps.min():.3g} mm apart): each frame was placed where it says itself"
+    return sentence(
+        "its SpacingBetweenSlices ({between:g} mm) contradicts its frames (at least "
+        "{gaps_min:.3g} mm apart): each frame was placed where it says itself",
+        between=between,
+        gaps_min=gaps.min(),
     )
 
 
@@ -342,7 +345,7 @@ def _boxed(places: Sequence[NDArray[Any]], affine: FloatArray) -> Part | None:
     size = (high - low + 1).astype(np.float64)
     if float(size.prod()) > LARGEST_BOX:
         raise StructureFileError(
-            "it spreads over " + " × ".join(f"{n:.0f}" for n in size) + " voxels"
+            sentence("it spreads over ") + " × ".join(f"{n:.0f}" for n in size) + " voxels"
         )
     mask = np.zeros(tuple(int(n) for n in size[::-1]), bool)
     for place in places:

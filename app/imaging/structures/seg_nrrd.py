@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.imaging.elements import FURTHEST_MM
 from app.imaging.errors import brief
 from app.imaging.structures.errors import StructureFileError
@@ -59,10 +60,16 @@ def read_nrrd(path: Path) -> Found:
         raise
     except Exception as error:  # pynrrd raises whatever the bytes lead it to
         what = brief(error)
-        raise StructureFileError(f"{path.name} cannot be read as NRRD ({what})") from error
+        raise StructureFileError(
+            sentence("{path_name} cannot be read as NRRD ({what})", path_name=path.name, what=what)
+        ) from error
     if values.dtype.kind not in "iub":
         raise StructureFileError(
-            f"{path.name} holds {values.dtype} values; a label map holds whole numbers"
+            sentence(
+                "{path_name} holds {values_dtype} values; a label map holds whole numbers",
+                path_name=path.name,
+                values_dtype=values.dtype,
+            )
         )
     affine, layers = _geometry(header, values, path)
     found = _segments(header, layers, affine, path)
@@ -73,11 +80,18 @@ def _check_size(header: Any, path: Path) -> None:
     sizes = [int(n) for n in header.get("sizes", [])]
     if header.get("data file") or header.get("datafile"):
         raise StructureFileError(
-            f"{path.name} keeps its data in other files; only attached data are read"
+            sentence(
+                "{path_name} keeps its data in other files; only attached data are read",
+                path_name=path.name,
+            )
         )
     if len(sizes) not in (3, 4) or min(sizes) < 1 or np.prod(sizes, dtype=np.float64) > LARGEST:
         raise StructureFileError(
-            f"{path.name} has sizes {sizes}; three of a label map, and layers, are read"
+            sentence(
+                "{path_name} has sizes {sizes}; three of a label map, and layers, are read",
+                path_name=path.name,
+                sizes=sizes,
+            )
         )
 
 
@@ -89,12 +103,23 @@ def _geometry(header: Any, values: NDArray[Any], path: Path) -> tuple[FloatArray
     origin = np.asarray(header.get("space origin", ()), np.float64)
     if signs is None or directions.shape != (values.ndim, 3) or origin.shape != (3,):
         raise StructureFileError(
-            f"{path.name} does not say where it lies: space {space or 'missing'!r}, "
-            f"{directions.shape} directions; left-posterior-superior or its like is needed"
+            sentence(
+                "{path_name} does not say where it lies: space {space!r}, "
+                "{directions_shape} directions; left-posterior-superior or its like is needed",
+                path_name=path.name,
+                space=space or "missing",
+                directions_shape=directions.shape,
+            )
         )
     spatial = np.isfinite(directions).all(axis=1)
     if spatial.sum() != 3 or not np.isfinite(origin).all():
-        raise StructureFileError(f"{path.name} has {spatial.sum()} axes in space; 3 are needed")
+        raise StructureFileError(
+            sentence(
+                "{path_name} has {spatial} axes in space; 3 are needed",
+                path_name=path.name,
+                spatial=spatial.sum(),
+            )
+        )
     if values.ndim == 4:
         values = np.moveaxis(values, int(np.flatnonzero(~spatial)[0]), 0)
     else:
@@ -103,9 +128,17 @@ def _geometry(header: Any, values: NDArray[Any], path: Path) -> tuple[FloatArray
     affine[:3, :3] = (directions[spatial] * signs).T
     affine[:3, 3] = origin * signs
     if np.abs(affine).max() > FURTHEST_MM:
-        raise StructureFileError(f"{path.name} lies further away than {FURTHEST_MM:g} mm")
+        raise StructureFileError(
+            sentence(
+                "{path_name} lies further away than {furthest_mm:g} mm",
+                path_name=path.name,
+                furthest_mm=FURTHEST_MM,
+            )
+        )
     if abs(np.linalg.det(affine[:3, :3])) < 1e-9:
-        raise StructureFileError(f"{path.name}: its axes span no volume")
+        raise StructureFileError(
+            sentence("{path_name}: its axes span no volume", path_name=path.name)
+        )
     return affine, values.transpose(0, 3, 2, 1)
 
 
@@ -114,7 +147,13 @@ def _segments(header: Any, layers: NDArray[Any], affine: FloatArray, path: Path)
     if not numbers:
         labels = [label for label in np.unique(layers[0]).tolist() if label]
         if len(labels) > MOST_LABELS:
-            raise StructureFileError(f"{path.name} holds {len(labels)} labels: not a label map")
+            raise StructureFileError(
+                sentence(
+                    "{path_name} holds {labels_count} labels: not a label map",
+                    path_name=path.name,
+                    labels_count=len(labels),
+                )
+            )
         plain = (Labelled(f"label {n}", layers[0] == n, affine) for n in labels)
         return Found(plain, len(labels))
     segments = (_segment(header, number, layers, affine, path) for number in numbers)
@@ -131,10 +170,22 @@ def _segment(
         layer, label = int(value("Layer", "0")), int(value("LabelValue", "1"))
     except ValueError:
         raise StructureFileError(
-            f"{path.name}, segment {number}: its layer or label is no whole number"
+            sentence(
+                "{path_name}, segment {number}: its layer or label is no whole number",
+                path_name=path.name,
+                number=number,
+            )
         ) from None
     if not 0 <= layer < len(layers):
-        raise StructureFileError(f"{path.name}, segment {number}: layer {layer} of {len(layers)}")
+        raise StructureFileError(
+            sentence(
+                "{path_name}, segment {number}: layer {layer} of {layers_count}",
+                path_name=path.name,
+                number=number,
+                layer=layer,
+                layers_count=len(layers),
+            )
+        )
     kind, warn = _tags(value("Tags"))
     name = value("Name") or f"segment {number + 1}"
     return Labelled(name, layers[layer] == label, affine, kind, _colour(value("Color")), warn)
@@ -170,7 +221,7 @@ def write_nrrd(path: Path, structures: StructureSet, volume: Volume) -> None:
     """
     nrrd = extra("nrrd", ".seg.nrrd files")
     if not len(structures):
-        raise StructureFileError("there are no structures to write")
+        raise StructureFileError(sentence("there are no structures to write"))
     layers: list[NDArray[np.uint8]] = []
     header: dict[str, Any] = {}
     for number, structure in enumerate(structures):
@@ -223,4 +274,10 @@ def _write(
             nrrd.write(str(part), np.asfortranarray(values), header, index_order="F")
             os.replace(part, path)
     except OSError as error:
-        raise StructureFileError(f"{path} cannot be written: {error.strerror or error}") from error
+        raise StructureFileError(
+            sentence(
+                "{path} cannot be written: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from pydicom.pixels.decoders.base import get_decoder
 from pydicom.uid import UID
 
+from app.core.messages import sentence
 from app.imaging.errors import brief
 from app.imaging.structures import seg_frames
 from app.imaging.structures.dicom_seg import CODES, rgb_of
@@ -67,7 +68,10 @@ def read_seg(dataset: Any, path: Path, volume: Volume, own: frozenset[str]) -> F
     """
     if dataset.original_encoding[1] is False:
         raise StructureFileError(
-            f"{path.name} is big endian; DICOM segmentations are read in little endian only"
+            sentence(
+                "{path_name} is big endian; DICOM segmentations are read in little endian only",
+                path_name=path.name,
+            )
         )
     with _named(path):
         drawn_on = _named_images(dataset)
@@ -85,10 +89,16 @@ def _named(path: Path) -> Iterator[None]:
     except MemoryError:
         raise
     except StructureFileError as error:
-        raise StructureFileError(f"{path.name} {error}") from error
+        raise StructureFileError(
+            sentence("{path_name} {error}", path_name=path.name, error=error)
+        ) from error
     except Exception as error:  # pydicom raises whatever the file leads it to
         raise StructureFileError(
-            f"{path.name} cannot be read as a DICOM segmentation ({brief(error)})"
+            sentence(
+                "{path_name} cannot be read as a DICOM segmentation ({brief})",
+                path_name=path.name,
+                brief=brief(error),
+            )
         ) from error
 
 
@@ -107,14 +117,21 @@ def _named_images(dataset: Any) -> frozenset[str]:
 def _looked_through(dataset: Any, volume: Volume, names_ct: bool) -> tuple[Segmentation, list[str]]:
     kind = str(dataset.get("SegmentationType", "") or "").strip()
     if kind not in _TYPES:
-        raise StructureFileError(f"has no SegmentationType that is read: {', '.join(_TYPES)}")
+        raise StructureFileError(
+            sentence("has no SegmentationType that is read: {types}", types=", ".join(_TYPES))
+        )
     if int(dataset.BitsAllocated) not in _BITS:
-        raise StructureFileError(f"has {dataset.BitsAllocated} bits per pixel; 1, 8, 16 are read")
+        raise StructureFileError(
+            sentence(
+                "has {dataset_bits_allocated} bits per pixel; 1, 8, 16 are read",
+                dataset_bits_allocated=dataset.BitsAllocated,
+            )
+        )
     rows, columns = int(dataset.Rows), int(dataset.Columns)
     count = int(dataset.get("NumberOfFrames", 1) or 1)
     frames, left_out = seg_frames.frames_of(dataset, count, kind == "LABELMAP")
     if not frames:
-        raise StructureFileError("holds no frame that says where it lies")
+        raise StructureFileError(sentence("holds no frame that says where it lies"))
     notes = []
     if kind == "FRACTIONAL":
         notes.append("fractional segments: a voxel belongs to one from 50 %")
@@ -161,7 +178,9 @@ def _sort_pixels(segmentation: Segmentation, left_out: Counter[str]) -> set[int]
             for number in numbers & described:
                 _add(segmentation, number, frame, values == number)
     if not whole:
-        raise StructureFileError("holds no pixels that can be read: it is cut short or damaged")
+        raise StructureFileError(
+            sentence("holds no pixels that can be read: it is cut short or damaged")
+        )
     return undescribed
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray, frozen, read_only
+from app.core.messages import sentence
 from app.imaging.interpolation import interpolate
 from app.imaging.structures.errors import StructureError
 from app.imaging.volume import Volume
@@ -294,12 +295,22 @@ class Structure:
         name = " ".join(self.name.split())
         if not name or len(name) > LONGEST_NAME:
             raise StructureError(
-                f"{name[:80]!r} is no name for a structure: 1 to {LONGEST_NAME} characters are"
+                sentence(
+                    "{name!r} is no name for a structure: 1 to {longest_name} characters are",
+                    name=name[:80],
+                    longest_name=LONGEST_NAME,
+                )
             )
         if not 0.0 <= self.warn_mm <= 50.0:
-            raise StructureError(f"warning distance {self.warn_mm:g} mm of {name}: 0 to 50 mm are")
+            raise StructureError(
+                sentence(
+                    "warning distance {warn_mm:g} mm of {name}: 0 to 50 mm are",
+                    warn_mm=self.warn_mm,
+                    name=name,
+                )
+            )
         if self.mask.ndim != 3 or not self.mask.any():
-            raise StructureError(f"structure {name} holds no voxel of this CT")
+            raise StructureError(sentence("structure {name} holds no voxel of this CT", name=name))
         object.__setattr__(self, "name", name)
         object.__setattr__(self, "kind", StructureKind(self.kind))
         object.__setattr__(self, "affine_mm", frozen(self.affine_mm, (4, 4), "affine_mm"))
@@ -317,7 +328,13 @@ class Structure:
     ) -> Structure:
         """Structure of a mask on the whole grid of a CT, shape (K, J, I)."""
         if mask.shape != volume.hu.shape:
-            raise StructureError(f"mask of {mask.shape} voxels on a CT of {volume.hu.shape}")
+            raise StructureError(
+                sentence(
+                    "mask of {mask_shape} voxels on a CT of {volume_hu_shape}",
+                    mask_shape=mask.shape,
+                    volume_hu_shape=volume.hu.shape,
+                )
+            )
         box, corner = cropped(mask)
         warn = kind.warn_mm if warn_mm is None else warn_mm
         return cls(name, kind, colour, box, corner, volume.affine_mm, warn)
@@ -384,7 +401,7 @@ def cropped(mask: Mask) -> tuple[Mask, Index]:
     for axis in range(3):
         filled = np.flatnonzero(mask.any(axis=tuple(a for a in range(3) if a != axis)))
         if not filled.size:
-            raise StructureError("a structure needs at least one voxel")
+            raise StructureError(sentence("a structure needs at least one voxel"))
         spans.append(slice(int(filled[0]), int(filled[-1]) + 1))
     k, j, i = (span.start for span in spans)
     return mask[tuple(spans)].copy(), (i, j, k)
@@ -406,7 +423,11 @@ class StructureSet:
         names = [structure.name for structure in self.structures]
         double = {name for name in names if names.count(name) > 1}
         if double:
-            raise StructureError(f"structure {min(double)} is there twice: rename one")
+            raise StructureError(
+                sentence(
+                    "structure {double_min} is there twice: rename one", double_min=min(double)
+                )
+            )
 
     def __iter__(self) -> Iterator[Structure]:
         """Iterate over the structures."""
@@ -426,7 +447,9 @@ class StructureSet:
             if structure.name == name:
                 return structure
         names = ", ".join(structure.name for structure in self.structures) or "none"
-        raise StructureError(f"there is no structure {name!r}; there are: {names}")
+        raise StructureError(
+            sentence("there is no structure {name!r}; there are: {names}", name=name, names=names)
+        )
 
     def with_one(self, structure: Structure, instead_of: str | None = None) -> StructureSet:
         """Return the set with one more structure, or with it in the place of another."""

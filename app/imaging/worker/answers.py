@@ -3,6 +3,7 @@
 from typing import Any
 
 from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.imaging import errors as imaging
 from app.imaging.errors import FileDamagedError, WorkerLostError, brief
 from app.imaging.privacy import errors as privacy
@@ -75,7 +76,7 @@ def lost(reason: str) -> WorkerLostError:
     Args:
         reason: what the child did, as in "was ended by SIGSEGV".
     """
-    text = f"damaged or hostile file: the process that read it {reason}"
+    text = sentence("damaged or hostile file: the process that read it {reason}", reason=reason)
     return WorkerLostError(text, reason)
 
 

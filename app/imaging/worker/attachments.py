@@ -10,6 +10,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from app.core.descriptors import SEAL_GROW, SEAL_SEAL, SEAL_SHRINK, SEAL_WRITE, seal
+from app.core.messages import sentence
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -95,7 +96,7 @@ def opened(message: Any, descriptor: int) -> Any:
         size = os.fstat(descriptor).st_size
         memory = mmap.mmap(descriptor, size, flags=mmap.MAP_PRIVATE) if size else b""
     except (OSError, ValueError, OverflowError) as error:
-        raise AttachmentsError("the memory beside a message is of no use") from error
+        raise AttachmentsError(sentence("the memory beside a message is of no use")) from error
     finally:
         os.close(descriptor)
     return _placed(message, memory, size)
@@ -119,11 +120,11 @@ def _array(where: Any, memory: Any, size: int) -> "NDArray[Any]":
         dtype, count = np.dtype(kind), math.prod(shape)
         fits = all(type(n) is int and n >= 0 for n in (*shape, start))
         if dtype.kind not in _KINDS or not fits or start + count * dtype.itemsize > size:
-            raise AttachmentsError("an array beside a message lies outside its memory")
+            raise AttachmentsError(sentence("an array beside a message lies outside its memory"))
         array = np.frombuffer(memory, dtype, count, start).reshape(shape)
     except AttachmentsError:
         raise
     except (TypeError, ValueError, OverflowError) as error:
-        raise AttachmentsError("an array beside a message is none") from error
+        raise AttachmentsError(sentence("an array beside a message is none")) from error
     array.setflags(write=False)
     return array

@@ -7,6 +7,8 @@ import socket
 import struct
 from typing import Any
 
+from app.core.messages import sentence
+
 LONGEST = 1 << 26
 """Longest message that is accepted [bytes]; the frames of the largest files need a few MB."""
 
@@ -80,7 +82,7 @@ class WorkerChannel:
             return None
         (length,) = _LENGTH.unpack_from(self._got)
         if length > LONGEST:
-            raise ChannelError(f"a message of {length} bytes")
+            raise ChannelError(sentence("a message of {length} bytes", length=length))
         end = _LENGTH.size + length
         if len(self._got) < end:
             return None
@@ -98,9 +100,9 @@ class WorkerChannel:
             ChannelError: if none came.
         """
         if not self._descriptors:
-            raise ChannelError("no file descriptor came")
+            raise ChannelError(sentence("no file descriptor came"))
         return self._descriptors.pop(0)
 
 
 def _refuse(name: str) -> float:
-    raise ValueError(f"{name} is no number")
+    raise ValueError(sentence("{name} is no number", name=name))

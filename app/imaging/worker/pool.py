@@ -13,6 +13,7 @@ from collections.abc import Generator, Iterator, Sequence
 from contextlib import closing
 from typing import Any
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.errors import WorkerError
 from app.imaging.worker.answers import lost as lost_error
@@ -111,7 +112,9 @@ class CallChildren:
             if self._descriptor is not None:
                 child.give(self._descriptor)
         except Lost as lost:
-            raise WorkerError(f"the process that reads foreign files {lost}") from lost
+            raise WorkerError(
+                sentence("the process that reads foreign files {lost}", lost=lost)
+            ) from lost
 
     def feed(self, waiting: "deque[int]") -> Iterator[Found]:
         """Give each child something to do."""
@@ -151,8 +154,11 @@ class CallChildren:
         self._lender.give_back(None)
         if not child.ready:
             raise WorkerError(
-                f"the process that reads foreign files {lost} before it was ready; its memory "
-                "or its installation may fail: see `acus check`, or install the program again"
+                sentence(
+                    "the process that reads foreign files {lost} before it was ready; its memory "
+                    "or its installation may fail: see `acus check`, or install the program again",
+                    lost=lost,
+                )
             )
         if child.open:
             first, *others = child.open

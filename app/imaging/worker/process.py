@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from app.core.child_process import environment, module_command
+from app.core.messages import sentence
 from app.imaging.errors import WorkerError
 from app.imaging.worker.answers import DONE, PROGRESS, outcome
 from app.imaging.worker.channel import VOLUME, ChannelError, WorkerChannel
@@ -144,9 +145,9 @@ class Child:
                 elif self.open and _is_answer(message):
                     yield self._answered(message)
                 else:
-                    raise ChannelError("no answer")
+                    raise ChannelError(sentence("no answer"))
         except ChannelError as error:
-            raise Lost(f"talked nonsense ({error})") from None
+            raise Lost(sentence("talked nonsense ({error})", error=error)) from None
 
     def _answered(self, message: list[Any]) -> tuple[int, Any]:
         has_arrays = message[0] == DONE and message[-1] is True
@@ -166,14 +167,28 @@ class Child:
             return
         if not self.ready:
             if waited > READY_SECONDS:
-                raise Lost(f"was not ready within {READY_SECONDS:.0f} s")
+                raise Lost(
+                    sentence(
+                        "was not ready within {ready_seconds:.0f} s", ready_seconds=READY_SECONDS
+                    )
+                )
             self._mark(self._since)
         elif self.open:
             allowed = self._tasks[0].allowed
             if computed > allowed.seconds:
-                raise Lost(f"took longer than {allowed.seconds:.1f} s of computing")
+                raise Lost(
+                    sentence(
+                        "took longer than {allowed_seconds:.1f} s of computing",
+                        allowed_seconds=allowed.seconds,
+                    )
+                )
             if waited > allowed.clock_seconds:
-                raise Lost(f"waited longer than {allowed.clock_seconds:.0f} s for it")
+                raise Lost(
+                    sentence(
+                        "waited longer than {allowed_clock_seconds:.0f} s for it",
+                        allowed_clock_seconds=allowed.clock_seconds,
+                    )
+                )
 
     def close(self) -> None:
         """End it at once; idempotent."""
@@ -199,15 +214,15 @@ class Child:
             self._process.wait(1.0)
         code = self._process.returncode
         if code is None:
-            return "closed its connection"
+            return sentence("closed its connection")
         if code >= 0:
-            return f"ended with code {code}"
+            return sentence("ended with code {code}", code=code)
         try:
             name = signal.Signals(-code).name
         except ValueError:
             name = f"signal {-code}"
         why = _WHY.get(name, "")
-        return f"was ended by {name}{why}"
+        return sentence("was ended by {name}{reason}", name=name, reason=why)
 
 
 def _is_progress(message: Any) -> bool:
@@ -237,5 +252,8 @@ def _started(module: str, descriptor: int, channel: WorkerChannel) -> "subproces
     except OSError as error:
         channel.close()
         raise WorkerError(
-            f"the process that reads foreign files cannot be started: {error.strerror or error}"
+            sentence(
+                "the process that reads foreign files cannot be started: {error_strerror}",
+                error_strerror=error.strerror or error,
+            )
         ) from error

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from app.core import paths as paths_of_user
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.errors import FileDamagedError, NotExactError, WorkerLostError
 from app.imaging.header import SliceHeader
@@ -144,5 +145,14 @@ def _named(header: SliceHeader, outcome: Exception) -> Exception:
         return outcome
     if isinstance(outcome, WorkerLostError):
         decoder = DECODERS.get(header.pixels.syntax, ("inflating",))[0]
-        return WorkerLostError(f"{path}: {text} (decoder {decoder}); leave it out")
-    return FileDamagedError(text if str(path) in text else f"{path}: {text}")
+        return WorkerLostError(
+            sentence(
+                "{path}: {text} (decoder {decoder}); leave it out",
+                path=path,
+                text=text,
+                decoder=decoder,
+            )
+        )
+    return FileDamagedError(
+        text if str(path) in text else sentence("{path}: {text}", path=path, text=text)
+    )

@@ -12,6 +12,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, get_args
 
+from app.core.messages import sentence
 from app.imaging.worker.attachments import Attachments, is_array
 
 Convert = Callable[[Any], Any]
@@ -79,7 +80,9 @@ def reader(kind: Any) -> Convert:
         except ValidationError as error:
             first = error.errors(include_url=False, include_input=False, include_context=False)[0]
             where = ".".join(map(str, first["loc"][1:]))
-            raise ForeignValueError(f"{where}: {first['msg']}" if where else first["msg"]) from None
+            raise ForeignValueError(
+                sentence("{where}: {msg}", where=where, msg=first["msg"]) if where else first["msg"]
+            ) from None
         return found
 
     return read
@@ -106,11 +109,21 @@ class _Attached:
 
         def read(value: Any) -> Any:
             if not is_array(value):
-                raise ValueError(f"{type(value).__name__} where an array is wanted")
+                raise ValueError(
+                    sentence(
+                        "{value_type} where an array is wanted", value_type=type(value).__name__
+                    )
+                )
             import numpy as np
 
             if scalar is not Any and value.dtype != np.dtype(scalar):
-                raise ValueError(f"an array of {value.dtype}, not of {np.dtype(scalar)}")
+                raise ValueError(
+                    sentence(
+                        "an array of {value_dtype}, not of {dtype}",
+                        value_dtype=value.dtype,
+                        dtype=np.dtype(scalar),
+                    )
+                )
             return value
 
         return core_schema.no_info_plain_validator_function(read)

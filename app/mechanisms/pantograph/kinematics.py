@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.pantograph import kernels
@@ -21,7 +22,11 @@ def pair(values: ArrayLike, name: str) -> tuple[float, float]:
     """
     array = np.asarray(values, dtype=np.float64)
     if array.shape != (2,):
-        raise MechanismError(f"{name} has shape {array.shape}; (2,) is needed")
+        raise MechanismError(
+            sentence(
+                "{name} has shape {array_shape}; (2,) is needed", name=name, array_shape=array.shape
+            )
+        )
     return float(array[0]), float(array[1])
 
 

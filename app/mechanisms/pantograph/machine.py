@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen
+from app.core.messages import sentence
 from app.core.parameters import Stage, packed
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.lever import axis_kernel
@@ -157,5 +158,11 @@ def machine(profile: DeviceProfile) -> RemoteCentre:
         MechanismError: if the profile is of another kind.
     """
     if not isinstance(profile, PantographProfile):
-        raise MechanismError(f"device {profile.name} is a {profile.kind}, no pantograph")
+        raise MechanismError(
+            sentence(
+                "device {profile_name} is a {profile_kind}, no pantograph",
+                profile_name=profile.name,
+                profile_kind=profile.kind,
+            )
+        )
     return Pantograph(profile)

@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 
 from app.core.arrays import frozen
 from app.core.errors import ConfigurationError
+from app.core.messages import sentence
 from app.mechanisms.dynamic_model import DynamicModel
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.inertia import LumpedInertia
@@ -41,7 +42,9 @@ class GeometrySection(CentreSection):
         x, y, height = self.fulcrum
         if not y > 0.0:
             raise ValueError(
-                f"fulcrum stands at y = {y:g} m; it must be in front of the motors, y > 0"
+                sentence(
+                    "fulcrum stands at y = {y:g} m; it must be in front of the motors, y > 0", y=y
+                )
             )
         low, high = abs(self.distal - self.proximal), self.distal + self.proximal
         elbows = []
@@ -50,8 +53,14 @@ class GeometrySection(CentreSection):
             away = hypot(x - motor, y)
             if not low < away < high:
                 raise ValueError(
-                    f"fulcrum stands over a point {away:.4g} m from the {name} motor axis;"
-                    f" proximal and distal reach from {low:.4g} to {high:.4g} m"
+                    sentence(
+                        "fulcrum stands over a point {away:.4g} m from the {name} motor axis;"
+                        " proximal and distal reach from {low:.4g} to {high:.4g} m",
+                        away=away,
+                        name=name,
+                        low=low,
+                        high=high,
+                    )
                 )
             cosine = (self.proximal**2 + away**2 - self.distal**2) / (2.0 * self.proximal * away)
             opening = atan2((max(1.0 - cosine**2, 0.0)) ** 0.5, cosine)
@@ -60,13 +69,21 @@ class GeometrySection(CentreSection):
         (lx, ly), (rx, ry) = elbows
         if not (rx - lx) * (y - ly) - (ry - ly) * (x - lx) > 0.0:
             raise ValueError(
-                f"fulcrum ({x:g}, {y:g}) m lies behind the elbows; with elbows outwards the links"
-                " meet on the far side of them (greater y)"
+                sentence(
+                    "fulcrum ({x:g}, {y:g}) m lies behind the elbows; with elbows outwards the "
+                    "links meet on the far side of them (greater y)",
+                    x=x,
+                    y=y,
+                )
             )
         if not self.needle_length > height:
             raise ValueError(
-                f"needle_length {self.needle_length:g} m must be greater than the lever below the"
-                f" fulcrum, {height:g} m, or nothing is left above it to hold"
+                sentence(
+                    "needle_length {needle_length:g} m must be greater than the lever below the"
+                    " fulcrum, {height:g} m, or nothing is left above it to hold",
+                    needle_length=self.needle_length,
+                    height=height,
+                )
             )
         return self
 
@@ -105,9 +122,16 @@ class PantographProfile(DeviceProfile):
         for name, tilt in self.workspace.tilt_limit_deg.items():
             if (away := height * tan(radians(tilt))) > reach:
                 raise ValueError(
-                    f"workspace.tilt_limit_deg of joint {name!r} is {tilt:g}: there the tool would"
-                    f" be {away:.3g} m from under the fulcrum, and the links reach {reach:.3g} m at"
-                    f" most; give at most {degrees(atan2(reach, height)):.1f}"
+                    sentence(
+                        "workspace.tilt_limit_deg of joint {name!r} is {tilt:g}: there the tool "
+                        "would be {away:.3g} m from under the fulcrum, and the links reach "
+                        "{reach:.3g} m at most; give at most {degrees:.1f}",
+                        name=name,
+                        tilt=tilt,
+                        away=away,
+                        reach=reach,
+                        degrees=degrees(atan2(reach, height)),
+                    )
                 )
         return self
 
@@ -200,7 +224,11 @@ def as_pantograph(profile: DeviceProfile) -> PantographProfile:
     """
     if not isinstance(profile, PantographProfile):
         raise ConfigurationError(
-            f"device {profile.name} is of kind {profile.kind}; this is about devices of kind"
-            " pantograph alone"
+            sentence(
+                "device {profile_name} is of kind {profile_kind}; this is about devices of kind"
+                " pantograph alone",
+                profile_name=profile.name,
+                profile_kind=profile.kind,
+            )
         )
     return profile

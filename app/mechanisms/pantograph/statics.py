@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen
+from app.core.messages import sentence
 from app.mechanisms import lever
 from app.mechanisms.errors import DegenerateError, MechanismError, NoGripError, SingularError
 from app.mechanisms.geometry import Geometry
@@ -82,11 +83,19 @@ def tool_force(jacobian: ArrayLike, torques: ArrayLike) -> FloatArray:
 def _lever(needle: NeedleState) -> tuple[float, float, float, float, float]:
     dx, dy, dz = needle.axis.tolist()
     if not needle.l_out > 0.0:
-        raise NoGripError(f"no grip: L_out = {needle.l_out} m; a positive length is needed")
+        raise NoGripError(
+            sentence(
+                "no grip: L_out = {needle_l_out} m; a positive length is needed",
+                needle_l_out=needle.l_out,
+            )
+        )
     if not dz < 0.0:
         raise DegenerateError(
-            f"degenerate: the needle direction {needle.axis.tolist()} does not point down through"
-            " the plane of the links"
+            sentence(
+                "degenerate: the needle direction {needle_axis} does not point down through"
+                " the plane of the links",
+                needle_axis=needle.axis.tolist(),
+            )
         )
     return dx, dy, dz, needle.l_in, needle.l_out
 
@@ -94,14 +103,18 @@ def _lever(needle: NeedleState) -> tuple[float, float, float, float, float]:
 def _entries(jacobian: ArrayLike) -> list[Any]:
     array = np.asarray(jacobian, dtype=np.float64)
     if array.shape != (2, 2):
-        raise MechanismError(f"jacobian has shape {array.shape}; (2, 2) is needed")
+        raise MechanismError(
+            sentence("jacobian has shape {array_shape}; (2, 2) is needed", array_shape=array.shape)
+        )
     return array.ravel().tolist()
 
 
 def _triple(force: ArrayLike) -> list[Any]:
     array = np.asarray(force, dtype=np.float64)
     if array.shape != (3,):
-        raise MechanismError(f"force has shape {array.shape}; (3,) is needed")
+        raise MechanismError(
+            sentence("force has shape {array_shape}; (3,) is needed", array_shape=array.shape)
+        )
     return array.tolist()
 
 
@@ -191,10 +204,21 @@ def _inverse(geometry: Geometry, q: FloatArray, needle: NeedleState, assembly: i
     reached = forward(geometry, q, assembly)
     if np.abs(reached - needle.p3).max() > _CLOSED:
         raise MechanismError(
-            f"P3 = {needle.p3.tolist()} m: this working mode does not close there in assembly"
-            f" {assembly}, which puts P3 at {reached.tolist()} m"
+            sentence(
+                "P3 = {needle_p3} m: this working mode does not close there in assembly"
+                " {assembly}, which puts P3 at {reached} m",
+                needle_p3=needle.p3.tolist(),
+                assembly=assembly,
+                reached=reached.tolist(),
+            )
         )
     kind = singularity(geometry, q, assembly, tolerance=_RELATIVE).kind
     if kind is not Singularity.REGULAR:
-        raise SingularError(f"singular ({kind.value}): joint rates at P3 = {needle.p3.tolist()} m")
+        raise SingularError(
+            sentence(
+                "singular ({kind}): joint rates at P3 = {needle_p3} m",
+                kind=kind.value,
+                needle_p3=needle.p3.tolist(),
+            )
+        )
     return np.asarray(np.linalg.inv(jacobian(geometry, q, assembly)), dtype=np.float64)

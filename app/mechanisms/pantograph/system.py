@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen
+from app.core.messages import sentence
 from app.mechanisms import lever
 from app.mechanisms.errors import MechanismError, NoGripError
 from app.mechanisms.geometry import Geometry
@@ -63,8 +64,13 @@ def needle_at(geometry: Geometry, p3: ArrayLike, l_out: float | None = None) -> 
     outside = length - l_in if l_out is None else float(l_out)
     if not outside > 0.0:
         raise NoGripError(
-            f"no grip: L_out = {outside} m at L_in = {l_in} m; the needle of {length} m must stand"
-            " out of the fulcrum (L_out > 0)"
+            sentence(
+                "no grip: L_out = {outside} m at L_in = {l_in} m; the needle of {length} m must "
+                "stand out of the fulcrum (L_out > 0)",
+                outside=outside,
+                l_in=l_in,
+                length=length,
+            )
         )
     axis = frozen([dx, dy, dz], (3,), "axis")
     depth = length - outside
@@ -94,8 +100,12 @@ def system_forward(
     """
     if (l_out is None) != (mode is LengthMode.PRINTED):
         raise MechanismError(
-            f"l_out = {l_out} m does not fit mode {mode.value!r}: mode 'measured' needs l_out,"
-            " mode 'printed' computes it"
+            sentence(
+                "l_out = {l_out} m does not fit mode {mode!r}: mode 'measured' needs l_out,"
+                " mode 'printed' computes it",
+                l_out=l_out,
+                mode=mode.value,
+            )
         )
     return needle_at(geometry, forward(geometry, q, assembly), l_out)
 
@@ -115,7 +125,9 @@ def system_inverse(
     """
     point = np.asarray(hub, dtype=np.float64)
     if point.shape != (3,):
-        raise MechanismError(f"hub has shape {point.shape}; (3,) is needed")
+        raise MechanismError(
+            sentence("hub has shape {point_shape}; (3,) is needed", point_shape=point.shape)
+        )
     status, x, y, _, l_out = lever.tool_kernel(*point.tolist(), *geometry.fulcrum_xyz)
     check(status, f"hub point P_u = {point.tolist()} m above the fulcrum {geometry.fulcrum_xyz} m")
     p3 = np.array([x, y])

@@ -17,6 +17,7 @@ from app.core import paths, plugin_folders
 from app.core.arrays import FloatArray, frozen
 from app.core.configuration import Strict, parse, parse_yaml, read_text
 from app.core.errors import ConfigurationError
+from app.core.messages import sentence
 from app.core.plugin_trial import import_fault
 from app.core.trial import Trial
 from app.mechanisms.profile.control import (
@@ -79,13 +80,21 @@ class DeviceProfile(Strict):
         length, deepest = self.geometry.needle_length, self.workspace.depth_max
         if deepest >= length:
             raise ValueError(
-                f"workspace.depth_max {deepest:g} m must be below geometry.needle_length"
-                f" {length:g} m: the hub stays outside the fulcrum"
+                sentence(
+                    "workspace.depth_max {deepest:g} m must be below geometry.needle_length"
+                    " {length:g} m: the hub stays outside the fulcrum",
+                    deepest=deepest,
+                    length=length,
+                )
             )
         if self.inertia.needle_centre > length:
             raise ValueError(
-                f"inertia.needle_centre {self.inertia.needle_centre:g} m must lie on the needle of"
-                f" geometry.needle_length {length:g} m"
+                sentence(
+                    "inertia.needle_centre {inertia_needle_centre:g} m must lie on the needle of"
+                    " geometry.needle_length {length:g} m",
+                    inertia_needle_centre=self.inertia.needle_centre,
+                    length=length,
+                )
             )
         return self
 
@@ -100,7 +109,12 @@ class DeviceProfile(Strict):
         """
         if fault := trial_fault(self):
             raise ConfigurationError(
-                f"device {self.name}: machine {self.kind!r} cannot be used: {fault}"
+                sentence(
+                    "device {name}: machine {kind!r} cannot be used: {fault}",
+                    name=self.name,
+                    kind=self.kind,
+                    fault=fault,
+                )
             )
         return untried_machine(self)
 
@@ -191,7 +205,12 @@ class DeviceProfile(Strict):
         names = sorted(self.workspace.tilt_limit_deg)
         if joint not in names:
             raise ConfigurationError(
-                f"device {self.name}: no joint {joint!r}; valid names: {', '.join(names)}"
+                sentence(
+                    "device {name}: no joint {joint!r}; valid names: {names}",
+                    name=self.name,
+                    joint=joint,
+                    names=", ".join(names),
+                )
             )
         workspace = self.workspace.model_copy(update={"joint": joint})
         return self.model_copy(update={"workspace": workspace})
@@ -205,8 +224,14 @@ class DeviceProfile(Strict):
         least = self.shortest_needle
         if not least < length < LONGEST_NEEDLE:
             raise ConfigurationError(
-                f"device {self.name}: a needle of {length:g} m; it holds needles longer than"
-                f" {least:g} m and shorter than {LONGEST_NEEDLE:g} m"
+                sentence(
+                    "device {name}: a needle of {length:g} m; it holds needles longer than"
+                    " {least:g} m and shorter than {longest_needle:g} m",
+                    name=self.name,
+                    length=length,
+                    least=least,
+                    longest_needle=LONGEST_NEEDLE,
+                )
             )
         geometry = self.geometry.model_copy(update={"needle_length": length})
         return self.model_copy(update={"geometry": geometry})
@@ -256,13 +281,24 @@ def profile_class(kind: object, origin: str) -> type[DeviceProfile]:
     """
     if kind not in kinds():
         raise ConfigurationError(
-            f"{origin}: kind: there is no machine of kind {kind!r}; valid kinds:"
-            f" {', '.join(kinds())}"
+            sentence(
+                "{origin}: kind: there is no machine of kind {kind!r}; valid kinds: {kinds}",
+                origin=origin,
+                kind=kind,
+                kinds=", ".join(kinds()),
+            )
         )
     module = _part(str(kind), "profile", origin)
     found: type[DeviceProfile] | None = getattr(module, "PROFILE", None)
     if found is None:
-        raise ConfigurationError(f"{origin}: machine {kind!r}: {module.__file__} has no PROFILE")
+        raise ConfigurationError(
+            sentence(
+                "{origin}: machine {kind!r}: {module_file} has no PROFILE",
+                origin=origin,
+                kind=kind,
+                module_file=module.__file__,
+            )
+        )
     return found
 
 
@@ -279,7 +315,14 @@ def _part(kind: str, name: str, origin: str) -> ModuleType:
             if is_own:
                 raise
             fault, reason = str(error) or type(error).__name__, error
-    raise ConfigurationError(f"{origin}: machine {kind!r} cannot be used: {fault}") from reason
+    raise ConfigurationError(
+        sentence(
+            "{origin}: machine {kind!r} cannot be used: {fault}",
+            origin=origin,
+            kind=kind,
+            fault=fault,
+        )
+    ) from reason
 
 
 def machine_fault(kind: str, name: str) -> str:
@@ -334,6 +377,21 @@ def trial_fault(profile: DeviceProfile) -> str:
     return fault
 
 
+def refused_by_trial(kind: str) -> str:
+    """Say why a trial of somebody else's machine has refused it, with the profiles that are known
+    by name or with another before; nothing if none has.
+    """
+    path = _foreign(kind, "machine")
+    if path is None:
+        return ""
+    for name in profile_names():
+        with suppress(ConfigurationError):  # of somebody else's
+            profile = load_profile(name)
+            if profile.kind == kind and (fault := trial_fault(profile)):
+                return fault
+    return TRIAL.refusal(path)
+
+
 def untried_machine(profile: DeviceProfile) -> RemoteCentre:
     """Return the machine of a profile, see `DeviceProfile.machine`, without its trial."""
     module = _part(profile.kind, "machine", f"device {profile.name}")
@@ -370,8 +428,12 @@ def load_profile(name_or_path: str | Path) -> DeviceProfile:
     path = _profiles().get(text, Path(name_or_path))
     if path.suffix not in (".yaml", ".yml"):
         raise ConfigurationError(
-            f"no device profile {text!r}; valid names: {', '.join(profile_names())},"
-            " or the path of a .yaml file"
+            sentence(
+                "no device profile {text!r}; valid names: {profile_names},"
+                " or the path of a .yaml file",
+                text=text,
+                profile_names=", ".join(profile_names()),
+            )
         )
     content = read_text(path)
     return parse_profile(parse_yaml(content, str(path)), str(path), content)

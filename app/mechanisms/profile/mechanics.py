@@ -6,6 +6,7 @@ from typing import Annotated
 from pydantic import Field, model_validator
 
 from app.core.configuration import Strict
+from app.core.messages import sentence
 
 Length = Annotated[float, Field(gt=0.0, le=2.0)]
 """[m]"""
@@ -56,9 +57,14 @@ class Section(Strict):
         fields = set(type(self).model_fields) - {"provenance"}
         wanted = {name for name in fields if getattr(self, name) is not None}
         if missing := sorted(wanted - set(self.provenance)):
-            raise ValueError(f"no provenance for {', '.join(missing)}")
+            raise ValueError(sentence("no provenance for {missing}", missing=", ".join(missing)))
         if unknown := sorted(set(self.provenance) - wanted):
-            raise ValueError(f"provenance of {', '.join(unknown)}, which the section does not have")
+            raise ValueError(
+                sentence(
+                    "provenance of {unknown}, which the section does not have",
+                    unknown=", ".join(unknown),
+                )
+            )
         return self
 
 
@@ -84,10 +90,20 @@ class WorkspaceSection(Section):
     def _consistent(self) -> "WorkspaceSection":
         if self.joint not in self.tilt_limit_deg:
             raise ValueError(
-                f"joint {self.joint!r} is not one of {', '.join(sorted(self.tilt_limit_deg))}"
+                sentence(
+                    "joint {joint!r} is not one of {tilt_limit_deg}",
+                    joint=self.joint,
+                    tilt_limit_deg=", ".join(sorted(self.tilt_limit_deg)),
+                )
             )
         if self.depth_min >= self.depth_max:
-            raise ValueError(f"depth_min {self.depth_min} must be below depth_max {self.depth_max}")
+            raise ValueError(
+                sentence(
+                    "depth_min {depth_min} must be below depth_max {depth_max}",
+                    depth_min=self.depth_min,
+                    depth_max=self.depth_max,
+                )
+            )
         return self
 
 

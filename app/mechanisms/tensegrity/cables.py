@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen, unit
+from app.core.messages import sentence
 from app.mechanisms.errors import DegenerateError, MechanismError, NotFiniteError, SingularError
 from app.mechanisms.status import SINGULAR, UNREACHABLE, check
 from app.mechanisms.tensegrity import cable_kernels, kernels
@@ -97,9 +98,20 @@ def tensions(
     b, asked = numbers(beta, 2, "beta"), numbers(torques, 2, "torques")
     wanted = [0.0, 0.0] if stiffness is None else numbers(stiffness, 2, "stiffness")
     if not all(map(isfinite, (*b, *asked, *wanted))):
-        raise NotFiniteError(f"not finite: β = {b} rad, τ = {asked} N·m, stiffness {wanted}")
+        raise NotFiniteError(
+            sentence(
+                "not finite: β = {b} rad, τ = {asked} N·m, stiffness {wanted}",
+                b=b,
+                asked=asked,
+                wanted=wanted,
+            )
+        )
     if stiffness is not None and min(wanted) <= 0.0:
-        raise MechanismError(f"stiffness is {wanted} N·m/rad; ask for more than 0, or for none")
+        raise MechanismError(
+            sentence(
+                "stiffness is {wanted} N·m/rad; ask for more than 0, or for none", wanted=wanted
+            )
+        )
     found: list[float] = []
     short: list[float] = []
     spread: list[tuple[float, float]] = []
@@ -189,7 +201,9 @@ def hub_force(rates: ArrayLike, torque: ArrayLike, l_out: float) -> FloatArray:
         DegenerateError: if `l_out` is not positive.
     """
     if not l_out > 0.0:
-        raise DegenerateError(f"degenerate: L_out = {l_out} m; a hub stands outside the centre")
+        raise DegenerateError(
+            sentence("degenerate: L_out = {l_out} m; a hub stands outside the centre", l_out=l_out)
+        )
     entries = np.asarray(rates, dtype=np.float64).ravel()
     tau = numbers(torque, 2, "torque")
     return np.array(cable_kernels.hub_force_kernel(*tau, l_out, *_six(entries)))
@@ -223,7 +237,9 @@ def guide_stiffness(
         sine, cosine, rate, second = kernels.opening_kernel(b, gain, bars[2])
         slope = -sine * rate
         if abs(slope) <= 1e-12:
-            raise SingularError(f"singular: stiffness of the guide at β = {beta.tolist()} rad")
+            raise SingularError(
+                sentence("singular: stiffness of the guide at β = {beta} rad", beta=beta.tolist())
+            )
         bend = -cosine * rate * rate - sine * second
         aside = across @ base
         lever = np.outer(aside, aside)
@@ -262,5 +278,9 @@ def _by_joint(geometry: TensegrityGeometry, beta: ArrayLike, first: int) -> Floa
 
 def _six(entries: FloatArray) -> list[Any]:
     if entries.shape != (6,):
-        raise MechanismError(f"Jacobian has {len(entries)} entries; 6 are needed")
+        raise MechanismError(
+            sentence(
+                "Jacobian has {entries_count} entries; 6 are needed", entries_count=len(entries)
+            )
+        )
     return entries.tolist()

@@ -11,6 +11,7 @@ from math import atan, cos, degrees, isfinite, pi, radians, sin, sqrt, tan
 from typing import Final
 
 from app.core.arrays import FloatArray, frozen
+from app.core.messages import sentence
 from app.mechanisms.errors import MechanismError
 
 Bars = tuple[float, float, float, float, float, float, float, float, float]
@@ -76,29 +77,49 @@ class TensegrityGeometry:
         for name in ("first_radius", "second_radius", "first_reach", "second_reach"):
             if not 0.0 < getattr(self, name) < float("inf"):
                 raise MechanismError(
-                    f"geometry: {name} is {getattr(self, name)} m; a positive length is needed"
+                    sentence(
+                        "geometry: {name} is {value} m; a positive length is needed",
+                        name=name,
+                        value=getattr(self, name),
+                    )
                 )
         for name in ("first_tilt", "second_tilt"):
             if not abs(getattr(self, name)) <= radians(89.0):
                 raise MechanismError(
-                    f"geometry: {name} is {degrees(getattr(self, name)):.6g}°; a base joint"
-                    " stands within ±89° of its horizontal axis"
+                    sentence(
+                        "geometry: {name} is {degrees:.6g}°; a base joint"
+                        " stands within ±89° of its horizontal axis",
+                        name=name,
+                        degrees=degrees(getattr(self, name)),
+                    )
                 )
         if self.reading not in tuple(JointReading):
             raise MechanismError(
-                f"geometry: reading is {self.reading!r}; there are {', '.join(JointReading)}"
+                sentence(
+                    "geometry: reading is {reading!r}; there are {joint_reading}",
+                    reading=self.reading,
+                    joint_reading=", ".join(JointReading),
+                )
             )
         apart, (first, second) = self.apart, self.largest
         if not _LEAST_APART <= apart <= pi - _LEAST_APART:
             raise MechanismError(
-                f"geometry: the base joints lie {degrees(apart):.3g}° apart as seen from the"
-                " remote centre; they span no sphere within 2° of 0° or 180°: lower a tilt"
+                sentence(
+                    "geometry: the base joints lie {degrees:.3g}° apart as seen from the"
+                    " remote centre; they span no sphere within 2° of 0° or 180°: lower a tilt",
+                    degrees=degrees(apart),
+                )
             )
         if first + second <= apart:
             raise MechanismError(
-                f"geometry: the bars reach {degrees(first):.4g}° and {degrees(second):.4g}°, the"
-                f" base joints are {degrees(apart):.4g}° apart: no pose closes both pantographs;"
-                " lengthen f1 or f2"
+                sentence(
+                    "geometry: the bars reach {degrees:.4g}° and {degrees_2:.4g}°, the"
+                    " base joints are {degrees_3:.4g}° apart: no pose closes both pantographs;"
+                    " lengthen f1 or f2",
+                    degrees=degrees(first),
+                    degrees_2=degrees(second),
+                    degrees_3=degrees(apart),
+                )
             )
         (side1, side2), half = self.sides, 0.5 * apart
         object.__setattr__(
@@ -182,16 +203,30 @@ class Cables:
     def __post_init__(self) -> None:
         for name in ("stiffness", "stiffening", "least", "most"):
             if not isfinite(getattr(self, name)):
-                raise MechanismError(f"cables: {name} is {getattr(self, name)}; give a number")
+                raise MechanismError(
+                    sentence(
+                        "cables: {name} is {value}; give a number",
+                        name=name,
+                        value=getattr(self, name),
+                    )
+                )
         if not self.stiffness > 0.0 or self.stiffening < 0.0:
             raise MechanismError(
-                f"cables: stiffness {self.stiffness} N/m, stiffening {self.stiffening} 1/m; the"
-                " first must be positive, the second 0 or more"
+                sentence(
+                    "cables: stiffness {stiffness} N/m, stiffening {stiffening} 1/m; the"
+                    " first must be positive, the second 0 or more",
+                    stiffness=self.stiffness,
+                    stiffening=self.stiffening,
+                )
             )
         if not 0.0 <= self.least < self.most:
             raise MechanismError(
-                f"cables: tensions from {self.least} to {self.most} N; a cable pulls, so the least"
-                " is 0 or more, and below the most"
+                sentence(
+                    "cables: tensions from {least} to {most} N; a cable pulls, so the least"
+                    " is 0 or more, and below the most",
+                    least=self.least,
+                    most=self.most,
+                )
             )
 
     @property
@@ -221,7 +256,13 @@ class CurvedBars:
         for name in ("modulus", "shear_modulus", "width"):
             value = getattr(self, name)
             if not (isfinite(value) and value > 0.0):
-                raise MechanismError(f"bars: {name} is {value}; a positive number is needed")
+                raise MechanismError(
+                    sentence(
+                        "bars: {name} is {value}; a positive number is needed",
+                        name=name,
+                        value=value,
+                    )
+                )
 
 
 @dataclass(frozen=True, slots=True)
@@ -247,7 +288,11 @@ class GuideMasses:
         for name in ("density", "guide_mass", "guide_centre", "guide_inertia"):
             if not (isfinite(getattr(self, name)) and getattr(self, name) >= 0.0):
                 raise MechanismError(
-                    f"masses: {name} is {getattr(self, name)}; a number from 0 on is needed"
+                    sentence(
+                        "masses: {name} is {value}; a number from 0 on is needed",
+                        name=name,
+                        value=getattr(self, name),
+                    )
                 )
 
     @property

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, angle_between, cross, frozen, unit
+from app.core.messages import sentence
 from app.mechanisms.errors import DegenerateError, MechanismError, UnreachableError
 from app.mechanisms.status import NOT_FINITE, OK, Status, check
 from app.mechanisms.tensegrity import kernels
@@ -67,7 +68,14 @@ def numbers(values: ArrayLike, count: int, name: str) -> list[Any]:
     """
     array = np.asarray(values, dtype=np.float64)
     if array.shape != (count,):
-        raise MechanismError(f"{name} has shape {array.shape}; ({count},) is needed")
+        raise MechanismError(
+            sentence(
+                "{name} has shape {array_shape}; ({count},) is needed",
+                name=name,
+                array_shape=array.shape,
+                count=count,
+            )
+        )
     return array.tolist()
 
 
@@ -105,8 +113,15 @@ def inverse(geometry: TensegrityGeometry, t: ArrayLike, assembly: int = 1) -> Fl
         near = nearest(geometry, (x, y, z))
         away = degrees(angle_between((x, y, z), near))
         raise UnreachableError(
-            f"unreachable: direction t = ({x}, {y}, {z}); the nearest within reach is"
-            f" {near.tolist()}, {away:.3g}° away"
+            sentence(
+                "unreachable: direction t = ({x}, {y}, {z}); the nearest within reach is"
+                " {near}, {away:.3g}° away",
+                x=x,
+                y=y,
+                z=z,
+                near=near.tolist(),
+                away=away,
+            )
         )
     check(status, f"direction t = ({x}, {y}, {z})")
     return np.array([b1, b2])
@@ -192,7 +207,9 @@ def nearest(geometry: TensegrityGeometry, t: ArrayLike, margin: float = 0.0) -> 
     """
     array = np.asarray(t, dtype=np.float64)
     if array.shape != (3,) or not np.isfinite(array).all() or not np.abs(array).max() > 1e-150:
-        raise DegenerateError(f"degenerate: t = {array.tolist()} has no direction")
+        raise DegenerateError(
+            sentence("degenerate: t = {array} has no direction", array=array.tolist())
+        )
     wanted = unit(array)
     caps = _caps(geometry, margin)
     found = [wanted]
@@ -203,8 +220,11 @@ def nearest(geometry: TensegrityGeometry, t: ArrayLike, margin: float = 0.0) -> 
     reached = [v for v in found if all(_depth(v, *cap) >= -1e-13 for cap in caps)]
     if not reached:
         raise UnreachableError(
-            f"unreachable: a margin of {degrees(margin):.4g}° leaves nothing of the workspace;"
-            " ask for less"
+            sentence(
+                "unreachable: a margin of {degrees:.4g}° leaves nothing of the workspace;"
+                " ask for less",
+                degrees=degrees(margin),
+            )
         )
     return frozen(min(reached, key=lambda v: angle_between(v, wanted)))
 
@@ -235,7 +255,12 @@ def guide_direction(eta: float, mu: float) -> FloatArray:
     """
     if not (abs(eta) < pi / 2.0 and 0.0 < mu < pi):
         raise DegenerateError(
-            f"degenerate: (η, μ) = ({eta}, {mu}) rad; η within ±π/2 and μ between 0 and π point up"
+            sentence(
+                "degenerate: (η, μ) = ({eta}, {mu}) rad; η within ±π/2 and μ between 0 and π "
+                "point up",
+                eta=eta,
+                mu=mu,
+            )
         )
     return unit((cos(mu) * cos(eta), sin(mu) * sin(eta), sin(mu) * cos(eta)))
 
@@ -253,7 +278,9 @@ def encoder_error(
         MechanismError: as `forward`; if `steps` is not positive.
     """
     if steps <= 0:
-        raise MechanismError(f"encoder: {steps} steps per turn; a positive number is needed")
+        raise MechanismError(
+            sentence("encoder: {steps} steps per turn; a positive number is needed", steps=steps)
+        )
     step = 2.0 * pi / steps
     by_joints = jacobian(geometry, beta)
     ends = by_joints @ np.array([[1.0, 1.0], [1.0, -1.0]]) * (0.5 * step)

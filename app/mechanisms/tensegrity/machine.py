@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen, unit
+from app.core.messages import sentence
 from app.core.parameters import Stage, numbered, packed
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.profile import DeviceProfile
@@ -161,5 +162,11 @@ def machine(profile: DeviceProfile) -> RemoteCentre:
         MechanismError: if the profile is of another kind.
     """
     if not isinstance(profile, TensegrityProfile):
-        raise MechanismError(f"device {profile.name} is a {profile.kind}, no tensegrity")
+        raise MechanismError(
+            sentence(
+                "device {profile_name} is a {profile_kind}, no tensegrity",
+                profile_name=profile.name,
+                profile_kind=profile.kind,
+            )
+        )
     return Tensegrity(profile)

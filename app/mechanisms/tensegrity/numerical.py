@@ -13,6 +13,7 @@ from scipy.optimize import root
 
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
+from app.core.messages import sentence
 from app.mechanisms.errors import MechanismError, UnreachableError
 from app.mechanisms.status import NOT_FINITE, OK, SINGULAR, UNREACHABLE
 from app.mechanisms.tensegrity.geometry import TensegrityGeometry
@@ -78,7 +79,7 @@ def forward_by_root(
     """
     b = np.asarray(beta, dtype=np.float64)
     if b.shape != (2,):
-        raise MechanismError(f"beta has shape {b.shape}; (2,) is needed")
+        raise MechanismError(sentence("beta has shape {b_shape}; (2,) is needed", b_shape=b.shape))
     (gain1, gain2, fold), (a1, a2) = geometry.bars[:3], geometry.bases
     opened = (
         float(2.0 * fold * np.arctan(g * cos(0.5 * v)))
@@ -92,6 +93,10 @@ def forward_by_root(
     found = root(off, np.asarray(start, dtype=np.float64), tol=1e-14)
     if not np.abs(found.fun).max() < 1e-9:
         raise UnreachableError(
-            f"unreachable: no direction for β = {b.tolist()} rad after {found.nfev} evaluations"
+            sentence(
+                "unreachable: no direction for β = {b} rad after {evaluations} evaluations",
+                b=b.tolist(),
+                evaluations=found.nfev,
+            )
         )
     return np.asarray(found.x, dtype=np.float64)

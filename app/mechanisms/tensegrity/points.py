@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, cross, frozen, unit
+from app.core.messages import sentence
 from app.mechanisms.errors import DegenerateError, NotFiniteError, UnreachableError
 from app.mechanisms.tensegrity.cables import CABLE_NAMES
 from app.mechanisms.tensegrity.geometry import TensegrityGeometry
@@ -81,8 +82,11 @@ def machine_points(geometry: TensegrityGeometry, t: ArrayLike) -> MachinePoints:
         aside = cross(base, direction)
         if np.linalg.norm(aside) < _TOUCHING:
             raise DegenerateError(
-                f"degenerate: T stands on A{number}; its rhombus has no plane there, turn the"
-                " guide away"
+                sentence(
+                    "degenerate: T stands on A{number}; its rhombus has no plane there, turn the"
+                    " guide away",
+                    number=number,
+                )
             )
         middle, outwards = unit(base + direction), unit(aside)
         corners = [base, direction] if geometry.rhombi == 1 else [base, middle, direction]
@@ -127,14 +131,16 @@ def trilaterate(centres: ArrayLike, radii: ArrayLike, side: int = 1) -> Trilater
     """
     c, r = np.asarray(centres, dtype=np.float64), np.asarray(radii, dtype=np.float64)
     if not (np.isfinite(c).all() and np.isfinite(r).all()):
-        raise NotFiniteError(f"not finite: spheres at {c.tolist()} with radii {r.tolist()}")
+        raise NotFiniteError(
+            sentence("not finite: spheres at {c} with radii {r}", c=c.tolist(), r=r.tolist())
+        )
     first, second = c[1] - c[0], c[2] - c[0]
     u = float(np.linalg.norm(first))
     size2 = max(u * u, float(second @ second), float(r.max()) ** 2)
     aside = cross(first, second)
     if not float(np.linalg.norm(aside)) > 1e-10 * size2:
         raise DegenerateError(
-            f"degenerate: the centres of the spheres lie in one line: {c.tolist()}"
+            sentence("degenerate: the centres of the spheres lie in one line: {c}", c=c.tolist())
         )
     x_axis, z_axis = first / u, unit(aside)
     y_axis = cross(z_axis, x_axis)
@@ -144,8 +150,11 @@ def trilaterate(centres: ArrayLike, radii: ArrayLike, side: int = 1) -> Trilater
     height2 = float(r[0] ** 2 - x * x - y * y)
     if height2 < -_TOUCHING * size2:
         raise UnreachableError(
-            f"unreachable: spheres with radii {r.tolist()} m at {c.tolist()} m have no point in"
-            " common"
+            sentence(
+                "unreachable: spheres with radii {r} m at {c} m have no point in common",
+                r=r.tolist(),
+                c=c.tolist(),
+            )
         )
     tangent = height2 <= _TOUCHING * size2
     height = 0.0 if tangent else sqrt(height2)

@@ -6,6 +6,7 @@ from typing import Annotated, Final, Literal
 
 from pydantic import Field, model_validator
 
+from app.core.messages import sentence, sentence_of
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.profile.device import DeviceProfile
 from app.mechanisms.profile.mechanics import (
@@ -66,7 +67,7 @@ class TensegritySection(CentreSection):
         try:
             _ = self.bars
         except MechanismError as error:
-            raise ValueError(str(error)) from error
+            raise ValueError(sentence_of(error)) from error
         return self
 
 
@@ -105,8 +106,13 @@ class CableSection(Section):
     def _in_order(self) -> "CableSection":
         if not self.least < self.holding < self.most:
             raise ValueError(
-                f"tensions must rise from least ({self.least:g} N) over holding"
-                f" ({self.holding:g} N) to most ({self.most:g} N)"
+                sentence(
+                    "tensions must rise from least ({least:g} N) over holding"
+                    " ({holding:g} N) to most ({most:g} N)",
+                    least=self.least,
+                    holding=self.holding,
+                    most=self.most,
+                )
             )
         return self
 

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen
 from app.core.confidence import chi_square_quantile, covariance_radius
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.planning.registration.correspondence import Outlier, Reordering, better_order, outlier
@@ -151,17 +152,20 @@ class PointCheck:
     def condition(self) -> str:
         """Return what the figure at the target rests on, for people."""
         shift = (
-            f"a shift that all share: {np.sqrt(self.shared) / MILLIMETRE:.2f} mm by the plate"
+            sentence(
+                "a shift that all share: {sqrt_mm:.2f} mm by the plate",
+                sqrt_mm=np.sqrt(self.shared) / MILLIMETRE,
+            )
             if self.shared
-            else "a shift that all share is not in it"
+            else sentence("a shift that all share is not in it")
         )
         if self.stated is not None:
-            shape = "errors of each point as stated"
-            shape += ", which the residuals exceed" if self.contradicted else ""
+            shape = sentence("errors of each point as stated")
+            shape += sentence(", which the residuals exceed") if self.contradicted else ""
         elif self.shaped is not None:
-            shape = "shape of the errors by the residuals"
+            shape = sentence("shape of the errors by the residuals")
         else:
-            shape = "holds for errors that are as large in every direction"
+            shape = sentence("holds for errors that are as large in every direction")
         return f"{shape}; {shift}"
 
 
@@ -315,8 +319,10 @@ class RegistrationCheck:
         """
         if not self.trusted:
             raise RegistrationError(
-                "the points do not fit the plate, so nothing can be said of the target; see the "
-                "residuals, touch the named fiducials again"
+                sentence(
+                    "the points do not fit the plate, so nothing can be said of the target; see "
+                    "the residuals, touch the named fiducials again"
+                )
             )
         point = frozen(p_world, (3,), "target")
         tip = np.zeros((3, 3)) if tip_covariance is None else frozen(tip_covariance, (3, 3), "tip")
@@ -324,9 +330,12 @@ class RegistrationCheck:
         if measured is None or used is None:
             if self.plate.place is None:
                 raise RegistrationError(
-                    f"plate {self.plate.name} has no known place in the robot's frame and no "
-                    "beads were picked: the touches have nothing to agree with; give `place`, or "
-                    "pick the beads in the CT"
+                    sentence(
+                        "plate {plate_name} has no known place in the robot's frame and no beads "
+                        "were picked: the touches have nothing to agree with; give `place`, or "
+                        "pick the beads in the CT",
+                        plate_name=self.plate.name,
+                    )
                 )
             measured, used = self.world.fit.T_measured_reference, self.plate.place.transform
             own = (self.plate.place_sd_mm * MILLIMETRE) ** 2

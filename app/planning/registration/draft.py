@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.rotation import rotation_log
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
@@ -50,10 +51,18 @@ class CheckDraft:
         """Return the check that the points give, or in words what is still missing."""
         lacking = FEWEST - len(self.touched)
         if lacking > 0:
-            return f"touch {lacking} more fiducial{'s' * (lacking > 1)}"
+            return sentence(
+                "touch {lacking} more fiducial{lacking_2}",
+                lacking=lacking,
+                lacking_2="s" * (lacking > 1),
+            )
         lacking = FEWEST - len(self.picked)
         if self.picked and lacking > 0:
-            return f"pick {lacking} more bead{'s' * (lacking > 1)} in the CT, or none"
+            return sentence(
+                "pick {lacking} more bead{lacking_2} in the CT, or none",
+                lacking=lacking,
+                lacking_2="s" * (lacking > 1),
+            )
         try:
             picked = points_of(self.picked) if self.picked else None
             return RegistrationCheck.of(plate, points_of(self.touched), picked)

@@ -10,6 +10,7 @@ from app.core import paths
 from app.core.arrays import FloatArray, frozen
 from app.core.configuration import Strict, load
 from app.core.errors import ConfigurationError
+from app.core.messages import sentence
 from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
@@ -76,7 +77,9 @@ class FiducialPlate(Strict):
     def _usable(self) -> Self:
         names = [fiducial.name for fiducial in self.fiducials]
         if len(set(names)) < len(names):
-            raise ValueError(f"two fiducials have the same name: {', '.join(names)}")
+            raise ValueError(
+                sentence("two fiducials have the same name: {names}", names=", ".join(names))
+            )
         for points in (self.touch, self.beads):
             require_spread(checked_points(points, "plate"), "plate")  # a ValueError too
         return self
@@ -113,10 +116,17 @@ class FiducialPlate(Strict):
         for name in names:
             if name not in self.names:
                 raise RegistrationError(
-                    f"plate {self.name} has no fiducial {name!r}; it has {', '.join(self.names)}"
+                    sentence(
+                        "plate {name} has no fiducial {name_2!r}; it has {names}",
+                        name=self.name,
+                        name_2=name,
+                        names=", ".join(self.names),
+                    )
                 )
             if names.count(name) > 1:
-                raise RegistrationError(f"fiducial {name!r} is given twice; keep one of them")
+                raise RegistrationError(
+                    sentence("fiducial {name!r} is given twice; keep one of them", name=name)
+                )
         return [self.names.index(name) for name in names]
 
 
@@ -136,8 +146,12 @@ def load_plate(name_or_path: str | Path) -> FiducialPlate:
         return load(_folder() / f"{text}.yaml", FiducialPlate)
     if Path(text).suffix not in (".yaml", ".yml"):
         raise ConfigurationError(
-            f"no fiducial plate {text!r}; valid names: {', '.join(plate_names())}, "
-            "or the path of a .yaml file"
+            sentence(
+                "no fiducial plate {text!r}; valid names: {plate_names}, "
+                "or the path of a .yaml file",
+                text=text,
+                plate_names=", ".join(plate_names()),
+            )
         )
     return load(Path(text), FiducialPlate)
 

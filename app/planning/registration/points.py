@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from app.core.arrays import FloatArray, frozen
 from app.core.configuration import read_yaml
 from app.core.files import read_at_most
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.imaging.errors import BeadError, OutsideImageError
 from app.imaging.volume import Volume
@@ -64,7 +65,9 @@ def find_bead(volume: Volume, near_mm: ArrayLike, diameter_mm: float) -> Bead:
     """
     click = frozen(near_mm, (3,), "near_mm")
     if not volume.contains(click):
-        raise OutsideImageError(f"the point {_text(click)} lies outside the CT: click a slice")
+        raise OutsideImageError(
+            sentence("the point {text} lies outside the CT: click a slice", text=_text(click))
+        )
     search = 1.5 * diameter_mm + float(volume.spacing_mm.max())
     reach = 0.5 * diameter_mm + 1.5 * float(volume.spacing_mm.max())
     box = _Crop.around(volume, click, search + reach + 0.5 * diameter_mm)
@@ -75,14 +78,24 @@ def find_bead(volume: Volume, near_mm: ArrayLike, diameter_mm: float) -> Bead:
     contrast = float(box.hu[seed]) - background
     if contrast < LEAST_CONTRAST:
         raise BeadError(
-            f"no bead within {search:.1f} mm of {_text(click)}: the brightest voxel is "
-            f"{contrast:.0f} HU above its surroundings, {LEAST_CONTRAST:.0f} are needed"
+            sentence(
+                "no bead within {search:.1f} mm of {text}: the brightest voxel is "
+                "{contrast:.0f} HU above its surroundings, {least_contrast:.0f} are needed",
+                search=search,
+                text=_text(click),
+                contrast=contrast,
+                least_contrast=LEAST_CONTRAST,
+            )
         )
     diameter = _diameter(box, seed, background + 0.5 * contrast)
     _require_size(diameter, diameter_mm, float(volume.spacing_mm.max()), click)
     centre = _centroid(box, box.points[seed], background, reach)
     if box.clipped and not _inside(volume, centre, reach):
-        raise BeadError(f"the bead at {_text(centre)} reaches the edge of the CT: use another one")
+        raise BeadError(
+            sentence(
+                "the bead at {text} reaches the edge of the CT: use another one", text=_text(centre)
+            )
+        )
     return Bead(frozen(centre), contrast, diameter, float(np.linalg.norm(centre - click)))
 
 
@@ -122,8 +135,14 @@ def _require_size(result: float, wanted: float, voxel: float, at: FloatArray) ->
     largest = 1.6 * wanted + voxel
     if result > largest:
         raise BeadError(
-            f"what is bright at {_text(at)} is {result:.1f} mm across, a bead is {wanted:.1f} mm "
-            f"(at most {largest:.1f} mm in this CT): bone, or two beads; click on a bead"
+            sentence(
+                "what is bright at {text} is {result:.1f} mm across, a bead is {wanted:.1f} mm "
+                "(at most {largest:.1f} mm in this CT): bone, or two beads; click on a bead",
+                text=_text(at),
+                result=result,
+                wanted=wanted,
+                largest=largest,
+            )
         )
 
 
@@ -172,10 +191,18 @@ class NamedPoints:
         shape = (len(self.names), 3, 3)
         object.__setattr__(self, "covariances", frozen(self.covariances, shape, "covariances"))
         if len(self.points) != len(self.names):
-            raise RegistrationError(f"{len(self.names)} names for {len(self.points)} points")
+            raise RegistrationError(
+                sentence(
+                    "{names_count} names for {points_count} points",
+                    names_count=len(self.names),
+                    points_count=len(self.points),
+                )
+            )
         for name in self.names:
             if self.names.count(name) > 1:
-                raise RegistrationError(f"fiducial {name!r} is given twice; keep one of them")
+                raise RegistrationError(
+                    sentence("fiducial {name!r} is given twice; keep one of them", name=name)
+                )
 
     @property
     def stated(self) -> bool:
@@ -197,7 +224,7 @@ def read_points(path: Path) -> NamedPoints:
     """
     rows = _from_yaml(path) if path.suffix in (".yaml", ".yml") else _from_csv(path)
     if not rows:
-        raise RegistrationError(f"{path} holds no points")
+        raise RegistrationError(sentence("{path} holds no points", path=path))
     names, points, deviations = zip(*rows, strict=True)
     variances = (np.array(deviations) * MILLIMETRE) ** 2
     return NamedPoints(names, np.array(points) * MILLIMETRE, variances[:, None, None] * np.eye(3))
@@ -210,17 +237,30 @@ def _from_csv(path: Path) -> list[_Row]:
     try:
         text = read_at_most(path).decode("utf-8-sig")
     except OSError as error:
-        raise RegistrationError(f"cannot read {path}: {error.strerror or error}") from error
+        raise RegistrationError(
+            sentence(
+                "cannot read {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
     except UnicodeDecodeError as error:
         raise RegistrationError(
-            f"{path} is no text; give a CSV file with the header name,x_mm,y_mm,z_mm, or YAML"
+            sentence(
+                "{path} is no text; give a CSV file with the header name,x_mm,y_mm,z_mm, or YAML",
+                path=path,
+            )
         ) from error
     reader = csv.DictReader(io.StringIO(text), skipinitialspace=True)
     missing = [k for k in ("name", "x_mm", "y_mm", "z_mm") if k not in (reader.fieldnames or ())]
     if missing:
         raise RegistrationError(
-            f"{path}: column {missing[0]} is missing; the first line must be "
-            "name,x_mm,y_mm,z_mm and may add sd_mm"
+            sentence(
+                "{path}: column {missing_first} is missing; the first line must be "
+                "name,x_mm,y_mm,z_mm and may add sd_mm",
+                path=path,
+                missing_first=missing[0],
+            )
         )
     return [_row(path, f"line {reader.line_num}", row) for row in reader]
 
@@ -229,18 +269,34 @@ def _row(path: Path, where: str, row: dict[str, Any]) -> _Row:
     values = [_number(path, where, row[key]) for key in ("x_mm", "y_mm", "z_mm")]
     deviation = _number(path, where, row.get("sd_mm") or 0.0)
     if deviation < 0.0:
-        raise RegistrationError(f"{path}, {where}: sd_mm {deviation:g} is negative")
+        raise RegistrationError(
+            sentence(
+                "{path}, {where}: sd_mm {deviation:g} is negative",
+                path=path,
+                where=where,
+                deviation=deviation,
+            )
+        )
     return str(row["name"]).strip(), values, deviation
 
 
 def _from_yaml(path: Path) -> list[_Row]:
     document = read_yaml(path)
     if not isinstance(document, dict):
-        raise RegistrationError(f"{path}: a mapping of names to [x, y, z] in mm is needed")
+        raise RegistrationError(
+            sentence("{path}: a mapping of names to [x, y, z] in mm is needed", path=path)
+        )
     rows = []
     for name, value in document.items():
         if not isinstance(value, list) or len(value) != 3:
-            raise RegistrationError(f"{path}, {name}: [x, y, z] in mm is needed, got {value!r}")
+            raise RegistrationError(
+                sentence(
+                    "{path}, {name}: [x, y, z] in mm is needed, got {value!r}",
+                    path=path,
+                    name=name,
+                    value=value,
+                )
+            )
         rows.append((str(name), [_number(path, str(name), v) for v in value], 0.0))
     return rows
 
@@ -249,7 +305,11 @@ def _number(path: Path, where: str, text: object) -> float:
     try:
         value = float(str(text))
     except ValueError as error:
-        raise RegistrationError(f"{path}, {where}: {text!r} is not a number") from error
+        raise RegistrationError(
+            sentence("{path}, {where}: {text!r} is not a number", path=path, where=where, text=text)
+        ) from error
     if not np.isfinite(value):
-        raise RegistrationError(f"{path}, {where}: {text!r} is not finite")
+        raise RegistrationError(
+            sentence("{path}, {where}: {text!r} is not finite", path=path, where=where, text=text)
+        )
     return value

@@ -15,6 +15,7 @@ from app.core import paths
 from app.core.arrays import FloatArray
 from app.core.configuration import Strict, load
 from app.core.files import write_atomically
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.planning.registration.check import RegistrationCheck
 from app.planning.registration.plate import FiducialPlate
@@ -80,7 +81,14 @@ class RegistrationRecord(Strict):
     @model_validator(mode="after")
     def _known(self) -> Self:
         if self.format != FORMAT or self.version != 1:
-            raise ValueError(f"format {self.format} {self.version} is not {FORMAT} 1")
+            raise ValueError(
+                sentence(
+                    "format {format} {version} is not {format_2} 1",
+                    format=self.format,
+                    version=self.version,
+                    format_2=FORMAT,
+                )
+            )
         return self
 
     def check(self) -> RegistrationCheck:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen
+from app.core.messages import sentence
 from app.core.rotation import closest_rotation
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
@@ -82,7 +83,12 @@ def rigid_fit(
     x, y = checked_points(reference, "reference"), checked_points(measured, "measured")
     if x.shape != y.shape:
         raise RegistrationError(
-            f"{len(x)} reference points and {len(y)} measured ones: give each fiducial once in both"
+            sentence(
+                "{x_count} reference points and {y_count} measured ones: give each fiducial once "
+                "in both",
+                x_count=len(x),
+                y_count=len(y),
+            )
         )
     w = _checked_weights(weights, len(x))
     require_spread(x, "reference")
@@ -98,8 +104,11 @@ def _rotation(x: FloatArray, y: FloatArray, w: FloatArray) -> FloatArray:
     rotation, gap = closest_rotation((dx * w[:, None]).T @ dy)
     if gap <= 1e-9:  # 0 for a mirrored regular body
         raise DegenerateFiducialsError(
-            "two rotations fit these points equally well: the measured ones look like the mirror "
-            "image of the reference; check the order of the points and the signs of the coordinates"
+            sentence(
+                "two rotations fit these points equally well: the measured ones look like the "
+                "mirror image of the reference; check the order of the points and the signs of "
+                "the coordinates"
+            )
         )
     return rotation
 
@@ -113,14 +122,28 @@ def checked_points(points: ArrayLike, name: str) -> FloatArray:
     try:
         array = np.array(points, dtype=np.float64)
     except (TypeError, ValueError) as error:
-        raise RegistrationError(f"{name} points are not a list of three numbers each") from error
+        raise RegistrationError(
+            sentence("{name} points are not a list of three numbers each", name=name)
+        ) from error
     if array.ndim != 2 or array.shape[1:] != (3,):
-        raise RegistrationError(f"{name} points have shape {array.shape}; (n, 3) is needed")
+        raise RegistrationError(
+            sentence(
+                "{name} points have shape {array_shape}; (n, 3) is needed",
+                name=name,
+                array_shape=array.shape,
+            )
+        )
     for i, point in enumerate(array):
         if not np.isfinite(point).all() or np.abs(point).max() > LARGEST:
             raise RegistrationError(
-                f"{name} point {i + 1} is {point.tolist()} m: finite numbers within ±{LARGEST:g} m "
-                "are needed (millimetres where metres are meant?)"
+                sentence(
+                    "{name} point {i} is {point} m: finite numbers within ±{largest:g} m "
+                    "are needed (millimetres where metres are meant?)",
+                    name=name,
+                    i=i + 1,
+                    point=point.tolist(),
+                    largest=LARGEST,
+                )
             )
     array.setflags(write=False)
     return array
@@ -134,20 +157,35 @@ def require_spread(points: FloatArray, name: str) -> None:
     """
     if len(points) < FEWEST:
         raise DegenerateFiducialsError(
-            f"{len(points)} {name} point{'s' * (len(points) != 1)}: a registration needs at least "
-            f"{FEWEST}, and {FEWEST + 1} to find a wrong one"
+            sentence(
+                "{points_count} {name} point{points_count_2}: a registration needs at least "
+                "{fewest}, and {fewest_2} to find a wrong one",
+                points_count=len(points),
+                name=name,
+                points_count_2="s" * (len(points) != 1),
+                fewest=FEWEST,
+                fewest_2=FEWEST + 1,
+            )
         )
     values = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
     extent, width = (values[:2] / np.sqrt(len(points))).tolist()
     if extent < THINNEST:
         raise DegenerateFiducialsError(
-            f"the {name} points lie within {extent / MILLIMETRE:.2f} mm of each other: they are "
-            "one point; touch fiducials that are far apart"
+            sentence(
+                "the {name} points lie within {extent_mm:.2f} mm of each other: they are "
+                "one point; touch fiducials that are far apart",
+                name=name,
+                extent_mm=extent / MILLIMETRE,
+            )
         )
     if width < max(THINNEST, THINNEST_SHARE * extent):
         raise DegenerateFiducialsError(
-            f"the {name} points lie on one line within {width / MILLIMETRE:.2f} mm: the turn about "
-            "it stays unknown; add a fiducial beside the line"
+            sentence(
+                "the {name} points lie on one line within {width_mm:.2f} mm: the turn about "
+                "it stays unknown; add a fiducial beside the line",
+                name=name,
+                width_mm=width / MILLIMETRE,
+            )
         )
 
 
@@ -158,6 +196,10 @@ def _checked_weights(weights: ArrayLike | None, count: int) -> FloatArray:
     good = array.shape == (count,) and np.isfinite(array).all() and (array > 0.0).all()
     if not good or array.max() > 1e6 * array.min():
         raise RegistrationError(
-            f"weights {array.tolist()}: {count} positive numbers within a factor of 1e6 are needed"
+            sentence(
+                "weights {array}: {count} positive numbers within a factor of 1e6 are needed",
+                array=array.tolist(),
+                count=count,
+            )
         )
     return frozen(array / array.mean())

@@ -4,6 +4,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.confidence import covariance_radius
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.planning.registration.check import PointCheck, RegistrationAgreement, RegistrationCheck
 from app.planning.registration.errors import RegistrationError
@@ -24,7 +25,7 @@ def student_line(agreement: RegistrationAgreement | None) -> str:
     """Return the sentence for students; without a check it names no figure."""
     if agreement is None:
         return NOT_CHECKED
-    return f"screen and needle agree within ± {_mm(agreement.radius, 1)} mm (95 %)"
+    return sentence("screen and needle agree within ± {mm} mm (95 %)", mm=_mm(agreement.radius, 1))
 
 
 def agreement_or_reason(
@@ -57,19 +58,33 @@ def target_line(check: RegistrationCheck, p_world: FloatArray) -> str:
     """Say the error to expect at a point of the world [m], shape (3,), for technicians."""
     radius = covariance_radius(check.spread(p_world))
     rms = float(np.sqrt(np.trace(check.expected(p_world))))
-    return (
-        f"TRE at the target: {_mm(rms)} mm RMS expected, at least 95 % within {_mm(radius)} mm "
-        f"({check.world.condition})"
+    return sentence(
+        "TRE at the target: {mm} mm RMS expected, at least 95 % within {mm_2} mm "
+        "({check_world_condition})",
+        mm=_mm(rms),
+        mm_2=_mm(radius),
+        check_world_condition=check.world.condition,
     )
 
 
 def _figures(title: str, part: PointCheck) -> list[str]:
     error = part.fiducial
     return [
-        f"{title}: {part.fit.count} fiducials, FRE {_mm(part.fit.fre)} mm (fit of the points, not "
-        "accuracy)",
-        f"{title}: FLE {_mm(error.rms)} mm, between {_mm(error.lower)} and {_mm(error.upper)} mm "
-        f"with 95 % ({error.freedom} degrees of freedom)",
+        sentence(
+            "{title}: {part_fit_count} fiducials, FRE {mm} mm (fit of the points, not accuracy)",
+            title=title,
+            part_fit_count=part.fit.count,
+            mm=_mm(part.fit.fre),
+        ),
+        sentence(
+            "{title}: FLE {mm} mm, between {mm_2} and {mm_3} mm "
+            "with 95 % ({error_freedom} degrees of freedom)",
+            title=title,
+            mm=_mm(error.rms),
+            mm_2=_mm(error.lower),
+            mm_3=_mm(error.upper),
+            error_freedom=error.freedom,
+        ),
     ]
 
 
@@ -77,44 +92,68 @@ def _troubles(verb: str, part: PointCheck) -> list[str]:
     if part.reordering is not None:
         moved = [part.names[i] for i in part.reordering.moved]
         return [
-            f"fiducials {' and '.join(moved)} were {verb} in another order: exchanged, they fit "
-            f"within {_mm(part.reordering.fre)} mm; name them again"
+            sentence(
+                "fiducials {moved} were {verb} in another order: exchanged, they fit "
+                "within {mm} mm; name them again",
+                moved=" and ".join(moved),
+                verb=verb,
+                mm=_mm(part.reordering.fre),
+            )
         ]
     if part.scale.wrong:
         return [_scale_words(verb, part)]
     if part.outlier is not None:
         name = part.names[part.outlier.index]
         return [
-            f"fiducial {name} lies {_mm(part.outlier.distance, 1)} mm from where the others put it "
-            f"(they agree within {_mm(part.outlier.fre)} mm): do {name} again"
+            sentence(
+                "fiducial {name} lies {mm} mm from where the others put it "
+                "(they agree within {mm_2} mm): do {name} again",
+                name=name,
+                mm=_mm(part.outlier.distance, 1),
+                mm_2=_mm(part.outlier.fre),
+            )
         ]
     worst = (part.fit.residuals**2).sum(axis=1)
     if not part.trusted:
         name = part.names[int(worst.argmax())]
         return [
-            f"the {verb} points do not fit the plate: the largest residual is "
-            f"{_mm(float(worst.max()) ** 0.5, 1)} mm at {name}, the limit is "
-            f"{_mm(part.tolerance, 1)} mm; is it this plate? do all points again"
+            sentence(
+                "the {verb} points do not fit the plate: the largest residual is "
+                "{mm} mm at {name}, the limit is "
+                "{mm_2} mm; is it this plate? do all points again",
+                verb=verb,
+                mm=_mm(float(worst.max()) ** 0.5, 1),
+                name=name,
+                mm_2=_mm(part.tolerance, 1),
+            )
         ]
     if part.scattered:
         return [
-            f"the {verb} points scatter more than careful work explains (FLE "
-            f"{_mm(part.fiducial.rms)} mm); the figure below allows for it"
+            sentence(
+                "the {verb} points scatter more than careful work explains (FLE "
+                "{mm} mm); the figure below allows for it",
+                verb=verb,
+                mm=_mm(part.fiducial.rms),
+            )
         ]
     return []
 
 
 def _scale_words(verb: str, part: PointCheck) -> str:
     off = part.scale.value - 1.0
-    what = (
-        f"lengths between the {verb} points are {abs(off):.1%} too {'long' if off > 0 else 'short'}"
-        f" (± {part.scale.sd:.1%})"
+    what = sentence(
+        "lengths between the {verb} points are {off:.1%} too {text} (± {part_scale_sd:.1%})",
+        verb=verb,
+        off=abs(off),
+        text="long" if off > 0 else "short",
+        part_scale_sd=part.scale.sd,
     )
     if verb == "picked":
-        return f"{what}: the CT's spacing is wrong, or this is another plate"
-    return (
-        f"{what}: the cameras were calibrated with a board of another size than said. Measure its "
-        "line of 100 mm and its squares, calibrate again; or this is another plate"
+        return sentence("{what}: the CT's spacing is wrong, or this is another plate", what=what)
+    return sentence(
+        "{what}: the cameras were calibrated with a board of another size than said. Measure "
+        "its line of 100 mm and its squares, calibrate again; or this is another plate",
+        what=what,
     )
 
 

@@ -13,6 +13,7 @@ from glob import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from app.core.messages import sentence
 from app.core.plugins import FLAG, SLOTS, Declaration, Field, PluginKind, read_statements
 from app.scoring.errors import (
     MetricError,
@@ -114,7 +115,11 @@ def find(name: str) -> Metric:
     """
     files = KIND.files(escape(name)) if Path(name).name == name else []
     if not (usable := [path for path in files if not KIND.taken(path)]):
-        raise UnknownMetricError(f"no metric {name!r}; there are {', '.join(KIND.names())}")
+        raise UnknownMetricError(
+            sentence(
+                "no metric {name!r}; there are {names}", name=name, names=", ".join(KIND.names())
+            )
+        )
     return _readable(usable)
 
 

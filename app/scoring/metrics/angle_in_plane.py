@@ -8,6 +8,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from app.core.messages import sentence
 from app.core.units import DEGREE
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Trajectory
@@ -31,7 +32,9 @@ def compute(trajectory: Trajectory) -> float:
         (rotation.T @ (one / np.linalg.norm(one)))[:2] for one in (trajectory.axis[i], path)
     )
     if min(np.linalg.norm(needle), np.linalg.norm(planned)) < STEEPEST:
-        raise MetricUnavailableError("the needle or its path runs along the patient's length")
+        raise MetricUnavailableError(
+            sentence("the needle or its path runs along the patient's length")
+        )
     across = planned[0] * needle[1] - planned[1] * needle[0]
     return float(np.arctan2(across, planned @ needle)) / DEGREE
 

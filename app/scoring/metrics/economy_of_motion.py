@@ -12,6 +12,7 @@ from typing import Any, Final
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.paths import length_slopes, smooth_length, smooth_slopes
 from app.scoring.trajectory import Trajectory
@@ -60,12 +61,12 @@ def _rows(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
     rows = trajectory.touching()
     rows = rows[trajectory.depth_valid[rows]]
     if not len(rows):
-        raise MetricUnavailableError("the depth of the tip was not measured in the body")
+        raise MetricUnavailableError(sentence("the depth of the tip was not measured in the body"))
     times = trajectory.to_touch().times
     touched = np.searchsorted(trajectory.time[rows], times)
     corners = np.unique(np.concatenate([[0], np.minimum(touched, len(rows) - 1)]))
     if len(corners) < 2:
-        raise MetricUnavailableError("the tip touched a target where it came in")
+        raise MetricUnavailableError(sentence("the tip touched a target where it came in"))
     return rows, corners
 
 

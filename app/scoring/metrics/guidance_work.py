@@ -8,6 +8,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from app.core.messages import sentence
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Trajectory
 
@@ -24,7 +25,7 @@ def compute(trajectory: Trajectory) -> float:
     trajectory.forces()
     guide, hub = trajectory.guide, trajectory.hub
     if guide is None or hub is None:
-        raise MetricUnavailableError("the force of the guidance was not recorded")
+        raise MetricUnavailableError(sentence("the force of the guidance was not recorded"))
     work = 0.0
     for part in trajectory.insertions():
         force = 0.5 * (guide[part][1:] + guide[part][:-1])

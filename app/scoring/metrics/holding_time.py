@@ -2,6 +2,7 @@
 
 from typing import Any, Final
 
+from app.core.messages import sentence
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Phase, Trajectory
 from app.scoring.uncertainty import time_sd
@@ -17,7 +18,7 @@ DECLARATION: Final[dict[str, Any]] = {
 def compute(trajectory: Trajectory) -> float:
     """Return the time [s]; 0 if an attempt that ran never was in this phase."""
     if not trajectory.running.any():
-        raise MetricUnavailableError("the attempt was never begun")
+        raise MetricUnavailableError(sentence("the attempt was never begun"))
     return trajectory.duration(trajectory.phase == Phase.HOLDING)
 
 

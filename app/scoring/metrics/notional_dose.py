@@ -2,6 +2,7 @@
 
 from typing import Any, Final
 
+from app.core.messages import sentence
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Trajectory
 
@@ -16,7 +17,7 @@ DECLARATION: Final[dict[str, Any]] = {
 def compute(trajectory: Trajectory) -> float:
     """Dose [mGy·cm]: slices of all control scans times what the exercise says of one."""
     if not trajectory.running.any():
-        raise MetricUnavailableError("the attempt never got that far")
+        raise MetricUnavailableError(sentence("the attempt never got that far"))
     return float(sum(scan.dose for scan in trajectory.scans))
 
 

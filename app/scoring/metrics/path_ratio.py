@@ -4,6 +4,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.paths import length_slopes, smooth_length, smooth_slopes
@@ -26,8 +27,11 @@ def compute(trajectory: Trajectory) -> float:
     straight = float(np.linalg.norm(tip[-1] - tip[0]))
     if straight < SHORTEST:
         raise MetricUnavailableError(
-            f"the tip ended {straight / MILLIMETRE:.2f} mm from where it entered; "
-            "a ratio needs at least 1 mm"
+            sentence(
+                "the tip ended {straight_mm:.2f} mm from where it entered; "
+                "a ratio needs at least 1 mm",
+                straight_mm=straight / MILLIMETRE,
+            )
         )
     return smooth_length(trajectory.time[last], tip) / straight
 

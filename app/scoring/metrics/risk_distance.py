@@ -2,6 +2,7 @@
 
 from typing import Any, Final
 
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.scoring.errors import MetricNotAskedError
 from app.scoring.trajectory import Trajectory
@@ -18,7 +19,7 @@ DECLARATION: Final[dict[str, Any]] = {
 def compute(trajectory: Trajectory) -> float:
     """Distance [mm] of the needle's part in the body from the nearest risk."""
     if not trajectory.risks:
-        raise MetricNotAskedError("no structure of risk was measured")
+        raise MetricNotAskedError(sentence("no structure of risk was measured"))
     return max(0.0, min(risk.closest_mm for risk in trajectory.risks))
 
 

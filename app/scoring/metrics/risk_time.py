@@ -6,6 +6,7 @@ structure by itself.
 
 from typing import Any, Final
 
+from app.core.messages import sentence
 from app.scoring.errors import MetricNotAskedError, MetricUnavailableError
 from app.scoring.trajectory import Trajectory
 from app.scoring.uncertainty import EDGE
@@ -21,10 +22,10 @@ DECLARATION: Final[dict[str, Any]] = {
 def compute(trajectory: Trajectory) -> float:
     """Return the sum over the structures [s]; 0 where all were spared."""
     if not trajectory.risks:
-        raise MetricNotAskedError("no structure of risk was measured")
+        raise MetricNotAskedError(sentence("no structure of risk was measured"))
     times = [risk.inside_s for risk in trajectory.risks]
     if None in times:
-        raise MetricUnavailableError("how long the needle was inside was not recorded")
+        raise MetricUnavailableError(sentence("how long the needle was inside was not recorded"))
     return float(sum(time for time in times if time is not None))
 
 

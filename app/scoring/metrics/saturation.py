@@ -6,6 +6,7 @@ says of each sample whether force or torque was held back.
 
 from typing import Any, Final
 
+from app.core.messages import sentence
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Trajectory
 from app.scoring.uncertainty import time_sd
@@ -22,7 +23,9 @@ def compute(trajectory: Trajectory) -> float:
     """Return the share [%]; of a single sample, 0 or 100."""
     trajectory.insertions()
     if trajectory.clamped is None:
-        raise MetricUnavailableError("whether the force was at its limit was not recorded")
+        raise MetricUnavailableError(
+            sentence("whether the force was at its limit was not recorded")
+        )
     inserted = trajectory.inserted
     whole = trajectory.duration(inserted)
     if whole > 0.0:

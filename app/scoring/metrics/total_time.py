@@ -2,6 +2,7 @@
 
 from typing import Any, Final
 
+from app.core.messages import sentence
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Trajectory
 from app.scoring.uncertainty import time_sd
@@ -18,7 +19,7 @@ def compute(trajectory: Trajectory) -> float:
     """Return the time [s]."""
     mask = trajectory.running
     if not mask.any():
-        raise MetricUnavailableError("the attempt never got that far")
+        raise MetricUnavailableError(sentence("the attempt never got that far"))
     return trajectory.duration(mask)
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Final
 
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.session.checks.facts import CameraFacts, DailyFacts
 
@@ -69,34 +70,42 @@ def _homing(facts: DailyFacts) -> StepResult:
             "homing",
             title,
             CheckVerdict.BAD,
-            "the robot's loop does not run",
-            "wait a moment; if it stays so, check cable and power, start the exercise again",
+            sentence("the robot's loop does not run"),
+            sentence(
+                "wait a moment; if it stays so, check cable and power, start the exercise again"
+            ),
         )
     if robot.simulated:
-        return StepResult("homing", title, CheckVerdict.GOOD, "simulated robot: its zero is known")
+        return StepResult(
+            "homing", title, CheckVerdict.GOOD, sentence("simulated robot: its zero is known")
+        )
     if robot.homed:
-        return StepResult("homing", title, CheckVerdict.GOOD, "homed since it was switched on")
+        return StepResult(
+            "homing", title, CheckVerdict.GOOD, sentence("homed since it was switched on")
+        )
     return StepResult(
         "homing",
         title,
         CheckVerdict.BAD,
-        "not homed since it was switched on",
-        "menu Robot, Commissioning, step Homing",
+        sentence("not homed since it was switched on"),
+        sentence("menu Robot, Commissioning, step Homing"),
     )
 
 
 def _signs(facts: DailyFacts) -> StepResult:
     robot, title = facts.robot, "Signs"
     if robot.simulated:
-        return StepResult("signs", title, CheckVerdict.GOOD, "simulated robot: its signs are known")
+        return StepResult(
+            "signs", title, CheckVerdict.GOOD, sentence("simulated robot: its signs are known")
+        )
     if robot.signs:
-        return StepResult("signs", title, CheckVerdict.GOOD, "motors and encoders agree")
+        return StepResult("signs", title, CheckVerdict.GOOD, sentence("motors and encoders agree"))
     return StepResult(
         "signs",
         title,
         CheckVerdict.BAD,
-        "not checked since it was switched on",
-        "menu Robot, Commissioning, step Signs",
+        sentence("not checked since it was switched on"),
+        sentence("menu Robot, Commissioning, step Signs"),
     )
 
 
@@ -108,21 +117,23 @@ def _force(facts: DailyFacts) -> StepResult:
             title,
             CheckVerdict.BAD,
             robot.fault,
-            "do what the message says; see the page Robot",
+            sentence("do what the message says; see the page Robot"),
         )
     if not robot.encoder_age <= STALE:
         return StepResult(
             "force",
             title,
             CheckVerdict.BAD,
-            "joint angles come late, so the force is held back",
-            "check the robot's cable; close other programs",
+            sentence("joint angles come late, so the force is held back"),
+            sentence("check the robot's cable; close other programs"),
         )
     clearance = robot.clearance
     if robot.simulated or (clearance is not None and clearance.full):
-        return StepResult("force", title, CheckVerdict.GOOD, "cleared for its full force")
+        return StepResult("force", title, CheckVerdict.GOOD, sentence("cleared for its full force"))
     if clearance is None:
-        return StepResult("force", title, CheckVerdict.WAITING, "the robot has not said yet")
+        return StepResult(
+            "force", title, CheckVerdict.WAITING, sentence("the robot has not said yet")
+        )
     verdict = CheckVerdict.WARNING if clearance.force_cap > 0.0 else CheckVerdict.BAD
     return StepResult(
         "force", title, verdict, f"at most {clearance.force_cap:g} N", clearance.reason
@@ -137,7 +148,7 @@ def _pictures(facts: DailyFacts) -> StepResult:
             title,
             CheckVerdict.BAD,
             f"{len(facts.cameras)} of 2 cameras",
-            "plug both cameras in; menu Cameras",
+            sentence("plug both cameras in; menu Cameras"),
         )
     worst = [(_picture(camera), camera.name) for camera in facts.cameras]
     for verdict in (CheckVerdict.BAD, CheckVerdict.WAITING, CheckVerdict.WARNING):
@@ -146,7 +157,10 @@ def _pictures(facts: DailyFacts) -> StepResult:
                 return StepResult("pictures", title, verdict, f"{name}: {text}", todo)
     rates = " and ".join(f"{camera.rate:.0f}" for camera in facts.cameras)
     return StepResult(
-        "pictures", title, CheckVerdict.GOOD, f"both bright and sharp, {rates} a second"
+        "pictures",
+        title,
+        CheckVerdict.GOOD,
+        sentence("both bright and sharp, {rates} a second", rates=rates),
     )
 
 
@@ -183,18 +197,20 @@ def _marker(facts: DailyFacts) -> StepResult:
     title = "Marker"
     missed = [(camera.name, camera.miss) for camera in facts.cameras if camera.miss]
     if len(facts.cameras) == 2 and not missed:
-        return StepResult("marker", title, CheckVerdict.GOOD, "found in both pictures")
+        return StepResult("marker", title, CheckVerdict.GOOD, sentence("found in both pictures"))
     if not facts.cameras:
         return StepResult(
-            "marker", title, CheckVerdict.WAITING, "no pictures yet", "pictures first"
+            "marker", title, CheckVerdict.WAITING, sentence("no pictures yet"), "pictures first"
         )
-    text = "; ".join(f"{name}: {why}" for name, why in missed) or "only one camera"
+    text = "; ".join(f"{name}: {why}" for name, why in missed) or sentence("only one camera")
     return StepResult(
         "marker",
         title,
         CheckVerdict.BAD,
         text,
-        "push the needle on until both cameras see the red band; look for other red things",
+        sentence(
+            "push the needle on until both cameras see the red band; look for other red things"
+        ),
     )
 
 
@@ -205,8 +221,8 @@ def _agreement(facts: DailyFacts) -> StepResult:
             "residual",
             title,
             CheckVerdict.WAITING,
-            facts.status or "no point yet",
-            "the marker must be seen by both cameras",
+            facts.status or sentence("no point yet"),
+            sentence("the marker must be seen by both cameras"),
         )
     text = f"residual {facts.residual_px:.2f} px"
     if facts.status:
@@ -215,48 +231,65 @@ def _agreement(facts: DailyFacts) -> StepResult:
             title,
             CheckVerdict.BAD,
             f"{text}: {facts.status}",
-            "a camera was moved, or robot and cameras differ: `acus calibrate world`",
+            sentence("a camera was moved, or robot and cameras differ: `acus calibrate world`"),
         )
     if facts.residual_px <= GOOD_RESIDUAL:
         return StepResult("residual", title, CheckVerdict.GOOD, text)
     verdict = CheckVerdict.WARNING if facts.residual_px <= LARGEST_RESIDUAL else CheckVerdict.BAD
     return StepResult(
-        "residual", title, verdict, text, "a camera was bumped? calibrate again: menu Cameras"
+        "residual",
+        title,
+        verdict,
+        text,
+        sentence("a camera was bumped? calibrate again: menu Cameras"),
     )
 
 
 def _touch(facts: DailyFacts) -> StepResult:
-    title, touch = "Touch one point", facts.touch
+    title, touch = sentence("Touch one point"), facts.touch
     if touch is None:
-        found = facts.touch_failure or "not touched yet"
+        found = facts.touch_failure or sentence("not touched yet")
         return StepResult(
             "touch",
             title,
             CheckVerdict.WAITING,
             found,
-            "rest the tip in a known mark and hold still for a second",
+            sentence("rest the tip in a known mark and hold still for a second"),
         )
     distance, radius = touch.distance / MILLIMETRE, touch.radius / MILLIMETRE
-    text = f"{touch.name}: {distance:.2f} mm off, measured to ± {radius:.2f} mm (95 %)"
+    text = sentence(
+        "{touch_name}: {distance:.2f} mm off, measured to ± {radius:.2f} mm (95 %)",
+        touch_name=touch.name,
+        distance=distance,
+        radius=radius,
+    )
     if touch.radius > max(touch.tolerance, touch.distance):
         return StepResult(
             "touch",
             title,
             CheckVerdict.WARNING,
             text,
-            "the cameras do not measure this point well enough to tell: look at "
-            "their pictures and rate, touch again",
+            sentence(
+                "the cameras do not measure this point well enough to tell: look at "
+                "their pictures and rate, touch again"
+            ),
         )
     if touch.distance <= touch.tolerance:
         return StepResult("touch", title, CheckVerdict.GOOD, text)
-    limit = f"the limit is {touch.tolerance / MILLIMETRE:.1f} mm"
+    limit = sentence(
+        "the limit is {touch_tolerance_mm:.1f} mm", touch_tolerance_mm=touch.tolerance / MILLIMETRE
+    )
     return StepResult(
         "touch",
         title,
         CheckVerdict.BAD,
         text,
-        f"{limit}: touch again; is it {touch.name}, is the plate in its place? then "
-        "check with all fiducials: menu Checks, Registration check",
+        sentence(
+            "{limit}: touch again; is it {touch_name}, is the plate in its place? then "
+            "check with all fiducials: menu Checks, Registration check",
+            limit=limit,
+            touch_name=touch.name,
+        ),
     )
 
 

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen, unit
 from app.core.errors import NumericalError
+from app.core.messages import sentence
 
 _LEFT: Final = (1.0, 0.0, 0.0)  # LPS
 _ANTERIOR: Final = (0.0, -1.0, 0.0)
@@ -154,8 +155,12 @@ class PadScale:
     def __post_init__(self) -> None:
         if not (0.0 < self.length < 10.0 and 0.0 < self.tolerance < 10.0):
             raise NumericalError(
-                "pad scale needs a path length and a tolerance between 0 and 10 m, "
-                f"got {self.length} and {self.tolerance}"
+                sentence(
+                    "pad scale needs a path length and a tolerance between 0 and 10 m, "
+                    "got {length} and {tolerance}",
+                    length=self.length,
+                    tolerance=self.tolerance,
+                )
             )
 
     @property
@@ -214,7 +219,7 @@ def clamp_to_cone(direction: ArrayLike, limit: float) -> FloatArray:
         NumericalError: if the limit is outside [0, π/2) or the direction has no length.
     """
     if not 0.0 <= limit < 0.5 * pi:
-        raise NumericalError(f"tilt limit {limit} rad is outside [0, π/2)")
+        raise NumericalError(sentence("tilt limit {limit} rad is outside [0, π/2)", limit=limit))
     x, y, z = unit(direction, "needle direction")
     sideways = hypot(x, y)
     if atan2(sideways, -z) <= limit:

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen
 from app.core.errors import NumericalError
+from app.core.messages import sentence
 from app.core.transform import rotation_between
 from app.core.units import MILLIMETRE
 from app.session.pad.geometry import PadScale, PathFrame, clamp_to_cone
@@ -34,7 +35,10 @@ class HandLimits:
     def __post_init__(self) -> None:
         if not (0.0 <= self.tilt < 0.5 * pi and self.shallowest < self.deepest):
             raise NumericalError(
-                f"hand limits need a tilt in [0, π/2) and shallowest < deepest, got {self}"
+                sentence(
+                    "hand limits need a tilt in [0, π/2) and shallowest < deepest, got {this}",
+                    this=self,
+                )
             )
 
 
@@ -77,8 +81,12 @@ class Handle:
     def __post_init__(self) -> None:
         if not (LEAST_OUTSIDE < self.length < 10.0 and 0.0 < self.reach < 10.0):
             raise NumericalError(
-                f"a handle needs a tool longer than {LEAST_OUTSIDE} m and shorter than 10 m and a"
-                f" reach between 0 and 10 m, got {self}"
+                sentence(
+                    "a handle needs a tool longer than {least_outside} m and shorter than 10 m "
+                    "and a reach between 0 and 10 m, got {this}",
+                    least_outside=LEAST_OUTSIDE,
+                    this=self,
+                )
             )
 
     def outside(self, depth: float) -> float:
@@ -164,7 +172,7 @@ class PadHand:
     def advance(self, step: float) -> None:
         """Push (positive) or pull (negative) by a step [m]."""
         if not np.isfinite(step):
-            raise NumericalError(f"depth step {step} is not finite")
+            raise NumericalError(sentence("depth step {step} is not finite", step=step))
         self._pose = self._limited(self._pose.direction, self._pose.depth + step, True)
 
     def follow(self, direction: ArrayLike, depth: float | None) -> None:

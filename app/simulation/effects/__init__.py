@@ -13,6 +13,7 @@ from typing import Any, Final
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.plugins import (
     CHOICES,
     ENERGY,
@@ -80,7 +81,12 @@ class Effect(StageDeclaration):
         """
         if asked and asked not in self.models:
             raise SimulationError(
-                f"effect {self.name!r} has no model {asked!r}; it has {', '.join(self.models)}"
+                sentence(
+                    "effect {name!r} has no model {asked!r}; it has {models}",
+                    name=self.name,
+                    asked=asked,
+                    models=", ".join(self.models),
+                )
             )
         return asked or next(iter(self.models))
 
@@ -134,9 +140,14 @@ def array_of(declared: Effect, values: Mapping[str, float], binding: Binding) ->
         array = np.ascontiguousarray(module.parameters(values, binding), dtype=np.float64)
     if array.ndim != 1 or array.size < (least := _shortest(declared)):
         raise SimulationError(
-            f"{declared.path}: parameters() gives an array of the shape {array.shape} for this"
-            f" scene and these values; give one of the shape (n,), and of {least} numbers at least,"
-            " as it was tried"
+            sentence(
+                "{declared_path}: parameters() gives an array of the shape {array_shape} for "
+                "this scene and these values; give one of the shape (n,), and of {least} numbers "
+                "at least, as it was tried",
+                declared_path=declared.path,
+                array_shape=array.shape,
+                least=least,
+            )
         )
     return array
 
@@ -173,14 +184,20 @@ def check_step(module: ModuleType, effect: Effect) -> None:
 
     if not is_stage(module.step):
         raise SimulationError(
-            f"{effect.path}: step is not compiled; put @stage of core.compiled before it"
+            sentence(
+                "{effect_path}: step is not compiled; put @stage of core.compiled before it",
+                effect_path=effect.path,
+            )
         )
 
 
 def _check_pictures(effect: Effect) -> None:
     if effect.pictures and not KIND.is_own(effect.path):
         raise SimulationError(
-            f"{effect.path}: pictures is True; only the program's own effects act on pictures"
+            sentence(
+                "{effect_path}: pictures is True; only the program's own effects act on pictures",
+                effect_path=effect.path,
+            )
         )
 
 

@@ -38,6 +38,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.messages import sentence
 from app.core.parameters import numbered, packed
 from app.simulation.along_needle import SNAP, approach, keep_memory, smoothed_speed
 from app.simulation.dry_friction import DAHL, KIKUUWE, LUGRE, dahl, kikuuwe, stribeck
@@ -155,20 +156,33 @@ def warnings(values: Mapping[str, float], binding: Binding) -> tuple[str, ...]:
     joint = binding.scene.joint
     if round(values["design"]) == MOUNTED and joint not in _NAMES:
         found.append(
-            f"joint {joint!r} is none of the two that are known ({', '.join(_NAMES)}); it is taken "
-            "as redesigned: give design 1 for printed, or 2"
+            sentence(
+                "joint {joint!r} is none of the two that are known ({names}); it is taken "
+                "as redesigned: give design 1 for printed, or 2",
+                joint=joint,
+                names=", ".join(_NAMES),
+            )
         )
     if binding.depth_slot != sv.PLANT_DEPTH:
-        found.append("the robot's own joints are felt beside it")
+        found.append(sentence("the robot's own joints are felt beside it"))
     if binding.model in ("dahl", "lugre"):
         found.append(
-            f"model {binding.model} changes sign with every encoder count, a tilt of "
-            f"{1e3 * COUNT:g} mrad; kikuuwe does not"
+            sentence(
+                "model {binding_model} changes sign with every encoder count, a tilt of "
+                "{count:g} mrad; kikuuwe does not",
+                binding_model=binding.model,
+                count=1e3 * COUNT,
+            )
         )
     elif values["presliding_angle"] < COUNT:
         found.append(
-            f"presliding_angle {values['presliding_angle']:g} rad is less than an encoder count of "
-            f"{COUNT:g} rad: a still hand feels the force change sign; give {COUNT:g} rad or more"
+            sentence(
+                "presliding_angle {presliding_angle:g} rad is less than an encoder count of "
+                "{count:g} rad: a still hand feels the force change sign; give {count:g} rad or "
+                "more",
+                presliding_angle=values["presliding_angle"],
+                count=COUNT,
+            )
         )
     return tuple(found)
 

@@ -86,6 +86,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.messages import sentence
 from app.core.parameters import numbered, packed
 from app.simulation.errors import SimulationError
 from app.simulation.needles import bending_stiffness
@@ -686,7 +687,11 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
     ends = np.cumsum([layer.thickness for layer in scene.layers])
     if ends[-1] > _LONGEST:
         raise SimulationError(
-            f"the layers are {ends[-1]:g} m thick together; at most {_LONGEST:g} m"
+            sentence(
+                "the layers are {ends_last:g} m thick together; at most {longest:g} m",
+                ends_last=ends[-1],
+                longest=_LONGEST,
+            )
         )
     stiffness = np.array([scale * layer.side_stiffness for layer in scene.layers])
     rigid = binding.model == "winkler"

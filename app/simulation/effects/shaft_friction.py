@@ -50,6 +50,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.messages import sentence
 from app.core.parameters import numbered, packed
 from app.simulation.along_needle import (
     GAUGE_18,
@@ -245,16 +246,26 @@ def warnings(values: Mapping[str, float], binding: Binding) -> tuple[str, ...]:
         return ()
     if binding.model in ("dahl", "lugre"):
         return (
-            f"model {binding.model} changes sign with every count of a measured depth, here "
-            f"{1e6 * COUNT:g} µm; kikuuwe does not",
+            sentence(
+                "model {binding_model} changes sign with every count of a measured depth, here "
+                "{count:g} µm; kikuuwe does not",
+                binding_model=binding.model,
+                count=1e6 * COUNT,
+            ),
         )
     least = min((one.friction for one in binding.scene.met if one.friction > 0.0), default=math.inf)
     if values["presliding_stiffness"] * COUNT <= least:
         return ()
     return (
-        f"presliding_stiffness {values['presliding_stiffness']:g} N/m² times a count of "
-        f"{1e6 * COUNT:g} µm is more than the friction of {least:g} N/m: a still hand feels it "
-        f"change sign with every count; give {least / COUNT:g} N/m² or less",
+        sentence(
+            "presliding_stiffness {presliding_stiffness:g} N/m² times a count of "
+            "{count:g} µm is more than the friction of {least:g} N/m: a still hand feels it "
+            "change sign with every count; give {least_2:g} N/m² or less",
+            presliding_stiffness=values["presliding_stiffness"],
+            count=1e6 * COUNT,
+            least=least,
+            least_2=least / COUNT,
+        ),
     )
 
 

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
 from app.core.extras import not_installed
+from app.core.messages import sentence
 from app.imaging import stack
 from app.imaging.filling import padding_of
 from app.imaging.header import SliceHeader
@@ -75,7 +76,9 @@ class Peer:
             )
         if error := answer.get("error"):
             if "No module named 'SimpleITK'" in error:
-                raise not_installed(StudyError, "SimpleITK, which this study needs,", "bench")
+                raise not_installed(
+                    StudyError, sentence("SimpleITK, which this study needs,"), "bench"
+                )
             return " ".join(str(error).split())
         values = np.load(out, allow_pickle=False)
         out.unlink()

@@ -14,6 +14,8 @@ from typing import Any
 
 import numpy as np
 
+from app.core.messages import sentence
+
 _NO_DICOM: dict[str, Any] = {
     "modality": "",
     "sop_class": "",
@@ -126,7 +128,7 @@ def facts(file: str) -> dict[str, Any]:
 
     data = pydicom.dcmread(file, stop_before_pixels=True, force=True)
     if len(data) == 0:
-        raise ValueError("no element can be read")
+        raise ValueError(sentence("no element can be read"))
     frames = frames_of(data)
     return {
         "modality": str(data.get("Modality", "")),

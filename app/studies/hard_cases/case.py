@@ -23,6 +23,7 @@ from numpy.typing import ArrayLike
 from app.core import plugin_folders
 from app.core.errors import AcusError
 from app.core.extras import install_command
+from app.core.messages import sentence
 from app.core.plugins import CHOICES, TEXT, Declaration, PluginKind
 from app.studies.errors import StudyError
 
@@ -135,7 +136,11 @@ def digits(name: str) -> ReferenceValue:
     entry = _kept().get(name)
     if entry is None:
         raise StudyError(
-            f"{REFERENCES} has no reference {name!r}; add it to tools/hard_references.py"
+            sentence(
+                "{references} has no reference {name!r}; add it to tools/hard_references.py",
+                references=REFERENCES,
+                name=name,
+            )
         )
     values = tuple(Decimal(text) for text in entry["value"])
     return ReferenceValue(f"60 digits: {entry['how']}", values, tuple(entry["given"]))
@@ -208,18 +213,37 @@ class HardCase:
     def __post_init__(self) -> None:
         if self.subsystem not in SUBSYSTEMS:
             raise StudyError(
-                f"hard case {self.case!r}: subsystem is {self.subsystem!r};"
-                f" there are {', '.join(SUBSYSTEMS)}"
+                sentence(
+                    "hard case {case!r}: subsystem is {subsystem!r}; there are {subsystems}",
+                    case=self.case,
+                    subsystem=self.subsystem,
+                    subsystems=", ".join(SUBSYSTEMS),
+                )
             )
         if not isinstance(self.reference, ReferenceValue) or not self.reference.value:
             raise StudyError(
-                f"hard case {self.case!r} has no reference; use digits() or analytic()"
+                sentence(
+                    "hard case {case!r} has no reference; use digits() or analytic()",
+                    case=self.case,
+                )
             )
         if not (isfinite(self.bound) and self.bound >= 0.0):
-            raise StudyError(f"hard case {self.case!r}: bound is {self.bound}; give 0 or more")
+            raise StudyError(
+                sentence(
+                    "hard case {case!r}: bound is {bound}; give 0 or more",
+                    case=self.case,
+                    bound=self.bound,
+                )
+            )
         for name in ("case", "given", "unit"):
             if not getattr(self, name):
-                raise StudyError(f"hard case {self.case!r}: {name} is empty; say it in words")
+                raise StudyError(
+                    sentence(
+                        "hard case {case!r}: {name} is empty; say it in words",
+                        case=self.case,
+                        name=name,
+                    )
+                )
 
     @property
     def name(self) -> str:
@@ -240,8 +264,13 @@ class HardCase:
         right = self.reference.value
         if len(values) != len(right):
             raise StudyError(
-                f"hard case {self.case!r}: {len(values)} values found, the reference has"
-                f" {len(right)}"
+                sentence(
+                    "hard case {case!r}: {values_count} values found, the reference has"
+                    " {right_count}",
+                    case=self.case,
+                    values_count=len(values),
+                    right_count=len(right),
+                )
             )
         if not np.isfinite(values).all():
             return float("inf")

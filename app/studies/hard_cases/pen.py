@@ -9,9 +9,9 @@ from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
 from app.studies.hard_cases.cameras import camera
 from app.studies.hard_cases.case import HardCase, analytic, answers, named
-from app.tracking.errors import PenError
 from app.tracking.pen.body import load_pen
 from app.tracking.pen.detector import MarkerSighting
+from app.tracking.pen.errors import PenError
 from app.tracking.pen.locator import BoardLocator
 from app.tracking.pen.pivot import MeasuredPose, pivot
 from app.tracking.pen.pose import PoseStatus

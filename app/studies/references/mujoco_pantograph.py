@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.exchange.errors import ExchangeError, ExportError
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.pantograph import forward, inverse, jacobian, needle_at
@@ -58,8 +59,12 @@ def write_mjcf(profile: PantographProfile, settings: MjcfSettings | None = None)
     how = settings or MjcfSettings()
     if not profile.inertia.tool_mass > 0.0:
         raise ExportError(
-            f"device {profile.name}: tool_mass is {profile.inertia.tool_mass} kg; MuJoCo needs a"
-            " positive one"
+            sentence(
+                "device {profile_name}: tool_mass is {profile_inertia_tool_mass} kg; MuJoCo "
+                "needs a positive one",
+                profile_name=profile.name,
+                profile_inertia_tool_mass=profile.inertia.tool_mass,
+            )
         )
     root = ET.Element("mujoco", model=profile.name)
     ET.SubElement(root, "compiler", angle="radian", autolimits="true", inertiafromgeom="false")
@@ -203,7 +208,11 @@ class MujocoPantograph:
             self.model = self.mujoco.MjModel.from_xml_string(write_mjcf(profile, self.settings))
         except ValueError as error:
             raise ExchangeError(
-                f"MuJoCo refuses the model of device {profile.name}: {error}"
+                sentence(
+                    "MuJoCo refuses the model of device {profile_name}: {error}",
+                    profile_name=profile.name,
+                    error=error,
+                )
             ) from error
         self.data = self.mujoco.MjData(self.model)
         self.motors = [self.address("panto_a1"), self.address("panto_a5")]
@@ -342,8 +351,13 @@ def felt_in_mujoco(
             return machine.held_force()
     speed = np.abs(machine.data.qvel).max()
     raise ExchangeError(
-        f"MuJoCo's model of {profile.name} still moves at {speed:.2g} rad/s after 0.4 s; the"
-        f" torques {np.asarray(torques).tolist()} N·m may be too large"
+        sentence(
+            "MuJoCo's model of {profile_name} still moves at {speed:.2g} rad/s after 0.4 s; the"
+            " torques {torques} N·m may be too large",
+            profile_name=profile.name,
+            speed=speed,
+            torques=np.asarray(torques).tolist(),
+        )
     )
 
 

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
+from app.core.messages import sentence
 from app.mechanisms import lever
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.geometry import Geometry
@@ -74,7 +75,9 @@ def survey(
         MechanismError: if the cone is not open downwards, or nothing in it is reached.
     """
     if not 0.0 < tilt < 0.5 * np.pi:
-        raise MechanismError(f"tilt is {tilt} rad; a cone needs more than 0 and less than π/2")
+        raise MechanismError(
+            sentence("tilt is {tilt} rad; a cone needs more than 0 and less than π/2", tilt=tilt)
+        )
     radius = float(geometry.fulcrum[2] * np.tan(tilt))
     points = _disc(geometry, radius)
     rows = np.zeros((len(points), _COLUMNS))
@@ -85,8 +88,13 @@ def survey(
     held = found[found[:, _LEVER] > 0.0]
     if not len(held):
         raise MechanismError(
-            f"no tool point within {np.degrees(tilt):g}° of tilt is reached in mode {mode},"
-            f" assembly {assembly}"
+            sentence(
+                "no tool point within {tilt_deg:g}° of tilt is reached in mode {mode},"
+                " assembly {assembly}",
+                tilt_deg=np.degrees(tilt),
+                mode=mode,
+                assembly=assembly,
+            )
         )
     largest = [
         max(_peak(points, rows, column + side, radius, lengths, *modes) for side in (0, 1))
@@ -130,7 +138,11 @@ def torque_per_newton(
     """
     if not (l_out > 0.0 and 0.0 <= tilt < 0.5 * np.pi):
         raise MechanismError(
-            f"L_out is {l_out} m and tilt {tilt} rad; L_out must be above 0, tilt in [0, π/2)"
+            sentence(
+                "L_out is {l_out} m and tilt {tilt} rad; L_out must be above 0, tilt in [0, π/2)",
+                l_out=l_out,
+                tilt=tilt,
+            )
         )
     radius = float(geometry.fulcrum[2] * np.tan(tilt))
     points = _disc(geometry, radius)
@@ -140,8 +152,13 @@ def torque_per_newton(
     _survey(points, rows, lengths, *modes)
     if not (rows[:, _REACHED] > 0.0).any():
         raise MechanismError(
-            f"no tool point within {np.degrees(tilt):g}° of tilt is reached in mode {mode},"
-            f" assembly {assembly}"
+            sentence(
+                "no tool point within {tilt_deg:g}° of tilt is reached in mode {mode},"
+                " assembly {assembly}",
+                tilt_deg=np.degrees(tilt),
+                mode=mode,
+                assembly=assembly,
+            )
         )
     return max(_peak(points, rows, _TORQUE + side, radius, lengths, *modes) for side in (0, 1))
 
@@ -193,7 +210,9 @@ def locate(
     """
     point = np.asarray(hub, dtype=np.float64)
     if point.shape != (3,):
-        raise MechanismError(f"hub has shape {point.shape}; (3,) is needed")
+        raise MechanismError(
+            sentence("hub has shape {point_shape}; (3,) is needed", point_shape=point.shape)
+        )
     status, x, y, _, l_out = lever.tool_kernel(*point.tolist(), *geometry.fulcrum_xyz)
     if status != OK:
         return Whereabouts(_IMPOSSIBLE[Status(status)], None, None, None)

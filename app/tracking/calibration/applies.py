@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from app.core.messages import sentence
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import CameraCalibration, StereoCalibration
 
@@ -17,8 +18,16 @@ def require_size(
     if tuple(image_size) != tuple(camera.image_size):
         (w, h), (cw, ch) = image_size, camera.image_size
         raise CalibrationError(
-            f"{picture} has {w}x{h} pixels; camera {camera.name} was calibrated at {cw}x{ch}: set "
-            "the camera to that size, or calibrate at the new one"
+            sentence(
+                "{picture} has {w}x{h} pixels; camera {camera_name} was calibrated at {cw}x{ch}: "
+                "set the camera to that size, or calibrate at the new one",
+                picture=picture,
+                w=w,
+                h=h,
+                camera_name=camera.name,
+                cw=cw,
+                ch=ch,
+            )
         )
 
 
@@ -40,13 +49,23 @@ def require_cameras(
     known = [camera.name for camera in calibration.cameras]
     if list(names) == known[::-1] and names[0] != names[1]:
         raise CalibrationError(
-            f"the cameras are swapped: calibration {calibration.id} has {known[0]} on the left and "
-            f"{known[1]} on the right; exchange the two sources"
+            sentence(
+                "the cameras are swapped: calibration {calibration_id} has {known_first} on the "
+                "left and {known_second} on the right; exchange the two sources",
+                calibration_id=calibration.id,
+                known_first=known[0],
+                known_second=known[1],
+            )
         )
     if list(names) != known:
         raise CalibrationError(
-            f"calibration {calibration.id} is of the cameras {', '.join(known)}; in use are "
-            f"{', '.join(names)}: use their calibration, or calibrate them"
+            sentence(
+                "calibration {calibration_id} is of the cameras {known}; in use are "
+                "{names}: use their calibration, or calibrate them",
+                calibration_id=calibration.id,
+                known=", ".join(known),
+                names=", ".join(names),
+            )
         )
     for camera, size in zip(calibration.cameras, sizes, strict=True):
         require_size(camera, size, f"the picture of camera {camera.name}")

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Final
 
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.tracking.calibration.boards import Board
 from app.tracking.errors import CalibrationError
@@ -62,7 +63,11 @@ def paper_named(name: str) -> Paper:
     for known, paper in PAPERS.items():
         if known.casefold() == name.strip().casefold():
             return paper
-    raise CalibrationError(f"no paper is called {name!r}; there are {', '.join(PAPERS)}")
+    raise CalibrationError(
+        sentence(
+            "no paper is called {name!r}; there are {papers}", name=name, papers=", ".join(PAPERS)
+        )
+    )
 
 
 def lay_out(board: Board, paper: Paper) -> BoardSheet:
@@ -77,9 +82,16 @@ def lay_out(board: Board, paper: Paper) -> BoardSheet:
     width, height = (side / MILLIMETRE for side in board.size)
     others = [name for name, other in PAPERS.items() if _placed(board, other) is not None]
     raise CalibrationError(
-        f"board {board.spec} measures {width:.0f} x {height:.0f} mm and does not fit on "
-        f"{paper.name}; squares of at most {_largest_square(board, paper):.4g} mm would"
-        + (f", or take {' or '.join(others)}" if others else "")
+        sentence(
+            "board {board_spec} measures {width:.0f} x {height:.0f} mm and does not fit on "
+            "{paper_name}; squares of at most {largest_square:.4g} mm would",
+            board_spec=board.spec,
+            width=width,
+            height=height,
+            paper_name=paper.name,
+            largest_square=_largest_square(board, paper),
+        )
+        + (sentence(", or take {others}", others=" or ".join(others)) if others else "")
     )
 
 

@@ -18,6 +18,7 @@ import cv2
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.tracking.calibration.applies import require_size
 from app.tracking.calibration.sightings import project_with_derivatives
@@ -95,7 +96,9 @@ def board_rays(calibration: StereoCalibration, pairs: Sequence[Pair]) -> list[Bo
                 focal = models[i].intrinsics[:2]
                 found.append(BoardRays(i, view.points[exists], rays[exists], focal, name))
     if not found:
-        raise CalibrationError("no picture shows the board: take one with all of it in view")
+        raise CalibrationError(
+            sentence("no picture shows the board: take one with all of it in view")
+        )
     return found
 
 
@@ -113,8 +116,10 @@ def fit_pose(calibration: StereoCalibration, seen: Sequence[BoardRays]) -> Fitte
             fits.append(fit)
     if not fits:
         raise CalibrationError(
-            "no place in front of the cameras explains the corners; are the pictures of these "
-            "cameras, left and right not exchanged?"
+            sentence(
+                "no place in front of the cameras explains the corners; are the pictures of "
+                "these cameras, left and right not exchanged?"
+            )
         )
     pose, _, residual, jacobian = min(fits, key=lambda fit: float(fit[2] @ fit[2]))
     freedom = max(1, residual.size - 6)

@@ -17,14 +17,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, frozen
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.tracking.errors import CalibrationError
 
 UNITS = {"mm": MILLIMETRE, "cm": 0.01, "m": 1.0}
 DEFAULT_BOARD = "charuco:9x6:20mm:15mm:DICT_5X5_100"
-_FORMS = (
+_FORMS = sentence(
     "checkerboard:COLSxROWS:SQUARE (inner corners, e.g. checkerboard:9x6:25mm) or "
-    f"charuco:COLSxROWS:SQUARE:MARKER:DICTIONARY (squares, e.g. {DEFAULT_BOARD})"
+    "charuco:COLSxROWS:SQUARE:MARKER:DICTIONARY (squares, e.g. {example})",
+    example=DEFAULT_BOARD,
 )
 
 
@@ -60,12 +62,19 @@ class Board:
     def __post_init__(self) -> None:
         if min(self.columns, self.rows) < 2 or max(self.columns, self.rows) > 100:
             raise CalibrationError(
-                f"a board with {self.columns}x{self.rows} inner corners cannot be used; at least "
-                "2x2 and at most 100x100 are needed"
+                sentence(
+                    "a board with {columns}x{rows} inner corners cannot be used; at least "
+                    "2x2 and at most 100x100 are needed",
+                    columns=self.columns,
+                    rows=self.rows,
+                )
             )
         if not 1e-4 <= self.square <= 1.0:
             raise CalibrationError(
-                f"a square of {self.square * 1e3:g} mm cannot be used; 0.1 mm to 1 m are possible"
+                sentence(
+                    "a square of {square:g} mm cannot be used; 0.1 mm to 1 m are possible",
+                    square=self.square * 1e3,
+                )
             )
         if self.kind is BoardKind.CHARUCO:
             _check_markers(self)
@@ -134,7 +143,7 @@ def parse_board(spec: str) -> Board:
     wanted = {BoardKind.CHECKERBOARD: 3, BoardKind.CHARUCO: 5}
     kind = parts[0].lower()
     if kind not in set(BoardKind) or len(parts) != wanted[BoardKind(kind)]:
-        raise CalibrationError(f"board {spec!r} is not {_FORMS}")
+        raise CalibrationError(sentence("board {spec!r} is not {forms}", spec=spec, forms=_FORMS))
     columns, rows = _counts(parts[1], spec)
     square = _length(parts[2], spec)
     if kind == BoardKind.CHECKERBOARD:
@@ -158,25 +167,41 @@ def _check_markers(board: Board) -> None:
     names = dictionary_names()
     if board.dictionary not in names:
         raise CalibrationError(
-            f"no marker dictionary is called {board.dictionary!r}; there are {', '.join(names)}"
+            sentence(
+                "no marker dictionary is called {board_dictionary!r}; there are {names}",
+                board_dictionary=board.dictionary,
+                names=", ".join(names),
+            )
         )
     if not 0.0 < board.marker < board.square:
         raise CalibrationError(
-            f"a marker of {board.marker * 1e3:g} mm does not fit into a square of "
-            f"{board.square * 1e3:g} mm; it must be smaller"
+            sentence(
+                "a marker of {board_marker:g} mm does not fit into a square of "
+                "{board_square:g} mm; it must be smaller",
+                board_marker=board.marker * 1e3,
+                board_square=board.square * 1e3,
+            )
         )
     needed = (board.columns + 1) * (board.rows + 1) // 2
     if needed > len(_dictionary(board).bytesList):
         raise CalibrationError(
-            f"board {board.spec} needs {needed} markers; {board.dictionary} has "
-            f"{len(_dictionary(board).bytesList)}; take a larger dictionary"
+            sentence(
+                "board {board_spec} needs {needed} markers; {board_dictionary} has "
+                "{dictionary_bytes_list_count}; take a larger dictionary",
+                board_spec=board.spec,
+                needed=needed,
+                board_dictionary=board.dictionary,
+                dictionary_bytes_list_count=len(_dictionary(board).bytesList),
+            )
         )
 
 
 def _counts(text: str, spec: str) -> tuple[int, int]:
     found = re.fullmatch(r"(\d{1,3})[xX×](\d{1,3})", text.strip())
     if not found:
-        raise CalibrationError(f"board {spec!r}: {text!r} is not COLSxROWS, e.g. 9x6")
+        raise CalibrationError(
+            sentence("board {spec!r}: {text!r} is not COLSxROWS, e.g. 9x6", spec=spec, text=text)
+        )
     return int(found[1]), int(found[2])
 
 
@@ -184,8 +209,12 @@ def _length(text: str, spec: str) -> float:
     found = re.fullmatch(r"(\d+(?:\.\d*)?|\.\d+)\s*(mm|cm|m)", text.strip())
     if not found:
         raise CalibrationError(
-            f"board {spec!r}: {text!r} is not a length with its unit; write e.g. 25mm, 2.5cm or "
-            "0.025m"
+            sentence(
+                "board {spec!r}: {text!r} is not a length with its unit; write e.g. 25mm, 2.5cm "
+                "or 0.025m",
+                spec=spec,
+                text=text,
+            )
         )
     return float(found[1]) * UNITS[found[2]]
 

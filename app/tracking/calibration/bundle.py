@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.core.transform import RigidTransform, exponentials
 from app.tracking.calibration.sightings import AdjustedState, SeenBoard, SightedBoards
@@ -100,7 +101,7 @@ def adjust(
     state, damping = _State.of(start), 1e-4
     system = problem.system(state)
     if system is None:
-        raise CalibrationError("the first estimate puts a board behind a camera")
+        raise CalibrationError(sentence("the first estimate puts a board behind a camera"))
     refused = not free.any()  # a board's pose alone has no such ways
     for _ in range(rounds):
         progress.report(0.0, "adjusting")
@@ -179,7 +180,11 @@ class _Problem:
         unknown = int(self.free.sum()) + 6 * poses
         if self.measured <= unknown:
             raise CalibrationError(
-                f"{self.measured} pixel coordinates cannot determine {unknown} unknowns; add views"
+                sentence(
+                    "{measured} pixel coordinates cannot determine {unknown} unknowns; add views",
+                    measured=self.measured,
+                    unknown=unknown,
+                )
             )
         self.dof = self.measured - unknown
 
@@ -270,8 +275,10 @@ class _Problem:
             weights = np.linalg.solve(system.bb, np.swapaxes(system.gb, 1, 2))
         except np.linalg.LinAlgError as reason:
             raise CalibrationError(
-                "the views do not determine where a board was; tilt the board to different sides by"
-                " 20 to 45 degrees"
+                sentence(
+                    "the views do not determine where a board was; tilt the board to different "
+                    "sides by 20 to 45 degrees"
+                )
             ) from reason
         reduced = system.gg - np.einsum("kgi,kih->gh", system.gb, weights)
         variance = system.cost / self.dof

@@ -8,6 +8,7 @@ second board (of known squares), give it away.
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.tracking.calibration.boards import parse_board
 from app.tracking.calibration.validation import ViewPair, validate
@@ -72,11 +73,20 @@ def _check(
 ) -> Check:
     ratio = measured / known
     passed = abs(ratio - 1.0) <= limit
-    text = f"{what} are {measured:.4g} mm apart, {known:.4g} mm known ({ratio - 1.0:+.1%})"
+    text = sentence(
+        "{what} are {measured:.4g} mm apart, {known:.4g} mm known ({ratio:+.1%})",
+        what=what,
+        measured=measured,
+        known=known,
+        ratio=ratio - 1.0,
+    )
     if not passed and calibration.board:
         square = parse_board(calibration.board).square / MILLIMETRE
-        text += (
-            f": more than {limit:.0%}; measure the board: squares of {square / ratio:.4g} mm "
-            f"instead of {square:g} mm would explain it"
+        text += sentence(
+            ": more than {limit:.0%}; measure the board: squares of {square:.4g} mm "
+            "instead of {square_2:g} mm would explain it",
+            limit=limit,
+            square=square / ratio,
+            square_2=square,
         )
     return Check(name, known, measured, passed, text)

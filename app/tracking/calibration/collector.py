@@ -13,6 +13,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from app.core.messages import sentence
 from app.tracking.calibration.boards import Board
 from app.tracking.calibration.corners import find_corners
 from app.tracking.calibration.coverage import Attitude, Coverage
@@ -46,38 +47,57 @@ def missing_words(coverage: Coverage, alone: bool) -> list[str]:
     if coverage.views:
         lines += _place_words(coverage, alone) + _tilt_words(coverage, alone)
         if coverage.growth < ENOUGH_GROWTH:
-            lines.append("hold the board nearer to the camera, and farther away")
+            lines.append(sentence("hold the board nearer to the camera, and farther away"))
     count = ENOUGH_VIEWS - len(coverage.views)
     if count > 0:
-        lines.append(f"{count} more pictures of the board, unlike those taken")
+        lines.append(
+            sentence("{count} more pictures of the board, unlike those taken", count=count)
+        )
     return lines
 
 
 def _place_words(coverage: Coverage, alone: bool) -> list[str]:
     bare = coverage.bare_corners()
     if alone and bare:
-        return [f"{bare[0]} corner of the picture not covered"]
+        return [sentence("{bare_first} corner of the picture not covered", bare_first=bare[0])]
     if coverage.covered < ENOUGH_COVERED:
         share = round(100.0 * coverage.covered)
-        where = f", nothing near the {bare[0]} corner" if bare else ""
+        where = (
+            sentence(", nothing near the {bare_first} corner", bare_first=bare[0]) if bare else ""
+        )
         wanted = round(100.0 * ENOUGH_COVERED)
-        return [f"{share} % of the picture covered, {wanted} % wanted{where}"]
+        return [
+            sentence(
+                "{share} % of the picture covered, {wanted} % wanted{where}",
+                share=share,
+                wanted=wanted,
+                where=where,
+            )
+        ]
     return []
 
 
 def _tilt_words(coverage: Coverage, alone: bool) -> list[str]:
     sides = (("left", "right"), ("upper", "lower"))
-    lines = []
+    lines: list[str] = []
     for (low, high), (first, second) in zip(coverage.tilts(), sides, strict=True):
         if not alone:
             if high - low < ENOUGH_TILT_SPAN_DEG:
                 lines.append(
-                    f"tilt the board more: once its {first}, once its {second} side nearer"
+                    sentence(
+                        "tilt the board more: once its {first}, once its {second} side nearer",
+                        first=first,
+                        second=second,
+                    )
                 )
         elif high < ENOUGH_TILT_DEG:
-            lines.append(f"tilt the board more: its {second} side towards the camera")
+            lines.append(
+                sentence("tilt the board more: its {second} side towards the camera", second=second)
+            )
         elif low > -ENOUGH_TILT_DEG:
-            lines.append(f"tilt the board more: its {first} side towards the camera")
+            lines.append(
+                sentence("tilt the board more: its {first} side towards the camera", first=first)
+            )
     return lines
 
 
@@ -121,7 +141,12 @@ class ViewCollector:
 
     def __init__(self, board: Board, names: Sequence[str], live: bool = True) -> None:
         if not 1 <= len(names) <= 2:
-            raise CalibrationError(f"{len(names)} cameras were named; one or two can be calibrated")
+            raise CalibrationError(
+                sentence(
+                    "{names_count} cameras were named; one or two can be calibrated",
+                    names_count=len(names),
+                )
+            )
         self.board, self.names, self._live = board, tuple(names), live
         self._kept: list[tuple[BoardView | None, ...]] = []
         self._coverage = [Coverage() for _ in names]
@@ -163,8 +188,12 @@ class ViewCollector:
         """
         if len(seen) != len(self.names):
             raise CalibrationError(
-                f"{len(seen)} pictures were given; there are {len(self.names)} cameras: "
-                f"{', '.join(self.names)}"
+                sentence(
+                    "{seen_count} pictures were given; there are {names_count} cameras: {names}",
+                    seen_count=len(seen),
+                    names_count=len(self.names),
+                    names=", ".join(self.names),
+                )
             )
         views = [view if isinstance(view, BoardView) else None for view in seen]
         if not any(views):
@@ -176,7 +205,7 @@ class ViewCollector:
             return Offer(False, refusal, seen)
         attitudes = [Attitude.of(view) if view is not None else None for view in views]
         if not self._new(views, attitudes):
-            return Offer(False, f"like one already kept: {self._next()}", seen)
+            return Offer(False, sentence("like one already kept: {next}", next=self._next()), seen)
         self._keep(views, attitudes)
         return Offer(True, f"kept ({len(self._kept)})", seen)
 
@@ -261,11 +290,11 @@ class ViewCollector:
             if view is None:
                 continue
             if last is None:
-                return "hold the board still"
+                return sentence("hold the board still")
             common, here, there = np.intersect1d(view.ids, last.ids, return_indices=True)
             moved = np.linalg.norm(view.pixels[here] - last.pixels[there], axis=1)
             if not common.size or float(np.median(moved)) > STILL_PX:
-                return "hold the board still"
+                return sentence("hold the board still")
         return ""
 
     def _blurred(self, views: Sequence[BoardView | None]) -> str:
@@ -274,9 +303,12 @@ class ViewCollector:
                 continue
             limit = max(BLUR_FLOOR_PX, BLUR_FACTOR * self._sharpest[i])
             if view.sharpness > limit:
-                return (
-                    f"{self.names[i]}: blurred, edges {view.sharpness:.1f} px wide (at most "
-                    f"{limit:.1f}): more light, hold still, focus"
+                return sentence(
+                    "{names}: blurred, edges {view_sharpness:.1f} px wide (at most "
+                    "{limit:.1f}): more light, hold still, focus",
+                    names=self.names[i],
+                    view_sharpness=view.sharpness,
+                    limit=limit,
                 )
             self._sharpest[i] = min(self._sharpest[i], view.sharpness)
         return ""
@@ -291,7 +323,7 @@ class ViewCollector:
 
     def _next(self) -> str:
         missing = self.missing
-        return missing[0] if missing else "there are enough views"
+        return missing[0] if missing else sentence("there are enough views")
 
 
 def _called(result: BoardView | Rejection | None, name: str) -> BoardView | Rejection | None:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.tracking.calibration.boards import Board, BoardKind
 from app.tracking.calibration.poses import rigid_fit
@@ -98,10 +99,14 @@ def _require_clear(
     second = float(scores[other].min(initial=np.inf))
     if result.agreeing.sum() >= 1 and second < CLEARLY * float(scores[first]) + 0.5:
         raise CalibrationError(
-            "the board looks the same after half a turn (both corner counts odd, or both even), "
-            f"and the pairs do not tell which way round it lies ({scores[first]:.1f} px one way, "
-            f"{second:.1f} px the other): take pictures of it in more places and tilts, or use a "
-            "ChArUco board or one with an odd and an even count"
+            sentence(
+                "the board looks the same after half a turn (both corner counts odd, or both "
+                "even), and the pairs do not tell which way round it lies ({scores:.1f} px one "
+                "way, {second:.1f} px the other): take pictures of it in more places and tilts, "
+                "or use a ChArUco board or one with an odd and an even count",
+                scores=scores[first],
+                second=second,
+            )
         )
 
 

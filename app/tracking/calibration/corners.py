@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.tracking.calibration import finders
 from app.tracking.calibration.boards import Board, BoardKind
 from app.tracking.calibration.finders import Found, Grey, edge_width
@@ -101,8 +102,12 @@ def to_grey(image: NDArray[Any]) -> Grey:
     usable = image.dtype in (np.uint8, np.uint16) and min(shape[:2], default=0) >= 16
     if not usable or not (len(shape) == 2 or (len(shape) == 3 and shape[2] == 3)):
         raise CalibrationError(
-            f"an array of {image.dtype} and shape {shape} is no picture; 8 or 16 bit, grey or "
-            "BGR, at least 16x16 pixels is needed"
+            sentence(
+                "an array of {image_dtype} and shape {shape} is no picture; 8 or 16 bit, grey or "
+                "BGR, at least 16x16 pixels is needed",
+                image_dtype=image.dtype,
+                shape=shape,
+            )
         )
     if image.dtype == np.uint16:
         image = cv2.convertScaleAbs(image, alpha=255.0 / max(1, int(image.max())))
@@ -116,8 +121,12 @@ def _checkerboard(grey: Grey, board: Board, thorough: bool) -> Found | Rejection
     if pixels is None:
         return Rejection(
             RejectionReason.NO_BOARD,
-            f"no board with {board.columns}x{board.rows} inner corners is seen as a whole; show "
-            "all of it with a white rim, or check the counts",
+            sentence(
+                "no board with {board_columns}x{board_rows} inner corners is seen as a whole; "
+                "show all of it with a white rim, or check the counts",
+                board_columns=board.columns,
+                board_rows=board.rows,
+            ),
         )
     return np.arange(board.count), _usual_order(grey, board, pixels)
 
@@ -146,22 +155,36 @@ def _charuco(grey: Grey, board: Board, thorough: bool) -> Found | Rejection:
     mirrored, _ = finders.charuco(np.ascontiguousarray(grey[:, ::-1]), board, False)
     if mirrored is not None and mirrored[0].size >= LEAST_CORNERS:
         return Rejection(
-            RejectionReason.MIRRORED, "the picture is mirrored; turn the camera's mirror mode off"
+            RejectionReason.MIRRORED,
+            sentence("the picture is mirrored; turn the camera's mirror mode off"),
         )
     if found is not None:
         return Rejection(
             RejectionReason.PARTLY,
-            f"only {found[0].size} corners are seen; {LEAST_CORNERS} are needed",
+            sentence(
+                "only {first_size} corners are seen; {least_corners} are needed",
+                first_size=found[0].size,
+                least_corners=LEAST_CORNERS,
+            ),
         )
     if markers >= 4:
         return Rejection(
             RejectionReason.OTHER_BOARD,
-            f"{markers} markers of {board.dictionary} are seen, but they do not lie as on "
-            f"{board.spec}; {_counted(grey, board)}",
+            sentence(
+                "{markers} markers of {board_dictionary} are seen, but they do not lie as on "
+                "{board_spec}; {counted}",
+                markers=markers,
+                board_dictionary=board.dictionary,
+                board_spec=board.spec,
+                counted=_counted(grey, board),
+            ),
         )
     return Rejection(
         RejectionReason.NO_BOARD,
-        f"no ChArUco board with markers of {board.dictionary} is seen; check the dictionary",
+        sentence(
+            "no ChArUco board with markers of {board_dictionary} is seen; check the dictionary",
+            board_dictionary=board.dictionary,
+        ),
     )
 
 
@@ -170,11 +193,14 @@ def _counted(grey: Grey, board: Board) -> str:
     try:
         larger = replace(board, columns=board.columns + 1, rows=board.rows + 1)
     except CalibrationError:  # more markers than the dictionary has
-        return "check the counts of squares"
+        return sentence("check the counts of squares")
     found, _ = finders.charuco(grey, larger, False)
     if found is not None and found[0].size >= LEAST_CORNERS:
-        return f"they fit {larger.spec}: squares are counted, not inner corners"
-    return "check the counts of squares"
+        return sentence(
+            "they fit {larger_spec}: squares are counted, not inner corners",
+            larger_spec=larger.spec,
+        )
+    return sentence("check the counts of squares")
 
 
 def _measured(grey: Grey, board: Board, result: Found, window: int | None) -> BoardView | Rejection:
@@ -183,7 +209,8 @@ def _measured(grey: Grey, board: Board, result: Found, window: int | None) -> Bo
     homography = plane_map(board, ids, pixels)
     if homography is None:
         return Rejection(
-            RejectionReason.PARTLY, "the corners seen lie on one line; show more of the board"
+            RejectionReason.PARTLY,
+            sentence("the corners seen lie on one line; show more of the board"),
         )
     seen = board.points[ids, :2] / board.square
     short, cosine = extents(local_axes(homography, seen))
@@ -191,31 +218,48 @@ def _measured(grey: Grey, board: Board, result: Found, window: int | None) -> Bo
     if cosine.min() < LEAST_COSINE:
         return Rejection(
             RejectionReason.EDGE_ON,
-            f"the board is seen on edge ({np.degrees(np.arccos(cosine.min())):.0f}°); turn it to "
-            f"the camera, up to {np.degrees(np.arccos(LEAST_COSINE)):.0f}° are possible",
+            sentence(
+                "the board is seen on edge ({arccos_deg:.0f}°); turn it to "
+                "the camera, up to {arccos_deg_2:.0f}° are possible",
+                arccos_deg=np.degrees(np.arccos(cosine.min())),
+                arccos_deg_2=np.degrees(np.arccos(LEAST_COSINE)),
+            ),
         )
     if square_px < SMALLEST_SQUARE:
         return Rejection(
             RejectionReason.TOO_SMALL,
-            f"a square is only {square_px:.1f} px across; {SMALLEST_SQUARE:g} px are needed: "
-            "bring the board nearer",
+            sentence(
+                "a square is only {square_px:.1f} px across; {smallest_square:g} px are needed: "
+                "bring the board nearer",
+                square_px=square_px,
+                smallest_square=SMALLEST_SQUARE,
+            ),
         )
     if not _lies_flat(ids, pixels, board, square_px, (grey.shape[1], grey.shape[0])):
         return Rejection(
             RejectionReason.OTHER_BOARD,
-            "the corners found do not lie on a grid; check the board's counts",
+            sentence("the corners found do not lie on a grid; check the board's counts"),
         )
     if board.kind is BoardKind.CHECKERBOARD and goes_on(grey, board, homography):
         return Rejection(
             RejectionReason.OTHER_BOARD,
-            f"the board has more than {board.columns}x{board.rows} inner corners; count them anew",
+            sentence(
+                "the board has more than {board_columns}x{board_rows} inner corners; count them "
+                "anew",
+                board_columns=board.columns,
+                board_rows=board.rows,
+            ),
         )
     sharpness = edge_width(grey, board, homography, seen)
     if sharpness > max(MOST_BLUR * square_px, min(4.0, 0.55 * square_px)):
         return Rejection(
             RejectionReason.BLURRED,
-            f"the picture is blurred: edges are {sharpness:.1f} px wide, squares "
-            f"{square_px:.0f} px; hold the board still and focus",
+            sentence(
+                "the picture is blurred: edges are {sharpness:.1f} px wide, squares "
+                "{square_px:.0f} px; hold the board still and focus",
+                sharpness=sharpness,
+                square_px=square_px,
+            ),
         )
     half = window or half_window(board, square_px, sharpness)
     return BoardView(

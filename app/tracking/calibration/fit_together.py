@@ -18,6 +18,7 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.tracking.calibration.bundle import Adjusted
 from app.tracking.calibration.mono import MonoResult
 from app.tracking.calibration.poses import board_pose
@@ -69,17 +70,34 @@ def together_remarks(result: FitTogether) -> list[str]:
     """Say what the lack of fit is, what makes it, and what was done about it."""
     if result.sd_factor <= 1.0:
         return []
-    px = (
-        f"{result.together_px:.2f} px against {result.alone_px[0]:.2f} and {result.alone_px[1]:.2f}"
+    px = sentence(
+        "{result_together_px:.2f} px against {result_alone_px_first:.2f} and "
+        "{result_alone_px_second:.2f}",
+        result_together_px=result.together_px,
+        result_alone_px_first=result.alone_px[0],
+        result_alone_px_second=result.alone_px[1],
     )
-    done = f"standard deviations are multiplied by {result.sd_factor:.1f}"
+    done = sentence(
+        "standard deviations are multiplied by {result_sd_factor:.1f}",
+        result_sd_factor=result.sd_factor,
+    )
     if apart(result):
         return [
-            f"the pairs do not belong together: {px} px of each camera by itself; pictures not "
-            "taken at the same moment, a board or a camera that moved do that: hold the board "
-            f"still and take them again; {done}"
+            sentence(
+                "the pairs do not belong together: {px} px of each camera by itself; pictures "
+                "not taken at the same moment, a board or a camera that moved do that: hold the "
+                "board still and take them again; {done}",
+                px=px,
+                done=done,
+            )
         ]
-    return [f"the two cameras fit together less well than each by itself ({px} px): {done}"]
+    return [
+        sentence(
+            "the two cameras fit together less well than each by itself ({px} px): {done}",
+            px=px,
+            done=done,
+        )
+    ]
 
 
 def apart(result: FitTogether) -> bool:

@@ -13,6 +13,7 @@ from typing import Final
 import yaml
 
 from app.core.files import write_atomically
+from app.core.messages import sentence
 from app.tracking.calibration.formats.own import load_calibration, save_calibration, text_of
 from app.tracking.calibration.history_file import (
     NAME,
@@ -95,8 +96,13 @@ class CalibrationHistory:
         calibration = load_calibration(path)
         if calibration.id != calibration_id:
             raise CalibrationError(
-                f"{path}: id: {calibration_id} is needed as the file's name says, got "
-                f"{calibration.id}; was the file renamed?"
+                sentence(
+                    "{path}: id: {calibration_id} is needed as the file's name says, got "
+                    "{calibration_id_2}; was the file renamed?",
+                    path=path,
+                    calibration_id=calibration_id,
+                    calibration_id_2=calibration.id,
+                )
             )
         return calibration
 
@@ -113,7 +119,14 @@ class CalibrationHistory:
             return found[0]
         names = ", ".join(entry.id for entry in (found or entries)) or "none at all"
         what = "several calibrations begin" if found else "no calibration begins"
-        raise CalibrationError(f"{what} with {beginning!r}; there are {names}")
+        raise CalibrationError(
+            sentence(
+                "{what} with {beginning!r}; there are {names}",
+                what=what,
+                beginning=beginning,
+                names=names,
+            )
+        )
 
     def keep(self, calibration: StereoCalibration) -> Path:
         """Keep a calibration and use it from now on.
@@ -123,14 +136,19 @@ class CalibrationHistory:
         """
         history = self._read()
         if calibration.id == NAME:
-            raise CalibrationError(f"a calibration cannot be called {NAME!r}: give it another id")
+            raise CalibrationError(
+                sentence("a calibration cannot be called {name!r}: give it another id", name=NAME)
+            )
         path = self._path(calibration.id)
         if not path.exists():
             save_calibration(path, calibration)
         elif text_of(self.load(calibration.id)) != text_of(calibration):
             raise CalibrationError(
-                f"another calibration is already kept as {calibration.id}; nothing is overwritten: "
-                "give this one another id"
+                sentence(
+                    "another calibration is already kept as {calibration_id}; nothing is "
+                    "overwritten: give this one another id",
+                    calibration_id=calibration.id,
+                )
             )
         self._write(history.known(calibration.id, self._now()).using(calibration.id))
         return path
@@ -144,8 +162,12 @@ class CalibrationHistory:
         entry = self.find(calibration_id)
         if entry.rejected is not None:
             raise CalibrationError(
-                f"calibration {entry.id} was found bad ({entry.rejected.reason}); calibrate again "
-                "or use another one"
+                sentence(
+                    "calibration {entry_id} was found bad ({entry_rejected_reason}); calibrate "
+                    "again or use another one",
+                    entry_id=entry.id,
+                    entry_rejected_reason=entry.rejected.reason,
+                )
             )
         self.load(entry.id)
         self._write(self._read().known(entry.id, self._now()).using(entry.id))
@@ -158,7 +180,7 @@ class CalibrationHistory:
         """
         history = self._read()
         if history.position < 0:
-            raise CalibrationError("no calibration is in use: there is nothing to undo")
+            raise CalibrationError(sentence("no calibration is in use: there is nothing to undo"))
         return self._write(history.at(history.next_good(-1)))
 
     def redo(self) -> str | None:
@@ -170,7 +192,9 @@ class CalibrationHistory:
         history = self._read()
         position = history.next_good(+1)
         if position >= len(history.used):
-            raise CalibrationError("there is no undone calibration that could be used again")
+            raise CalibrationError(
+                sentence("there is no undone calibration that could be used again")
+            )
         return self._write(history.at(position))
 
     def reject(self, calibration_id: str, reason: str) -> str | None:
@@ -183,7 +207,9 @@ class CalibrationHistory:
         """
         words = " ".join(reason.split())[:_LONGEST_REASON]
         if not words:
-            raise CalibrationError("say why the calibration is bad: attempts are flagged with it")
+            raise CalibrationError(
+                sentence("say why the calibration is bad: attempts are flagged with it")
+            )
         entry = self.find(calibration_id)
         history = self._read().known(entry.id, self._now())
         return self._write(history.rejecting(entry.id, FoundBad(date=self._now(), reason=words)))
@@ -207,7 +233,10 @@ class CalibrationHistory:
             write_atomically(path, text)
         except OSError as error:
             raise CalibrationError(
-                f"the history of calibrations cannot be written to {path}: "
-                f"{error.strerror or error}"
+                sentence(
+                    "the history of calibrations cannot be written to {path}: {error_strerror}",
+                    path=path,
+                    error_strerror=error.strerror or error,
+                )
             ) from error
         return history.active

@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 from app.core import paths
 from app.core.configuration import Strict, load
 from app.core.errors import ConfigurationError
+from app.core.messages import sentence
 from app.tracking.errors import CalibrationError
 
 NAME: Final = "history"
@@ -41,9 +42,17 @@ class HistoryFile(Strict):
     @model_validator(mode="after")
     def _positions(self) -> Self:
         if self.position >= len(self.used):
-            raise ValueError(f"position {self.position} lies beyond the {len(self.used)} used")
+            raise ValueError(
+                sentence(
+                    "position {position} lies beyond the {used_count} used",
+                    position=self.position,
+                    used_count=len(self.used),
+                )
+            )
         if unknown := set(self.used) - {known.id for known in self.calibrations}:
-            raise ValueError(f"used names {sorted(unknown)}, which no calibration has")
+            raise ValueError(
+                sentence("used names {unknown}, which no calibration has", unknown=sorted(unknown))
+            )
         return self
 
     @property
@@ -107,7 +116,9 @@ def read_history(folder: Path) -> HistoryFile:
     try:
         return load(path, HistoryFile)
     except ConfigurationError as error:
-        raise CalibrationError(f"{error}; mend the file or move it away") from error
+        raise CalibrationError(
+            sentence("{error}; mend the file or move it away", error=error)
+        ) from error
 
 
 def rejected_ids(folder: Path | None = None) -> dict[str, str]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.core.transform import RigidTransform
 from app.tracking.calibration.boards import DEFAULT_BOARD, Board, parse_board
@@ -120,7 +121,9 @@ class CalibrationJob:
             return self.result.calibration.id
         active = next((entry.id for entry in self.history.entries() if entry.active), None)
         if active is None:
-            raise CalibrationError("calibrate the cameras first: no calibration is in use")
+            raise CalibrationError(
+                sentence("calibrate the cameras first: no calibration is in use")
+            )
         return active
 
     def find_world(self, places: tuple[PlacedBoard, ...]) -> WorldFrame:

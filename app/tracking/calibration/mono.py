@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.tracking.calibration.bundle import Adjusted, adjust, rms, with_free
 from app.tracking.calibration.lens_choice import BOTH, BROWN, FISHEYE, LensChoice, choose_lens
@@ -211,13 +212,24 @@ def _first(views: Sequence[BoardView], held: set[int], progress: Progress) -> Fl
 def _require(views: Sequence[BoardView], name: str) -> None:
     if len(views) < LEAST_VIEWS:
         raise CalibrationError(
-            f"camera {name}: {len(views)} usable views of the board; at least {LEAST_VIEWS} are "
-            "needed, 15 to 30 are good"
+            sentence(
+                "camera {name}: {views_count} usable views of the board; at least {least_views} "
+                "are needed, 15 to 30 are good",
+                name=name,
+                views_count=len(views),
+                least_views=LEAST_VIEWS,
+            )
         )
     _require_one_size(views, name)
     boards = sorted({view.board.spec for view in views})
     if len(boards) > 1:
-        raise CalibrationError(f"camera {name}: views of different boards, {', '.join(boards)}")
+        raise CalibrationError(
+            sentence(
+                "camera {name}: views of different boards, {boards}",
+                name=name,
+                boards=", ".join(boards),
+            )
+        )
 
 
 def _require_one_size(views: Sequence[BoardView], name: str) -> None:
@@ -227,9 +239,20 @@ def _require_one_size(views: Sequence[BoardView], name: str) -> None:
     if other:
         width, height = other[0].image_size
         raise CalibrationError(
-            f"camera {name}: pictures of different sizes: {other[0].name or 'a view'} has "
-            f"{width}x{height} ({len(other)} of {len(views)} are not {usual[0]}x{usual[1]}); one "
-            "camera at one resolution is needed: leave the others out"
+            sentence(
+                "camera {name}: pictures of different sizes: {other_first_name} has "
+                "{width}x{height} ({other_count} of {views_count} are not "
+                "{usual_first}x{usual_second}); one camera at one resolution is needed: leave "
+                "the others out",
+                name=name,
+                other_first_name=other[0].name or "a view",
+                width=width,
+                height=height,
+                other_count=len(other),
+                views_count=len(views),
+                usual_first=usual[0],
+                usual_second=usual[1],
+            )
         )
 
 
@@ -290,9 +313,15 @@ def _require_determined(adjusted: Adjusted, name: str) -> None:
     undetermined = adjusted.condition < LEAST_CONDITION  # exact corners leave no spread to see it
     if undetermined or not np.isfinite(worst) or worst > MOST_FOCAL_SPREAD:
         raise CalibrationError(
-            f"camera {name}: the views do not determine the focal length ({focal[0]:.0f} ± "
-            f"{spread[0]:.0f} px; at most {MOST_FOCAL_SPREAD:.0%} is taken); boards that are all "
-            "parallel cannot: tilt the board to different sides by 20 to 45 degrees"
+            sentence(
+                "camera {name}: the views do not determine the focal length ({focal_first:.0f} ± "
+                "{spread_first:.0f} px; at most {most_focal_spread:.0%} is taken); boards that "
+                "are all parallel cannot: tilt the board to different sides by 20 to 45 degrees",
+                name=name,
+                focal_first=focal[0],
+                spread_first=spread[0],
+                most_focal_spread=MOST_FOCAL_SPREAD,
+            )
         )
 
 

@@ -18,6 +18,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from app.core.messages import sentence
 from app.tracking.calibration.pictures import has_pictures, list_pictures, strange_files
 from app.tracking.errors import CalibrationError
 
@@ -63,14 +64,25 @@ class Paired:
     @property
     def remarks(self) -> list[str]:
         """Return what is not a pair, one line each."""
-        lines = []
+        lines: list[str] = []
         if self.skipped:
             names = _listed([path.name for path in self.skipped])
-            lines.append(f"skipped: {names}: not pictures whose names say one of the two cameras")
+            lines.append(
+                sentence(
+                    "skipped: {names}: not pictures whose names say one of the two cameras",
+                    names=names,
+                )
+            )
         for side, paths in zip(("left", "right"), self.alone, strict=True):
             if paths:
                 names = _listed([path.name for path in paths])
-                lines.append(f"no partner: {names}: used for the {side} camera alone")
+                lines.append(
+                    sentence(
+                        "no partner: {names}: used for the {side} camera alone",
+                        names=names,
+                        side=side,
+                    )
+                )
         return lines
 
 
@@ -144,15 +156,21 @@ def split_by_camera(paths: Sequence[Path]) -> tuple[Keyed, Keyed, list[Path]]:
     strays = [path for path, match in found if match is None]
     if 2 * len(strays) >= len(paths):
         raise CalibrationError(
-            f"{_listed([path.name for path in strays])}: the name does not say the camera; name "
-            "pictures e.g. left01.png and right01.png, or camera0_1.png and camera1_1.png"
+            sentence(
+                "{listed}: the name does not say the camera; name "
+                "pictures e.g. left01.png and right01.png, or camera0_1.png and camera1_1.png",
+                listed=_listed([path.name for path in strays]),
+            )
         )
     named = [(_camera(match), path, _rest(match)) for path, match in found if match is not None]
     cameras = sorted({camera for camera, _, _ in named}, key=int)
     if len(cameras) != 2:
         raise CalibrationError(
-            f"the names of the pictures speak of {len(cameras)} camera(s); two are needed, e.g. "
-            "left01.png and right01.png"
+            sentence(
+                "the names of the pictures speak of {cameras_count} camera(s); two are needed, "
+                "e.g. left01.png and right01.png",
+                cameras_count=len(cameras),
+            )
         )
     left, right = (
         [(key, path) for camera, path, key in named if camera == wanted] for wanted in cameras
@@ -185,8 +203,11 @@ def _joined(
     if not pairs:
         names = [path.name for paths in lone for path in paths]
         raise CalibrationError(
-            f"{_listed(names)}: no picture of the other camera has that number; name those taken "
-            "together alike (docs/calibration.md says how names are paired)"
+            sentence(
+                "{listed}: no picture of the other camera has that number; name those taken "
+                "together alike (docs/calibration.md says how names are paired)",
+                listed=_listed(names),
+            )
         )
     return Paired(pairs, lone, tuple(strays))
 
@@ -196,8 +217,13 @@ def _unique(result: Iterable[tuple[Key, Path]]) -> dict[Key, Path]:
     for key, path in result:
         if key in known:
             raise CalibrationError(
-                f"{known[key].name} and {path.name} are both number {_text(key) or '(none)'} of "
-                "one camera; keep one of them"
+                sentence(
+                    "{known_name} and {path_name} are both number {text} of "
+                    "one camera; keep one of them",
+                    known_name=known[key].name,
+                    path_name=path.name,
+                    text=_text(key) or "(none)",
+                )
             )
         known[key] = path
     return known

@@ -8,6 +8,7 @@ from typing import Final
 
 import cv2
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.tracking.calibration.boards import Board
 from app.tracking.calibration.corners import find_corners
@@ -29,20 +30,32 @@ def list_pictures(folder: Path, pattern: str = "*") -> list[Path]:
             `MOST_PICTURES`.
     """
     if not folder.is_dir():
-        raise CalibrationError(f"{no_folder(folder)}; give the folder of the pictures")
+        raise CalibrationError(
+            sentence("{no_folder}; give the folder of the pictures", no_folder=no_folder(folder))
+        )
     found = sorted(
         path for path in folder.glob(pattern) if path.is_file() and path.suffix.lower() in SUFFIXES
     )
     if not found:
         named = "" if pattern == "*" else f" named {pattern}"
         raise CalibrationError(
-            f"no picture{named} in {folder}; choose the folder of the pictures "
-            f"({', '.join(SUFFIXES)} are read)"
+            sentence(
+                "no picture{named} in {folder}; choose the folder of the pictures "
+                "({suffixes} are read)",
+                named=named,
+                folder=folder,
+                suffixes=", ".join(SUFFIXES),
+            )
         )
     if len(found) > MOST_PICTURES:
         raise CalibrationError(
-            f"{len(found)} pictures in {folder}, {MOST_PICTURES} are the most: put 20 to 200 of "
-            "them, of different views, into a folder of their own"
+            sentence(
+                "{count} pictures in {folder}, {most_pictures} are the most: put 20 to 200 of "
+                "them, of different views, into a folder of their own",
+                count=len(found),
+                folder=folder,
+                most_pictures=MOST_PICTURES,
+            )
         )
     return found
 
@@ -78,14 +91,18 @@ def read_view(
     try:
         image = read_pixels(path)
     except OSError as error:
-        why = f"cannot be read: {error.strerror or error}"
+        why = sentence("cannot be read: {error_strerror}", error_strerror=error.strerror or error)
         return Rejection(RejectionReason.UNREADABLE, why, path.name)
     except TrackingError as error:
         return Rejection(RejectionReason.UNREADABLE, _short(error), path.name)
     try:
         found = find_corners(image, board, thorough, window)
     except (CalibrationError, cv2.error) as error:
-        return Rejection(RejectionReason.UNREADABLE, f"cannot be used: {_short(error)}", path.name)
+        return Rejection(
+            RejectionReason.UNREADABLE,
+            sentence("cannot be used: {short}", short=_short(error)),
+            path.name,
+        )
     if isinstance(found, Rejection):
         return Rejection(found.reason, found.text, path.name)
     return found.called(path.name)

@@ -6,6 +6,7 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.rotation import rotation_exp, skew
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
@@ -66,21 +67,34 @@ def check_fit(calibration: StereoCalibration, fit: FittedBoardPose, board: Place
     limit = WORST_RMS * max(calibration.rms_px, LEAST_RMS_PX)
     if fit.scale is not None and abs(fit.scale - 1.0) > max(SCALE_LIMIT, 5.0 * fit.scale_sd):
         raise CalibrationError(
-            f"the board measures {fit.scale:.4f} ± {fit.scale_sd:.4f} times what its specification "
-            "says: measure a square, or was the calibration made with another board?"
+            sentence(
+                "the board measures {fit_scale:.4f} ± {fit_scale_sd:.4f} times what its "
+                "specification says: measure a square, or was the calibration made with another "
+                "board?",
+                fit_scale=fit.scale,
+                fit_scale_sd=fit.scale_sd,
+            )
         )
     if fit.rms_px > limit:
         worst = max(fit.by_picture, key=lambda line: line[1])
         raise CalibrationError(
-            f"the corners lie {fit.rms_px:.2f} px from where they should ({limit:.2f} px is the "
-            f"limit), worst in {worst[0]} ({worst[1]:.2f} px): did the board move between the "
-            "pictures, did a camera, or are left and right exchanged?"
+            sentence(
+                "the corners lie {fit_rms_px:.2f} px from where they should ({limit:.2f} px is "
+                "the limit), worst in {worst_first} ({worst_second:.2f} px): did the board move "
+                "between the pictures, did a camera, or are left and right exchanged?",
+                fit_rms_px=fit.rms_px,
+                limit=limit,
+                worst_first=worst[0],
+                worst_second=worst[1],
+            )
         )
     up = -board.T_world_board.rotation[2, 2]
     if up < -0.1:
         raise CalibrationError(
-            "the place says that the print faces down; a board that lies print up is turned by "
-            "180 degrees about x: --at x,y,z,180,0,rz"
+            sentence(
+                "the place says that the print faces down; a board that lies print up is turned "
+                "by 180 degrees about x: --at x,y,z,180,0,rz"
+            )
         )
     T_world_left = board.T_world_board @ fit.T_left_board.inverse()
     centres = (T_world_left, T_world_left @ calibration.pose.transform.inverse())
@@ -88,8 +102,11 @@ def check_fit(calibration: StereoCalibration, fit: FittedBoardPose, board: Place
         p_board = board.T_world_board.inverse() @ pose.translation
         if p_board[2] > 0.0:
             raise CalibrationError(
-                f"camera {camera.name} would look at the board from behind: is its picture "
-                "mirrored, or is the calibration one of other cameras?"
+                sentence(
+                    "camera {camera_name} would look at the board from behind: is its picture "
+                    "mirrored, or is the calibration one of other cameras?",
+                    camera_name=camera.name,
+                )
             )
 
 
@@ -113,21 +130,31 @@ def remarks_on(
     for camera, centre in zip(calibration.cameras, centres, strict=True):
         if centre[2] < 0.0:
             remarks.append(
-                f"camera {camera.name} stands {-centre[2] / MILLIMETRE:.0f} mm below the robot's "
-                "plane (z = 0): is the board's place right?"
+                sentence(
+                    "camera {camera_name} stands {centre_mm:.0f} mm below the robot's "
+                    "plane (z = 0): is the board's place right?",
+                    camera_name=camera.name,
+                    centre_mm=-centre[2] / MILLIMETRE,
+                )
             )
     if watched is not None:
         for model in calibration.models():
             if not bool(np.all(model.sees(watched))):
                 remarks.append(
-                    f"camera {model.name} does not see the needle's place: is the board's place "
-                    "right, and does the camera look at the needle?"
+                    sentence(
+                        "camera {model_name} does not see the needle's place: is the board's "
+                        "place right, and does the camera look at the needle?",
+                        model_name=model.name,
+                    )
                 )
     at_camera = np.hstack([np.eye(3), -skew(centres[0])])
     spread = float(np.sqrt(np.trace(at_camera @ covariance @ at_camera.T)))
     if away > 3.0 * spread + 1e-3:
         remarks.append(
-            f"the places disagree by {away / MILLIMETRE:.1f} mm at the left camera: was a board "
-            "laid wrongly?"
+            sentence(
+                "the places disagree by {away_mm:.1f} mm at the left camera: was a board "
+                "laid wrongly?",
+                away_mm=away / MILLIMETRE,
+            )
         )
     return tuple(remarks)

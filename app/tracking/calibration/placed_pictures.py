@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.core.transform import RigidTransform
 from app.tracking.calibration.board_pose import Pair
@@ -60,8 +61,11 @@ def take_board(
         close_all(cameras)
     if not pairs:
         raise CalibrationError(
-            f"the board was not seen within {_LIVE_TIMEOUT:.0f} s: "
-            f"{why or 'the cameras deliver no pictures of one moment'}"
+            sentence(
+                "the board was not seen within {live_timeout:.0f} s: {reason}",
+                live_timeout=_LIVE_TIMEOUT,
+                reason=why or "the cameras deliver no pictures of one moment",
+            )
         )
     return PlacedBoard(at, tuple(pairs))
 
@@ -89,8 +93,12 @@ def placed_boards(
     """
     if len(folders) != len(places) or not folders:
         raise CalibrationError(
-            f"{len(folders)} folders and {len(places)} places were given; each folder needs the "
-            "place of its board: --images DIR --at x,y,z[,rx,ry,rz]"
+            sentence(
+                "{folders_count} folders and {places_count} places were given; each folder needs "
+                "the place of its board: --images DIR --at x,y,z[,rx,ry,rz]",
+                folders_count=len(folders),
+                places_count=len(places),
+            )
         )
     progress = progress or Progress()
     boards, read = [], []
@@ -104,6 +112,8 @@ def placed_boards(
             pair for pair in zip(views[0::2], views[1::2], strict=True) if any(pair)
         ]
         if not seen:
-            raise CalibrationError(f"{folder}: {none_seen(found)}")
+            raise CalibrationError(
+                sentence("{folder}: {none_seen}", folder=folder, none_seen=none_seen(found))
+            )
         boards.append(PlacedBoard(place, tuple(seen)))
     return boards, read

@@ -11,6 +11,7 @@ import cv2
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.rotation import closest_rotation
 from app.core.transform import RigidTransform
 from app.tracking.calibration.bundle import adjust, rms
@@ -45,8 +46,11 @@ def first_estimate(views: Sequence[BoardView]) -> AdjustedState:
     if starts:
         return min(starts, key=lambda start: start[0])[1]
     raise CalibrationError(
-        f"no camera explains the {len(views)} views; tilt the board to different sides by 20 to "
-        "45 degrees, and check the board's counts"
+        sentence(
+            "no camera explains the {views_count} views; tilt the board to different sides by 20 "
+            "to 45 degrees, and check the board's counts",
+            views_count=len(views),
+        )
     )
 
 
@@ -155,7 +159,12 @@ def board_pose(
     candidates = [_refined(view, parameters, T) for T in starts]
     found = [candidate for candidate in candidates if candidate is not None]
     if not found:
-        raise CalibrationError(f"view {view.name!r}: no pose of the board fits before the camera")
+        raise CalibrationError(
+            sentence(
+                "view {view_name!r}: no pose of the board fits before the camera",
+                view_name=view.name,
+            )
+        )
     return min(found, key=lambda candidate: candidate[1])
 
 
@@ -190,7 +199,9 @@ def _two_poses(view: BoardView, p: FloatArray) -> list[RigidTransform]:
             view.points[exist], rays[exist, None], np.eye(3), None, flags=cv2.SOLVEPNP_IPPE
         )
     except cv2.error as error:
-        raise CalibrationError(f"view {view.name!r}: no pose of the board can be found") from error
+        raise CalibrationError(
+            sentence("view {view_name!r}: no pose of the board can be found", view_name=view.name)
+        ) from error
     return [
         RigidTransform(cv2.Rodrigues(turn)[0], np.ravel(shift))
         for turn, shift in zip(turns, shifts, strict=True)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.core.messages import sentence
 from app.tracking.calibration.bundle import Adjusted
 from app.tracking.calibration.lens_choice import reach
 from app.tracking.calibration.selection import Dropped
@@ -37,8 +38,14 @@ def mono_remarks(
     """Say what was dropped, left out, not covered or not square."""
     notes = [f"{name}: {one.text}" for one in dropped]
     notes += [
-        f"{name}: {r.name} does not fit ({r.rms_px:.2f} px against {adjusted.rms_px:.2f} px): "
-        "left out"
+        sentence(
+            "{name}: {r_name} does not fit ({r_rms_px:.2f} px against {adjusted_rms_px:.2f} px): "
+            "left out",
+            name=name,
+            r_name=r.name,
+            r_rms_px=r.rms_px,
+            adjusted_rms_px=adjusted.rms_px,
+        )
         for r in residuals
         if r.role == "outlier"
     ]
@@ -47,8 +54,12 @@ def mono_remarks(
     ratio, ratio_sd = float(focal[1] / focal[0]), float(np.hypot(*(spread / focal)))
     if abs(ratio - 1.0) > max(0.01, 4.0 * ratio_sd):
         notes.append(
-            f"{name}: fy/fx = {ratio:.4f}: the pixels or the squares are not square; measure the "
-            "print in both directions"
+            sentence(
+                "{name}: fy/fx = {ratio:.4f}: the pixels or the squares are not square; measure "
+                "the print in both directions",
+                name=name,
+                ratio=ratio,
+            )
         )
     return notes
 
@@ -65,9 +76,16 @@ def lens_remarks(
         return []
     angle = np.degrees(reach(adjusted.state.parameters[0], used))
     return [
-        f"{name}: this lens is wider than the five-coefficient model, or bends otherwise: seen up "
-        f"to {angle:.0f}° off its axis, {five_px:.3f} px remain with five coefficients, "
-        f"{adjusted.rms_px:.3f} px with the {lens.words}: calibrated with that"
+        sentence(
+            "{name}: this lens is wider than the five-coefficient model, or bends otherwise: "
+            "seen up to {angle:.0f}° off its axis, {five_px:.3f} px remain with five "
+            "coefficients, {adjusted_rms_px:.3f} px with the {lens_words}: calibrated with that",
+            name=name,
+            angle=angle,
+            five_px=five_px,
+            adjusted_rms_px=adjusted.rms_px,
+            lens_words=lens.words,
+        )
     ]
 
 
@@ -79,7 +97,13 @@ def unrefined_remarks(
     if not changed:
         return []
     named = ", ".join(changed[:5]) + (f" and {len(changed) - 5} more" if len(changed) > 5 else "")
-    return [f"{name}: corners fit better unrefined and are taken so (blur, noise): {named}"]
+    return [
+        sentence(
+            "{name}: corners fit better unrefined and are taken so (blur, noise): {named}",
+            name=name,
+            named=named,
+        )
+    ]
 
 
 def coverage_notes(name: str, views: Sequence[BoardView]) -> list[str]:
@@ -90,8 +114,12 @@ def coverage_notes(name: str, views: Sequence[BoardView]) -> list[str]:
     if reach >= 0.75:
         return []
     return [
-        f"{name}: corners reach {reach:.0%} of the way to the picture's corners; distortion beyond "
-        "is not measured: show the board at the edges too"
+        sentence(
+            "{name}: corners reach {reach:.0%} of the way to the picture's corners; distortion "
+            "beyond is not measured: show the board at the edges too",
+            name=name,
+            reach=reach,
+        )
     ]
 
 
@@ -103,23 +131,38 @@ def stereo_remarks(
     adjusted: Adjusted,
 ) -> list[str]:
     """Say which corner orders were mended, which pairs left out, and if cameras look swapped."""
-    notes = []
+    notes: list[str] = []
     if changed:
         notes.append(
-            f"{len(changed)} of {pairs} pairs had their corners numbered from opposite ends; "
-            f"mended: {', '.join(changed)}"
+            sentence(
+                "{changed_count} of {pairs} pairs had their corners numbered from opposite ends; "
+                "mended: {changed}",
+                changed_count=len(changed),
+                pairs=pairs,
+                changed=", ".join(changed),
+            )
         )
     notes += [
-        f"{r.name} does not fit the other pairs ({r.rms_px:.2f} px against "
-        f"{adjusted.rms_px:.2f} px): left out"
+        sentence(
+            "{r_name} does not fit the other pairs ({r_rms_px:.2f} px against "
+            "{adjusted_rms_px:.2f} px): left out",
+            r_name=r.name,
+            r_rms_px=r.rms_px,
+            adjusted_rms_px=adjusted.rms_px,
+        )
         for r in residuals
         if r.role == "outlier"
     ]
     p_right = adjusted.state.T_right_left.inverse().translation
     if p_right[0] < 0.0:
         notes.append(
-            f"camera {names[1]} stands {-p_right[0] * 1e3:.0f} mm to the left of camera "
-            f"{names[0]}: the two may be swapped"
+            sentence(
+                "camera {names_second} stands {p_right_first:.0f} mm to the left of camera "
+                "{names_first}: the two may be swapped",
+                names_second=names[1],
+                p_right_first=-p_right[0] * 1e3,
+                names_first=names[0],
+            )
         )
     return notes
 
@@ -131,6 +174,14 @@ def size_remarks(names: tuple[str, str], pair: tuple[BoardView, BoardView]) -> l
         return []
     (w0, h0), (w1, h1) = sizes
     return [
-        f"pictures of different sizes, {names[0]} {w0}x{h0}, {names[1]} {w1}x{h1}: the trainer "
-        "takes both cameras at one size; set both to it and take the pictures again"
+        sentence(
+            "pictures of different sizes, {names_first} {w0}x{h0}, {names_second} {w1}x{h1}: the "
+            "trainer takes both cameras at one size; set both to it and take the pictures again",
+            names_first=names[0],
+            w0=w0,
+            h0=h0,
+            names_second=names[1],
+            w1=w1,
+            h1=h1,
+        )
     ]

@@ -19,6 +19,7 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.tracking.calibration.bundle import Adjusted
 from app.tracking.calibration.misfit import misfit_px
 from app.tracking.calibration.sightings import SeenBoard, SightedBoards
@@ -80,11 +81,13 @@ def moved_px(views: Sequence[BoardView], adjusted: Adjusted) -> float | None:
 
 def rolling_remark(name: str, moved: float) -> str:
     """Say that a rolling shutter shows, what it does and what to do."""
-    return (
-        f"{name}: the board moved while its pictures were read row by row (rolling shutter): it "
-        f"looks bent differently in each, by {moved:.2g} px, and focal length and distances come "
-        "out wrong; lay the board down or hold it against something still, and take the pictures "
-        "again, or use a camera with a global shutter"
+    return sentence(
+        "{name}: the board moved while its pictures were read row by row (rolling shutter): "
+        "it looks bent differently in each, by {moved:.2g} px, and focal length and "
+        "distances come out wrong; lay the board down or hold it against something still, "
+        "and take the pictures again, or use a camera with a global shutter",
+        name=name,
+        moved=moved,
     )
 
 

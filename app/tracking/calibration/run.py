@@ -7,6 +7,7 @@ from datetime import UTC, datetime
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.tracking.calibration.bundle import rms
 from app.tracking.calibration.identity import new_id
@@ -86,8 +87,12 @@ def calibrate_pairs(
     progress = progress or Progress()
     if len(views_left) != len(views_right):
         raise CalibrationError(
-            f"{len(views_left)} left and {len(views_right)} right views; they are taken in pairs: "
-            "give None where a camera did not see the board"
+            sentence(
+                "{views_left_count} left and {views_right_count} right views; they are taken in "
+                "pairs: give None where a camera did not see the board",
+                views_left_count=len(views_left),
+                views_right_count=len(views_right),
+            )
         )
     both = [
         (_called(a, f"{names[0]} {i}"), _called(b, f"{names[1]} {i}"))

@@ -21,6 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.tracking.calibration.bundle import Adjusted
 from app.tracking.calibration.views import BoardView
 from app.tracking.optics.calibration import PARAMETERS
@@ -125,7 +126,12 @@ class Dropped:
     @property
     def text(self) -> str:
         """One line for people."""
-        return f"{self.name} = {self.value:.3g} ± {self.sd:.2g}: the views do not tell; taken as 0"
+        return sentence(
+            "{name} = {value:.3g} ± {sd:.2g}: the views do not tell; taken as 0",
+            name=self.name,
+            value=self.value,
+            sd=self.sd,
+        )
 
 
 Fit = Callable[[tuple[str, ...], Adjusted | None], Adjusted]

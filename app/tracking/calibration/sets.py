@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.tracking.calibration.boards import Board
 from app.tracking.calibration.mono import MonoResult, calibrate_mono
@@ -118,8 +119,14 @@ def stereo_set(
     )
     if both < LEAST_PAIRS:
         raise CalibrationError(
-            f"{both} of {len(pairs)} pairs show the board to both cameras; at least {LEAST_PAIRS} "
-            f"are needed, 15 to 30 are good; {common_reasons(read)}"
+            sentence(
+                "{both} of {pairs_count} pairs show the board to both cameras; at least "
+                "{least_pairs} are needed, 15 to 30 are good; {common_reasons}",
+                both=both,
+                pairs_count=len(pairs),
+                least_pairs=LEAST_PAIRS,
+                common_reasons=common_reasons(read),
+            )
         )
     lefts, rights = lone[: len(alone[0])], lone[len(alone[0]) :]
     result = calibrate_pairs(
@@ -152,7 +159,11 @@ def seen_by_both(pairs: Sequence[Pair], board: Board, estimate: StereoEstimate) 
 
 def none_seen(read: Sequence[Seen]) -> str:
     """Say that no picture shows the board, and the commonest reasons."""
-    return f"the board is usable in none of {len(read)} pictures (or pairs); {common_reasons(read)}"
+    return sentence(
+        "the board is usable in none of {read_count} pictures (or pairs); {common_reasons}",
+        read_count=len(read),
+        common_reasons=common_reasons(read),
+    )
 
 
 def common_reasons(read: Sequence[Seen]) -> str:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.core.transform import RigidTransform
 from app.tracking.calibration.bundle import Adjusted, adjust, rms, with_free
@@ -139,8 +140,12 @@ def estimate_stereo(
     progress = progress or Progress()
     if len(pairs) < LEAST_PAIRS:
         raise CalibrationError(
-            f"{len(pairs)} pairs show the board to both cameras; at least {LEAST_PAIRS} are "
-            "needed, 15 to 30 are good"
+            sentence(
+                "{pairs_count} pairs show the board to both cameras; at least {least_pairs} are "
+                "needed, 15 to 30 are good",
+                pairs_count=len(pairs),
+                least_pairs=LEAST_PAIRS,
+            )
         )
     _require_two_cameras(pairs)
     left, right = _cameras(
@@ -205,8 +210,10 @@ def _require_two_cameras(pairs: Sequence[ViewPair]) -> None:
     ]
     if np.mean(same) > 0.5:
         raise CalibrationError(
-            "left and right show the same pictures: both come from one camera; choose another "
-            "source for one of them"
+            sentence(
+                "left and right show the same pictures: both come from one camera; choose "
+                "another source for one of them"
+            )
         )
 
 
@@ -216,9 +223,13 @@ def _require_apart(adjusted: Adjusted) -> None:
     far = float(np.median([np.linalg.norm(T.translation) for T in adjusted.state.poses]))
     if apart < LEAST_BASELINE * far:
         raise CalibrationError(
-            f"the two cameras stand at one place ({apart * 1e3:.2f} mm apart, the board "
-            f"{far * 1e3:.0f} mm away); both pictures seem to come from one camera: choose another "
-            "source for one of them, or move them apart"
+            sentence(
+                "the two cameras stand at one place ({apart:.2f} mm apart, the board "
+                "{far:.0f} mm away); both pictures seem to come from one camera: choose another "
+                "source for one of them, or move them apart",
+                apart=apart * 1e3,
+                far=far * 1e3,
+            )
         )
 
 
@@ -241,13 +252,21 @@ def _require_agreement(
         return
     if one_side_is_mirrored(posed, right.adjusted.state.parameters[0]):
         raise CalibrationError(
-            "the pictures of one of the two cameras are mirrored: the pairs fit once one side is "
-            "mirrored back; turn mirror mode off in that camera's settings and take them again"
+            sentence(
+                "the pictures of one of the two cameras are mirrored: the pairs fit once one "
+                "side is mirrored back; turn mirror mode off in that camera's settings and take "
+                "them again"
+            )
         )
     raise CalibrationError(
-        f"the pairs do not agree on where the cameras stand: {int(agreement.agreeing.sum())} of "
-        f"{len(posed)} fit together within {agreement.near:.0f} px; pictures that were not taken "
-        "together, cameras moved in between, or names paired wrongly do that"
+        sentence(
+            "the pairs do not agree on where the cameras stand: {agreement_agreeing} of "
+            "{posed_count} fit together within {agreement_near:.0f} px; pictures that were not "
+            "taken together, cameras moved in between, or names paired wrongly do that",
+            agreement_agreeing=int(agreement.agreeing.sum()),
+            posed_count=len(posed),
+            agreement_near=agreement.near,
+        )
     )
 
 

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.tracking.calibration.poses import rigid_fit
@@ -36,7 +37,12 @@ def validate(calibration: StereoCalibration, pairs: Sequence[ViewPair]) -> Valid
     boards = [shared for pair in pairs if (shared := _shared(*pair)) is not None]
     if not boards:
         raise CalibrationError(
-            f"none of {len(pairs)} pairs shares {LEAST_SHARED} corners; nothing can be validated"
+            sentence(
+                "none of {pairs_count} pairs shares {least_shared} corners; nothing can be "
+                "validated",
+                pairs_count=len(pairs),
+                least_shared=LEAST_SHARED,
+            )
         )
     distances, scales, lines, far = [], [], [], []
     for view_left, view_right in boards:
@@ -85,7 +91,9 @@ def triangulated(
     d, e = from_left @ between, from_right @ between
     determinant = a * c - b * b
     if determinant.min() <= 1e-12 * float((a * c).max()):
-        raise CalibrationError("rays of the two cameras are parallel; nothing can be triangulated")
+        raise CalibrationError(
+            sentence("rays of the two cameras are parallel; nothing can be triangulated")
+        )
     s, t = (c * d - b * e) / determinant, (b * d - a * e) / determinant
     near_left = left.centre + s[:, None] * from_left
     near_right = right.centre + t[:, None] * from_right
@@ -133,8 +141,12 @@ def _normalised(camera: CameraModel, pixels: FloatArray) -> FloatArray:
     rays, found = camera.undistort(pixels)
     if not found.all():
         raise CalibrationError(
-            f"camera {camera.name}: {int((~found).sum())} corners lie where its distortion folds "
-            "back; the calibration does not reach there"
+            sentence(
+                "camera {camera_name}: {missing} corners lie where its distortion folds "
+                "back; the calibration does not reach there",
+                camera_name=camera.name,
+                missing=int((~found).sum()),
+            )
         )
     return np.column_stack([rays, np.ones(len(rays))])
 

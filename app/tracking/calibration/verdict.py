@@ -13,6 +13,7 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.tracking.calibration.checks import Check
 from app.tracking.calibration.fit_together import apart
 from app.tracking.calibration.ray_error import at_pixels
@@ -103,7 +104,9 @@ def judge(
         return Judgement(
             Grade.NOT_GOOD_ENOUGH,
             Why.CONTRADICTED,
-            f"a length that is known contradicts it: {against.text}",
+            sentence(
+                "a length that is known contradicts it: {against_text}", against_text=against.text
+            ),
         )
     fit = _of_fit(calibration)
     rays = _of_rays(calibration, region)
@@ -129,12 +132,22 @@ def _of_rays(calibration: StereoCalibration, region: Region | None) -> Judgement
     if worst is None or worst[0] <= GOOD_SHARE:
         return None
     share, sd, name = worst
-    where = "where the marker comes" if region is not None else "in a quarter of its picture"
+    where = (
+        sentence("where the marker comes")
+        if region is not None
+        else sentence("in a quarter of its picture")
+    )
     mm, good = (part * USUAL_DISTANCE_MM for part in (share, GOOD_SHARE))
-    text = (
-        f"{name}: {where} its rays are known to ± {sd:.2g} px only, {mm:.2g} mm at "
-        f"{USUAL_DISTANCE_MM:.0f} mm ({good:.2g} mm is good): the board was not seen there; show "
-        "it there too, up to the edges"
+    text = sentence(
+        "{name}: {where} its rays are known to ± {sd:.2g} px only, {mm:.2g} mm at "
+        "{usual_distance_mm:.0f} mm ({good:.2g} mm is good): the board was not seen there; "
+        "show it there too, up to the edges",
+        name=name,
+        where=where,
+        sd=sd,
+        mm=mm,
+        usual_distance_mm=USUAL_DISTANCE_MM,
+        good=good,
     )
     if share > WORST_SHARE and region is not None:
         return Judgement(Grade.NOT_GOOD_ENOUGH, Why.RAYS_BAD, text)
@@ -156,43 +169,76 @@ def _inside(size: tuple[int, int], outline: FloatArray | None) -> FloatArray:
 def _of_fit(calibration: StereoCalibration) -> Judgement:
     rms, checked = calibration.rms_px, calibration.validation
     wide = max(1.0, calibration.cameras[0].image_size[0] / USUAL_WIDTH)
-    flat = "glue the board on something flat, take sharper pictures, check its counts and sizes"
+    flat = sentence(
+        "glue the board on something flat, take sharper pictures, check its counts and sizes"
+    )
     if rms > WORST_PX * wide:
-        text = f"residual of {rms:.2f} px, at most {WORST_PX * wide:.2g} px: {flat}"
+        text = sentence(
+            "residual of {rms:.2f} px, at most {worst_px:.2g} px: {flat}",
+            rms=rms,
+            worst_px=WORST_PX * wide,
+            flat=flat,
+        )
         return Judgement(Grade.NOT_GOOD_ENOUGH, Why.RESIDUAL_BAD, text)
     if checked is not None:
         away = checked.distance_mm
         share = checked.rms_mm / away
-        held = f"pairs held back are wrong by {checked.rms_mm:.2f} mm RMS at {away:.0f} mm"
+        held = sentence(
+            "pairs held back are wrong by {checked_rms_mm:.2f} mm RMS at {away:.0f} mm",
+            checked_rms_mm=checked.rms_mm,
+            away=away,
+        )
         if share > WORST_SHARE:
-            text = f"{held}, at most {WORST_SHARE * away:.2g} mm: {flat}"
+            text = sentence(
+                "{held}, at most {worst_share:.2g} mm: {flat}",
+                held=held,
+                worst_share=WORST_SHARE * away,
+                flat=flat,
+            )
             return Judgement(Grade.NOT_GOOD_ENOUGH, Why.ERROR_BAD, text)
     if calibration.together is not None and apart(calibration.together):
-        text = (
-            "the pairs do not belong together: hold the board still while both cameras look, fix "
-            "the cameras, and take them again"
+        text = sentence(
+            "the pairs do not belong together: hold the board still while both cameras look, "
+            "fix the cameras, and take them again"
         )
         return Judgement(Grade.USABLE, Why.APART, text)
     rolling = [c for c in calibration.cameras if c.rolling_px is not None]
     if rolling:
         named = " and ".join(f"{camera.name} ({camera.rolling_px:.2g} px)" for camera in rolling)
-        text = (
-            f"rolling shutter: the board moved while the pictures of {named} were read row by row, "
-            "which makes focal length and distances wrong and hardly shows in the residual: hold "
-            "the board against something still, and take them again"
+        text = sentence(
+            "rolling shutter: the board moved while the pictures of {named} were read row by "
+            "row, which makes focal length and distances wrong and hardly shows in the "
+            "residual: hold the board against something still, and take them again",
+            named=named,
         )
         return Judgement(Grade.USABLE, Why.ROLLING, text)
     if checked is None:
-        text = "it fits, but no pair was held back to check it: take at least eight pairs"
+        text = sentence("it fits, but no pair was held back to check it: take at least eight pairs")
         return Judgement(Grade.USABLE, Why.UNCHECKED, text)
-    better = "more and sharper views will do better"
+    better = sentence("more and sharper views will do better")
     if rms > GOOD_PX * wide:
-        text = f"residual of {rms:.2f} px, {GOOD_PX * wide:.2g} px is good: {better}"
+        text = sentence(
+            "residual of {rms:.2f} px, {good_px:.2g} px is good: {better}",
+            rms=rms,
+            good_px=GOOD_PX * wide,
+            better=better,
+        )
         return Judgement(Grade.USABLE, Why.RESIDUAL, text)
     if share > GOOD_SHARE:
-        text = f"{held}, {GOOD_SHARE * away:.2g} mm is good: {better}"
+        text = sentence(
+            "{held}, {good_share:.2g} mm is good: {better}",
+            held=held,
+            good_share=GOOD_SHARE * away,
+            better=better,
+        )
         return Judgement(Grade.USABLE, Why.ERROR, text)
     if abs(checked.scale - 1.0) > max(GOOD_SCALE, 3.0 * checked.scale_sd):
-        text = f"lengths on pairs held back are {checked.scale:.4f} times the true ones: {better}"
+        text = sentence(
+            "lengths on pairs held back are {checked_scale:.4f} times the true ones: {better}",
+            checked_scale=checked.scale,
+            better=better,
+        )
         return Judgement(Grade.USABLE, Why.LENGTHS, text)
-    return Judgement(Grade.GOOD, Why.RIGHT, f"pairs that took no part come out right: {held}")
+    return Judgement(
+        Grade.GOOD, Why.RIGHT, sentence("pairs that took no part come out right: {held}", held=held)
+    )

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, read_only
+from app.core.messages import sentence
 from app.tracking.calibration.boards import Board
 from app.tracking.errors import CalibrationError
 
@@ -78,19 +79,34 @@ class BoardView:
         pixels = np.array(self.pixels, dtype=np.float64)
         if ids.ndim != 1 or pixels.shape != (ids.size, 2) or not np.isfinite(pixels).all():
             raise CalibrationError(
-                f"view {self.name!r}: {ids.size} corner numbers and pixels of shape "
-                f"{pixels.shape}; one finite pixel is needed for every corner"
+                sentence(
+                    "view {name!r}: {ids_size} corner numbers and pixels of shape "
+                    "{pixels_shape}; one finite pixel is needed for every corner",
+                    name=self.name,
+                    ids_size=ids.size,
+                    pixels_shape=pixels.shape,
+                )
             )
         if ids.size and (ids.min() < 0 or ids.max() >= self.board.count):
             raise CalibrationError(
-                f"view {self.name!r}: corner {int(ids.max())} is not on the board "
-                f"{self.board.spec}, which has {self.board.count}"
+                sentence(
+                    "view {name!r}: corner {ids_max} is not on the board "
+                    "{board_spec}, which has {board_count}",
+                    name=self.name,
+                    ids_max=int(ids.max()),
+                    board_spec=self.board.spec,
+                    board_count=self.board.count,
+                )
             )
         rough = None if self.unrefined is None else np.array(self.unrefined, dtype=np.float64)
         if rough is not None and (rough.shape != pixels.shape or not np.isfinite(rough).all()):
             raise CalibrationError(
-                f"view {self.name!r}: unrefined pixels of shape {rough.shape}; one finite pixel is "
-                "needed for every corner"
+                sentence(
+                    "view {name!r}: unrefined pixels of shape {rough_shape}; one finite pixel is "
+                    "needed for every corner",
+                    name=self.name,
+                    rough_shape=rough.shape,
+                )
             )
         order = np.argsort(ids, kind="stable")
         object.__setattr__(self, "ids", read_only(ids[order]))

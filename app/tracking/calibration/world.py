@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.rotation import skew
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
@@ -95,7 +96,9 @@ def find_world(
             at it from behind, or it can lie two ways round.
     """
     if not boards:
-        raise CalibrationError("no board was given: one picture of it at a known place is needed")
+        raise CalibrationError(
+            sentence("no board was given: one picture of it at a known place is needed")
+        )
     chosen = [_fit(calibration, board, expected) for board in boards]
     for fit, board in zip(chosen, boards, strict=True):
         check_fit(calibration, fit, board)
@@ -155,9 +158,11 @@ def _fit(
         return fit_pose(calibration, board_rays(calibration, board.pairs))
     if expected is None:
         raise CalibrationError(
-            "the board looks the same after half a turn, so the world could be turned by 180°: use "
-            "a ChArUco board, or one with an odd and an even count of corners, or say where the "
-            "cameras stand roughly (--rig)"
+            sentence(
+                "the board looks the same after half a turn, so the world could be turned by "
+                "180°: use a ChArUco board, or one with an odd and an even count of corners, or "
+                "say where the cameras stand roughly (--rig)"
+            )
         )
     fits = [
         fit_pose(calibration, board_rays(calibration, pairs))

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from app.core.messages import sentence
 from app.tracking.errors import CameraError
 
 Image = NDArray[np.uint8]
@@ -30,8 +31,12 @@ class CameraFrame:
     def __post_init__(self) -> None:
         if self.image.dtype != np.uint8 or self.image.ndim != 3 or self.image.shape[2] != 3:
             raise CameraError(
-                f"a picture has shape {self.image.shape} and type {self.image.dtype}; "
-                "(height, width, 3) and uint8 are needed: set the camera to colour"
+                sentence(
+                    "a picture has shape {image_shape} and type {image_dtype}; "
+                    "(height, width, 3) and uint8 are needed: set the camera to colour",
+                    image_shape=self.image.shape,
+                    image_dtype=self.image.dtype,
+                )
             )
         self.image.setflags(write=False)
 

@@ -10,6 +10,7 @@ from typing import Any, Final, Protocol
 
 import cv2
 
+from app.core.messages import sentence
 from app.core.units import MILLISECOND
 from app.tracking.errors import CameraError
 
@@ -97,7 +98,12 @@ class DriverSetting:
         """One line for people."""
         if not self.accepted:
             asked = "holding it" if self.wanted is None else f"{self.wanted:g}"
-            return f"{self.name}: the driver did not accept {asked} (it is at {self.got:g})"
+            return sentence(
+                "{name}: the driver did not accept {asked} (it is at {got:g})",
+                name=self.name,
+                asked=asked,
+                got=self.got,
+            )
         return f"{self.name}: {'held at ' if self.wanted is None else ''}{self.got:g}"
 
 
@@ -119,8 +125,15 @@ def lock(capture: Capture, controls: Controls) -> tuple[DriverSetting, ...]:
     )
     if given != (width, height):
         raise CameraError(
-            f"the camera gives pictures of {given[0]}x{given[1]} where {width}x{height} was asked "
-            "for; set `size` in the camera settings to one that the camera has and calibrate at it"
+            sentence(
+                "the camera gives pictures of {given_first}x{given_second} where "
+                "{width}x{height} was asked for; set `size` in the camera settings to one that "
+                "the camera has and calibrate at it",
+                given_first=given[0],
+                given_second=given[1],
+                width=width,
+                height=height,
+            )
         )
     if any(v is None for v in (controls.exposure, controls.focus, controls.white_balance)):
         for _ in range(_SETTLE):

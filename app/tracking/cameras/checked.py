@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from app.core.messages import sentence
 from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.errors import CameraError
 
@@ -53,9 +54,18 @@ class CheckedCamera(Camera):
         height, width = frame.image.shape[:2]
         if (width, height) != self._size:
             raise CameraError(
-                f"camera {self.name} ({self.source}) gives pictures of {width}x{height}, "
-                f"not {self._size[0]}x{self._size[1]} ({self._reason}); set `size` in the camera "
-                "settings, or calibrate again at this size"
+                sentence(
+                    "camera {name} ({source}) gives pictures of {width}x{height}, "
+                    "not {size_first}x{size_second} ({reason}); set `size` in the camera "
+                    "settings, or calibrate again at this size",
+                    name=self.name,
+                    source=self.source,
+                    width=width,
+                    height=height,
+                    size_first=self._size[0],
+                    size_second=self._size[1],
+                    reason=self._reason,
+                )
             )
         return frame
 
@@ -64,4 +74,8 @@ class CheckedCamera(Camera):
         self.camera.close()
 
     def _error(self, error: CameraError) -> CameraError:
-        return CameraError(f"camera {self.name} ({self.source}): {error}")
+        return CameraError(
+            sentence(
+                "camera {name} ({source}): {error}", name=self.name, source=self.source, error=error
+            )
+        )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from app.core.clock import Clock
+from app.core.messages import sentence
 from app.core.units import MILLISECOND
 from app.tracking.cameras.camera import Camera
 from app.tracking.cameras.capture import Controls, Opener, open_capture
@@ -38,4 +39,6 @@ def make_camera(
         return FolderCamera(Path(source.place), settings.rate_hz, clock)
     if source.kind is SourceKind.VIDEO:
         return VideoCamera(Path(source.place), clock)
-    raise CameraError("a simulated camera needs a needle to look at; choose a real source here")
+    raise CameraError(
+        sentence("a simulated camera needs a needle to look at; choose a real source here")
+    )

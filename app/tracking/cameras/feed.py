@@ -13,6 +13,7 @@ from typing import Final
 import numpy as np
 
 from app.core.clock import Clock
+from app.core.messages import sentence
 from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.cameras.watch import STALL, CameraHealth, CameraReader, CameraState
 from app.tracking.fix import FixStatus, NeedleFix
@@ -74,7 +75,7 @@ def without_picture(
     absent = [name for name, frame in zip(names, frames, strict=True) if frame is None]
     if not absent:
         return fix
-    reason = f"no picture from the {absent[0]} camera"
+    reason = sentence("no picture from the {absent_first} camera", absent_first=absent[0])
     if fix.usable:
         return replace(fix, reason=f"{reason}: depth by the other one and the needle's line")
     return replace(fix, status=FixStatus.NO_PICTURE, reason=reason)

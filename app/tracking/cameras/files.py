@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 
 from app.core.clock import Clock, SystemClock
+from app.core.messages import sentence
 from app.core.units import MILLISECOND
 from app.tracking.cameras.camera import Camera, CameraFrame, Image
 from app.tracking.errors import CameraError, TrackingError
@@ -58,10 +59,18 @@ class FolderCamera(Camera):
             CameraError: if it cannot be read, or all have been.
         """
         if not self._files:
-            raise CameraError(f"folder {self.folder} is not open; call open() first")
+            raise CameraError(
+                sentence("folder {folder} is not open; call open() first", folder=self.folder)
+            )
         number = max(self._last + 1, self._due()) if self._loops else self._last + 1
         if not self._loops and number - self._first >= len(self._files):
-            raise CameraError(f"the {len(self._files)} pictures of {self.folder} are over")
+            raise CameraError(
+                sentence(
+                    "the {files_count} pictures of {folder} are over",
+                    files_count=len(self._files),
+                    folder=self.folder,
+                )
+            )
         time = number / self._rate
         self._clock.sleep(time - self._clock.now())
         self._last = number
@@ -93,9 +102,21 @@ class FolderCamera(Camera):
                 sizes.setdefault((width, height), path)
         if len(sizes) > 1:
             each = ", ".join(f"{w}x{h} ({path.name} …)" for (w, h), path in sizes.items())
-            found.append(f"the pictures of {self.folder} are of different sizes: {each}")
+            found.append(
+                sentence(
+                    "the pictures of {folder} are of different sizes: {each}",
+                    folder=self.folder,
+                    each=each,
+                )
+            )
         if len(files) > most:
-            found.append(f"only the first {most} of {len(files)} pictures were looked at")
+            found.append(
+                sentence(
+                    "only the first {most} of {files_count} pictures were looked at",
+                    most=most,
+                    files_count=len(files),
+                )
+            )
         return tuple(found)
 
     def _due(self) -> int:
@@ -109,11 +130,17 @@ def pictures_in(folder: Path) -> list[Path]:
         CameraError: if there is none, or no such folder.
     """
     if not folder.is_dir():
-        raise CameraError(f"{no_folder(folder)}; folder:PATH names a folder")
+        raise CameraError(
+            sentence("{no_folder}; folder:PATH names a folder", no_folder=no_folder(folder))
+        )
     files = sorted(path for path in folder.iterdir() if path.suffix.lower() in ENDINGS)
     if not files:
         raise CameraError(
-            f"no picture in {folder}; files that end in {', '.join(sorted(ENDINGS))} count"
+            sentence(
+                "no picture in {folder}; files that end in {endings} count",
+                folder=folder,
+                endings=", ".join(sorted(ENDINGS)),
+            )
         )
     return files
 
@@ -127,9 +154,15 @@ def read_picture(path: Path) -> Image:
     try:
         return read_pixels(path)
     except OSError as error:
-        raise CameraError(f"cannot read {path}: {error.strerror or error}") from error
+        raise CameraError(
+            sentence(
+                "cannot read {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
     except TrackingError as error:
-        raise CameraError(f"{path} {error}") from error
+        raise CameraError(sentence("{path} {error}", path=path, error=error)) from error
 
 
 class VideoCamera(Camera):
@@ -159,16 +192,18 @@ class VideoCamera(Camera):
         """
         self.close()
         if not self.path.is_file():
-            raise CameraError(f"there is no video {self.path}; video:PATH names a file")
+            raise CameraError(
+                sentence("there is no video {path}; video:PATH names a file", path=self.path)
+            )
         capture = cv2.VideoCapture(str(self.path))
         if not capture.isOpened():
-            raise CameraError(f"{self.path} is no video that can be read")
+            raise CameraError(sentence("{path} is no video that can be read", path=self.path))
         try:
             sides = cv2.CAP_PROP_FRAME_WIDTH, cv2.CAP_PROP_FRAME_HEIGHT
             check_size(*(int(capture.get(side)) for side in sides))
         except TrackingError as error:
             capture.release()
-            raise CameraError(f"{self.path} {error}") from error
+            raise CameraError(sentence("{path} {error}", path=self.path, error=error)) from error
         capture.set(cv2.CAP_PROP_ORIENTATION_AUTO, 0.0)  # as stored; see `picture_file`
         rate = capture.get(cv2.CAP_PROP_FPS)
         self._period = 1.0 / rate if isfinite(rate) and rate > 0.0 else 1.0 / 30.0
@@ -183,7 +218,9 @@ class VideoCamera(Camera):
         """
         capture = self._capture
         if capture is None:
-            raise CameraError(f"video {self.path} is not open; call open() first")
+            raise CameraError(
+                sentence("video {path} is not open; call open() first", path=self.path)
+            )
         time = self._grab(capture)
         while time is not None and time + self._period < self._clock.now() - self._start:
             time = self._grab(capture)
@@ -191,7 +228,7 @@ class VideoCamera(Camera):
             return self._again()
         good, image = capture.retrieve()
         if not good or image is None:
-            raise CameraError(f"a picture of {self.path} is damaged")
+            raise CameraError(sentence("a picture of {path} is damaged", path=self.path))
         due = self._start + time
         self._clock.sleep(due - self._clock.now())
         return CameraFrame(np.array(image), due)
@@ -215,7 +252,7 @@ class VideoCamera(Camera):
     def _again(self) -> CameraFrame:
         if not self._loops or self._newest < 0.0:
             self.close()
-            raise CameraError(f"the video {self.path} is over")
+            raise CameraError(sentence("the video {path} is over", path=self.path))
         due = self._start + self._newest + self._period
         self.open()
         self._start = max(self._start, due)

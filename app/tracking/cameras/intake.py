@@ -14,6 +14,7 @@ from typing import Final
 
 import numpy as np
 
+from app.core.messages import sentence
 from app.tracking.cameras.camera import CameraFrame
 
 AHEAD: Final = 0.1
@@ -64,8 +65,8 @@ class StreamFigures:
         """Counts of refused pictures for people; empty if there were none."""
         counts = (
             (self.repeated, "repeated"),
-            (self.backwards, "with times that go back"),
-            (self.impossible, "with impossible times"),
+            (self.backwards, sentence("with times that go back")),
+            (self.impossible, sentence("with impossible times")),
         )
         return ", ".join(f"{count} {what}" for count, what in counts if count)
 

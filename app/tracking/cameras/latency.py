@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.special import ndtr
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.tracking.cameras.camera import Image
 from app.tracking.errors import CameraError
 
@@ -55,9 +56,12 @@ class CameraLatency:
     @property
     def text(self) -> str:
         """For people."""
-        return (
-            f"{1e3 * self.median:.1f} ± {1e3 * self.error:.1f} ms (spread of a single picture "
-            f"{1e3 * self.sd:.1f} ms, {self.n} changes)"
+        return sentence(
+            "{median:.1f} ± {error:.1f} ms (spread of a single picture {sd:.1f} ms, {n} changes)",
+            median=1e3 * self.median,
+            error=1e3 * self.error,
+            sd=1e3 * self.sd,
+            n=self.n,
         )
 
 
@@ -82,9 +86,13 @@ def estimate_latency(blinks: ArrayLike, times: ArrayLike, brightness: ArrayLike)
     coarse, agreement = _correlate(edges, t, level)
     if agreement < _AGREEMENT:
         raise CameraError(
-            f"the pictures do not follow the blinking (correlation {agreement:.2f}, at least "
-            f"{_AGREEMENT} is needed); put the camera close to the patch, out of other light, and "
-            "hold its exposure"
+            sentence(
+                "the pictures do not follow the blinking (correlation {agreement:.2f}, at least "
+                "{agreement_2} is needed); put the camera close to the patch, out of other "
+                "light, and hold its exposure",
+                agreement=agreement,
+                agreement_2=_AGREEMENT,
+            )
         )
     return _fit(edges, t, level, coarse)
 
@@ -92,16 +100,26 @@ def estimate_latency(blinks: ArrayLike, times: ArrayLike, brightness: ArrayLike)
 def _check(edges: FloatArray, t: FloatArray, grey: FloatArray) -> None:
     if edges.ndim != 1 or edges.size < FEWEST or t.size < 2 * FEWEST:
         raise CameraError(
-            f"{edges.size} changes and {t.size} pictures are too few; at least {FEWEST} and "
-            f"{2 * FEWEST} are needed: let the test run to its end"
+            sentence(
+                "{edges_size} changes and {t_size} pictures are too few; at least {fewest} and "
+                "{fewest_2} are needed: let the test run to its end",
+                edges_size=edges.size,
+                t_size=t.size,
+                fewest=FEWEST,
+                fewest_2=2 * FEWEST,
+            )
         )
     if not np.isfinite(edges).all() or (np.diff(edges) <= 0.0).any():
-        raise CameraError("the times of the changes must increase; repeat the test")
+        raise CameraError(sentence("the times of the changes must increase; repeat the test"))
     contrast = float(np.percentile(grey, 90) - np.percentile(grey, 10))
     if contrast < _CONTRAST:
         raise CameraError(
-            f"the patch changes the picture by {contrast:.1f} grey levels, at least {_CONTRAST:g} "
-            "are needed; point the camera at the patch, and check its exposure"
+            sentence(
+                "the patch changes the picture by {contrast:.1f} grey levels, at least "
+                "{contrast_2:g} are needed; point the camera at the patch, and check its exposure",
+                contrast=contrast,
+                contrast_2=_CONTRAST,
+            )
         )
 
 
@@ -143,8 +161,12 @@ def _fit(edges: FloatArray, t: FloatArray, level: FloatArray, coarse: float) -> 
     seen = np.unique(edge).size
     if seen < FEWEST or delay.size < 2 * FEWEST:
         raise CameraError(
-            f"{seen} changes were seen, at least {FEWEST} are needed; the patch must stay longer "
-            "between two changes than two pictures of the camera"
+            sentence(
+                "{seen} changes were seen, at least {fewest} are needed; the patch must stay "
+                "longer between two changes than two pictures of the camera",
+                seen=seen,
+                fewest=FEWEST,
+            )
         )
     medians = np.arange(-1.0, 1.0, 0.01) * min(reach, 2.0 * period)
     widths = np.geomspace(0.02, 1.0, 24) * period
@@ -184,7 +206,13 @@ def grid_means(image: Image) -> FloatArray:
     rows, columns = GRID
     height, width = image.shape[:2]
     if height < rows or width < columns:
-        raise CameraError(f"a picture of {width}x{height} is too small for the test of latency")
+        raise CameraError(
+            sentence(
+                "a picture of {width}x{height} is too small for the test of latency",
+                width=width,
+                height=height,
+            )
+        )
     green = image[: height - height % rows, : width - width % columns, 1]
     tiles = green.reshape(rows, green.shape[0] // rows, columns, green.shape[1] // columns)
     return np.asarray(tiles.mean(axis=(1, 3)).ravel(), dtype=np.float64)
@@ -194,7 +222,9 @@ def liveliest(tiles: ArrayLike) -> FloatArray:
     """Brightness of the tile that changes most: where the patch is; (m, tiles) -> (m,)."""
     series = np.asarray(tiles, dtype=np.float64)
     if series.ndim != 2 or not series.size:
-        raise CameraError("no picture came while the patch was blinking; is the camera running?")
+        raise CameraError(
+            sentence("no picture came while the patch was blinking; is the camera running?")
+        )
     low, high = np.percentile(series, [15.0, 85.0], axis=0)
     return np.asarray(series[:, int(np.argmax(high - low))])
 

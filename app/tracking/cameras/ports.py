@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from app.core.messages import sentence
 from app.tracking.errors import CameraError
 
 SYSTEM = Path("/sys/class/video4linux")
@@ -76,14 +77,20 @@ def find_port(place: str, ports: Sequence[CameraPort]) -> str | int:
         match = [port.node for port in ports if Path(port.node).name == node]
         if match:
             return match[0]
-    raise CameraError(f"no camera at usb:{place}; {plugged_in(ports)}")
+    raise CameraError(
+        sentence(
+            "no camera at usb:{place}; {plugged_in}", place=place, plugged_in=plugged_in(ports)
+        )
+    )
 
 
 def plugged_in(ports: Sequence[CameraPort]) -> str:
     """Say which cameras there are."""
     if not ports:
-        return "none is plugged in: check the cable, and `acus camera list`"
-    return "plugged in are: " + ", ".join(f"usb:{port.port} ({port.title})" for port in ports)
+        return sentence("none is plugged in: check the cable, and `acus camera list`")
+    return sentence("plugged in are: ") + ", ".join(
+        f"usb:{port.port} ({port.title})" for port in ports
+    )
 
 
 def _port(interface: str, interfaces: Sequence[str]) -> str:

@@ -11,6 +11,7 @@ from pydantic import Field, field_validator
 from app.core import paths
 from app.core.configuration import Strict, load
 from app.core.files import write_atomically
+from app.core.messages import sentence, sentence_of
 from app.core.units import MILLISECOND
 from app.tracking.cameras.source import CameraSource, SourceKind, parse_source
 from app.tracking.errors import CameraError
@@ -48,7 +49,7 @@ class OneCamera(Strict):
         try:
             return str(parse_source(text))
         except CameraError as error:
-            raise ValueError(str(error)) from error
+            raise ValueError(sentence_of(error)) from error
 
     @property
     def origin(self) -> CameraSource:
@@ -95,13 +96,20 @@ class CameraSettings(Strict):
         left, right = (camera.origin for camera in self.cameras)
         if (left.kind is SourceKind.SIMULATED) != (right.kind is SourceKind.SIMULATED):
             raise CameraError(
-                f"one camera is real and one simulated (left {left}, right {right}); give both a "
-                "source, for example --cameras left=usb:1-1.1,right=usb:1-1.2"
+                sentence(
+                    "one camera is real and one simulated (left {left}, right {right}); give "
+                    "both a source, for example --cameras left=usb:1-1.1,right=usb:1-1.2",
+                    left=left,
+                    right=right,
+                )
             )
         if left == right and left.kind is not SourceKind.SIMULATED:
             raise CameraError(
-                f"left and right are the same source, {left}; the depth needs two cameras: "
-                "`acus camera list` shows what is plugged in"
+                sentence(
+                    "left and right are the same source, {left}; the depth needs two cameras: "
+                    "`acus camera list` shows what is plugged in",
+                    left=left,
+                )
             )
 
 
@@ -208,8 +216,11 @@ def _sides(text: str) -> dict[str, str]:
         side = side.strip()
         if not equals or side not in SIDES or side in sides:
             raise CameraError(
-                f"{text!r} names no cameras; give `simulated`, a settings file (.yaml), or "
-                "left=SOURCE,right=SOURCE, for example left=usb:1-1.1,right=usb:1-1.2"
+                sentence(
+                    "{text!r} names no cameras; give `simulated`, a settings file (.yaml), or "
+                    "left=SOURCE,right=SOURCE, for example left=usb:1-1.1,right=usb:1-1.2",
+                    text=text,
+                )
             )
         sides[side] = source
     return sides

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Final
 
+from app.core.messages import sentence
 from app.tracking.errors import CameraError
 
 FORMS: Final = "usb:PORT (`acus camera list` shows them), usb:0, folder:PATH, video:PATH, simulated"
@@ -48,8 +49,16 @@ def parse_source(text: str) -> CameraSource:
     try:
         kind = SourceKind(head.strip().lower())
     except ValueError as error:
-        raise CameraError(f"{text!r} is no source of pictures; valid are: {FORMS}") from error
+        raise CameraError(
+            sentence(
+                "{text!r} is no source of pictures; valid are: {forms}", text=text, forms=FORMS
+            )
+        ) from error
     if (kind is SourceKind.SIMULATED) == bool(place):
         lack = "takes nothing after it" if place else "does not say where"
-        raise CameraError(f"the source {text!r} {lack}; valid are: {FORMS}")
+        raise CameraError(
+            sentence(
+                "the source {text!r} {lack}; valid are: {forms}", text=text, lack=lack, forms=FORMS
+            )
+        )
     return CameraSource(kind, place)

@@ -17,6 +17,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.clock import Clock
+from app.core.messages import sentence
 from app.tracking.cameras.camera import Camera, CameraFrame, Image
 from app.tracking.cameras.checked import CheckedCamera
 from app.tracking.cameras.files import FolderCamera
@@ -41,9 +42,15 @@ def write_pictures(folder: Path, images: Mapping[str, Image]) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         for name, image in images.items():
             if not cv2.imwrite(str(folder / f"{name}.png"), image):
-                raise CameraError(f"cannot write {folder / name}.png")
+                raise CameraError(sentence("cannot write {folder}.png", folder=folder / name))
     except OSError as error:
-        raise CameraError(f"cannot write into {folder}: {error.strerror or error}") from error
+        raise CameraError(
+            sentence(
+                "cannot write into {folder}: {error_strerror}",
+                folder=folder,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
 
 
 def with_outline(image: Image, outline: FloatArray) -> Image:
@@ -72,9 +79,9 @@ def missing(source: str, ports: Sequence[CameraPort]) -> str:
         except CameraError as error:
             return str(error)
     if origin.kind is SourceKind.FOLDER and not Path(origin.place).is_dir():
-        return f"there is no folder {origin.place}"
+        return sentence("there is no folder {origin_place}", origin_place=origin.place)
     if origin.kind is SourceKind.VIDEO and not Path(origin.place).is_file():
-        return f"there is no video {origin.place}"
+        return sentence("there is no video {origin_place}", origin_place=origin.place)
     return ""
 
 
@@ -125,18 +132,34 @@ class CameraReport:
         if self.image is None or self.health.message:
             lines += [self.health.text] if self.health.text not in lines else []
         elif self.saturated > _TOO_BRIGHT:
-            lines.append(f"{self.saturated:.0%} of the picture is overexposed: lower the exposure")
+            lines.append(
+                sentence(
+                    "{saturated:.0%} of the picture is overexposed: lower the exposure",
+                    saturated=self.saturated,
+                )
+            )
         elif self.brightness < _TOO_DARK:
-            lines.append(f"the picture is dark (mean {self.brightness:.0f} of 255): more light")
+            lines.append(
+                sentence(
+                    "the picture is dark (mean {brightness:.0f} of 255): more light",
+                    brightness=self.brightness,
+                )
+            )
         elif self.noise > _TOO_NOISY:
             lines.append(
-                f"the picture is noisy ({self.noise:.0f} grey values where it is even): more "
-                "light, so that the camera amplifies less, or a longer exposure"
+                sentence(
+                    "the picture is noisy ({noise:.0f} grey values where it is even): more "
+                    "light, so that the camera amplifies less, or a longer exposure",
+                    noise=self.noise,
+                )
             )
         if self.figures.repeated_share > 0.02:
             lines.append(
-                f"{self.figures.repeated_share:.0%} of the pictures repeat: lower the rate, or "
-                "plug the cameras into ports of different USB controllers"
+                sentence(
+                    "{figures_repeated_share:.0%} of the pictures repeat: lower the rate, or "
+                    "plug the cameras into ports of different USB controllers",
+                    figures_repeated_share=self.figures.repeated_share,
+                )
             )
         return tuple(lines)
 
@@ -161,7 +184,13 @@ def survey(
         CameraError: if one cannot be opened; all are closed then.
     """
     if len(cameras) != len(names):
-        raise CameraError(f"{len(cameras)} cameras have {len(names)} names")
+        raise CameraError(
+            sentence(
+                "{cameras_count} cameras have {names_count} names",
+                cameras_count=len(cameras),
+                names_count=len(names),
+            )
+        )
     arrived = threading.Condition()
     readers = [
         CameraReader(camera, name, clock, arrived, noise_expected=True)

@@ -15,6 +15,7 @@ import cv2
 import numpy as np
 
 from app.core.clock import Clock, SystemClock
+from app.core.messages import sentence
 from app.core.units import MILLISECOND
 from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.cameras.capture import (
@@ -114,7 +115,7 @@ class CapturePump:
             self._taken = self._number
             frame = self._frame
         if frame is None:
-            raise CameraError("the camera is closed")
+            raise CameraError(sentence("the camera is closed"))
         return frame
 
     def close(self) -> None:
@@ -134,11 +135,15 @@ class CapturePump:
         with self._changed:
             self._changed.wait_for(self._is_news, seconds)
             if self._stopped:
-                raise CameraError("the camera was closed")
+                raise CameraError(sentence("the camera was closed"))
             if self._error:
                 raise CameraError(self._error)
             if self._number == self._taken:
-                raise CameraError(f"no picture for {seconds:g} s; check the camera's cable")
+                raise CameraError(
+                    sentence(
+                        "no picture for {seconds:g} s; check the camera's cable", seconds=seconds
+                    )
+                )
 
     def _is_news(self) -> bool:
         return self._stopped or bool(self._error) or self._number != self._taken
@@ -149,8 +154,11 @@ class CapturePump:
             try:
                 if not capture.isOpened():
                     raise CameraError(
-                        f"{self._node} cannot be opened; another program may use it, or the group "
-                        "`video` is missing"
+                        sentence(
+                            "{node} cannot be opened; another program may use it, or the group "
+                            "`video` is missing",
+                            node=self._node,
+                        )
                     )
                 self.settings = lock(capture, self._controls)
                 while not self._stopped:
@@ -164,14 +172,22 @@ class CapturePump:
 
     def _take(self, capture: Capture) -> None:
         if not capture.grab():
-            raise CameraError(f"{self._node} stopped delivering; was it unplugged?")
+            raise CameraError(
+                sentence("{node} stopped delivering; was it unplugged?", node=self._node)
+            )
         delivered = self._clock.now()
         time = self.time.of(capture.get(cv2.CAP_PROP_POS_MSEC), delivered)
         good, image = capture.retrieve()
         if not good or image is None or image.size == 0:
             self.broken += 1
             if self.broken % _BROKEN == 0:
-                raise CameraError(f"{_BROKEN} pictures of {self._node} could not be decoded")
+                raise CameraError(
+                    sentence(
+                        "{broken} pictures of {node} could not be decoded",
+                        broken=_BROKEN,
+                        node=self._node,
+                    )
+                )
             return
         frame = CameraFrame(np.array(image), time)  # of its own: the driver reuses its buffer
         with self._changed:
@@ -221,7 +237,10 @@ class UsbCamera(Camera):
         before = self._pump
         if before is not None and before.is_running:
             raise CameraError(
-                f"the driver of usb:{self.place} hangs in its last stream; unplug the camera"
+                sentence(
+                    "the driver of usb:{place} hangs in its last stream; unplug the camera",
+                    place=self.place,
+                )
             )
         node = find_port(self.place, self._ports())
         self._pump = pump = CapturePump(
@@ -240,7 +259,9 @@ class UsbCamera(Camera):
             CameraError: if none comes.
         """
         if self._pump is None:
-            raise CameraError(f"camera usb:{self.place} is not open; call open() first")
+            raise CameraError(
+                sentence("camera usb:{place} is not open; call open() first", place=self.place)
+            )
         return self._pump.read()
 
     def close(self) -> None:

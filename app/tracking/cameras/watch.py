@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from app.core.clock import Clock
+from app.core.messages import sentence
 from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.cameras.intake import Intake, IntakeVerdict, StreamFigures, plain
 from app.tracking.errors import CameraError
@@ -57,18 +58,25 @@ class CameraHealth:
         if self.message:
             return self.message
         if self.plain:
-            return f"the picture is {self.plain}; look at the lens cap, the light, the exposure"
+            return sentence(
+                "the picture is {plain}; look at the lens cap, the light, the exposure",
+                plain=self.plain,
+            )
         if self.state is CameraState.FROZEN:
-            return "the picture does not change any more; plug the camera in again"
+            return sentence("the picture does not change any more; plug the camera in again")
         refused = (
             f" ({self.figures.text})" if self.figures.backwards + self.figures.impossible else ""
         )
         if self.simulated:
-            return (
-                f"no picture for {self.age:.1f} s{refused}: this computer is too busy to draw "
-                "them; close other programs"
+            return sentence(
+                "no picture for {age:.1f} s{refused}: this computer is too busy to draw "
+                "them; close other programs",
+                age=self.age,
+                refused=refused,
             )
-        return f"no picture for {self.age:.1f} s{refused}; check its cable"
+        return sentence(
+            "no picture for {age:.1f} s{refused}; check its cable", age=self.age, refused=refused
+        )
 
     @property
     def named(self) -> str:
@@ -196,7 +204,12 @@ class CameraReader:
             self._received = self._changed = now
             self._publish(frame)
         elif now - self._received > STALL:
-            raise CameraError(f"its capture times cannot be used: {self._intake.figures().text}")
+            raise CameraError(
+                sentence(
+                    "its capture times cannot be used: {intake_figures_text}",
+                    intake_figures_text=self._intake.figures().text,
+                )
+            )
         self._failures, self._error = 0, ""
 
     def _publish(self, frame: CameraFrame) -> None:

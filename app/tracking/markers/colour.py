@@ -15,6 +15,7 @@ from pydantic import Field
 
 from app.core.arrays import FloatArray, read_only, unit
 from app.core.configuration import Strict
+from app.core.messages import sentence
 from app.tracking.cameras.camera import Image
 from app.tracking.errors import TrackingError
 
@@ -49,8 +50,11 @@ class ColourModel(Strict):
         free = colour - colour.mean()
         if not free.max() > 0.05 * max(colour.max(), 1.0):
             raise TrackingError(
-                f"the marker's colour {self.bgr} (blue, green, red) is grey; a marker needs a "
-                "colour that nothing else has: click on its middle, not on the shaft"
+                sentence(
+                    "the marker's colour {bgr} (blue, green, red) is grey; a marker needs a "
+                    "colour that nothing else has: click on its middle, not on the shaft",
+                    bgr=self.bgr,
+                )
             )
         return read_only(free / free.max())
 
@@ -97,10 +101,20 @@ def learn(image: Image, uv: FloatArray) -> ColourModel:
     height, width = image.shape[:2]
     u, v = np.rint(np.asarray(uv, dtype=np.float64)).astype(int)
     if not (_CLICK <= u < width - _CLICK and _CLICK <= v < height - _CLICK):
-        raise TrackingError(f"the click at ({u}, {v}) is outside the picture of {width}x{height}")
+        raise TrackingError(
+            sentence(
+                "the click at ({u}, {v}) is outside the picture of {width}x{height}",
+                u=u,
+                v=v,
+                width=width,
+                height=height,
+            )
+        )
     spot = image[v - _CLICK : v + _CLICK + 1, u - _CLICK : u + _CLICK + 1].reshape(-1, 3)
     if (spot >= 254).any(axis=1).mean() > 0.25:
-        raise TrackingError("the marker is overexposed where you clicked; lower exposure or light")
+        raise TrackingError(
+            sentence("the marker is overexposed where you clicked; lower exposure or light")
+        )
     window = image[max(0, v - _WINDOW) : v + _WINDOW + 1, max(0, u - _WINDOW) : u + _WINDOW + 1]
     colours = window.reshape(-1, 3).astype(np.float64)
     clicked = ColourModel(bgr=_triple(np.median(spot, axis=0)))
@@ -108,8 +122,14 @@ def learn(image: Image, uv: FloatArray) -> ColourModel:
     strongest = float(np.median(spot.astype(np.float64) @ clicked.weights))
     if strongest < _LEAST_STRENGTH:
         raise TrackingError(
-            f"the colour at ({u}, {v}) is nearly grey (strength {strongest:.0f}, at least "
-            f"{_LEAST_STRENGTH:.0f} is needed): click on the middle of the marker"
+            sentence(
+                "the colour at ({u}, {v}) is nearly grey (strength {strongest:.0f}, at least "
+                "{least_strength:.0f} is needed): click on the middle of the marker",
+                u=u,
+                v=v,
+                strongest=strongest,
+                least_strength=_LEAST_STRENGTH,
+            )
         )
     angles = _angles(colours, np.array(clicked.bgr))
     strong = strength > 0.5 * strongest

@@ -13,6 +13,7 @@ from pydantic import Field, model_validator
 
 from app.core.arrays import FloatArray, frozen
 from app.core.configuration import Strict
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.tracking.optics.camera_model import CameraModel
@@ -80,12 +81,29 @@ class CameraCalibration(Strict):
         require_coefficients(self.lens, self.distortion)
         if np.shape(self.covariance) != (len(names), len(names)):
             raise ValueError(
-                f"covariance needs {len(names)} rows of {len(names)} numbers, in the order {names}"
+                sentence(
+                    "covariance needs {names_count} rows of {names_count} numbers, in the order "
+                    "{names}",
+                    names_count=len(names),
+                    names=names,
+                )
             )
         if self.ray_sd_px is not None and np.shape(self.ray_sd_px) != RAY_GRID:
-            raise ValueError(f"ray_sd_px needs {RAY_GRID[0]} rows of {RAY_GRID[1]} numbers")
+            raise ValueError(
+                sentence(
+                    "ray_sd_px needs {ray_grid_first} rows of {ray_grid_second} numbers",
+                    ray_grid_first=RAY_GRID[0],
+                    ray_grid_second=RAY_GRID[1],
+                )
+            )
         if unknown := set(self.estimated) - set(names):
-            raise ValueError(f"estimated names {sorted(unknown)}; there are {names}")
+            raise ValueError(
+                sentence(
+                    "estimated names {unknown}; there are {names}",
+                    unknown=sorted(unknown),
+                    names=names,
+                )
+            )
         return self
 
     @property
@@ -120,7 +138,12 @@ def require_coefficients(lens: LensModel, given: tuple[float, ...]) -> None:
     names = lens.coefficients
     if len(given) != len(names):
         raise ValueError(
-            f"distortion: {len(given)} numbers; lens {lens.value} has {len(names)}: "
+            sentence(
+                "distortion: {given_count} numbers; lens {lens} has {names_count}: ",
+                given_count=len(given),
+                lens=lens.value,
+                names_count=len(names),
+            )
             + ", ".join(names)
         )
 
@@ -248,14 +271,28 @@ class StereoCalibration(Strict):
     @model_validator(mode="after")
     def _known(self) -> Self:
         if self.format != FORMAT or self.version != 1:
-            raise ValueError(f"format {self.format} {self.version} is not {FORMAT} 1")
+            raise ValueError(
+                sentence(
+                    "format {format} {version} is not {format_2} 1",
+                    format=self.format,
+                    version=self.version,
+                    format_2=FORMAT,
+                )
+            )
         size = self._sizes[-1]
         if self.joint_covariance is not None and np.shape(self.joint_covariance) != (size, size):
             raise ValueError(
-                f"joint_covariance needs {size} rows of {size} numbers: left, right, pose"
+                sentence(
+                    "joint_covariance needs {size} rows of {size} numbers: left, right, pose",
+                    size=size,
+                )
             )
         if self.world_by_cameras is not None and np.shape(self.world_by_cameras) != (6, size):
-            raise ValueError(f"world_by_cameras needs 6 rows of {size} numbers: left, right, pose")
+            raise ValueError(
+                sentence(
+                    "world_by_cameras needs 6 rows of {size} numbers: left, right, pose", size=size
+                )
+            )
         return self
 
     @property

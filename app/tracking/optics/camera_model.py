@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray, frozen
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.tracking.errors import RigError
 from app.tracking.optics.distortion import (
@@ -57,15 +58,25 @@ class CameraModel:
         object.__setattr__(self, "distortion", frozen(self.distortion, (count,), "distortion"))
         if np.abs(self.distortion).max() > WILDEST:
             raise RigError(
-                f"camera {self.name}: distortion {self.distortion.tolist()}: no lens has a "
-                f"coefficient beyond {WILDEST:g}; calibrate the camera again"
+                sentence(
+                    "camera {name}: distortion {distortion}: no lens has a "
+                    "coefficient beyond {wildest:g}; calibrate the camera again",
+                    name=self.name,
+                    distortion=self.distortion.tolist(),
+                    wildest=WILDEST,
+                )
             )
         object.__setattr__(self, "fold", fold_radius(self.distortion))
         object.__setattr__(self, "T_camera_world", self.T_world_camera.inverse())
         if self.intrinsics[:2].min() <= 0.0 or min(self.image_size) < 16:
             raise RigError(
-                f"camera {self.name}: focal lengths {self.intrinsics[:2].tolist()} px and image "
-                f"size {self.image_size} must be positive, the size at least 16 px"
+                sentence(
+                    "camera {name}: focal lengths {intrinsics} px and image "
+                    "size {image_size} must be positive, the size at least 16 px",
+                    name=self.name,
+                    intrinsics=self.intrinsics[:2].tolist(),
+                    image_size=self.image_size,
+                )
             )
 
     @property

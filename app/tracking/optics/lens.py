@@ -3,6 +3,7 @@
 from enum import StrEnum
 from typing import Final
 
+from app.core.messages import sentence
 from app.tracking.optics import distortion
 
 LINEAR: Final = ("fx", "fy", "cx", "cy")
@@ -58,6 +59,12 @@ def lens_of(count: int) -> LensModel:
         if len(names) == count:
             return lens
     raise ValueError(
-        f"{count} coefficients: {distortion.BROWN}, {distortion.RATIONAL} (rational with thin "
-        f"prism) or {distortion.FISHEYE} (fisheye) are possible"
+        sentence(
+            "{count} coefficients: {distortion_brown}, {distortion_rational} (rational with thin "
+            "prism) or {distortion_fisheye} (fisheye) are possible",
+            count=count,
+            distortion_brown=distortion.BROWN,
+            distortion_rational=distortion.RATIONAL,
+            distortion_fisheye=distortion.FISHEYE,
+        )
     )

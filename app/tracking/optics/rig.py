@@ -20,6 +20,7 @@ from pydantic import Field, model_validator
 from app.core import paths
 from app.core.arrays import FloatArray, unit
 from app.core.configuration import Strict, load
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
 from app.tracking.errors import RigError
@@ -82,8 +83,13 @@ class CameraProfile(Strict):
         line = np.array(self.looks_at_mm) * MILLIMETRE - position
         if np.hypot(line[0], line[1]) < 1e-6:
             raise RigError(
-                f"camera {self.name}: looks_at_mm {self.looks_at_mm} lies straight above, below or "
-                f"at position_mm {self.position_mm}; move it sideways: the roll needs that"
+                sentence(
+                    "camera {name}: looks_at_mm {looks_at_mm} lies straight above, below or "
+                    "at position_mm {position_mm}; move it sideways: the roll needs that",
+                    name=self.name,
+                    looks_at_mm=self.looks_at_mm,
+                    position_mm=self.position_mm,
+                )
             )
         z = unit(line)
         down = unit(np.array([0.0, 0.0, -1.0]) + z[2] * z)
@@ -123,15 +129,24 @@ class NeedleProfile(Strict):
     def _ordered(self) -> Self:
         if self.hidden_mm is not None and not self.hidden_mm[0] < self.hidden_mm[1]:
             raise ValueError(
-                f"hidden_mm {list(self.hidden_mm)} must name the smaller depth first, or be left "
-                "out where nothing hides the band"
+                sentence(
+                    "hidden_mm {hidden_mm} must name the smaller depth first, or be left "
+                    "out where nothing hides the band",
+                    hidden_mm=list(self.hidden_mm),
+                )
             )
         second = self.second_marker_offset_mm
         least = self.marker_offset_mm + 1.5 * self.marker_length_mm
         if second is not None and not least <= second < self.length_mm:
             raise ValueError(
-                f"second_marker_offset_mm {second} must lie between {least} (half a band's length "
-                f"of bare shaft behind the first) and the needle's length of {self.length_mm}"
+                sentence(
+                    "second_marker_offset_mm {second} must lie between {least} (half a band's "
+                    "length of bare shaft behind the first) and the needle's length of "
+                    "{length_mm}",
+                    second=second,
+                    least=least,
+                    length_mm=self.length_mm,
+                )
             )
         return self
 
@@ -261,15 +276,24 @@ class RigProfile(Strict):
         """
         if calibration.world is None:
             raise RigError(
-                f"calibration {calibration.id} has no world frame; lay the board at its known "
-                "place and run `acus calibrate world`"
+                sentence(
+                    "calibration {calibration_id} has no world frame; lay the board at its known "
+                    "place and run `acus calibrate world`",
+                    calibration_id=calibration.id,
+                )
             )
         names = tuple(camera.name for camera in calibration.cameras)
         wanted = tuple(camera.name for camera in self.cameras)
         if names != wanted:
             raise RigError(
-                f"calibration {calibration.id} is of the cameras {', '.join(names)}; rig "
-                f"{self.name} has {', '.join(wanted)}"
+                sentence(
+                    "calibration {calibration_id} is of the cameras {names}; rig "
+                    "{name} has {wanted}",
+                    calibration_id=calibration.id,
+                    names=", ".join(names),
+                    name=self.name,
+                    wanted=", ".join(wanted),
+                )
             )
         # A copy would take the cached models along.
         return RigProfile.model_validate(self.model_dump() | {"calibration": calibration})
@@ -293,8 +317,12 @@ def load_rig(name_or_path: str | Path) -> RigProfile:
         if not path.is_file():
             names = ", ".join(shipped_rigs())
             raise RigError(
-                f"no camera rig is called {str(name_or_path)!r}; there are {names}, "
-                "or give the path of a .yaml file"
+                sentence(
+                    "no camera rig is called {name_or_path!r}; there are {names}, "
+                    "or give the path of a .yaml file",
+                    name_or_path=str(name_or_path),
+                    names=names,
+                )
             )
     profile = load(path, RigProfile)
     _ = profile.models  # builds the cameras: an impossible pose is refused here, not later
@@ -352,7 +380,7 @@ class ViewCone:
         if not lost.any():
             return None
         if lost.all():
-            return f"{name} sees nothing of it: the camera looks another way"
+            return sentence("{name} sees nothing of it: the camera looks another way", name=name)
         depths = np.unique(self.depth)
         gone = [d for d in depths if lost[self.depth == d].all()]
         part = [d for d in depths if d not in gone and lost[self.depth == d].any()]
@@ -360,8 +388,8 @@ class ViewCone:
         if gone:
             texts.append(f"everything at {_ranges(gone, depths)}")
         if part:
-            texts.append(f"part of it at {_ranges(part, depths)}")
-        return f"{name} loses {' and '.join(texts)} mm depth"
+            texts.append(sentence("part of it at {ranges}", ranges=_ranges(part, depths)))
+        return sentence("{name} loses {texts} mm depth", name=name, texts=" and ".join(texts))
 
 
 def view_cone(
@@ -383,8 +411,12 @@ def view_cone(
     """
     if reach.depth_max_mm < reach.depth_min_mm:
         raise RigError(
-            f"the range ends at {reach.depth_max_mm:g} mm, above its beginning at "
-            f"{reach.depth_min_mm:g} mm; swap depth_min_mm and depth_max_mm"
+            sentence(
+                "the range ends at {reach_depth_max_mm:g} mm, above its beginning at "
+                "{reach_depth_min_mm:g} mm; swap depth_min_mm and depth_max_mm",
+                reach_depth_max_mm=reach.depth_max_mm,
+                reach_depth_min_mm=reach.depth_min_mm,
+            )
         )
     depth, azimuth, axis = _samples(reach)
     half = 0.5 * needle.marker_length_mm * MILLIMETRE

@@ -7,7 +7,8 @@ import cv2
 import numpy as np
 
 from app.core.arrays import FloatArray, frozen
-from app.tracking.errors import PenError
+from app.core.messages import sentence
+from app.tracking.pen.errors import PenError
 
 CORNERS = np.array([(-0.5, 0.5), (0.5, 0.5), (0.5, -0.5), (-0.5, -0.5)])
 """Corners of a marker of side 1, x right and y up on the print, in the detector's order."""
@@ -65,10 +66,22 @@ class MarkerBoard:
         size = dictionary_size(self.dictionary)
         ids = [marker.id for marker in self.markers]
         if len(set(ids)) < len(ids) or not ids:
-            raise PenError(f"the {self.name} has the marker ids {ids}; each must stand once")
+            raise PenError(
+                sentence(
+                    "the {name} has the marker ids {ids}; each must stand once",
+                    name=self.name,
+                    ids=ids,
+                )
+            )
         if min(ids) < 0 or max(ids) >= size:
             raise PenError(
-                f"the {self.name} needs marker {max(ids)}; {self.dictionary} has 0 to {size - 1}"
+                sentence(
+                    "the {name} needs marker {ids_max}; {dictionary} has 0 to {size}",
+                    name=self.name,
+                    ids_max=max(ids),
+                    dictionary=self.dictionary,
+                    size=size - 1,
+                )
             )
 
     def find(self, number: int) -> Marker | None:
@@ -93,7 +106,9 @@ def aruco_dictionary(name: str) -> cv2.aruco.Dictionary:
     """
     number = getattr(cv2.aruco, name, None) if name.startswith("DICT_") else None
     if not isinstance(number, int):
-        raise PenError(f"no ArUco dictionary is called {name!r}; usual is DICT_4X4_50")
+        raise PenError(
+            sentence("no ArUco dictionary is called {name!r}; usual is DICT_4X4_50", name=name)
+        )
     return cv2.aruco.getPredefinedDictionary(number)
 
 
@@ -113,5 +128,5 @@ def all_ids(boards: Sequence[MarkerBoard]) -> set[int]:
     """
     ids = [marker.id for board in boards for marker in board.markers]
     if len(set(ids)) < len(ids):
-        raise PenError("an id stands on cube and sheet; give the sheet another first_id")
+        raise PenError(sentence("an id stands on cube and sheet; give the sheet another first_id"))
     return set(ids)

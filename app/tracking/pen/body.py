@@ -15,10 +15,11 @@ from pydantic import Field, model_validator
 from app.core import paths
 from app.core.arrays import FloatArray, frozen
 from app.core.configuration import Strict, load
+from app.core.messages import sentence, sentence_of
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
-from app.tracking.errors import PenError
 from app.tracking.pen.board import Marker, MarkerBoard, all_ids
+from app.tracking.pen.errors import PenError
 
 _QUIET_CELLS = 0.9
 """White that a marker needs round it, in cells of the marker (6 along its side)."""
@@ -55,11 +56,17 @@ class BodyProfile(Strict):
         needed = _QUIET_CELLS * self.marker_mm / 6.0
         if quiet < needed:
             raise ValueError(
-                f"marker_mm {self.marker_mm:g} leaves {quiet:.1f} mm of white on an edge of "
-                f"{self.edge_mm:g} mm; {needed:.1f} mm are needed"
+                sentence(
+                    "marker_mm {marker_mm:g} leaves {quiet:.1f} mm of white on an edge of "
+                    "{edge_mm:g} mm; {needed:.1f} mm are needed",
+                    marker_mm=self.marker_mm,
+                    quiet=quiet,
+                    edge_mm=self.edge_mm,
+                    needed=needed,
+                )
             )
         if self.top and self.sides != 4:
-            raise ValueError(f"top needs 4 sides, not {self.sides}")
+            raise ValueError(sentence("top needs 4 sides, not {sides}", sides=self.sides))
         return self
 
     @property
@@ -186,9 +193,9 @@ class PenProfile(Strict):
         try:
             all_ids((self.body.board(), self.base.board()))
         except PenError as error:
-            raise ValueError(str(error)) from error
+            raise ValueError(sentence_of(error)) from error
         if self.body.dictionary != self.base.dictionary:
-            raise ValueError("cube and sheet need one dictionary")
+            raise ValueError(sentence("cube and sheet need one dictionary"))
         return self
 
     def resized(self, edge_mm: float) -> "PenProfile":
@@ -220,7 +227,11 @@ def load_pen(name_or_path: str | Path) -> PenProfile:
         path = paths.resources() / "pens" / f"{name_or_path}.yaml"
         if not path.is_file():
             raise PenError(
-                f"no pen is called {str(name_or_path)!r}; there are {', '.join(shipped_pens())}, "
-                "or give the path of a .yaml file"
+                sentence(
+                    "no pen is called {name_or_path!r}; there are {shipped_pens}, "
+                    "or give the path of a .yaml file",
+                    name_or_path=str(name_or_path),
+                    shipped_pens=", ".join(shipped_pens()),
+                )
             )
     return load(path, PenProfile)

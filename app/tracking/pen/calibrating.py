@@ -13,11 +13,12 @@ from math import atan2, pi
 import numpy as np
 
 from app.core.arrays import FloatArray, read_only, unit
+from app.core.messages import sentence
 from app.core.rotation import skew
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
-from app.tracking.errors import PenError
 from app.tracking.pen.body import PenProfile, TipProfile
+from app.tracking.pen.errors import PenError
 from app.tracking.pen.pivot import FEWEST, MeasuredPose, TipCalibration, pivot
 from app.tracking.pen.pose import PoseStatus
 from app.tracking.pen.step import PenObservation
@@ -58,8 +59,11 @@ def axis_by_mount(tip: TipCalibration, mount_sd: float = 1.0e-3) -> AxisCalibrat
     length = float(np.linalg.norm(tip.p_tip))
     if length < 0.02:
         raise PenError(
-            f"the tip lies {length / MILLIMETRE:.0f} mm from the middle of the cube; 20 mm are "
-            "the least from which its direction can be told"
+            sentence(
+                "the tip lies {length_mm:.0f} mm from the middle of the cube; 20 mm are "
+                "the least from which its direction can be told",
+                length_mm=length / MILLIMETRE,
+            )
         )
     axis = tip.p_tip / length
     across = np.eye(3) - np.outer(axis, axis)
@@ -82,7 +86,12 @@ def axis_by_rolling(poses: Sequence[MeasuredPose], towards: FloatArray) -> AxisC
     """
     if len(poses) < FEWEST:
         raise PenError(
-            f"{len(poses)} poses are too few to find the shaft; roll on until there are {FEWEST}"
+            sentence(
+                "{poses_count} poses are too few to find the shaft; roll on until there are "
+                "{fewest}",
+                poses_count=len(poses),
+                fewest=FEWEST,
+            )
         )
     rotations = np.array([pose.T.rotation for pose in poses])
     left, values, right = np.linalg.svd(rotations.mean(axis=0))
@@ -91,14 +100,18 @@ def axis_by_rolling(poses: Sequence[MeasuredPose], towards: FloatArray) -> AxisC
         axis, fixed = -axis, -fixed
     if values[1] > 0.5 * (1.0 + np.sinc(LEAST_ROLL / (2.0 * np.pi))):
         raise PenError(
-            "the pen was rolled too little: roll it by a quarter turn or more about its own axis, "
-            "lying in a groove"
+            sentence(
+                "the pen was rolled too little: roll it by a quarter turn or more about its own "
+                "axis, lying in a groove"
+            )
         )
     covariance, misfit, freedom = _axis_covariance(poses, axis, fixed)
     if misfit > 25.0 * freedom:
         raise PenError(
-            "the shaft did not keep its direction while it was rolled: lay it into a groove, for "
-            "instance between two books, and roll it there"
+            sentence(
+                "the shaft did not keep its direction while it was rolled: lay it into a groove, "
+                "for instance between two books, and roll it there"
+            )
         )
     covariance = max(1.0, misfit / freedom) * covariance
     return AxisCalibration(read_only(axis), read_only(covariance), "rolling")
@@ -152,9 +165,12 @@ class HeldBack:
     @property
     def words(self) -> str:
         """Return what was found, for people."""
-        return (
-            f"on {self.poses} positions held back the tip was {self.rms / MILLIMETRE:.2f} mm from "
-            f"its dimple (at most {self.worst / MILLIMETRE:.1f} mm)"
+        return sentence(
+            "on {poses} positions held back the tip was {rms_mm:.2f} mm from "
+            "its dimple (at most {worst_mm:.1f} mm)",
+            poses=self.poses,
+            rms_mm=self.rms / MILLIMETRE,
+            worst_mm=self.worst / MILLIMETRE,
         )
 
 
@@ -203,12 +219,20 @@ class PenCalibration:
     def words(self) -> str:
         """Return what was found, for people."""
         x, y, z = (self.tip.p_tip / MILLIMETRE).tolist()
-        return (
-            f"tip at ({x:.1f}, {y:.1f}, {z:.1f}) mm from the middle of the cube, standard "
-            f"deviation {self.tip.sd_mm:.2f} mm; it stood still to {self.tip.rms / MILLIMETRE:.2f} "
-            f"mm in {self.tip.poses} poses ({self.tip.left_out} left out); axis to "
-            f"{self.axis.sd_deg:.2f}°" + (f"; {self.check.words}" if self.check else "")
-        )
+        return sentence(
+            "tip at ({x:.1f}, {y:.1f}, {z:.1f}) mm from the middle of the cube, standard "
+            "deviation {tip_sd_mm:.2f} mm; it stood still to {tip_rms_mm:.2f} "
+            "mm in {tip_poses} poses ({tip_left_out} left out); axis to "
+            "{axis_sd_deg:.2f}°",
+            x=x,
+            y=y,
+            z=z,
+            tip_sd_mm=self.tip.sd_mm,
+            tip_rms_mm=self.tip.rms / MILLIMETRE,
+            tip_poses=self.tip.poses,
+            tip_left_out=self.tip.left_out,
+            axis_sd_deg=self.axis.sd_deg,
+        ) + (f"; {self.check.words}" if self.check else "")
 
 
 class PoseCollector:

@@ -16,6 +16,7 @@ import cv2
 import numpy as np
 
 from app.core.arrays import FloatArray, read_only
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.tracking.confidence import chi_square_quantile
 from app.tracking.optics.camera_model import CameraModel
@@ -201,9 +202,11 @@ class BoardLocator:
         lead = (other.cost - best.cost) / factor if other is not None else float("inf")
         if other is not None and lead < DECISIVE:
             either = tuple(_found(problem, m, ids, apart, factor, lead) for m in (best, other))
-            reason = (
-                f"the {name} is seen too flat: two poses {np.degrees(apart):.0f}° apart look the "
-                "same; turn it so that two faces show, or move the webcam to the side"
+            reason = sentence(
+                "the {name} is seen too flat: two poses {apart_deg:.0f}° apart look the "
+                "same; turn it so that two faces show, or move the webcam to the side",
+                name=name,
+                apart_deg=np.degrees(apart),
             )
             return replace(BoardPose.none(PoseStatus.AMBIGUOUS, reason, ids, apart), either=either)
         return _found(problem, best, ids, apart, factor, lead)

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.core.arrays import FloatArray, frozen, read_only, unit
+from app.core.messages import sentence
 from app.core.rotation import skew
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
@@ -113,9 +114,10 @@ class PenNeedle:
     @property
     def words(self) -> str:
         """Return how well it is known, for people."""
-        return (
-            f"tip within ± {self.tip_radius() / MILLIMETRE:.1f} mm (95 %), axis within "
-            f"± {self.axis_cone() / DEGREE:.1f}°"
+        return sentence(
+            "tip within ± {tip_radius_mm:.1f} mm (95 %), axis within ± {axis_cone_deg:.1f}°",
+            tip_radius_mm=self.tip_radius() / MILLIMETRE,
+            axis_cone_deg=self.axis_cone() / DEGREE,
         )
 
 

@@ -10,10 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.tracking.calibration.board_layout import EDGE_MM, Paper
-from app.tracking.errors import PenError
 from app.tracking.pen.body import BaseProfile, BodyProfile
+from app.tracking.pen.errors import PenError
 
 TAB_MM: Final = 9.0
 """Depth of a glue tab."""
@@ -175,8 +176,14 @@ def _fit(paper: Paper, wide: float, high: float, name: str) -> tuple[float, floa
         if wide + 2.0 * EDGE_MM <= width and high + EDGE_MM + FOOT_MM <= height:
             return width, height, landscape
     raise PenError(
-        f"the {name} needs {wide + 2.0 * EDGE_MM:.0f} x {high + EDGE_MM + FOOT_MM:.0f} mm and does "
-        f"not fit on {paper.name}; take larger paper or smaller faces in the pen's profile"
+        sentence(
+            "the {name} needs {wide:.0f} x {high:.0f} mm and does "
+            "not fit on {paper_name}; take larger paper or smaller faces in the pen's profile",
+            name=name,
+            wide=wide + 2.0 * EDGE_MM,
+            high=high + EDGE_MM + FOOT_MM,
+            paper_name=paper.name,
+        )
     )
 
 

@@ -11,10 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.core.arrays import FloatArray, read_only
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
 from app.tracking.confidence import chi_square_quantile
-from app.tracking.errors import PenError
+from app.tracking.pen.errors import PenError
 from app.tracking.pen.pose import skews
 
 FEWEST = 20
@@ -73,7 +74,12 @@ def pivot(poses: Sequence[MeasuredPose]) -> TipCalibration:
     """
     if len(poses) < FEWEST:
         raise PenError(
-            f"{len(poses)} poses are too few to find the tip; rock the pen until there are {FEWEST}"
+            sentence(
+                "{poses_count} poses are too few to find the tip; rock the pen until there are "
+                "{fewest}",
+                poses_count=len(poses),
+                fewest=FEWEST,
+            )
         )
     rotations = np.array([pose.T.rotation for pose in poses])
     shifts = np.array([pose.T.translation for pose in poses])
@@ -139,28 +145,41 @@ def _require_motion(rotations: FloatArray) -> None:
     spread = np.sqrt(np.maximum(values, 0.0))  # about the sine of the angles swept, each direction
     if spread[1] < np.sin(LEAST_ROCKING) / 2.0:
         raise PenError(
-            "the pen was held still: rock it by 30° to every side with its tip in the dimple"
+            sentence(
+                "the pen was held still: rock it by 30° to every side with its tip in the dimple"
+            )
         )
     if spread[0] < np.sin(LEAST_ROCKING) / 2.0:
         named = np.abs(directions[:, 0])
         how = "only rolled about its own axis" if named[2] > 0.9 else "rocked in one plane only"
         raise PenError(
-            f"the pen was {how}: the tip's place along that axis stays open; rock it by 30° to "
-            "every side with its tip in the dimple"
+            sentence(
+                "the pen was {how}: the tip's place along that axis stays open; rock it by 30° "
+                "to every side with its tip in the dimple",
+                how=how,
+            )
         )
 
 
 def _require_agreement(keep: np.ndarray) -> None:
     if keep.mean() < 0.7:
         raise PenError(
-            f"{int((~keep).sum())} of {len(keep)} poses contradict the others: the tip slipped; "
-            "press it into the dimple and rock again"
+            sentence(
+                "{keep} of {keep_count} poses contradict the others: the tip slipped; "
+                "press it into the dimple and rock again",
+                keep=int((~keep).sum()),
+                keep_count=len(keep),
+            )
         )
 
 
 def _require_certainty(result: TipCalibration) -> None:
     if result.sd_mm * MILLIMETRE > LARGEST_SD:
         raise PenError(
-            f"the tip is known to {result.sd_mm:.1f} mm only (standard deviation), the limit is "
-            f"{LARGEST_SD / MILLIMETRE:.0f} mm: rock it further, nearer to the webcam"
+            sentence(
+                "the tip is known to {result_sd_mm:.1f} mm only (standard deviation), the limit "
+                "is {largest_sd_mm:.0f} mm: rock it further, nearer to the webcam",
+                result_sd_mm=result.sd_mm,
+                largest_sd_mm=LARGEST_SD / MILLIMETRE,
+            )
         )

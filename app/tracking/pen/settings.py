@@ -12,6 +12,7 @@ from pydantic import Field, field_validator
 from app.core import paths
 from app.core.configuration import Strict, load, read_yaml
 from app.core.files import write_atomically
+from app.core.messages import sentence, sentence_of
 from app.tracking.cameras.source import SourceKind, parse_source
 from app.tracking.errors import CameraError
 from app.tracking.optics.calibration import CameraCalibration, StereoCalibration
@@ -100,7 +101,7 @@ class PenSettings(Strict):
         try:
             return str(parse_source(text))
         except CameraError as error:
-            raise ValueError(str(error)) from error
+            raise ValueError(sentence_of(error)) from error
 
     @property
     def simulated(self) -> bool:
@@ -146,7 +147,14 @@ def load_webcam(path: Path, camera: str = "left") -> Webcam:
         found = next((one for one in pair if one.name == camera), None)
         if found is None:
             names = ", ".join(one.name for one in pair)
-            raise CameraError(f"{path} has no camera {camera!r}; there are {names}")
+            raise CameraError(
+                sentence(
+                    "{path} has no camera {camera!r}; there are {names}",
+                    path=path,
+                    camera=camera,
+                    names=names,
+                )
+            )
         return Webcam(found)
     return Webcam(load(path, CameraCalibration))
 

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.core.arrays import FloatArray, frozen
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.tracking.cameras.camera import CameraFrame
 from app.tracking.fix import FixStatus, NeedleFix
@@ -371,22 +372,25 @@ def _status(
 ) -> tuple[FixStatus, str]:
     """Return whether there is a needle, and if not, why, the most telling reason first."""
     if sightings.mirrored:
-        return FixStatus.INCONSISTENT, (
+        return FixStatus.INCONSISTENT, sentence(
             "the picture is mirrored: switch mirroring off in the webcam's own settings"
         )
     twice = sorted(own & set(sightings.doubles))
     if twice:
-        return FixStatus.INCONSISTENT, (
-            f"marker {twice[0]} is in view twice: two pens, or a mirror; take one away"
+        return FixStatus.INCONSISTENT, sentence(
+            "marker {twice_first} is in view twice: two pens, or a mirror; take one away",
+            twice_first=twice[0],
         )
     if body.status is PoseStatus.UNSEEN:
         covered = sorted(own & set(sightings.unmeasured))
-        why = "; it is cut off, covered or too small" if covered else ""
-        return FixStatus.OUT_OF_VIEW, f"the {name} is out of view{why}"
+        why = sentence("; it is cut off, covered or too small") if covered else ""
+        return FixStatus.OUT_OF_VIEW, sentence(
+            "the {name} is out of view{reason}", name=name, reason=why
+        )
     if body.status is not PoseStatus.FOUND:
         return FixStatus.INCONSISTENT, body.reason
     if base.status is PoseStatus.UNSEEN:
-        return FixStatus.NO_ORIENTATION, (
+        return FixStatus.NO_ORIENTATION, sentence(
             "the sheet is out of view, so the webcam's place is not known; show both"
         )
     if base.status is not PoseStatus.FOUND:

@@ -5,10 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
-from app.tracking.errors import PenError
 from app.tracking.optics.calibration import PARAMETERS, CameraCalibration
 from app.tracking.optics.camera_model import CameraModel
+from app.tracking.pen.errors import PenError
 
 GUESSED_FOCAL = 0.83
 """Focal length over the longer side of the picture: 62° wide, in the middle of usual webcams."""
@@ -59,19 +60,30 @@ class Webcam:
         if size != tuple(self.calibration.image_size):
             wide, high = self.calibration.image_size
             raise PenError(
-                f"the pictures are {size[0]}x{size[1]}, the calibration is of {wide}x{high}; set "
-                "the webcam to that size or calibrate it anew (`acus calibrate mono`)"
+                sentence(
+                    "the pictures are {size_first}x{size_second}, the calibration is of "
+                    "{wide}x{high}; set the webcam to that size or calibrate it anew (`acus "
+                    "calibrate mono`)",
+                    size_first=size[0],
+                    size_second=size[1],
+                    wide=wide,
+                    high=high,
+                )
             )
 
     @property
     def words(self) -> str:
         """Return where the lens is known from, for people."""
         if self.guessed:
-            return (
+            return sentence(
                 "THE LENS IS GUESSED from the size of the picture: calibrate it with `acus "
                 "calibrate mono`, the needle is several times less certain until then"
             )
-        return f"lens calibrated ({self.calibration.views} views, {self.calibration.rms_px:.2f} px)"
+        return sentence(
+            "lens calibrated ({calibration_views} views, {calibration_rms_px:.2f} px)",
+            calibration_views=self.calibration.views,
+            calibration_rms_px=self.calibration.rms_px,
+        )
 
 
 def guessed_webcam(size: tuple[int, int], name: str = "webcam") -> Webcam:

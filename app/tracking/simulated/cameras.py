@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from app.core.arrays import FloatArray
 from app.core.clock import Clock
 from app.core.compiled import njit
+from app.core.messages import sentence
 from app.core.units import MILLISECOND
 from app.tracking.cameras.camera import Camera, CameraFrame, Image
 from app.tracking.errors import CameraError
@@ -463,7 +464,12 @@ class SimulatedCamera(Camera):
     def read(self) -> CameraFrame:
         """Wait for the next picture on the clock."""
         if self._rng is None:
-            raise CameraError(f"camera {self._renderer.model.name} is not open; call open() first")
+            raise CameraError(
+                sentence(
+                    "camera {renderer_model_name} is not open; call open() first",
+                    renderer_model_name=self._renderer.model.name,
+                )
+            )
         number = max(self._last + 1, self._due())
         time = self.skew + number / self._rate
         self._clock.sleep(time + self.latency - self._clock.now())

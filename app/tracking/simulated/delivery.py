@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
+from app.core.messages import sentence
 from app.tracking.errors import TrackingError
 
 WHITE: Final = 65535
@@ -81,8 +82,11 @@ def develop(light: NDArray[Any], parameters: Tone, rng: np.random.Generator) -> 
     """
     if light.dtype != np.uint16:
         raise TrackingError(
-            f"a tone curve needs linear light (uint16), got a picture of {light.dtype}; build the "
-            "renderer with light=True"
+            sentence(
+                "a tone curve needs linear light (uint16), got a picture of {light_dtype}; build "
+                "the renderer with light=True",
+                light_dtype=light.dtype,
+            )
         )
     tile = parameters.tile(light.shape[:2], rng)
     row, column = rng.integers(0, _SPARE, 2)
@@ -140,5 +144,9 @@ def compress(
     ]
     coded, data = cv2.imencode(".jpg", image, options)
     if not coded:
-        raise TrackingError(f"OpenCV cannot code a picture of {image.shape} as JPEG")
+        raise TrackingError(
+            sentence(
+                "OpenCV cannot code a picture of {image_shape} as JPEG", image_shape=image.shape
+            )
+        )
     return np.asarray(cv2.imdecode(data, cv2.IMREAD_COLOR), dtype=np.uint8)

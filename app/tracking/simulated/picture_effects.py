@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.tracking.cameras.camera import Image
 from app.tracking.errors import TrackingError
 from app.tracking.simulated.delivery import Jpeg, Tone, compress, develop
@@ -224,7 +225,11 @@ def in_order(asked: Iterable[str]) -> list[str]:
     names = list(asked)
     if unknown := sorted(set(names) - set(_BY_NAME)):
         raise TrackingError(
-            f"no effect on pictures is called {unknown[0]!r}; there are {', '.join(_BY_NAME)}"
+            sentence(
+                "no effect on pictures is called {unknown_first!r}; there are {by_name}",
+                unknown_first=unknown[0],
+                by_name=", ".join(_BY_NAME),
+            )
         )
     return [n for n in names if n not in _LAST] + [n for n in _LAST if n in names]
 

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.rotation import skew
 from app.core.transform import RigidTransform
 from app.tracking.optics.camera_model import CameraModel
@@ -130,21 +131,30 @@ class OrderCheck:
     @property
     def text(self) -> str:
         """For people."""
-        figures = f"{self.as_set_px:.1f} px as set, {self.swapped_px:.1f} px exchanged"
+        figures = sentence(
+            "{as_set_px:.1f} px as set, {swapped_px:.1f} px exchanged",
+            as_set_px=self.as_set_px,
+            swapped_px=self.swapped_px,
+        )
         if self.order is Order.SWAPPED:
-            return f"the cameras are swapped ({figures}): exchange left and right in the settings"
-        if self.order is Order.AS_SET:
-            return f"left and right are as calibrated ({figures})"
-        if not self.pairs:
-            return "left and right could not be checked: both must see the marker"
-        if min(self.as_set_px, self.swapped_px) > _NOTICED:
-            return (
-                f"the pictures fit in neither order ({figures}): calibrate again, a camera was "
-                "moved or another one plugged in"
+            return sentence(
+                "the cameras are swapped ({figures}): exchange left and right in the settings",
+                figures=figures,
             )
-        return (
-            f"left and right could not be told apart ({figures}): move the needle sideways, and "
-            "deeper or further out"
+        if self.order is Order.AS_SET:
+            return sentence("left and right are as calibrated ({figures})", figures=figures)
+        if not self.pairs:
+            return sentence("left and right could not be checked: both must see the marker")
+        if min(self.as_set_px, self.swapped_px) > _NOTICED:
+            return sentence(
+                "the pictures fit in neither order ({figures}): calibrate again, a camera "
+                "was moved or another one plugged in",
+                figures=figures,
+            )
+        return sentence(
+            "left and right could not be told apart ({figures}): move the needle sideways, "
+            "and deeper or further out",
+            figures=figures,
         )
 
 

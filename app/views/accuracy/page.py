@@ -135,7 +135,13 @@ class AccuracyPage(QWidget):
         self.measure.clicked.connect(lambda: self.measure_wanted.emit(self.name))
         self.diagram = Diagram(self)
         self.ways = table(
-            (tr("Way"), tr("Largest error"), tr("Of what is noticed"), tr("Time"), tr("Verdict"))
+            (
+                tr("Way"),
+                tr("Largest error"),
+                tr("Share of what can be noticed"),
+                tr("Time"),
+                tr("Verdict"),
+            )
         )
         self.hard = HardCasesTab()
         self.tabs = QTabWidget(self)
@@ -228,7 +234,7 @@ class AccuracyPage(QWidget):
                 why=why,
                 when=when,
             )
-        words = tr("the cheapest way whose error nobody notices, in time")
+        words = tr("the cheapest method in time whose error goes unnoticed")
         return tr("In use: {name}, {words}. {when}", name=study.default, words=words, when=when)
 
     def _fill(self, outcome: Kept) -> None:

@@ -13,7 +13,7 @@ from app.session.snapshot import Snapshot
 from app.views.accuracy.budget import EffectCost, SceneCost, advice, in_words, lowering, too_much
 from app.views.kit import theme
 from app.views.kit.parts import button, label
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, translated
 from app.views.kit.verdict import Verdict, tell
 from app.views.kit.wheel import wheel_scrolls
 
@@ -252,7 +252,7 @@ class EffectsPanel(QWidget):
             self.rows.append(row)
             self._body.addWidget(row)
         for name, why in left.items():
-            self._body.addWidget(label(f"{name.replace('_', ' ')}: {why}", "dim"))
+            self._body.addWidget(label(f"{name.replace('_', ' ')}: {translated(why)}", "dim"))
 
     def go_back(self) -> None:
         """Show the models that the effects have."""

@@ -247,8 +247,8 @@ def _set(document: Document, where: Where, value: Any) -> None:
 def bone_words(depth_mm: float, length_mm: float) -> str:
     """Warn that the needle cannot reach the target."""
     return tr(
-        "Bone stands in the way at {depth:.0f} mm, before the target at {length:.0f} mm: no needle "
-        "reaches it. Choose another entry.",
+        "Bone is in the way at {depth:.0f} mm, before the target at {length:.0f} mm: no "
+        "needle reaches it. Choose another entry.",
         depth=depth_mm,
         length=length_mm,
     )

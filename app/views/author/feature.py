@@ -81,7 +81,7 @@ from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.parts import button, label
 from app.views.kit.side_panel import scrolled
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, translated
 from app.views.kit.verdict import Verdict
 from app.views.kit.wizard import Wizard
 from app.views.shell.feature import Context, Feature
@@ -230,7 +230,7 @@ class ExerciseDialog(Wizard):
         try:
             return "" if exercise is None else exercise_text(exercise, folders()[1])
         except AcusError as error:
-            return str(error)
+            return translated(error)
 
     def _lay_out_buttons(self) -> None:
         row = QHBoxLayout()
@@ -281,7 +281,7 @@ class SkillTrial(QObject):
         try:
             file.write_text(exercise_text(tried, folders()[1]), encoding="utf-8")
         except (OSError, AcusError) as error:
-            self.failed.emit(str(error))
+            self.failed.emit(translated(error))
             return
         self._start(file, TRIAL_SEEDS)
 
@@ -358,7 +358,7 @@ class AuthorFeature(Feature):
         self._actions = add_entries(
             self._shell.menu(tr("&File"), tr("Exercise")),
             [
-                (tr("Make an exercise from what is open…"), "Ctrl+Shift+E", self.make),
+                (tr("Make an exercise from the open patient…"), "Ctrl+Shift+E", self.make),
                 (tr("Change the present exercise…"), "", self.change),
                 None,
                 (tr("Import an exercise…"), "", self.ask_import),
@@ -458,7 +458,7 @@ class AuthorFeature(Feature):
             return
         exercise = self._conductor.exercise
         if exercise is None:
-            self.failed.emit(tr("No exercise is taken: choose one first."))
+            self.failed.emit(tr("No exercise is open: choose one first."))
             return
         if self.dialog is not None and not self.may_go():
             return
@@ -547,7 +547,7 @@ class AuthorFeature(Feature):
             marked, path = self.context.editors.structures.structures, plan_of(exercise)
             layers = layers_along(patient.volume, path, tuple(marked))
         except AcusError as error:
-            self._say(str(error), Verdict.BAD)
+            self._say(translated(error), Verdict.BAD)
             return
         found = [layer.model_dump(mode="json", exclude_defaults=True) for layer in layers]
         self.editor.put("layers", value=found)
@@ -591,12 +591,12 @@ class AuthorFeature(Feature):
         try:
             self._conductor.set_exercise(exercise)
         except AcusError as error:
-            self._say(str(error), Verdict.BAD)
+            self._say(translated(error), Verdict.BAD)
             return
         if self.editor.dirty:
-            self._say(tr("The exercise is taken as it stands; it is not kept by that."))
+            self._say(tr("The exercise is used as it is now; this does not save it."))
         else:
-            self._say(tr("The exercise is taken."))
+            self._say(tr("The exercise is now in use."))
         self._shell.show_panel(self._conductor.views.panel)
 
     def keep(self) -> bool:
@@ -609,7 +609,7 @@ class AuthorFeature(Feature):
         try:
             saved = self.editor.keep(exercise)
         except AcusError as error:
-            self._say(str(error), Verdict.BAD)
+            self._say(translated(error), Verdict.BAD)
             return False
         plan = self.context.editors.plan
         drawn = plan_document(plan.edit, own=is_own(self.editor.document))
@@ -632,7 +632,7 @@ class AuthorFeature(Feature):
         try:
             return finished(exercise, self._conductor.patient, structures)
         except AcusError as error:
-            self._say(str(error), Verdict.BAD)
+            self._say(translated(error), Verdict.BAD)
             return None
 
     # --- files ----------------------------------------------------------------------------------
@@ -649,7 +649,7 @@ class AuthorFeature(Feature):
         if not self._may():
             return
         if self._conductor.exercise is None:
-            self.failed.emit(tr("No exercise is taken: choose one first."))
+            self.failed.emit(tr("No exercise is open: choose one first."))
         else:
             self._export(self._conductor.exercise)
 

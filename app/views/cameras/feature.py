@@ -33,7 +33,7 @@ from app.views.kit import theme
 from app.views.kit.background import run_in_background
 from app.views.kit.parts import PlainLabel, size_dialog
 from app.views.kit.progress_strip import ProgressStrip
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, translated
 from app.views.shell.feature import Context, Feature
 
 if TYPE_CHECKING:
@@ -123,7 +123,7 @@ class AimDialog(QDialog):
     def _fail(self, error: Exception) -> None:
         colour, symbol = theme.VERDICTS["bad"]
         self.share.setStyleSheet(f"color: {colour};")
-        self.share.setText(f"{symbol} {error}")
+        self.share.setText(f"{symbol} {translated(error)}")
 
     def _lay_out(self) -> None:
         words = PlainLabel(
@@ -309,8 +309,8 @@ class CamerasMenu:
         menu.setToolTipsVisible(True)
         latency.menuAction().setToolTip(
             tr(
-                "How late a picture comes: a patch blinks, the camera looks at it, the delay is "
-                "kept"
+                "Measure how late a picture arrives: a patch blinks, the camera watches "
+                "it, the delay is saved"
             )
         )
         for action, help_ in (

@@ -28,7 +28,7 @@ from app.views.kit import theme
 from app.views.kit.background import run_in_background
 from app.views.kit.parts import PlainLabel, size_dialog
 from app.views.kit.progress_strip import ProgressStrip
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 
 if TYPE_CHECKING:
     from app.tracking.cameras.latency import CameraLatency
@@ -194,7 +194,9 @@ class LatencyDialog(QDialog):
 
             return estimate_latency(shown, times, liveliest(light))
 
-        run_in_background(self, operation, self._show, lambda error: self.say(str(error), "bad"))
+        run_in_background(
+            self, operation, self._show, lambda error: self.say(translated(error), "bad")
+        )
 
     def _show(self, latency: CameraLatency) -> None:
         self.latency = latency

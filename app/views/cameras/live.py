@@ -16,7 +16,7 @@ from app.core.progress import Progress
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, Indicator, run_in_background
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 from app.views.kit.themes import DARK
 
 if TYPE_CHECKING:
@@ -327,7 +327,7 @@ class LivePreview(QWidget):
 
     def _refuse(self, opening: _Opening, error: Exception) -> None:
         if opening is self._opening:
-            self.say(str(error), bad=True)
+            self.say(translated(error), bad=True)
             self.failed.emit(error)
 
     def _poll(self) -> None:

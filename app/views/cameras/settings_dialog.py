@@ -24,7 +24,7 @@ from app.views.cameras.live import LiveCamera, LivePreview
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel, add_row
 from app.views.kit.settings_dialog import SettingsDialog
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 
 if TYPE_CHECKING:
     from app.core.progress import Progress
@@ -158,7 +158,7 @@ class CameraSettingsDialog(SettingsDialog):
                     editor.preview.say(tr("simulated: nothing to set up"))
                     continue
             except AcusError as error:
-                editor.preview.say(str(error), bad=True)
+                editor.preview.say(translated(error), bad=True)
                 continue
             self._open(editor, settings, side)
         self.show_check()

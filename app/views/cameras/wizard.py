@@ -34,7 +34,7 @@ from app.views.cameras.wizard_result import ResultPage, WorldPage
 from app.views.cameras.wizard_save import SavePage
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel, button, column, label
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 from app.views.kit.verdict import Verdict, tell
 from app.views.kit.wizard import Wizard
 
@@ -58,7 +58,7 @@ class SheetView(QWidget):
         try:
             lay_out(board, PAPERS[paper])
         except AcusError as error:
-            return str(error)
+            return translated(error)
         self.fits = True
         return ""
 
@@ -126,7 +126,7 @@ class BoardPage(QWidget):
         try:
             write_board(path, self._job.board, PAPERS[self.paper.currentText()])
         except AcusError as error:
-            tell(self.state, Verdict.BAD, str(error))
+            tell(self.state, Verdict.BAD, translated(error))
             return
         words = tr("written to {file}: print it at 100 % and measure the line of 100 mm", file=path)
         tell(self.state, Verdict.GOOD, words)
@@ -147,7 +147,7 @@ class BoardPage(QWidget):
             self.valid = False
             self.sheet.show_board(None, "")
             self._spec.setText("")
-            tell(self.state, Verdict.BAD, str(error))
+            tell(self.state, Verdict.BAD, translated(error))
         else:
             self.valid = True
             self._job.set_board(board)

@@ -24,7 +24,7 @@ from app.views.cameras.wizard_words import pairs_words
 from app.views.kit import theme
 from app.views.kit.background import run_in_background
 from app.views.kit.parts import button, column, label, thin_bar
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 from app.views.kit.verdict import Verdict, tell
 
 if TYPE_CHECKING:
@@ -213,7 +213,7 @@ class CapturePage(QWidget):
         try:
             shots = FolderShots(folder)
         except AcusError as error:
-            tell(self.state, Verdict.BAD, str(error))
+            tell(self.state, Verdict.BAD, translated(error))
             return
         self._live = False
         self.bar.setRange(0, shots.count)
@@ -248,7 +248,7 @@ class CapturePage(QWidget):
             error = search.error
             self.end()
             if error is not None:
-                tell(self.state, Verdict.BAD, str(error))
+                tell(self.state, Verdict.BAD, translated(error))
 
     def refresh(self) -> None:
         """Enable what can be done now."""
@@ -287,7 +287,7 @@ class CapturePage(QWidget):
             return
         self._opening = False
         self.refresh()
-        tell(self.state, Verdict.BAD, str(error))
+        tell(self.state, Verdict.BAD, translated(error))
         self.changed.emit()
 
     def _begin(self, search: Search) -> None:

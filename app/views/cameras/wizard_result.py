@@ -41,7 +41,7 @@ from app.views.cameras.wizard_words import (
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.parts import PlainLabel, button, column, label, table, thin_bar
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 from app.views.kit.verdict import Verdict, tell
 
 
@@ -138,7 +138,7 @@ class WorldPage(QWidget):
         try:
             base = self._job.base_id()
         except CalibrationError as error:
-            tell(self.state, Verdict.WARNING, str(error))
+            tell(self.state, Verdict.WARNING, translated(error))
             return
         tell(self.state, Verdict.IDLE, tr("for calibration {id}", id=base))
 
@@ -172,7 +172,7 @@ class WorldPage(QWidget):
         self._end(Verdict.WARNING if world.remarks else Verdict.GOOD, words)
 
     def _failed(self, error: Exception) -> None:
-        self._end(Verdict.BAD, str(error))
+        self._end(Verdict.BAD, translated(error))
 
     def _cancelled(self) -> None:
         self._end(Verdict.WARNING, tr("cancelled"))
@@ -392,7 +392,7 @@ class ResultPage(QWidget):
         self.changed.emit()
 
     def _failed(self, error: Exception) -> None:
-        self._end(Verdict.BAD, str(error))
+        self._end(Verdict.BAD, translated(error))
 
     def _cancelled(self) -> None:
         self._end(Verdict.WARNING, tr("Cancelled; nothing was kept."))

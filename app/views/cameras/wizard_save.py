@@ -31,7 +31,7 @@ from app.tracking.optics.calibration import StereoCalibration
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.parts import add_row, button, column, label, table
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, translated
 from app.views.kit.verdict import Verdict, tell
 
 
@@ -104,7 +104,7 @@ class ImportDialog(QDialog):
     def _failed(self, error: Exception) -> None:
         self._task = None
         self.take.setEnabled(True)
-        tell(self.state, Verdict.BAD, str(error))
+        tell(self.state, Verdict.BAD, translated(error))
 
     def _ask_files(self) -> None:
         names, _ = QFileDialog.getOpenFileNames(
@@ -186,7 +186,7 @@ def details(history: CalibrationHistory, calibration_id: str) -> Details:
     try:
         calibration = history.load(calibration_id)
     except AcusError as error:
-        return "", "", str(error)
+        return "", "", translated(error)
     checked = calibration.validation
     figures = tr("{px:.2f} px", px=calibration.rms_px)
     if checked is not None:
@@ -322,7 +322,7 @@ class SavePage(QWidget):
     def _failed(self, error: Exception) -> None:
         self._task = None
         self.refresh()
-        tell(self.state, Verdict.BAD, str(error))
+        tell(self.state, Verdict.BAD, translated(error))
         self.changed.emit()
 
     def _read(self, entries: tuple[KeptCalibration, ...]) -> None:
@@ -343,14 +343,14 @@ class SavePage(QWidget):
             self._details |= result
             self._fill(entries)
 
-        run_in_background(self, read, show, lambda error: self._remark.setText(str(error)))
+        run_in_background(self, read, show, lambda error: self._remark.setText(translated(error)))
 
     def _show_history(self) -> None:
         try:
             entries = self._job.history.entries()
         except AcusError as error:
             self.table.setRowCount(0)
-            self._remark.setText(str(error))
+            self._remark.setText(translated(error))
             self._enable(())
             return
         self._remark.setText(str(self._job.history.folder))
@@ -389,8 +389,8 @@ class SavePage(QWidget):
         rows.addWidget(
             label(
                 tr(
-                    "Calibrations so far; none is ever deleted. One that is found bad is used no "
-                    "more, and attempts made with it are flagged."
+                    "Calibrations so far; none is ever deleted. One that proves bad is no "
+                    "longer used, and attempts made with it are flagged."
                 ),
                 "dim",
             )

@@ -18,7 +18,7 @@ from app.planning.registration.check import RegistrationAgreement
 from app.session.snapshot import Snapshot
 from app.views.exercise.run import ExerciseRun
 from app.views.kit.menu_entries import add_entries
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 from app.views.kit.verdict import StatusItem, Verdict
 from app.views.shell.feature import Context, Feature
 
@@ -61,7 +61,7 @@ def agreement_item(
         checked=checked,
     )
     if not known:
-        text = tr("{size}; the calibration's own uncertainty is not known", size=text)
+        text = tr("{size}; the calibration's own uncertainty is unknown", size=text)
         help_ += " " + tr(
             "The calibration was imported and does not say how sure it is: the radius leaves its "
             "error out. Calibrate with pictures of a board to know it."
@@ -182,7 +182,7 @@ class ChecksFeature(Feature):
         try:
             agreement = check.agreement(run.placed.p_target, covariance, used)
         except AcusError as error:
-            return (agreement_item(None, str(error)),)
+            return (agreement_item(None, translated(error)),)
         self._show_error(run, check)
         checked = tr(
             "Checked {when} with {plate}.",

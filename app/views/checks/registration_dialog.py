@@ -42,7 +42,7 @@ from app.views.checks.toucher import Toucher, move_there
 from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel, size_dialog
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 
 _STRETCHED = (1, 3)
 
@@ -161,7 +161,7 @@ class RegistrationResult(QWidget):
             self.say("")
         except AcusError as error:
             self.student.setText(words.NOT_CHECKED.capitalize())
-            self.say(str(error))
+            self.say(translated(error))
         if troubles := words.troubles(result):
             self.say("\n".join(troubles))
         lines = list(words.technician_lines(result))
@@ -275,7 +275,7 @@ class RegistrationDialog(QDialog):
         try:
             bead = find_bead(volume, self._around.cursor_mm(), self.plate.bead_diameter_mm)
         except AcusError as error:
-            self.outcome.say(str(error))
+            self.outcome.say(translated(error))
             return
         self._do(self.draft.with_pick(self.selected, bead.centre_mm))
 

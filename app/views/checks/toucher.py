@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from app.session.checks.facts import TouchFacts
 from app.session.touch import DURATION, Touch, TouchCollector, TouchError
 from app.views.exercise.run import ExerciseRun
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 
 PERIOD_MS = 15
 PATIENCE = 3.0
@@ -70,7 +70,7 @@ class Toucher(QObject):
         try:
             touch: Touch = self._collector.touch()
         except TouchError as error:
-            self.failed.emit(str(error))
+            self.failed.emit(translated(error))
         else:
             self.touched.emit(touch)
 

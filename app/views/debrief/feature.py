@@ -54,7 +54,7 @@ from app.views.kit.background import BackgroundTask, Indicator, run_in_backgroun
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.parts import message_box, size_dialog
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 from app.views.shell.feature import Context, Feature
 from app.views.structures.layer import draw_in
 
@@ -315,7 +315,7 @@ class DebriefController(QObject):
                 )
             )
         else:
-            self.failed.emit(str(error))
+            self.failed.emit(translated(error))
 
 
 def _for(manages: bool, held: str) -> tuple[str, str]:
@@ -470,7 +470,7 @@ class AttemptCt(QObject):
 
     def _fail(self, error: Exception) -> None:
         self._task = None
-        self._page.views.show_missing(str(error), offer=True)
+        self._page.views.show_missing(translated(error), offer=True)
 
     def _take_patient(self) -> None:
         if self._page.review is not None:
@@ -777,7 +777,7 @@ class DebriefFeature(Feature):
         try:
             ShownMotion.of(shown.motion, under.exercise, under.version).save()
         except (OSError, AcusError) as error:
-            self.failed.emit(str(error))
+            self.failed.emit(translated(error))
             return
         self.noted.emit(
             tr(
@@ -794,7 +794,7 @@ class DebriefFeature(Feature):
         try:
             show_expert(shown.conditions.exercise)
         except (OSError, AcusError) as error:
-            self.failed.emit(str(error))
+            self.failed.emit(translated(error))
             return
         self.noted.emit(tr("Show me shows the scripted expert in {title}.", title=shown.exercise))
 

@@ -119,7 +119,9 @@ class RemarkActions(QObject):
         self.dialog: SayingDialog | None = None
         self.button = QPushButton(tr("Instructor"), page)
         self.button.setAutoDefault(False)
-        self.button.setToolTip(tr("Comment, declare void, release results of what is chosen"))
+        self.button.setToolTip(
+            tr("Comment on the selected attempts, declare them void, release their results")
+        )
         menu = QMenu(self.button)
         menu.setToolTipsVisible(True)
         self.button.setMenu(menu)
@@ -129,7 +131,7 @@ class RemarkActions(QObject):
         self.void = self._add(
             tr("Declare void…"),
             "Ctrl+Shift+V",
-            tr("It stays in the list and counts nowhere; the student reads why"),
+            tr("It stays in the list but does not count; the student can read the reason"),
         )
         self.count = self._add(
             tr("Let it count again"), "", tr("Take back that it was declared void")
@@ -194,8 +196,9 @@ class RemarkActions(QObject):
         ids = self._ids()
         if ids:
             words = tr(
-                "It counts nowhere then: not on the board, in no curve, for no course. The record "
-                "stays, and this can be taken back. Why? The student reads the reason."
+                "It will not count: not on the board, in any curve or for any course. The "
+                "record stays, and this can be undone. Why? The student can read the "
+                "reason."
             )
             known = {self._of(name).void for name in ids}
             text = known.pop() if len(known) == 1 else ""
@@ -233,7 +236,7 @@ class RemarkActions(QObject):
 
     def _comment(self, ids: Sequence[str], text: str) -> None:
         self._write(ids, comment=text)
-        self.noted.emit(tr("Comment kept") if text else tr("Comment taken away"))
+        self.noted.emit(tr("Comment kept") if text else tr("Comment removed"))
 
     def _void(self, ids: Sequence[str], reason: str) -> None:
         if not reason:

@@ -246,7 +246,7 @@ class ReplayBar(QWidget):
         self.by.addItem(tr("at the same time"), Alignment.TIME.value)
         self.by.addItem(tr("at the same depth"), Alignment.DEPTH.value)
         self.ghost.setToolTip(
-            tr("What stands beside the needle: dotted in slices and curves, dashed in 3D")
+            tr("What is shown beside the needle: dotted in slices and curves, dashed in 3D")
         )
         self.by.setToolTip(tr("By what the two attempts are brought together"))
         self.ghost.setSizeAdjustPolicy(

@@ -105,11 +105,13 @@ def whose_words(conditions: Conditions | None) -> str:
         return ""
     if conditions.taken_over:
         return tr(
-            "◇ Begun by the arm (simulation), then taken over by {hand}: no student's attempt, it "
-            "counts for nobody",
+            "◇ Begun by the arm (simulation), then taken over by {hand}: not a student's "
+            "attempt, it is not scored for anyone",
             hand=hand_word(replace(conditions, hand=conditions.taken_over)),
         )
-    return tr("◇ Carried out by the arm (simulation), not by a student: it counts for nobody")
+    return tr(
+        "◇ Carried out by the arm (simulation), not by a student: it is not scored for anyone"
+    )
 
 
 def dial_text(dial: Assistance | None) -> str:
@@ -443,7 +445,7 @@ def verdict(review: Review) -> tuple[str, str, str]:
     score = review.score
     if review.said.void:
         why = tr("Declared void by the instructor: {why}", why=review.said.void)
-        return theme.WARNING, tr("▲ Void"), tr("{why} It counts nowhere.", why=_ended(why))
+        return theme.WARNING, tr("▲ Void"), tr("{why} It does not count.", why=_ended(why))
     if score is None:
         why = review.reason[:1].upper() + review.reason[1:]
         return theme.TEXT_DIM, "–", _ended(why) if why else tr("This attempt was not scored.")
@@ -472,8 +474,8 @@ def remedy(score: Score, conditions: Conditions | None = None) -> str:
         )
     if not score.unseen:
         return tr(
-            "It counts for nothing and spoils no average; mend what is named, if anything, and "
-            "try again."
+            "It does not count and does not affect any average; fix what is named, if "
+            "anything, and try again."
         )
     return tr(
         "It counts for nothing. Let both cameras see the marker (the tab Cameras says what each "

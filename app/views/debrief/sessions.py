@@ -50,7 +50,7 @@ from app.views.kit.access import ACCESS
 from app.views.kit.background import run_in_background
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, translated
 
 Index = QModelIndex | QPersistentModelIndex
 SORT_ROLE: Final = Qt.ItemDataRole.UserRole
@@ -121,7 +121,7 @@ class Listed:
             return [words for so, words in told if so]
         lines = said_words(said, held if manages else "")
         if summary.id in self.cut:
-            lines.append(tr("cut off: Recover closes it as it stands"))
+            lines.append(tr("cut off: Recover closes it as it is"))
         if summary.id in self.deleted:
             lines.insert(
                 0,
@@ -464,7 +464,7 @@ class SessionsPage(QWidget):
                 delete(self._folder, summary.id)
                 deleted.append(summary.id)
         except AcusError as error:
-            self.failed.emit(str(error))
+            self.failed.emit(translated(error))
         if deleted:
             self._deleted = deleted
             words = tr("{n} deleted: Ctrl+Z here, or Show deleted, brings back", n=len(deleted))
@@ -481,7 +481,7 @@ class SessionsPage(QWidget):
             for name in names:
                 restore(self._folder, name)
         except AcusError as error:
-            self.failed.emit(str(error))
+            self.failed.emit(translated(error))
         else:
             self.noted.emit(tr("{n} brought back", n=len(names)))
         self._deleted = [name for name in self._deleted if name not in names]
@@ -515,7 +515,7 @@ class SessionsPage(QWidget):
             for name in ids:
                 delete(self._folder, name)
         except AcusError as error:
-            self.failed.emit(str(error))
+            self.failed.emit(translated(error))
         self._deleted = list(ids)
         self.noted.emit(tr("{n} discarded: Show deleted brings them back", n=len(ids)))
         self.refresh()
@@ -529,7 +529,7 @@ class SessionsPage(QWidget):
                 restore(self._folder, self._deleted[-1])
                 self._deleted.pop()
         except AcusError as error:
-            self.failed.emit(str(error))
+            self.failed.emit(translated(error))
         self.said.emit()
         self.refresh()
 
@@ -575,7 +575,7 @@ class SessionsPage(QWidget):
         )
 
     def _fail(self, error: Exception) -> None:
-        self.failed.emit(str(error))
+        self.failed.emit(translated(error))
 
     def _prepare_table(self) -> None:
         table = self.table

@@ -332,7 +332,7 @@ class Conductor(QObject):
         if self.exercise is None:
             return tr("Choose an exercise first.")
         if not self.shown.live and view in TELLING:
-            return tr("Control scans guide here: nothing tells of the needle between them.")
+            return tr("Control scans guide here: nothing shows the needle between them.")
         if self._editor.locked:
             return tr("Views can be switched between attempts.")
         return why_locked(self.exercise, Lock.VIEWS)
@@ -450,8 +450,8 @@ class Conductor(QObject):
         if patient.folder.absolute() != ct.folder.absolute() or self.fits(patient):
             return ""
         return tr(
-            "The CT in {folder} is another one than the exercise was made on, or read in another "
-            "way: put the right one there, or make the exercise anew on this one.",
+            "The CT in {folder} is not the one the exercise was made on, or was read "
+            "differently: put the right one there, or make the exercise again on this one.",
             folder=NAMES.shown(str(ct.folder)),
         )
 

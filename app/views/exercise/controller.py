@@ -39,7 +39,7 @@ from app.views.exercise.status import MessageList, StatusStrip
 from app.views.exercise.status_items import MISSED_WINDOW
 from app.views.exercise.tracker_panel import TrackerPanel
 from app.views.kit.background import run_in_background
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 from app.views.kit.verdict import StatusItem
 
 STATUS_PERIOD: Final = 0.25
@@ -336,7 +336,7 @@ class ExerciseController(QObject):
         try:
             snapshot = run.trainer.snapshot()
         except AcusError as error:
-            self._tell_unreadable(str(error))
+            self._tell_unreadable(translated(error))
             return
         if self._unreadable:
             self._unreadable = ""
@@ -396,7 +396,7 @@ class ExerciseController(QObject):
             hand = self._led_as or by_hand
             session = run.trainer.begin(student, hand)
         except AcusError as error:
-            self._fail(str(error))
+            self._fail(translated(error))
             return
         if run.held_arming:
             self.set_held(self._views.panel.enable.is_held)
@@ -415,7 +415,7 @@ class ExerciseController(QObject):
             try:
                 self._run.trainer.hold_breath(held)
             except AcusError as error:
-                self._fail(str(error))
+                self._fail(translated(error))
 
     def roll(self, step: float) -> None:
         """Turn the needle about itself by `step` [rad], clockwise seen from the hub."""
@@ -429,7 +429,7 @@ class ExerciseController(QObject):
             try:
                 run.trainer.scan(None if run.shown.live else self._views.panel.scan.order)
             except AcusError as error:
-                self._fail(str(error))
+                self._fail(translated(error))
                 return
             self.worked.emit()
 
@@ -467,7 +467,7 @@ class ExerciseController(QObject):
             run.trainer.assistance(share)
         except AcusError as error:
             self._views.panel.set_assistance(run.trainer.snapshot().assistance)
-            self._fail(str(error))
+            self._fail(translated(error))
 
     def _finish(self, finish: Callable[[], AttemptResult | None]) -> None:
         if not self._ending:
@@ -480,7 +480,7 @@ class ExerciseController(QObject):
 
     def _end_failed(self, error: Exception) -> None:
         self._ending = False
-        self._fail(str(error))
+        self._fail(translated(error))
 
     def learn_colour(self, camera: str, pixel: FloatArray) -> None:
         """Take what a click into a camera's picture shows as the marker's colour."""
@@ -490,7 +490,7 @@ class ExerciseController(QObject):
         try:
             run.learn_colour(camera, pixel)
         except (AcusError, OSError) as error:
-            self._fail(str(error))
+            self._fail(translated(error))
             return
         self.worked.emit()
 

@@ -190,7 +190,7 @@ class EnergyGauge(QWidget):
         verdict, words = guard_words(figures)
         guard = f"{verdict.colour_and_symbol[1]} {words}"
         if figures is None or not figures.known:
-            return tr("stored –"), tr("left –"), guard, tr("taken out by the guard –")
+            return tr("stored –"), tr("left –"), guard, tr("removed by the guard –")
         return (
             tr("stored {energy}", energy=millijoules(figures.stored)),
             tr(
@@ -199,7 +199,7 @@ class EnergyGauge(QWidget):
                 bound=millijoules(figures.bound),
             ),
             guard,
-            tr("taken out {energy}", energy=millijoules(figures.loss)),
+            tr("removed {energy}", energy=millijoules(figures.loss)),
         )
 
     def paintEvent(self, event: QPaintEvent) -> None:

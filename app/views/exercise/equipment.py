@@ -34,6 +34,7 @@ class Equipment(QObject):
     Attributes:
         remembered: what the settings file says of the robot.
         dialog: which has the cameras now; None while a run may have them.
+        offers_pen: whether somebody hears `pen_wanted`.
         unreadable: why the sources that were chosen cannot be read; None where they can.
     """
 
@@ -47,6 +48,7 @@ class Equipment(QObject):
         self._settings, self._conductor = settings, conductor
         self.remembered = RobotSettings(settings)
         self.dialog: QDialog | None = None
+        self.offers_pen = False
         self.unreadable: AcusError | None = None
         self._taken: str | None = None
         self._taken_pen: str | None = None

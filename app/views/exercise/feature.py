@@ -77,7 +77,7 @@ class ExerciseFeature(Feature):
         number = self._asked
         student = ACCESS.recorded_as(self._panel.student.text().strip())
         folder = self.context.services.sessions()
-        controller.set_waiting(tr("Start waits: the attempts so far are looked up."))
+        controller.set_waiting(tr("Start has to wait: earlier attempts are being looked up."))
 
         def look_up(_: Progress) -> list[float | None]:
             from app.session.index import totals_of  # SQLAlchemy: behind the window

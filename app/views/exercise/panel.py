@@ -60,7 +60,8 @@ class AttemptActions(QWidget):
         self.scan = _button(tr("Control scan (S)"), _counts())
         self.end = _button(tr("End attempt (Enter)"), tr("The needle stays as it is and is scored"))
         self.abort = _button(
-            tr("Abort (hold Esc)"), tr("Force to zero at once; the attempt is kept but not scored")
+            tr("Abort (hold Esc)"),
+            tr("Set the force to zero at once; the attempt is saved but not scored"),
         )
         self._keys: list[tuple[QShortcut, QPushButton]] = []
         self._escape = HoldKey(Qt.Key.Key_Escape, self)

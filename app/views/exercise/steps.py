@@ -241,7 +241,7 @@ def breath_words(breath: BreathHold, words: str, commands: bool) -> str:
         return tr("Held, {s:.0f} s left: ").format(s=breath.left) + words
     if breath.spent:
         return (
-            tr("He breathes by himself (A releases, A asks anew): {step}", step=words)
+            tr("The patient breathes freely (A releases, A asks again): {step}", step=words)
             if commands
             else tr("He breathes by himself: {step}", step=words)
         )

@@ -215,9 +215,9 @@ class _Figures(QWidget):
             size = tr("{size} + calibration (not known)", size=size)
             self._values["radius"].setToolTip(
                 tr(
-                    "By the pictures alone: the calibration's own uncertainty is not known, as it "
-                    "was imported. The true radius is larger; calibrate with pictures of a board "
-                    "to know it"
+                    "From the pictures alone: the calibration was imported, so its own "
+                    "uncertainty is unknown. The true radius is larger; calibrate with "
+                    "pictures of a board to learn it"
                 )
             )
         else:

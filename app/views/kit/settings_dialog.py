@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QDialog, QDialogButtonBox, QWidget
 from app.core.errors import AcusError
 from app.views.kit import theme
 from app.views.kit.parts import label, size_dialog
+from app.views.kit.text import translated
 from app.views.kit.verdict import Verdict, tell
 
 
@@ -64,7 +65,7 @@ class SettingsDialog(QDialog):
         try:
             self.keep()
         except AcusError as error:
-            self.say(str(error), Verdict.BAD)
+            self.say(translated(error), Verdict.BAD)
             return False
         self.accept()
         return True
@@ -74,7 +75,7 @@ class SettingsDialog(QDialog):
         try:
             self.check()
         except AcusError as error:
-            self.say(str(error), Verdict.BAD)
+            self.say(translated(error), Verdict.BAD)
             return False
         self.say("")
         return True

@@ -32,7 +32,7 @@ from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel, add_row, size_dialog
 from app.views.kit.progress_strip import ProgressStrip
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 
 if TYPE_CHECKING:
     from app.imaging.pacs.query import FoundSeries, Query
@@ -86,7 +86,7 @@ class PacsPanel(QDialog):
         try:
             query = Query(self.patient.text(), self.name.text(), self.date.text().strip())
         except AcusError as error:
-            self.note.setText(str(error))
+            self.note.setText(translated(error))
             return
         self._stop()
         self.search.setEnabled(False)
@@ -118,7 +118,7 @@ class PacsPanel(QDialog):
         return tree
 
     def _lay_out(self) -> None:
-        self.patient.setPlaceholderText(tr("* and ? stand for what is not known"))
+        self.patient.setPlaceholderText(tr("* and ? stand for unknown characters"))
         self.name.setPlaceholderText(tr("FAMILY^GIVEN, with * and ?"))
         self.date.setPlaceholderText(tr("YYYYMMDD or YYYYMMDD-YYYYMMDD"))
         server = QHBoxLayout()
@@ -164,7 +164,7 @@ class PacsPanel(QDialog):
                 if chosen is not None and one.name == chosen.name:
                     self.servers.setCurrentIndex(self.servers.count() - 1)
         except AcusError as error:
-            self.note.setText(str(error))
+            self.note.setText(translated(error))
         else:
             if self.servers.count() == 0:
                 self.note.setText(tr("No PACS is configured yet: press Configure…"))
@@ -184,7 +184,9 @@ class PacsPanel(QDialog):
 
     def _fail(self, error: Exception) -> None:
         self._stopped()
-        self.note.setText(str(error) if isinstance(error, AcusError) else type(error).__name__)
+        self.note.setText(
+            translated(error) if isinstance(error, AcusError) else type(error).__name__
+        )
 
     def _want(self) -> None:
         series = self.selected()

@@ -32,7 +32,7 @@ from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.parts import PlainLabel, add_row
 from app.views.kit.progress_strip import ProgressStrip
 from app.views.kit.settings_dialog import SettingsDialog
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, translated
 from app.views.kit.verdict import Verdict
 
 if TYPE_CHECKING:
@@ -250,7 +250,7 @@ class PacsSettingsDialog(SettingsDialog):
         try:
             settings = _parsed(self.form.values())
         except AcusError as error:
-            self.say(str(error), Verdict.BAD)
+            self.say(translated(error), Verdict.BAD)
             return
         self._stop()
         self.say(tr("Asking {name}…", name=settings.name))
@@ -262,7 +262,7 @@ class PacsSettingsDialog(SettingsDialog):
                 tr("{name} answers in {time} ms", name=settings.name, time=f"{1e3 * seconds:.1f}"),
                 Verdict.GOOD,
             ),
-            lambda error: self.say(str(error), Verdict.BAD),
+            lambda error: self.say(translated(error), Verdict.BAD),
             lambda: self.say(tr("Cancelled")),
             title=tr("Asking {name}", name=settings.name),
             indicator=self.strip,
@@ -290,7 +290,7 @@ class PacsSettingsDialog(SettingsDialog):
         try:
             keep(tuple(_parsed(form) for form in self._forms))
         except OSError as error:
-            why = error.strerror or str(error)
+            why = error.strerror or translated(error)
             raise ConfigurationError(tr("It cannot be written: {why}", why=why)) from error
         self._as_read = list(self._forms)
         self.kept.emit()
@@ -324,7 +324,7 @@ class PacsSettingsDialog(SettingsDialog):
             found = [one.model_dump(exclude_none=True) for one in configured()]
         except AcusError as error:
             found = []
-            self.say(str(error) + "\n" + tr("Save replaces the file."), Verdict.BAD)
+            self.say(translated(error) + "\n" + tr("Save replaces the file."), Verdict.BAD)
         self._forms = [self.form.complete(one) for one in found]
         self._as_read = list(self._forms)
         self._show_list(0 if found else -1)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, cast
 
 from PySide6.QtCore import QStandardPaths, QTimer, Signal
 from PySide6.QtWidgets import (
@@ -32,7 +32,7 @@ from app.views.cameras.live import LivePreview
 from app.views.cameras.settings_dialog import QUIET_MS
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel, add_row, button, label, message_box, size_dialog
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 from app.views.kit.verdict import Verdict, tell
 from app.views.pen.net_page import write_pen
 from app.views.pen.status import PenStatus
@@ -187,7 +187,7 @@ class PenChoice(QWidget):
             pen = pen if chosen.edge_mm is None else pen.resized(chosen.edge_mm)
             write_pen(path, pen, PAPERS[self.paper.currentText()])
         except AcusError as error:
-            tell(self.note, Verdict.BAD, str(error))
+            tell(self.note, Verdict.BAD, translated(error))
             return
         tell(
             self.note,
@@ -338,7 +338,7 @@ class PenDialog(QDialog):
             self._pen = settings.profile()
         except AcusError as error:
             self.tip.set_pen(None, None)
-            self.status.show_status(Line(Verdict.BAD, str(error)), ())
+            self.status.show_status(Line(Verdict.BAD, translated(error)), ())
             self.use.setEnabled(False)
             return
         self.use.setEnabled(True)
@@ -348,7 +348,7 @@ class PenDialog(QDialog):
 
         def operation(progress: Progress) -> PenPort:
             free()
-            return services.open_pen(settings, progress)
+            return cast("PenPort", services.open_source("pen", settings, progress))
 
         self.preview.open(operation)
         self.poll()
@@ -431,7 +431,7 @@ class PenDialog(QDialog):
         self.back.setVisible(self._used)
         self.use.setText(tr("&Use this pen") if self._used else tr("&Use the pen as needle"))
         self.use.setDefault(True)
-        self.again.setToolTip(tr("Open the webcam anew, for instance once it is plugged in"))
+        self.again.setToolTip(tr("Open the webcam again, for instance after plugging it in"))
         seen = QVBoxLayout()
         seen.setSpacing(theme.SPACING)
         seen.addWidget(self.preview, 1)

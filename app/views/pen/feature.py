@@ -40,6 +40,7 @@ class PenFeature(Feature):
         self._last = self._equipment.pen
         self._equipment.changed.connect(self._note_change)
         self._equipment.pen_wanted.connect(self.open)
+        self._equipment.offers_pen = True
         self.menu = PenMenu(context.shell.menu(tr("&Pen")), self)
 
     def over(self) -> tuple[SignalInstance, ...]:

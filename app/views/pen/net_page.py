@@ -19,9 +19,9 @@ from PySide6.QtWidgets import QApplication
 from app import __version__
 from app.core.files import write_atomically
 from app.tracking.calibration.board_layout import RULER_MM, Paper
-from app.tracking.errors import PenError
 from app.tracking.pen.board import marker_cells
 from app.tracking.pen.body import PenProfile
+from app.tracking.pen.errors import PenError
 from app.tracking.pen.net_layout import Face, Page, base_page, body_page
 from app.views.kit.text import tr
 

@@ -17,7 +17,7 @@ from app.tracking.pen.settings import PenSettings, can_undo, save_pen, undo_pen
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.parts import button, label
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 from app.views.kit.verdict import Verdict, tell
 from app.views.pen.status import Lines
 from app.views.pen.words import Line, result_lines, tip_line
@@ -209,7 +209,7 @@ class TipStep(QWidget):
         try:
             save_pen(self.found.pen, self._settings.kept_name)
         except (AcusError, OSError) as error:
-            tell(self.state, Verdict.BAD, str(error))
+            tell(self.state, Verdict.BAD, translated(error))
             return
         self.found = None
         self.refresh()
@@ -223,7 +223,7 @@ class TipStep(QWidget):
         try:
             measured = undo_pen(self._settings.kept_name)
         except OSError as error:
-            tell(self.state, Verdict.BAD, str(error))
+            tell(self.state, Verdict.BAD, translated(error))
             return
         self.refresh()
         told = tr("the tip before is in use") if measured else tr("the drawing's tip is in use")
@@ -237,14 +237,14 @@ class TipStep(QWidget):
         self.begin.setVisible(not collecting)
         self.begin.setEnabled(ready)
         self.begin.setText(
-            tr("&Measure anew") if self.found is not None else tr("&Measure the tip")
+            tr("&Measure again") if self.found is not None else tr("&Measure the tip")
         )
         for one in (self.compute, self.stop):
             one.setVisible(collecting)
         self.save.setVisible(self.found is not None)
         self.save.setEnabled(not practice)
         self.save.setToolTip(
-            tr("A simulated pen's tip is not kept: it would be taken for the real one's")
+            tr("A simulated pen's tip is not saved: it would be mistaken for the real one's")
             if practice
             else tr("Keep this tip; it is used from now on")
         )
@@ -267,7 +267,7 @@ class TipStep(QWidget):
         try:
             line = tip_line(self._settings.profile())
         except AcusError as error:
-            line = Line(Verdict.BAD, str(error))
+            line = Line(Verdict.BAD, translated(error))
         tell(self.state, line.verdict, line.text)
 
     def _take(self, result: PenCalibration) -> None:
@@ -281,7 +281,7 @@ class TipStep(QWidget):
     def _refuse(self, error: Exception) -> None:
         self._task = None
         self.refresh()
-        tell(self.state, Verdict.BAD, str(error))
+        tell(self.state, Verdict.BAD, translated(error))
 
     def _release(self) -> None:
         """Collect no more; what was collected stays with whoever holds it."""

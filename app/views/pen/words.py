@@ -45,7 +45,7 @@ def accuracy_line(seen: PenObservation | None, trouble: str = "") -> Line:
     if seen is None:
         return Line(Verdict.IDLE, tr("waiting for the first picture …"))
     if seen.needle is None:
-        return Line(Verdict.BAD, tr("The needle is not known: {why}", why=seen.fix.reason))
+        return Line(Verdict.BAD, tr("The needle's position is unknown: {why}", why=seen.fix.reason))
     radius, cone = seen.needle.tip_radius(), seen.needle.axis_cone()
     verdict = Verdict.GOOD if radius <= WELL else Verdict.WARNING
     return Line(

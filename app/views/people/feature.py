@@ -178,8 +178,8 @@ class PeopleFeature(Feature):
             self._tell(
                 tr("Recovery key"),
                 tr(
-                    "Write this down and lock it away: it sets a new password, and opens the "
-                    "station's key in a backup. It is kept nowhere."
+                    "Write this down and lock it away: it sets a new password, and opens "
+                    "the station's key in a backup. It is not stored anywhere."
                 ),
                 recovery,
                 once=True,
@@ -309,7 +309,7 @@ class PeopleFeature(Feature):
             if not pin.strip():
                 self._tell(
                     tr("PIN"),
-                    tr("Hand this out; it is kept nowhere."),
+                    tr("Hand this out; it is not stored anywhere."),
                     f"{person.pseudonym}  {drawn}",
                     once=True,
                 )
@@ -344,7 +344,7 @@ class PeopleFeature(Feature):
     def _show_roster(self, report: RosterReport) -> None:
         self._changed()
         if report.errors:
-            words = tr("Nothing was taken. Mend these rows and take the roster again:")
+            words = tr("Nothing was imported. Correct these rows and import the roster again:")
             self._tell(tr("Roster"), words, "\n".join(report.errors))
             return
         added, updated = len(report.added), len(report.updated)
@@ -364,7 +364,7 @@ class PeopleFeature(Feature):
         if person is not None:
             pin = f"{secrets.randbelow(10**6):06d}"
             self._try(lambda: self._people.set_pin(person.pseudonym, pin))
-            words = tr("Hand this out; it is kept nowhere.")
+            words = tr("Hand this out; it is not stored anywhere.")
             self._tell(tr("PIN"), words, f"{person.pseudonym}  {pin}", once=True)
 
     def erase(self) -> None:
@@ -421,7 +421,9 @@ class PeopleFeature(Feature):
 
         def take(edited: Course) -> None:
             if course is None and any(one.id == edited.id for one in courses()[0]):
-                raise CourseError(tr("{id} is taken: choose another file name", id=edited.id))
+                raise CourseError(
+                    tr("{id} is already in use: choose another file name", id=edited.id)
+                )
             edited.save()
             self._changed()
 

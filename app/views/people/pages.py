@@ -52,7 +52,7 @@ from app.views.kit.field_words import problem_words
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel, add_row, button, label, table
 from app.views.kit.settings_dialog import SettingsDialog
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, translated
 from app.views.kit.verdict import Verdict, tell
 from app.views.kit.wheel import wheel_scrolls
 
@@ -222,7 +222,7 @@ class BoardTab(QWidget):
         self.hint.setText(
             tr("Nobody yet: add students, or a roster, on the next tab.")
             if not board.students
-            else tr("Nothing yet: attempts of students who signed in will stand here.")
+            else tr("Nothing yet: attempts of students who signed in will appear here.")
             if not board.items
             else tr(
                 "Only attempts that may be compared; none of a script or an emulated robot. "
@@ -593,7 +593,7 @@ class EntryDialog(SettingsDialog):
         try:
             self._take(*(line.text() for line in self.lines))
         except AcusError as error:
-            wrong = self._wrong(str(error))
+            wrong = self._wrong(translated(error))
             wrong.setFocus()
             wrong.selectAll()
             raise

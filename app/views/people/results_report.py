@@ -372,7 +372,7 @@ def _remarks(sheet: _Sheet, results: Results, person: Person, titles: Mapping[st
     if not said:
         return
     sheet.need(3.0 * _ROW)
-    sheet.text(MARGIN, tr("What the instructor said"), 10.5, bold=True)
+    sheet.text(MARGIN, tr("The instructor's remarks"), 10.5, bold=True)
     sheet.y += _ROW
     for one, remarks in said:
         sheet.need(2.5 * _ROW)

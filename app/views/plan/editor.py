@@ -21,7 +21,7 @@ from app.planning.history import UndoHistory
 from app.planning.placement import Placement
 from app.planning.plan import Plan
 from app.views.kit.names import NAMES
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 from app.views.shell.settings import Recents
 from app.views.slices.viewing import Tool
 
@@ -265,7 +265,7 @@ class PlanEditor(QObject):
             draft = self.edit.draft
             draft = draft.with_entry(place) if tool is Tool.ENTRY else draft.with_target(place)
         except AcusError as error:
-            self.refused.emit(str(error))
+            self.refused.emit(translated(error))
             return
         edit = replace(self.edit, draft=draft)
         if edit == self.edit:

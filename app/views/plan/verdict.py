@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from app.core.units import DEGREE, MILLIMETRE
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 from app.views.plan.editor import PlanEditor
 
 
@@ -36,7 +36,7 @@ def verdict_words(editor: PlanEditor) -> VerdictWords:
     )
     if reached.reachable:
         return VerdictWords("good", tr("The robot can follow this path."), measures)
-    reasons = "; ".join(str(reason) for reason in reached.reasons)
+    reasons = "; ".join(translated(reason.text) for reason in reached.reasons)
     text = tr("Out of reach: {reasons}.", reasons=reasons)
     if reached.remedy is None:
         return VerdictWords("bad", text, measures)

@@ -207,6 +207,11 @@ class RobotFeature(Feature):
         if self._equipment.choose(port) and not self._opening:
             self._conductor.take_again()  # one that failed before may be there now
 
+    @property
+    def offers_pen(self) -> bool:
+        """Return whether there is a pen that could be used in place of a robot."""
+        return self._equipment.offers_pen
+
     def ask_pen(self) -> None:
         """Ask for a pen that stands in for the robot."""
         self._equipment.pen_wanted.emit()
@@ -392,6 +397,8 @@ class RobotMenu:
             self.robots.addAction(tr("no other robot is plugged in")).setEnabled(False)
         self.robots.addSeparator()
         self._add(self.robots, tr("Other port…"), self._robot.ask_port)
+        if not self._robot.offers_pen:
+            return
         pen = self._add(self.robots, tr("No robot: pen and webcam…"), self._robot.ask_pen)
         pen.setCheckable(True)
         pen.setChecked(bool(self._robot.pen))

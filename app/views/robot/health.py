@@ -95,12 +95,12 @@ def link_item(status: int, real: bool) -> StatusItem:
         LinkStatus.SILENT: (
             Verdict.BAD,
             tr("no answer"),
-            tr("Check cable and power; the robot is looked for again by itself."),
+            tr("Check cable and power; the program keeps looking for the robot."),
         ),
         LinkStatus.CLOSED: (
             Verdict.BAD,
             tr("closed"),
-            tr("The port is gone: plug the cable in, or choose the robot anew."),
+            tr("The port is gone: plug the cable in, or choose the robot again."),
         ),
         LinkStatus.WRONG_VERSION: (
             Verdict.BAD,
@@ -249,7 +249,7 @@ def let_go_item(profile: DeviceProfile) -> StatusItem:
         text if stated else tr("{limit} (by default)", limit=text),
         tr("What the robot's forces may at most give a needle that is let go. ")
         + (
-            tr("It stands in the profile of the robot.")
+            tr("It is given in the robot's profile.")
             if stated
             else tr("The robot's profile states none (limits.let_go), so it is held to 0.25 m/s.")
         ),
@@ -285,7 +285,7 @@ def energy_items(snapshot: Snapshot) -> tuple[StatusItem, ...]:
     if figures is None or not figures.known:
         return (guard,)
     text = tr(
-        "{stored} stored, {tank} of {bound} left, {loss} taken out",
+        "{stored} stored, {tank} of {bound} left, {loss} removed",
         stored=millijoules(figures.stored),
         tank=millijoules(figures.tank),
         bound=millijoules(figures.bound),

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QWidget
 
 from app.core.errors import AcusError
 from app.device.commissioning.records import settle
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 from app.views.kit.verdict import Verdict
 from app.views.kit.wizard import Wizard
 from app.views.robot.wizard_pages import (
@@ -66,7 +66,7 @@ class Runner(QObject):
         try:
             self._routine = self._bench.routine(step)
         except AcusError as error:
-            self.failed.emit(str(error))
+            self.failed.emit(translated(error))
             return
         self._step, self._said = step, None
         self._timer.start()
@@ -79,7 +79,7 @@ class Runner(QObject):
         try:
             self._routine.answer(value)
         except AcusError as error:
-            self.failed.emit(str(error))
+            self.failed.emit(translated(error))
 
     def cancel(self) -> None:
         """End the routine with the forces off; idempotent."""
@@ -97,7 +97,7 @@ class Runner(QObject):
             report = routine.step(self._bench.clock.now())
         except AcusError as error:
             self.cancel()
-            self.failed.emit(str(error))
+            self.failed.emit(translated(error))
             return
         except BaseException:
             self.cancel()
@@ -116,7 +116,7 @@ class Runner(QObject):
         try:
             failure = settle(self._bench, self._step, report)
         except AcusError as error:
-            self.failed.emit(str(error))
+            self.failed.emit(translated(error))
             return
         if failure:
             self.failed.emit(failure)
@@ -191,7 +191,7 @@ class CommissioningWizard(Wizard):
         try:
             self._bench.undo(step)
         except AcusError as error:
-            page.set_idle(str(error))
+            page.set_idle(translated(error))
         else:
             page.set_idle()
         self.refresh()

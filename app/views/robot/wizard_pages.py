@@ -57,8 +57,8 @@ def step_words(step: RoutineName) -> StepWords:
         RoutineName.HOMING: StepWords(
             tr("Homing"),
             tr(
-                "The encoders only count. Bringing both links to a known pose tells the program "
-                "where they stand. Needed each time the robot was switched on."
+                "The encoders only count. Bringing both links to a known pose tells the "
+                "program where they are. Needed each time the robot is switched on."
             ),
             tr("The robot gives no force in this step."),
         ),
@@ -124,7 +124,7 @@ def state_of(bench: Bench, step: RoutineName) -> tuple[Verdict, str, str]:
         return needed, tr("not done yet"), ""
     when, found = entry.date[:16].replace("T", " "), entry.result.summary()
     if step in NEEDED and not bench.done(*_SAME.get(step, (step,))):
-        return Verdict.BAD, tr("{when}, before it was switched on anew", when=when), found
+        return Verdict.BAD, tr("{when}, before it was switched on again", when=when), found
     return Verdict.GOOD, when, found
 
 

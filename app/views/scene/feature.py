@@ -148,7 +148,7 @@ class SceneMenu:
                 ("S", tr("From the head"), tr("The front is on top.")),
                 ("I", tr("From the feet"), tr("The front is on top, as in axial slices.")),
                 ("N", tr("From the needle"), tr("Along the needle, or the path: what lies ahead.")),
-                ("W", tr("From the operator"), tr("From behind the robot, as one stands at it.")),
+                ("W", tr("From the operator"), tr("From behind the robot, as you stand at it.")),
                 ("Space", tr("Whole patient"), tr("Patient and robot, a little from the side.")),
                 ("Backspace", tr("Back"), tr("From where one looked before.")),
             ),

@@ -16,7 +16,7 @@ from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QWidget
 
 from app.core.loading import ONE_AT_A_TIME
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 from app.views.scene.orbit import Orbit
 
 if TYPE_CHECKING:
@@ -128,7 +128,7 @@ class SceneRenderer:
                 self._work(stage, *work)
         except Exception as error:  # the slices go on without the 3D view; the pane says why
             _log.warning("3D view stopped", exc_info=error)
-            self.error = str(error) or type(error).__name__
+            self.error = translated(error) or type(error).__name__
         finally:
             if stage is not None:
                 stage.close()

@@ -134,7 +134,7 @@ class SceneView(QWidget):
         self.commands = self._commands()
         self._button = QToolButton(self)
         self._button.setText("☰")
-        self._button.setToolTip(tr("From where one looks, and what is shown"))
+        self._button.setToolTip(tr("Viewpoint, and what is shown"))
         self._button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self._button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self._button.hide()

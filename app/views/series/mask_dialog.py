@@ -216,7 +216,7 @@ class MaskDialog(QDialog):
         self, pictures: Pictures, boxes: Boxes = (), note: str = "", parent: QWidget | None = None
     ) -> None:
         super().__init__(parent)
-        self.setWindowTitle(tr("Look at the pictures before they are taken in"))
+        self.setWindowTitle(tr("Look at the pictures before they are imported"))
         size_dialog(self, 1080, 760)
         self.pictures = pictures
         self._history: UndoHistory[Boxes] = UndoHistory(boxes)

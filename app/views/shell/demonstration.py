@@ -31,6 +31,7 @@ from app.views.debrief.feature import DebriefFeature
 from app.views.debrief.report import write_report
 from app.views.exercise.beginning import TRAINEE_DONE
 from app.views.exercise.feature import ExerciseFeature
+from app.views.kit.text import translated
 from app.views.shell.feature import Feature
 from app.views.shell.window import MainWindow
 from app.views.slices.canvas import SliceCanvas
@@ -376,7 +377,7 @@ class Demonstration(QObject):
             if not self._step() and used > PATIENCE_S:
                 self._stop(f"nothing has happened for {PATIENCE_S:g} s of this computer's time")
         except AcusError as error:
-            self._stop(str(error))
+            self._stop(translated(error))
 
     def _go_on(self) -> None:
         """Note that something has happened: the patience begins anew."""
@@ -388,11 +389,11 @@ class Demonstration(QObject):
         self.told.emit(text)
         return True
 
-    def _stop(self, reason: object) -> None:
+    def _stop(self, reason: str | BaseException) -> None:
         if self._timer.isActive():
             self._timer.stop()
             self._pictures.write(self._result)
-            self.failed.emit(str(reason))
+            self.failed.emit(translated(reason))
 
     def _take_result(self, result: AttemptResult) -> None:
         self._result, self._drawn = result, False

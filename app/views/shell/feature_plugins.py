@@ -12,6 +12,7 @@ from typing import Final
 from app.core import plugin_folders
 from app.core.errors import ConfigurationError
 from app.core.plugins import TEXT, Declaration, PluginKind
+from app.views.kit.text import translated
 from app.views.shell.feature import Feature
 
 
@@ -70,7 +71,7 @@ def with_plugins(features: tuple[type[Feature], ...]) -> tuple[type[Feature], ..
         except ConfigurationError as error:
             if KIND.is_own(declared.path):
                 raise
-            plugin_folders.refused[declared.path] = str(error)
+            plugin_folders.refused[declared.path] = translated(error)
     return tuple(order)
 
 

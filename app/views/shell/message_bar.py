@@ -23,7 +23,7 @@ from app.core.errors import AcusError
 from app.views.kit import theme
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel, message_box
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 
 GAP_PX = 12
 CLEAR_CHANGES = (
@@ -157,7 +157,7 @@ class MessageBar(QWidget):
         if isinstance(error, Exception):
             details = "".join(traceback.format_exception(error))
         known = isinstance(error, AcusError | str)
-        text = str(error) if known else tr("Something went wrong: {what}", what=repr(error))
+        text = translated(error) if known else tr("Something went wrong: {what}", what=repr(error))
         self._show(verdict, text, details)
 
     def show_note(self, text: str) -> None:

@@ -16,13 +16,11 @@ from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.tracking.cameras.settings import CameraSettings
-from app.views.cameras.live import AimPort, LiveCamera
+from app.views.cameras.live import AimPort, LiveCamera, ShownCamera
 from app.views.exercise.run import ExerciseRun
-from app.views.pen.port import PenPort
 
 if TYPE_CHECKING:
     from app.device.commissioning.bench import Bench
-    from app.tracking.pen.settings import PenSettings
 
 
 @dataclass(frozen=True, slots=True)
@@ -225,11 +223,17 @@ class Services(Protocol):
         """
         ...
 
-    def open_pen(self, settings: PenSettings, progress: Progress) -> PenPort:
-        """Open a pen and its webcam; called beside the window, may take seconds.
+    def open_source(self, name: str, settings: object, progress: Progress) -> ShownCamera:
+        """Open what the page of a needle source looks at; called beside the window, may take
+        seconds.
+
+        Args:
+            name: of the source (`compose.needle_sources`).
+            settings: as its page has them.
+            progress: told what is being done.
 
         Raises:
-            AcusError: if webcam, pen or lens cannot be used.
+            AcusError: if there is no such source, or it cannot be opened.
         """
         ...
 

@@ -27,12 +27,15 @@ _AROUND_PX = 40
 Group = tuple[str, list[tuple[str, str]]]
 
 
-def groups(scheme: Scheme, watching: Mapping[str, str] | None = None) -> list[Group]:
+def groups(
+    scheme: Scheme, watching: Mapping[str, str] | None = None, pen: bool = False
+) -> list[Group]:
     """Headings with what to press and what it does.
 
     Args:
         scheme: of mouse and keys in the slices.
         watching: keys of features by which an exercise is watched, and who shows it.
+        pen: whether a pen can stand in for the robot.
     """
     watched = watching or {}
     return [
@@ -50,7 +53,7 @@ def groups(scheme: Scheme, watching: Mapping[str, str] | None = None) -> list[Gr
                 ("Ctrl+Z, Ctrl+Y", tr("undo, redo")),
                 ("Ctrl+S, Ctrl+Shift+S", tr("save plan, save as")),
                 (measure_keys(scheme), tr("measure: distance, angle, HU, region")),
-                ("F4", tr("pen and webcam: a needle without a robot")),
+                *([("F4", tr("pen and webcam: a needle without a robot"))] if pen else []),
                 ("Ctrl+O, Ctrl+Shift+O", tr("open CT folder, open plan")),
             ],
         ),
@@ -69,7 +72,7 @@ def groups(scheme: Scheme, watching: Mapping[str, str] | None = None) -> list[Gr
         (
             tr("Attempt"),
             [
-                ("F5", tr("start the attempt; what is new is briefed first")),
+                ("F5", tr("start the attempt; anything new is explained first")),
                 (
                     ", ".join(("Shift+F5", "Ctrl+F5", *watched)),
                     "; ".join((tr("briefing; an expert shows it"), *watched.values())),
@@ -105,12 +108,13 @@ class ShortcutSheet(QDialog):
         scheme: Scheme,
         parent: QWidget | None = None,
         watching: Mapping[str, str] | None = None,
+        pen: bool = False,
     ) -> None:
         super().__init__(parent)
         self.setWindowTitle(tr("Keys and mouse"))
         columns = QHBoxLayout()
         columns.setSpacing(4 * theme.SPACING)
-        mouse, keys, plan, scene, attempt = groups(scheme, watching)
+        mouse, keys, plan, scene, attempt = groups(scheme, watching, pen)
         for part in ((mouse, plan, scene), (keys, attempt)):
             column = QVBoxLayout()
             for group in part:

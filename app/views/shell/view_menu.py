@@ -73,7 +73,7 @@ class ViewMenu:
         needle = menu.addMenu(tr("Needle's planes"))
         needle.aboutToShow.connect(lambda: self._fill_needle(needle))
         self._entry(tr("Straighten all planes"), "", lambda: straighten(viewing))
-        self.operator = self._operator_menu(menu.addMenu(tr("Operator stands")))
+        self.operator = self._operator_menu(menu.addMenu(tr("Operator's side")))
         menu.addSeparator()
         self.schemes = self._scheme_menu(menu.addMenu(tr("Mouse and keys")))
         self._screen_entries()

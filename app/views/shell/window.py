@@ -44,6 +44,7 @@ from app.views.reading.workspace import WorkspacePage
 from app.views.series.open_ct import OpenCt
 from app.views.shell.feature import Context, Feature
 from app.views.shell.features import FEATURES
+from app.views.shell.foreign_features import made
 from app.views.shell.help import ProblemReport, about, page_of, show_help
 from app.views.shell.message_bar import PAUSE, REFUSAL, ROBOT, START, MessageBar, Notices
 from app.views.shell.projector import Projector
@@ -227,7 +228,7 @@ class MainWindow(QMainWindow):
             shell,
         )
         self._begin_menus(shell)
-        self.features = tuple(feature(self.context) for feature in features)
+        self.features = made(features, self.context)
         self._end_menus(shell)
         self.notices = Notices(self, (self.progress, self.message_bar), self.workspace.next_step)
         self._connect()
@@ -279,7 +280,7 @@ class MainWindow(QMainWindow):
     def show_shortcuts(self) -> None:
         """Open the sheet of keys."""
         keys = {key: words for one in self.features for key, words in one.watching().items()}
-        sheet = ShortcutSheet(self.workspace.viewing.scheme, self, keys)
+        sheet = ShortcutSheet(self.workspace.viewing.scheme, self, keys, self.equipment.offers_pen)
         sheet.finished.connect(sheet.deleteLater)
         sheet.open()
 

@@ -245,7 +245,7 @@ def action_words() -> dict[Action, str]:
         Action.LEFT: tr("move the crosshair"),
         Action.PLACE: tr("with E or T before: place at the crosshair"),
         Action.MENU: tr("menu of the pane"),
-        Action.CANCEL: tr("stop what is going on"),
+        Action.CANCEL: tr("stop the current action"),
     }
 
 

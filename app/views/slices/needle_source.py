@@ -21,7 +21,7 @@ from app.planning.needle_planes import (
     probe,
     through,
 )
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 from app.views.slices.panes import NEEDLE_PANES, PaneId
 from app.views.slices.viewing import Tool, Viewing
 
@@ -90,7 +90,7 @@ class NeedlePlanes(QObject):
         try:
             frame = through(a_mm, b_mm, normal)
         except AcusError as error:
-            self.refused.emit(str(error))
+            self.refused.emit(translated(error))
             return
         self.along = self.laid_along = Along.POINTS
         self._lay(frame)

@@ -34,7 +34,7 @@ from app.core.units import MILLIMETRE
 from app.session.machine import State
 from app.session.snapshot import Snapshot
 from app.views.kit.background import run_in_background
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, translated
 from app.views.kit.verdict import StatusItem, Verdict
 from app.views.shell.feature import Context, Feature
 
@@ -340,7 +340,7 @@ class SoundsFeature(Feature):
             return ()
         cue = self._last[1]
         verdict = Verdict.WARNING if cue.kind in _WARNS else Verdict.GOOD
-        help_text = tr("What was told last, to be heard as well: View, Sounds.")
+        help_text = tr("The last announcement, which can also be heard: View, Sounds.")
         return (StatusItem(verdict, "♪", words(cue), help_text),)
 
     # --- inside -------------------------------------------------------------------------------
@@ -391,7 +391,7 @@ class SoundsFeature(Feature):
         self._opening, self._speaker = False, speaker
 
     def _fail(self, error: Exception) -> None:
-        self._opening, self._why = False, str(error)
+        self._opening, self._why = False, translated(error)
 
 
 class SoundsMenu:

@@ -26,7 +26,7 @@ from app.imaging.volume import Volume
 from app.planning.clearance import PathClearance
 from app.planning.draft import DraftPlan
 from app.views.kit.background import BackgroundTask, Indicator, run_in_background
-from app.views.kit.text import tr
+from app.views.kit.text import tr, translated
 from app.views.shell.feature import Context, Feature
 from app.views.structures.book import StructureBook
 from app.views.structures.brush import Brush, BrushGrip
@@ -273,8 +273,8 @@ class StructuresFeature(Feature):
     def _warn(self, clearance: PathClearance | None) -> None:
         self.panel.show_needle(clearance, "" if clearance is None else words(clearance))
 
-    def _refused(self, reason: object) -> None:
-        self.panel.set_note(str(reason))
+    def _refused(self, reason: str | BaseException) -> None:
+        self.panel.set_note(translated(reason))
         self.failed.emit(reason)
 
     # --- distances and surfaces, beside the window -----------------------------------------------

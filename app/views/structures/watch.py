@@ -98,8 +98,8 @@ class StructureWatch(QObject):
         if not len(self._book.structures) or not self._judges:
             return ()
         help_text = tr(
-            "Smallest distance of the needle from a structure that warns. Distances and kinds "
-            "stand in the Structures panel."
+            "Smallest distance between the needle and a structure that warns. The "
+            "Structures panel lists distances and kinds."
         )
         if self.needle is None:
             return (StatusItem(Verdict.GOOD, tr("Structures"), tr("clear"), help_text),)

@@ -13,6 +13,7 @@ import numpy as np
 from app.arm.mechanics import ArmProfile, PublishedArm
 from app.core.arrays import FloatArray
 from app.core.extras import not_installed
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.studies.errors import StudyError
 
@@ -123,7 +124,9 @@ def import_eaik() -> Any:
     try:
         from eaik.IK_DH import DhRobot
     except ImportError as error:
-        raise StudyError("EAIK is not installed: pip install EAIK, beside Acus") from error
+        raise StudyError(
+            sentence("EAIK is not installed: pip install EAIK, beside Acus")
+        ) from error
     return DhRobot
 
 

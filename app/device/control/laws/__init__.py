@@ -16,6 +16,7 @@ from types import ModuleType
 import numpy as np
 
 from app.core.compiled import is_stage
+from app.core.messages import sentence
 from app.core.parameters import Stage
 from app.device.control.law import KIND, Law
 from app.device.errors import LawError
@@ -79,9 +80,14 @@ def _stage(name: str, given: Mapping[str, float], profile: DeviceProfile) -> Sta
         array = np.ascontiguousarray(module.parameters(values, profile), dtype=np.float64)
     if array.ndim != 1 or array.size < _shortest(law):
         raise LawError(
-            f"{law.path}: parameters() gives an array of the shape {array.shape} for these values;"
-            f" give one of the shape (n,), and of {_shortest(law)} numbers at least, as it was"
-            " tried"
+            sentence(
+                "{law_path}: parameters() gives an array of the shape {array_shape} for these "
+                "values; give one of the shape (n,), and of {shortest} numbers at least, as it "
+                "was tried",
+                law_path=law.path,
+                array_shape=array.shape,
+                shortest=_shortest(law),
+            )
         )
     return Stage(name, module.step, array)
 
@@ -92,7 +98,13 @@ def _bound(name: str, given: Mapping[str, float], profile: DeviceProfile) -> flo
     with KIND.blamed(law.path, "energy_bound() does not work"):
         bound = float(module.energy_bound(values, profile))
     if not 0.0 <= bound < math.inf:
-        raise LawError(f"{law.path}: energy_bound is {bound} J; give a finite number of 0 or more")
+        raise LawError(
+            sentence(
+                "{law_path}: energy_bound is {bound} J; give a finite number of 0 or more",
+                law_path=law.path,
+                bound=bound,
+            )
+        )
     return bound
 
 
@@ -113,7 +125,12 @@ def check_step(module: ModuleType, law: Law) -> None:
         LawError: if it is not.
     """
     if not is_stage(module.step):
-        raise LawError(f"{law.path}: step is not compiled; put @stage of core.compiled before it")
+        raise LawError(
+            sentence(
+                "{law_path}: step is not compiled; put @stage of core.compiled before it",
+                law_path=law.path,
+            )
+        )
 
 
 def _shortest(law: Law) -> int:

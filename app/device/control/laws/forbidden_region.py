@@ -22,6 +22,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.messages import sentence
 from app.core.parameters import numbered, packed
 from app.device.control.law_kernels import (
     damper_share,
@@ -135,14 +136,20 @@ def _placed(values: Mapping[str, float], profile: DeviceProfile) -> tuple[FloatA
     distance = float(np.linalg.norm(start + share * axis))
     if distance < reach:
         raise LawError(
-            f"law 'forbidden_region': the region with its margin reaches {reach * 1e3:.1f} mm from"
-            f" its axis, and the entry lies {distance * 1e3:.1f} mm from it; move it or make it"
-            " smaller"
+            sentence(
+                "law 'forbidden_region': the region with its margin reaches {reach:.1f} mm from"
+                " its axis, and the entry lies {distance:.1f} mm from it; move it or make it"
+                " smaller",
+                reach=reach * 1e3,
+                distance=distance * 1e3,
+            )
         )
     if square > 0.0 and float(np.linalg.norm(np.cross(start, axis))) < reach * sqrt(square):
         raise LawError(
-            "law 'forbidden_region': the region's axis points at the entry, so that a needle along"
-            " it has no nearest point; turn the axis across the path or give a sphere"
+            sentence(
+                "law 'forbidden_region': the region's axis points at the entry, so that a needle "
+                "along it has no nearest point; turn the axis across the path or give a sphere"
+            )
         )
     return start, axis
 

@@ -10,6 +10,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.configuration import read_yaml, shown
 from app.core.errors import ConfigurationError
+from app.core.messages import sentence, sentence_of
 from app.core.transform import RigidTransform
 from app.tracking.errors import CalibrationError
 
@@ -38,10 +39,14 @@ class Fields:
         try:
             document = read_yaml(path)
         except ConfigurationError as error:
-            raise CalibrationError(str(error)) from error
+            raise CalibrationError(sentence_of(error)) from error
         if not isinstance(document, Mapping):
             raise CalibrationError(
-                f"{path}: a file of names and values is needed, got {shown(document)}"
+                sentence(
+                    "{path}: a file of names and values is needed, got {shown}",
+                    path=path,
+                    shown=shown(document),
+                )
             )
         self._document: Mapping[Any, Any] = document
 
@@ -67,24 +72,38 @@ class Fields:
         value = self._document[key]
         data: Any = value.get("data") if isinstance(value, Mapping) else value
         if not _is_number(data) or data < 0.0:
-            raise self.wrong(key, data, "a number of at least 0")
+            raise self.wrong(key, data, sentence("a number of at least 0"))
         return float(data)
 
     def matrix(self, key: str, rows: int, columns: int) -> FloatArray:
         """Return the matrix of a field with rows, cols and data (row by row)."""
         value = self._value(key)
         if not isinstance(value, Mapping) or "data" not in value:
-            raise self.wrong(key, value, f"rows: {rows}, cols: {columns} and data")
+            raise self.wrong(
+                key,
+                value,
+                sentence("rows: {rows}, cols: {columns} and data", rows=rows, columns=columns),
+            )
         shape = value.get("rows", rows), value.get("cols", columns)
         if shape != (rows, columns):
-            raise self.wrong(key, f"{shape[0]} x {shape[1]}", f"{rows} rows of {columns}")
+            raise self.wrong(
+                key,
+                sentence(
+                    "{shape_first} x {shape_second}", shape_first=shape[0], shape_second=shape[1]
+                ),
+                sentence("{rows} rows of {columns}", rows=rows, columns=columns),
+            )
         data = value["data"]
         if not isinstance(data, Sequence) or len(data) != rows * columns:
             count = len(data) if isinstance(data, Sequence) else 0
-            raise self.wrong(f"{key}.data", f"{count} values", f"{rows * columns} numbers")
+            raise self.wrong(
+                f"{key}.data",
+                sentence("{count} values", count=count),
+                sentence("{rows} numbers", rows=rows * columns),
+            )
         for number in data:
             if not _is_number(number):
-                raise self.wrong(f"{key}.data", number, "a finite number")
+                raise self.wrong(f"{key}.data", number, sentence("a finite number"))
         return np.array(data, dtype=np.float64).reshape(rows, columns)
 
     def row(self, key: str) -> list[float]:
@@ -95,18 +114,39 @@ class Fields:
 
     def wrong(self, key: str, value: object, wanted: str) -> CalibrationError:
         """Return the error that names file, field, value and what is valid."""
-        return CalibrationError(f"{self.path}: {key}: {wanted} is needed, got {shown(value)}")
+        return CalibrationError(
+            sentence(
+                "{path}: {key}: {wanted} is needed, got {shown}",
+                path=self.path,
+                key=key,
+                wanted=wanted,
+                shown=shown(value),
+            )
+        )
 
     def _value(self, key: str) -> Any:
         if key not in self._document:
             there = ", ".join(str(name) for name in self._document) or "nothing"
-            raise CalibrationError(f"{self.path}: {key} is missing; the file has {there}")
+            raise CalibrationError(
+                sentence(
+                    "{path}: {key} is missing; the file has {there}",
+                    path=self.path,
+                    key=key,
+                    there=there,
+                )
+            )
         return self._document[key]
 
     def _pixels(self, key: str) -> int:
         value = self._value(key)
         if type(value) is not int or not 16 <= value <= LARGEST_SIZE:
-            raise self.wrong(key, value, f"a whole number of pixels from 16 to {LARGEST_SIZE}")
+            raise self.wrong(
+                key,
+                value,
+                sentence(
+                    "a whole number of pixels from 16 to {largest_size}", largest_size=LARGEST_SIZE
+                ),
+            )
         return value
 
 
@@ -119,11 +159,19 @@ def intrinsics(matrix: FloatArray, where: str) -> tuple[tuple[float, float], tup
     (fx, skew, cx), (zero, fy, cy), last = matrix.tolist()
     if fx <= 0.0 or fy <= 0.0 or zero != 0.0 or last != [0.0, 0.0, 1.0]:
         raise CalibrationError(
-            f"{where}: fx 0 cx, 0 fy cy, 0 0 1 with positive focal lengths is needed, "
-            f"got {matrix.tolist()}"
+            sentence(
+                "{where}: fx 0 cx, 0 fy cy, 0 0 1 with positive focal lengths is needed, "
+                "got {matrix}",
+                where=where,
+                matrix=matrix.tolist(),
+            )
         )
     if abs(skew) > 1e-9 * fx:
-        raise CalibrationError(f"{where}: a skew of {skew} px is not supported; only 0 is")
+        raise CalibrationError(
+            sentence(
+                "{where}: a skew of {skew} px is not supported; only 0 is", where=where, skew=skew
+            )
+        )
     return (fx, fy), (cx, cy)
 
 
@@ -140,14 +188,26 @@ def pose(matrix: FloatArray, unit: float, where: str) -> RigidTransform:
     error = float(np.abs(rotation - matrix[:, :3]).max())
     if np.linalg.det(rotation) < 0.0 or error > _ROUNDED:
         raise CalibrationError(
-            f"{where}: the first three columns are no rotation matrix: they differ from one by "
-            f"{error:.3g} (at most {_ROUNDED:g}) or mirror; got {matrix[:, :3].tolist()}"
+            sentence(
+                "{where}: the first three columns are no rotation matrix: they differ from one "
+                "by {error:.3g} (at most {rounded:g}) or mirror; got {matrix}",
+                where=where,
+                error=error,
+                rounded=_ROUNDED,
+                matrix=matrix[:, :3].tolist(),
+            )
         )
     translation = matrix[:, 3] * unit
     if np.abs(translation).max() > FARTHEST:
         raise CalibrationError(
-            f"{where}: its translation is {matrix[:, 3].tolist()} in units of {unit:g} m; cameras "
-            f"up to {FARTHEST:g} m apart are read"
+            sentence(
+                "{where}: its translation is {matrix} in units of {unit:g} m; cameras "
+                "up to {farthest:g} m apart are read",
+                where=where,
+                matrix=matrix[:, 3].tolist(),
+                unit=unit,
+                farthest=FARTHEST,
+            )
         )
     return RigidTransform(rotation, translation)
 

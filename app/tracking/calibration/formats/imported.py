@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.tracking.calibration.identity import new_id
 from app.tracking.errors import CalibrationError, TrackingError
@@ -59,8 +60,13 @@ def stereo_of(
     T_right_left = right.T_camera_reference @ left.T_camera_reference.inverse()
     if float(abs(T_right_left.translation).max()) < 1e-6:
         raise CalibrationError(
-            f"{left.source} and {right.source}: both cameras stand at the same place; the pair "
-            "needs two different poses. Was the same file given twice, or only one camera's pose?"
+            sentence(
+                "{left_source} and {right_source}: both cameras stand at the same place; the "
+                "pair needs two different poses. Was the same file given twice, or only one "
+                "camera's pose?",
+                left_source=left.source,
+                right_source=right.source,
+            )
         )
     created = datetime.now(UTC)
     notes = (
@@ -79,7 +85,14 @@ def stereo_of(
     try:
         found.models()  # an impossible camera or pose is refused here, not later
     except (TrackingError, ArithmeticError) as error:
-        raise CalibrationError(f"{left.source} and {right.source}: {error}") from error
+        raise CalibrationError(
+            sentence(
+                "{left_source} and {right_source}: {error}",
+                left_source=left.source,
+                right_source=right.source,
+                error=error,
+            )
+        ) from error
     return found
 
 

@@ -8,6 +8,7 @@ these from the first. ROS names the model (REP 118): plumb_bob, rational_polynom
 from collections.abc import Sequence
 from typing import Final
 
+from app.core.messages import sentence
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.lens import LensModel
 
@@ -40,14 +41,26 @@ def lens_coefficients(
         named = "" if lens is None else f" of the model {lens.value}"
         valid = ", ".join(str(count) for count in counts)
         raise CalibrationError(
-            f"{where}: {valid} coefficients{named} are possible, got {len(given)}"
+            sentence(
+                "{where}: {valid} coefficients{named} are possible, got {given_count}",
+                where=where,
+                valid=valid,
+                named=named,
+                given_count=len(given),
+            )
         )
     if lens is LensModel.FISHEYE:
         return lens, tuple(given)
     if any(given[12:]):
         raise CalibrationError(
-            f"{where}: a tilted sensor (τx, τy = {given[12]:g}, {given[13]:g}) is not supported: "
-            "calibrate without CALIB_TILTED_MODEL, or the pictures with `acus calibrate stereo`"
+            sentence(
+                "{where}: a tilted sensor (τx, τy = {given:g}, {given_2:g}) is not supported: "
+                "calibrate without CALIB_TILTED_MODEL, or the pictures with `acus calibrate "
+                "stereo`",
+                where=where,
+                given=given[12],
+                given_2=given[13],
+            )
         )
     full = (*given, *(0.0,) * 12)[:12]
     if any(full[5:]) or (lens is LensModel.RATIONAL and len(given) > 5):

@@ -8,6 +8,7 @@ import yaml
 from app.core.configuration import parse, read_yaml
 from app.core.errors import ConfigurationError
 from app.core.files import write_atomically
+from app.core.messages import sentence, sentence_of
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import CameraCalibration, StereoCalibration
 
@@ -34,8 +35,13 @@ def save_calibration(path: Path, calibration: StereoCalibration) -> None:
         write_atomically(path, text_of(calibration))
     except OSError as error:
         raise CalibrationError(
-            f"calibration {calibration.id} cannot be written to {path}: "
-            f"{error.strerror or error}; choose another place"
+            sentence(
+                "calibration {calibration_id} cannot be written to {path}: "
+                "{error_strerror}; choose another place",
+                calibration_id=calibration.id,
+                path=path,
+                error_strerror=error.strerror or error,
+            )
         ) from error
 
 
@@ -50,8 +56,13 @@ def save_camera(path: Path, camera: CameraCalibration) -> None:
         write_atomically(path, _HEAD_OF_ONE + text)
     except OSError as error:
         raise CalibrationError(
-            f"the lens of {camera.name} cannot be written to {path}: "
-            f"{error.strerror or error}; choose another place"
+            sentence(
+                "the lens of {camera_name} cannot be written to {path}: "
+                "{error_strerror}; choose another place",
+                camera_name=camera.name,
+                path=path,
+                error_strerror=error.strerror or error,
+            )
         ) from error
 
 
@@ -71,14 +82,19 @@ def load_calibration(path: Path) -> StereoCalibration:
         document = read_yaml(path)
         if isinstance(document, Mapping) and "focal_px" in document:
             raise CalibrationError(
-                f"{path} is the lens of one camera; a calibration holds two and how they stand to "
-                "each other. A pen takes it (`acus pen calibrate --lens`); for two cameras "
-                "calibrate pairs of pictures (`acus calibrate stereo`)"
+                sentence(
+                    "{path} is the lens of one camera; a calibration holds two and how they "
+                    "stand to each other. A pen takes it (`acus pen calibrate --lens`); for two "
+                    "cameras calibrate pairs of pictures (`acus calibrate stereo`)",
+                    path=path,
+                )
             )
         calibration = parse(document, StereoCalibration, str(path))
         calibration.models()  # an impossible camera or pose is refused here, not later
     except ConfigurationError as error:
-        raise CalibrationError(str(error)) from error
+        raise CalibrationError(sentence_of(error)) from error
     except ArithmeticError as error:
-        raise CalibrationError(f"{path}: pose or camera cannot be: {error}") from error
+        raise CalibrationError(
+            sentence("{path}: pose or camera cannot be: {error}", path=path, error=error)
+        ) from error
     return calibration

@@ -26,6 +26,7 @@ import cv2
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.tracking.calibration.boards import UNITS
 from app.tracking.calibration.formats.fields import Fields, intrinsics, pose
@@ -59,7 +60,11 @@ def find_pair(folder: Path) -> tuple[TemugeFiles, TemugeFiles]:
     if len(found) != 2:
         names = ", ".join(path.name for path in found) or "none"
         raise CalibrationError(
-            f"{folder}: two files cameraN_intrinsics.dat are needed, found {names}"
+            sentence(
+                "{folder}: two files cameraN_intrinsics.dat are needed, found {names}",
+                folder=folder,
+                names=names,
+            )
         )
     first, second = (_with_pose(path) for path in found)
     return first, second
@@ -86,7 +91,9 @@ def read_temuge(
         CalibrationError: naming file, section, value and what is valid.
     """
     if not isfinite(unit) or not 1e-6 <= unit <= 10.0:
-        raise CalibrationError(f"unit {unit} m: from 1e-6 (a micrometre) to 10 is valid")
+        raise CalibrationError(
+            sentence("unit {unit} m: from 1e-6 (a micrometre) to 10 is valid", unit=unit)
+        )
     first, second = (_temuge_camera(files, unit, image_size) for files in (left, right))
     return stereo_of(first, second, "TemugeB text files", names=names)
 
@@ -111,12 +118,19 @@ def _lines(path: Path) -> list[str]:
         text = path.read_text(encoding="utf-8")
     except OSError as error:
         raise CalibrationError(
-            f"cannot read {path}: {error.strerror or error}; check its name and that it may be read"
+            sentence(
+                "cannot read {path}: {error_strerror}; check its name and that it may be read",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
         ) from error
     except UnicodeDecodeError as error:
         raise CalibrationError(
-            f"{path} is no text file; one of lines of numbers is needed, as TemugeB's program "
-            "writes it"
+            sentence(
+                "{path} is no text file; one of lines of numbers is needed, as TemugeB's program "
+                "writes it",
+                path=path,
+            )
         ) from error
     return [line.strip() for line in text.splitlines() if line.strip()]
 
@@ -124,14 +138,29 @@ def _lines(path: Path) -> list[str]:
 def _section(path: Path, lines: list[str], title: str, shape: tuple[int, int]) -> FloatArray:
     """Return the rows below a title; a shape of 0 columns takes as many as there are."""
     if title not in lines:
-        raise CalibrationError(f"{path}: no line {title!r}; the file begins {lines[:1]}")
+        raise CalibrationError(
+            sentence(
+                "{path}: no line {title!r}; the file begins {lines}",
+                path=path,
+                title=title,
+                lines=lines[:1],
+            )
+        )
     start = lines.index(title) + 1
     rows = [_numbers(path, title, line) for line in lines[start : start + shape[0]]]
     columns = shape[1] or (len(rows[0]) if rows else 0)
     if len(rows) != shape[0] or any(len(row) != columns for row in rows):
         raise CalibrationError(
-            f"{path}: {title} {shape[0]} lines of {columns} numbers are needed, got "
-            f"{[len(row) for row in rows]} numbers in {len(rows)} lines"
+            sentence(
+                "{path}: {title} {shape_first} lines of {columns} numbers are needed, got "
+                "{rows} numbers in {rows_count} lines",
+                path=path,
+                title=title,
+                shape_first=shape[0],
+                columns=columns,
+                rows=[len(row) for row in rows],
+                rows_count=len(rows),
+            )
         )
     return np.array(rows, dtype=np.float64)
 
@@ -140,9 +169,23 @@ def _numbers(path: Path, title: str, line: str) -> list[float]:
     try:
         values = [float(word) for word in line.split()]
     except ValueError as error:
-        raise CalibrationError(f"{path}: {title} numbers are needed, got {line!r}") from error
+        raise CalibrationError(
+            sentence(
+                "{path}: {title} numbers are needed, got {line!r}",
+                path=path,
+                title=title,
+                line=line,
+            )
+        ) from error
     if not all(isfinite(value) for value in values):
-        raise CalibrationError(f"{path}: {title} finite numbers are needed, got {line!r}")
+        raise CalibrationError(
+            sentence(
+                "{path}: {title} finite numbers are needed, got {line!r}",
+                path=path,
+                title=title,
+                line=line,
+            )
+        )
     return values
 
 
@@ -151,7 +194,9 @@ def _with_pose(path: Path) -> TemugeFiles:
     for candidate in (path.with_name(name), path.with_name(f"world_to_{name}")):
         if candidate.is_file():
             return TemugeFiles(path, candidate)
-    raise CalibrationError(f"{path}: its pose is missing: there is no {name} beside it")
+    raise CalibrationError(
+        sentence("{path}: its pose is missing: there is no {name} beside it", path=path, name=name)
+    )
 
 
 def _order(path: Path) -> tuple[int, str]:
@@ -192,8 +237,11 @@ def read_opencv(
     _require(named, found)
     if unit is None or image_size is None:
         raise CalibrationError(
-            f"{named}: OpenCV's files hold neither unit nor picture size; say them, e.g. "
-            "--unit 1cm (the unit in which the board's square was typed) --size 640x480"
+            sentence(
+                "{named}: OpenCV's files hold neither unit nor picture size; say them, e.g. "
+                "--unit 1cm (the unit in which the board's square was typed) --size 640x480",
+                named=named,
+            )
         )
     values = {key: value for key, (_, value) in found.items()}
     where = found["R"][0]
@@ -220,22 +268,37 @@ def _require(named: str, result: dict[str, tuple[Path, FloatArray]]) -> None:
     missing = [key for key in _PAIR if key not in result]
     if missing and _LENS in result:
         raise CalibrationError(
-            f"{named}: a lens of OpenCV's one-camera sample; it does not say how two cameras stand "
-            "to each other. Give what stereo_calib writes (intrinsics.yml and extrinsics.yml), or "
-            "calibrate the pictures with `acus calibrate stereo`"
+            sentence(
+                "{named}: a lens of OpenCV's one-camera sample; it does not say how two cameras "
+                "stand to each other. Give what stereo_calib writes (intrinsics.yml and "
+                "extrinsics.yml), or calibrate the pictures with `acus calibrate stereo`",
+                named=named,
+            )
         )
     if missing:
         there = ", ".join(key for key in _PAIR if key in result) or "none of them"
         raise CalibrationError(
-            f"{named}: a pair of OpenCV needs M1, D1, M2, D2 (intrinsics.yml) and R, T "
-            f"(extrinsics.yml), found {there}; give both files"
+            sentence(
+                "{named}: a pair of OpenCV needs M1, D1, M2, D2 (intrinsics.yml) and R, T "
+                "(extrinsics.yml), found {there}; give both files",
+                named=named,
+                there=there,
+            )
         )
 
 
 def _shaped(path: Path, key: str, value: FloatArray, shape: tuple[int, int]) -> FloatArray:
     if value.size != shape[0] * shape[1]:
         raise CalibrationError(
-            f"{path}: {key}: {shape[0]} x {shape[1]} numbers are needed, got {value.shape}"
+            sentence(
+                "{path}: {key}: {shape_first} x {shape_second} numbers are needed, got "
+                "{value_shape}",
+                path=path,
+                key=key,
+                shape_first=shape[0],
+                shape_second=shape[1],
+                value_shape=value.shape,
+            )
         )
     return value.reshape(shape)
 
@@ -290,7 +353,9 @@ def length(text: str) -> float:
     found = re.fullmatch(r"(\d+(?:\.\d*)?|\.\d+)\s*(mm|cm|m|in)", text.strip())
     if found is None:
         raise CalibrationError(
-            f"--unit {text}: a length with its unit is needed, e.g. 1cm or 25.4mm"
+            sentence(
+                "--unit {text}: a length with its unit is needed, e.g. 1cm or 25.4mm", text=text
+            )
         )
     return float(found[1]) * _UNITS[found[2]]
 
@@ -303,7 +368,9 @@ def picture_size(text: str) -> tuple[int, int]:
     """
     found = re.fullmatch(r"(\d{2,5})[xX×](\d{2,5})", text.strip())
     if found is None:
-        raise CalibrationError(f"--size {text}: WIDTHxHEIGHT in pixels is needed, e.g. 1280x720")
+        raise CalibrationError(
+            sentence("--size {text}: WIDTHxHEIGHT in pixels is needed, e.g. 1280x720", text=text)
+        )
     return int(found[1]), int(found[2])
 
 
@@ -339,7 +406,13 @@ def read_calibration(
     if len(files) == 1 and files[0].is_dir():
         return _text_files(files[0], unit, image_size, names)
     if len(files) not in (1, 2):
-        raise CalibrationError(f"{len(files)} files were given; {_EXPECTED}")
+        raise CalibrationError(
+            sentence(
+                "{files_count} files were given; {expected}",
+                files_count=len(files),
+                expected=_EXPECTED,
+            )
+        )
     if any(is_storage(path) for path in files):
         return read_opencv(files, unit=unit, image_size=image_size, names=names, lens=lens)
     if len(files) == 1:
@@ -347,13 +420,22 @@ def read_calibration(
     left, right = files
     kinds = {_is_ros(path) for path in files}
     if len(kinds) == 2:
-        raise CalibrationError(f"{left} and {right} are of different formats; {_EXPECTED}")
+        raise CalibrationError(
+            sentence(
+                "{left} and {right} are of different formats; {expected}",
+                left=left,
+                right=right,
+                expected=_EXPECTED,
+            )
+        )
     return (read_ros if kinds.pop() else read_icube)(left, right, names)
 
 
 def _is_ros(path: Path) -> bool:
     if path.suffix.lower() not in {".yaml", ".yml"}:
-        raise CalibrationError(f"{path} is no YAML file; {_EXPECTED}")
+        raise CalibrationError(
+            sentence("{path} is no YAML file; {expected}", path=path, expected=_EXPECTED)
+        )
     return "rectification_matrix" in Fields(path)
 
 
@@ -366,7 +448,10 @@ def _text_files(
     left, right = find_pair(folder)
     if unit is None or image_size is None:
         raise CalibrationError(
-            f"{folder}: TemugeB's files hold neither unit nor picture size; say them, e.g. "
-            "--unit 1cm (the unit in which the board's square was typed) --size 1280x720"
+            sentence(
+                "{folder}: TemugeB's files hold neither unit nor picture size; say them, e.g. "
+                "--unit 1cm (the unit in which the board's square was typed) --size 1280x720",
+                folder=folder,
+            )
         )
     return read_temuge(left, right, unit=unit, image_size=image_size, names=names)

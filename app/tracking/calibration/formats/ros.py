@@ -16,6 +16,7 @@ import yaml
 
 from app.core.arrays import FloatArray, unit
 from app.core.files import write_atomically
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.tracking.calibration.formats.fields import Fields, intrinsics, pose
 from app.tracking.calibration.formats.imported import NAMES, ImportedCamera, stereo_of
@@ -49,7 +50,11 @@ def write_ros(left: Path, right: Path, calibration: StereoCalibration) -> None:
             write_atomically(path, yaml.safe_dump(document, sort_keys=False))
         except OSError as error:
             raise CalibrationError(
-                f"camera_info cannot be written to {path}: {error.strerror or error}"
+                sentence(
+                    "camera_info cannot be written to {path}: {error_strerror}",
+                    path=path,
+                    error_strerror=error.strerror or error,
+                )
             ) from error
 
 
@@ -88,8 +93,10 @@ def _rectification(T_right_left: RigidTransform) -> FloatArray:
     z = forwards - np.dot(forwards, x) * x
     if float(np.linalg.norm(z)) < 1e-3:
         raise CalibrationError(
-            "the cameras look along the line between them: such a pair has no rectification and "
-            "cannot be written as camera_info; export it as yaml"
+            sentence(
+                "the cameras look along the line between them: such a pair has no rectification "
+                "and cannot be written as camera_info; export it as yaml"
+            )
         )
     z = unit(z)
     return np.stack([x, np.cross(z, x), z])

@@ -16,6 +16,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.configuration import LARGEST_FILE, shown
 from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.errors import FileDamagedError, WorkerLostError
 from app.imaging.worker.jobs import Job
@@ -58,7 +59,11 @@ def is_storage(path: Path) -> bool:
             head = file.read(4096).lstrip()
     except OSError as error:
         raise CalibrationError(
-            f"cannot read {path}: {error.strerror or error}; check its name and that it may be read"
+            sentence(
+                "cannot read {path}: {error_strerror}; check its name and that it may be read",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
         ) from error
     return head.startswith(_HEADS) or _TYPE in head  # OpenCV 5 begins as any other YAML
 
@@ -78,13 +83,21 @@ def read_matrices(path: Path, keys: tuple[str, ...]) -> dict[str, FloatArray]:
         arguments = (path.absolute(), keys)
         found: Matrices = shared_worker().call(MATRICES, arguments, allowed, Progress())
     except WorkerLostError as error:
-        raise CalibrationError(f"{path}: {error}; write it again") from error
+        raise CalibrationError(
+            sentence("{path}: {error}; write it again", path=path, error=error)
+        ) from error
     except FileDamagedError as error:
-        raise CalibrationError(f"{path}: {error}") from error
+        raise CalibrationError(sentence("{path}: {error}", path=path, error=error)) from error
     except OSError as error:
         if isinstance(error, AcusError):
             raise
-        raise CalibrationError(f"cannot read {path}: {error.strerror or error}") from error
+        raise CalibrationError(
+            sentence(
+                "cannot read {path}: {error_strerror}",
+                path=path,
+                error_strerror=error.strerror or error,
+            )
+        ) from error
     return dict(found)
 
 
@@ -100,12 +113,17 @@ def matrices_in(path: Path, keys: tuple[str, ...], progress: Progress) -> Matric
     with path.open("rb") as file:
         data = file.read(LARGEST_FILE + 1)
     if len(data) > LARGEST_FILE:
-        raise CalibrationError(f"it is larger than {LARGEST_FILE >> 20} MB; a calibration is not")
+        raise CalibrationError(
+            sentence(
+                "it is larger than {largest_file} MB; a calibration is not",
+                largest_file=LARGEST_FILE >> 20,
+            )
+        )
     storage = cv2.FileStorage()
     try:
         text = data.decode("utf-8")
         if _CONTROL.search(text):
-            raise ValueError("control characters are not read")
+            raise ValueError(sentence("control characters are not read"))
         storage.open(text, cv2.FILE_STORAGE_READ | cv2.FILE_STORAGE_MEMORY)
         top = _fields(storage.root())
         progress.check()
@@ -114,14 +132,18 @@ def matrices_in(path: Path, keys: tuple[str, ...], progress: Progress) -> Matric
         reason = _PARSER.search(getattr(error, "func", ""))
         words = f"line {reason[1]}: {reason[2]}" if reason else _line(error)
         raise CalibrationError(
-            f"it begins as a file of OpenCV's FileStorage but is damaged ({words}); write it again"
+            sentence(
+                "it begins as a file of OpenCV's FileStorage but is damaged ({words}); write it "
+                "again",
+                words=words,
+            )
         ) from error
     finally:
         storage.release()
 
 
 def _line(error: Exception) -> str:
-    text = "OpenCV cannot read it" if hasattr(error, "func") else str(error)
+    text = sentence("OpenCV cannot read it") if hasattr(error, "func") else str(error)
     return " ".join(text.split())[:200]
 
 
@@ -130,42 +152,76 @@ def _fields(node: "cv2.FileNode") -> "dict[str, cv2.FileNode]":
     names = node.keys() if node.isMap() else ()
     twice = [name for place, name in enumerate(names) if name in names[:place]]
     if twice:
-        raise ValueError(f"{twice[0][:40]} is given twice")
+        raise ValueError(sentence("{twice_first} is given twice", twice_first=twice[0][:40]))
     return {name: node.getNode(name) for name in names}
 
 
 def _matrix(key: str, node: "cv2.FileNode") -> FloatArray:
     fields = _fields(node)
     if not set(_FIELDS) <= set(fields):
-        raise CalibrationError(f"{key}: a matrix with rows, cols, dt and data is needed")
+        raise CalibrationError(
+            sentence("{key}: a matrix with rows, cols, dt and data is needed", key=key)
+        )
     dt = _value(fields["dt"])
     kind = _KIND.fullmatch(dt) if isinstance(dt, str) else None
     if kind is None:
-        raise CalibrationError(f"{key}: dt names the numbers' type, e.g. d; got {shown(dt)}")
+        raise CalibrationError(
+            sentence(
+                "{key}: dt names the numbers' type, e.g. d; got {shown}", key=key, shown=shown(dt)
+            )
+        )
     rows, columns = (_count(f"{key}: {name}", fields[name]) for name in ("rows", "cols"))
     columns *= int(kind[1] or 1)
     data = fields["data"]
     if rows * columns > _MOST:
-        raise CalibrationError(f"{key}: {rows} x {columns} numbers; at most {_MOST} are read")
+        raise CalibrationError(
+            sentence(
+                "{key}: {rows} x {columns} numbers; at most {most} are read",
+                key=key,
+                rows=rows,
+                columns=columns,
+                most=_MOST,
+            )
+        )
     count = data.size() if data.isSeq() else 0
     if count != rows * columns:
-        raise CalibrationError(f"{key}: {rows} x {columns} numbers are needed, got {count} values")
+        raise CalibrationError(
+            sentence(
+                "{key}: {rows} x {columns} numbers are needed, got {count} values",
+                key=key,
+                rows=rows,
+                columns=columns,
+                count=count,
+            )
+        )
     numbers = [_number(key, data.at(place)) for place in range(count)]
     return np.array(numbers, dtype=np.float64).reshape(rows, columns)
 
 
 def _count(where: str, node: "cv2.FileNode") -> int:
     if not node.isInt() or not 1 <= node.real() <= _MOST:
-        raise CalibrationError(f"{where}: a whole number from 1 to {_MOST} is needed")
+        raise CalibrationError(
+            sentence("{where}: a whole number from 1 to {most} is needed", where=where, most=_MOST)
+        )
     return int(node.real())
 
 
 def _number(key: str, node: "cv2.FileNode") -> float:
     value = _value(node)
     if not isinstance(value, float) or not isfinite(value):
-        raise CalibrationError(f"{key}: a matrix of finite numbers is needed, got {shown(value)}")
+        raise CalibrationError(
+            sentence(
+                "{key}: a matrix of finite numbers is needed, got {shown}",
+                key=key,
+                shown=shown(value),
+            )
+        )
     if node.isInt() and abs(value) >= _WHOLE:
-        raise CalibrationError(f"{key}: a whole number is too large, got {value:.0f} or more")
+        raise CalibrationError(
+            sentence(
+                "{key}: a whole number is too large, got {value:.0f} or more", key=key, value=value
+            )
+        )
     return value
 
 

@@ -13,7 +13,7 @@ from app.views.exercise.hands.source import GamepadHand, HandSource, MouseHand, 
 from app.views.exercise.pad_canvas import PadCanvas
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, translated
 
 SOURCES: Final[dict[str, Callable[[PadCanvas], HandSource]]] = {
     source.name: source for source in (MouseHand, TabletHand, GamepadHand)
@@ -288,7 +288,7 @@ class HandChooser(QWidget):
             try:
                 self._open("mouse" if self._depth_only else self.name)
             except AcusError as error:
-                self.refused.emit(str(error))
+                self.refused.emit(translated(error))
                 self._take("mouse")
 
     def _open(self, name: str) -> None:
