@@ -271,14 +271,14 @@ class LayersFrom(StrEnum):
 
 
 class TissueSource(StrEnum):
-    """How the simulation knows the tissue that the needle meets."""
+    """Source of the tissue that the simulated needle meets."""
 
     AUTO = "auto"
     """Layers where every needle within reach would meet the same, else the field."""
     LAYERS = "layers"
     """In layers along the planned path, wherever the needle goes."""
     FIELD = "field"
-    """Where the needle is, in the patient in three dimensions."""
+    """Looked up where the needle is, in the patient in three dimensions."""
 
 
 class LayerPart(Strict):
