@@ -11,6 +11,7 @@ from dataclasses import asdict, dataclass, fields
 from math import isfinite
 from typing import Any, Final
 
+from app.core.messages import sentence
 from app.imaging.field.tissue_field import TissueKind
 from app.scoring.errors import TrajectoryError
 
@@ -74,9 +75,15 @@ class Met:
         numbers = (self.entered_mm, self.length_mm, self.sd_mm or 0.0, self.angle_deg, self.time)
         places = (value for point in self.points for value in point)
         if not all(map(isfinite, (*numbers, self.confidence, *places))) or self.length_mm < 0.0:
-            raise TrajectoryError(f"{self.words} at {self.entered_mm} mm: a number is not finite")
+            raise TrajectoryError(
+                sentence(
+                    "{words} at {entered_mm} mm: a number is not finite",
+                    words=self.words,
+                    entered_mm=self.entered_mm,
+                )
+            )
         if self.kind not in set(TissueKind):
-            raise TrajectoryError(f"{self.kind!r} is no kind of tissue")
+            raise TrajectoryError(sentence("{kind!r} is no kind of tissue", kind=self.kind))
 
     @property
     def words(self) -> str:

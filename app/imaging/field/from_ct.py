@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.body import SKIN_HU, Body
 from app.imaging.field import band
@@ -112,8 +113,11 @@ def field_of_ct(
     """
     if volume.unit != "HU":
         raise FieldError(
-            f"the values of this volume are in {volume.unit or 'no unit'}, not in HU: tissue is "
-            "told by Hounsfield values; give the layers by hand"
+            sentence(
+                "the values of this volume are in {value}, not in HU: tissue is "
+                "told by Hounsfield values; give the layers by hand",
+                value=volume.unit or "no unit",
+            )
         )
     notes = [] if body.coarse.any() else ["there is no body in this CT: all of it is air"]
     progress.report(0.1, "reading the CT on the field's grid")

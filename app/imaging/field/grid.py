@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from app.core.arrays import FloatArray, frozen
+from app.core.messages import sentence
 from app.imaging.body import GRID_MM, Body
 from app.imaging.field.errors import FieldError
 from app.imaging.volume import Volume
@@ -133,9 +134,20 @@ def grid_over(
     """
     if spacing_mm not in SPACINGS_MM:
         named = ", ".join(f"{one:g}" for one in SPACINGS_MM)
-        raise FieldError(f"a field of {spacing_mm:g} mm: {named} mm can be chosen")
+        raise FieldError(
+            sentence(
+                "a field of {spacing_mm:g} mm: {named} mm can be chosen",
+                spacing_mm=spacing_mm,
+                named=named,
+            )
+        )
     if not 0.0 < reach_mm < 2000.0:
-        raise FieldError(f"a reach of {reach_mm:g} mm: more than 0 and less than 2000 mm are")
+        raise FieldError(
+            sentence(
+                "a reach of {reach_mm:g} mm: more than 0 and less than 2000 mm are",
+                reach_mm=reach_mm,
+            )
+        )
     axes = np.eye(3) if volume.is_sheared else np.array(volume.direction)
     corners = np.array(list(np.ndindex(2, 2, 2))) * _last(volume)
     whole = _ends(volume.lps_mm(corners) @ axes, 0.0)
@@ -150,7 +162,11 @@ def grid_over(
     if entry_mm is not None:
         entry = frozen(entry_mm, (3,), "entry")
         if not volume.contains(entry):
-            raise FieldError(f"entry {entry.round(1).tolist()} mm lies outside the CT: move it")
+            raise FieldError(
+                sentence(
+                    "entry {value} mm lies outside the CT: move it", value=entry.round(1).tolist()
+                )
+            )
         middle = entry @ axes
         to_end = np.stack([middle - whole[0], whole[1] - middle])
         cut = np.stack([held[0] < whole[0], held[1] > whole[1]]) & (to_end < reach_mm)
@@ -164,7 +180,11 @@ def grid_over(
     counts = np.floor((high - low) / spacing_mm + 1e-6).astype(int) + 1
     if counts.min() < 2:
         raise FieldError(
-            f"the CT is {(high - low).min():.1f} mm thick: no field of {spacing_mm:g} mm fits"
+            sentence(
+                "the CT is {value:.1f} mm thick: no field of {spacing_mm:g} mm fits",
+                value=(high - low).min(),
+                spacing_mm=spacing_mm,
+            )
         )
     affine = np.eye(4)
     affine[:3, :3] = axes * spacing_mm

@@ -20,6 +20,7 @@ import numpy as np
 
 from app.core import paths
 from app.core.files import remove, step
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.body import Body, find_body
 from app.imaging.errors import ImagingError
@@ -133,15 +134,26 @@ def _check_memory(grid: FieldGrid) -> None:
     advice = f"take {coarser[0]:g} mm, or a shorter reach" if coarser else "take a shorter reach"
     if megabytes > MOST_MB:
         raise FieldError(
-            f"a tissue field of {grid.spacing_mm:g} mm takes {megabytes:.0f} MB here; {MOST_MB:g} "
-            f"are allowed: {advice}"
+            sentence(
+                "a tissue field of {spacing_mm:g} mm takes {megabytes:.0f} MB "
+                "here; {most_mb:g} are allowed: {advice}",
+                spacing_mm=grid.spacing_mm,
+                megabytes=megabytes,
+                most_mb=MOST_MB,
+                advice=advice,
+            )
         )
     free = available()
     if free is not None and grid.voxels * _WORKING > free:
         raise FieldError(
-            f"making a tissue field of {grid.spacing_mm:g} mm takes "
-            f"{grid.voxels * _WORKING / 1e9:.1f} GB of memory, and {free / 1e9:.1f} GB are free: "
-            f"{advice}"
+            sentence(
+                "making a tissue field of {spacing_mm:g} mm takes {value:.1f} GB "
+                "of memory, and {value_2:.1f} GB are free: {advice}",
+                spacing_mm=grid.spacing_mm,
+                value=grid.voxels * _WORKING / 1000000000.0,
+                value_2=free / 1000000000.0,
+                advice=advice,
+            )
         )
 
 

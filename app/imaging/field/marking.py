@@ -9,6 +9,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from app.core.messages import sentence
 from app.imaging.field import band
 from app.imaging.field.errors import FieldError
 from app.imaging.field.grid import FieldGrid
@@ -77,7 +78,11 @@ def mark(
     """
     if len(structures) + len(table) > MOST_TISSUES:
         raise FieldError(
-            f"{len(structures)} structures: a field has room for {MOST_TISSUES - len(table)}"
+            sentence(
+                "{value} structures: a field has room for {value_2}",
+                value=len(structures),
+                value_2=MOST_TISSUES - len(table),
+            )
         )
     tissues = list(table)
     for code, structure in enumerate(structures, start=len(table)):

@@ -16,6 +16,7 @@ from typing import Any, Final
 import numpy as np
 
 from app.core.files import write_atomically
+from app.core.messages import sentence
 from app.imaging.field.errors import FieldError
 from app.imaging.field.tissue_field import TissueField, tissue_of
 
@@ -63,13 +64,15 @@ def from_bytes(content: bytes, check: bool = True) -> TissueField:
         FieldError: if it is none, damaged, or another than its digest says.
     """
     if not content.startswith(MAGIC):
-        raise FieldError("this is no tissue field: it does not begin as one")
+        raise FieldError(sentence("this is no tissue field: it does not begin as one"))
     try:
         return _unpacked(content, check)
     except (LookupError, TypeError, ValueError, struct.error, lzma.LZMAError) as error:
         if isinstance(error, FieldError):
             raise
-        raise FieldError(f"the tissue field is damaged ({type(error).__name__})") from error
+        raise FieldError(
+            sentence("the tissue field is damaged ({name})", name=type(error).__name__)
+        ) from error
 
 
 def write(field: TissueField, path: Path, small: bool = True) -> None:
@@ -94,12 +97,16 @@ def _unpacked(content: bytes, check: bool) -> TissueField:
     shape = tuple(int(size) for size in header["shape"])
     voxels = int(np.prod(shape))
     if len(shape) != 3 or min(shape) < 2 or 2 * voxels > LARGEST_BYTES:
-        raise FieldError(f"a tissue field of {shape} voxels is none that can be read")
+        raise FieldError(
+            sentence("a tissue field of {shape} voxels is none that can be read", shape=shape)
+        )
     place, parts = start + length, []
     for size, checksum in zip(header["bytes"], header["check"], strict=True):
         part = memoryview(content)[place : place + size]
         if len(part) != size or zlib.crc32(part) != checksum:
-            raise FieldError("the tissue field is damaged: a part of it is not what was written")
+            raise FieldError(
+                sentence("the tissue field is damaged: a part of it is not what was written")
+            )
         parts.append(_plain(part, header["packed"], voxels))
         place += size
     labels = (
@@ -115,7 +122,7 @@ def _unpacked(content: bytes, check: bool) -> TissueField:
     tissues = tuple(tissue_of(row) for row in header["tissues"])
     field = TissueField(labels, distance, affine, tissues, tuple(map(str, header["notes"])))
     if check and field.digest != header["digest"]:
-        raise FieldError("the tissue field is another than its digest says")
+        raise FieldError(sentence("the tissue field is another than its digest says"))
     return field
 
 
@@ -128,5 +135,5 @@ def _plain(part: memoryview, way: str, most: int) -> bytes | memoryview:
         return part
     plain = lzma.LZMADecompressor().decompress(part, max_length=most + 1)
     if len(plain) > most:
-        raise FieldError(f"the tissue field holds more than its {most} voxels")
+        raise FieldError(sentence("the tissue field holds more than its {most} voxels", most=most))
     return plain

@@ -32,6 +32,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray, frozen
+from app.core.messages import sentence
 from app.imaging.field.errors import FieldError
 
 STEPS_PER_MM: Final = 40.0
@@ -139,27 +140,46 @@ class TissueField:
         shapes = {self.labels.shape, self.distance.shape}
         if len(shapes) > 1 or self.labels.ndim != 3 or min(self.labels.shape) < 2:
             raise FieldError(
-                f"labels of {self.labels.shape}, distances of {self.distance.shape} voxels: both "
-                "need one shape (nz, ny, nx) of two voxels at least"
+                sentence(
+                    "labels of {shape}, distances of {shape_2} voxels: both need one "
+                    "shape (nz, ny, nx) of two voxels at least",
+                    shape=self.labels.shape,
+                    shape_2=self.distance.shape,
+                )
             )
         if self.labels.dtype != np.uint8 or self.distance.dtype != np.int8:
             raise FieldError(
-                f"labels are {self.labels.dtype} and distances {self.distance.dtype}; uint8 and "
-                "int8 are needed"
+                sentence(
+                    "labels are {dtype} and distances {dtype_2}; uint8 and int8 are needed",
+                    dtype=self.labels.dtype,
+                    dtype_2=self.distance.dtype,
+                )
             )
         codes = tuple(tissue.code for tissue in self.tissues)
         if codes != tuple(range(len(codes))) or not 1 <= len(codes) <= MOST_TISSUES:
-            raise FieldError(f"the table of tissues has the codes {codes}; row = code is needed")
+            raise FieldError(
+                sentence(
+                    "the table of tissues has the codes {codes}; row = code is needed", codes=codes
+                )
+            )
         if self.tissues[0].kind is not TissueKind.UNKNOWN:
-            raise FieldError(f"code 0 is {self.tissues[0].words}; it must be unknown")
+            raise FieldError(
+                sentence("code 0 is {words}; it must be unknown", words=self.tissues[0].words)
+            )
         largest = int(self.labels.max())
         if largest >= len(codes):
-            raise FieldError(f"label {largest} has no row in the table of {len(codes)} tissues")
+            raise FieldError(
+                sentence(
+                    "label {largest} has no row in the table of {value} tissues",
+                    largest=largest,
+                    value=len(codes),
+                )
+            )
         if int(self.distance.min()) < 0:
-            raise FieldError("a distance is negative; they have no sign")
+            raise FieldError(sentence("a distance is negative; they have no sign"))
         affine = frozen(self.affine_mm, (4, 4), "affine_mm")
         if abs(np.linalg.det(affine[:3, :3])) < 1e-12:
-            raise FieldError(f"affine_mm {affine.tolist()} is singular")
+            raise FieldError(sentence("affine_mm {value} is singular", value=affine.tolist()))
         object.__setattr__(self, "affine_mm", affine)
         for name in ("labels", "distance"):
             array = np.ascontiguousarray(getattr(self, name))
