@@ -208,7 +208,9 @@ def _numbers(text: str, option: str) -> list[float]:
     try:
         x, y, z = (float(part) for part in text.split(","))
     except ValueError as error:
-        raise ConfigurationError(f"{option} {text!r}: three numbers X,Y,Z in mm") from error
+        raise ConfigurationError(
+            sentence("{option} {text!r}: three numbers X,Y,Z in mm", option=option, text=text)
+        ) from error
     return [x, y, z]
 
 

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 from pydantic import Field, field_validator
 
 from app.core.configuration import Strict
+from app.core.messages import sentence
 from app.scoring.met import FORBIDDABLE
 from app.scoring.tolerance import Band, Tolerance, band, best_within, tolerance
 
@@ -54,10 +55,14 @@ class ScoreRules(Strict):
         unknown = [kind for kind in kinds if kind not in FORBIDDABLE]
         if unknown:
             raise ValueError(
-                f"no tissue is called {unknown[0]!r}; there are {', '.join(FORBIDDABLE)}"
+                sentence(
+                    "no tissue is called {kind!r}; there are {kinds}",
+                    kind=unknown[0],
+                    kinds=", ".join(FORBIDDABLE),
+                )
             )
         if len(set(kinds)) < len(kinds):
-            raise ValueError("a kind of tissue is forbidden twice")
+            raise ValueError(sentence("a kind of tissue is forbidden twice"))
         return kinds
 
 
