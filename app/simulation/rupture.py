@@ -50,13 +50,16 @@ OUTSIDE: Final = -1.0
 
 
 class MembranePlaces(NamedTuple):
-    """Constants; then where the tip is, what stands in front of it, and what was freed."""
+    """Constants; then where the tip is, what stands in front of it, and what was freed.
+
+    `mark` is -1: it stands where the other models have a time that is never below 0.
+    """
 
     slot: int
-    rate: int
+    reopening: int
+    mark: int
     by_field: int
     rows: int
-    reopening: int
     snap_time: int
     stated_speed: int
     critical_speed: int
@@ -122,7 +125,7 @@ def membranes(values: Mapping[str, float], binding: Binding) -> FloatArray:
         AT,
         rows.ravel(),
         slot=binding.depth_slot,
-        rate=1.0,
+        mark=-1.0,
         by_field=float(binding.scene.has_field),
         rows=len(rows),
         reopening=values["reopening"],

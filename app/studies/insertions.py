@@ -31,7 +31,7 @@ Protocol = Mapping[str, Any]
 Layers = tuple[TissueLayer, ...]
 
 
-class Insertion(NamedTuple):
+class DrivenNeedle(NamedTuple):
     """What came of a motion, tick by tick: each effect's force [N], and what the state held."""
 
     depth: FloatArray
@@ -57,7 +57,7 @@ def ramp(begin_mm: float, end_mm: float, speed_mm_s: float) -> FloatArray:
     return np.linspace(begin_mm, end_mm, ticks + 1)[1:] * MILLIMETRE
 
 
-def insert(version: str, layers: Layers, gauge: int, depths: FloatArray) -> Insertion:
+def insert(version: str, layers: Layers, gauge: int, depths: FloatArray) -> DrivenNeedle:
     """Move the tip of a needle through depths [m], one a tick, in tissue.
 
     Args:
@@ -87,7 +87,7 @@ def insert(version: str, layers: Layers, gauge: int, depths: FloatArray) -> Inse
             force[name][tick] = state[sv.AXIAL_FORCE] - before
             before = state[sv.AXIAL_FORCE]
         punctures[tick], indentation[tick] = state[sv.PUNCTURES], state[sv.INDENTATION]
-    return Insertion(depths, force, punctures, indentation)
+    return DrivenNeedle(depths, force, punctures, indentation)
 
 
 def _tissue(version: str, protocol: Protocol) -> TissueLayer:
@@ -100,7 +100,7 @@ def _layer(version: str, name: str, thickness_mm: float) -> TissueLayer:
     return replace(tissues.tissue(name, version), thickness=thickness_mm * MILLIMETRE)
 
 
-def _straight(version: str, protocol: Protocol, depth_mm: float, **changed: Any) -> Insertion:
+def _straight(version: str, protocol: Protocol, depth_mm: float, **changed: Any) -> DrivenNeedle:
     """Push in from the surface to a depth, as the protocol says or as `changed` does."""
     of = {**protocol, **changed}
     depths = ramp(0.0, depth_mm, of["speed_mm_s"])

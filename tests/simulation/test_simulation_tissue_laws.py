@@ -11,7 +11,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.simulation import rupture, standing, tissues
 from app.simulation.consumers import DevicePort
-from app.simulation.effects import bevel, cutting, lateral_tissue, puncture
+from app.simulation.effects import bevel, cutting, implementation, lateral_tissue, puncture
 from app.simulation.errors import SimulationError
 from app.simulation.needles import OUTER_DIAMETER
 from app.simulation.plan import compile
@@ -31,6 +31,7 @@ WALL = tuple(
 AIR = TissueLayer(
     "air", 0.0, side_stiffness=0.0, friction=0.0, static_friction=0.0, viscous_friction=0.0
 )
+KEPT = ("skin", "fat", "liver", "bone")
 TABLE = (tissues.MUSCLE, AIR, *WALL)
 """Values by code: nobody's, air, and the four of the wall."""
 
@@ -38,6 +39,57 @@ TABLE = (tissues.MUSCLE, AIR, *WALL)
 def ramp(begin: float, end: float, speed: float = 0.01) -> FloatArray:
     ticks = round(abs(end - begin) / speed * 1e3)
     return np.linspace(begin, end, ticks + 1)
+
+
+FORMER = {
+    ("ball_joint", "kikuuwe"): 16,
+    ("ball_joint", "dahl"): 16,
+    ("ball_joint", "lugre"): 16,
+    ("bevel", "arc"): 2582,
+    ("bevel", "drifting"): 2582,
+    ("bone_contact", "exact"): 7,
+    ("bone_contact", "implicit"): 7,
+    ("breathing", "lujan"): 10,
+    ("breathing", "on_command"): 52,
+    ("breathing", "varying"): 522,
+    ("cutting", "displacement"): 18,
+    ("cutting", "speed"): 18,
+    ("cutting", "switched"): 18,
+    ("dimpling", "membrane"): 20,
+    ("dimpling", "drag"): 20,
+    ("lateral_tissue", "beam"): 4464,
+    ("lateral_tissue", "winkler"): 4464,
+    ("puncture", "instant"): 21,
+    ("puncture", "snap"): 21,
+    ("relaxation", "exact"): 22,
+    ("relaxation", "midpoint"): 22,
+    ("shaft_friction", "kikuuwe"): 26,
+    ("shaft_friction", "dahl"): 24,
+    ("shaft_friction", "lugre"): 26,
+}
+"""Numbers in the arrays of former models, in skin, fat, liver and bone: records hold them."""
+
+
+@pytest.mark.parametrize(("name", "model"), FORMER)
+def test_records_of_before_find_as_many_numbers_as_they_hold(name: str, model: str) -> None:
+    scene = Scene(layers=tuple(tissues.TISSUES["first"][key] for key in KEPT))
+    memory = memory_of(name, {}, Binding(scene, sv.PLANT_DEPTH, model))
+    assert len(memory) == FORMER[name, model]
+
+
+def test_a_target_is_dragged_along_by_the_tissue_that_the_field_has_at_the_tip() -> None:
+    shifts = []
+    for code in (2.0, 5.0):  # skin, liver
+        scene, state = Scene(tissues=TABLE, field=object()), sv.empty_state()
+        memory = memory_of("dimpling", {}, Binding(scene, sv.PLANT_DEPTH, "drag"))
+        state[sv.AXIS_Z], state[sv.DT], state[sv.PLANT_DEPTH] = -1.0, 1e-3, 0.05
+        state[sv.AXIAL_FORCE], state[sv.TISSUE] = 0.5, code
+        for _ in range(200):
+            state[sv.TARGET_SHIFT] = 0.0
+            implementation("dimpling").step(state, memory)
+        shifts.append(-state[sv.TARGET_SHIFT_Z])
+    stiff, soft = (TABLE[code].indentation(0.5) for code in (2, 5))
+    assert shifts[0] / shifts[1] == pytest.approx(stiff / min(soft, 0.01), rel=1e-3)
 
 
 # --- kernels --------------------------------------------------------------------------------------

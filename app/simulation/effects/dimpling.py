@@ -69,7 +69,10 @@ DECLARATION: Final[dict[str, Any]] = {
 
 
 class _DimplingPlaces(NamedTuple):
-    """Constants, how many layers follow; then how far the tissue has given way [m]."""
+    """Constants, how many layers follow; then how far the tissue has given way [m].
+
+    `drag` is 2 where tissue is looked up in a field.
+    """
 
     slot: int
     drag: int
@@ -78,7 +81,6 @@ class _DimplingPlaces(NamedTuple):
     settling: int
     furthest: int
     layers: int
-    by_field: int
     given: int = 0
 
 
@@ -93,13 +95,12 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
         _AT,
         rows.ravel(),
         slot=binding.depth_slot,
-        drag=float(binding.model == "drag"),
+        drag=float(binding.model == "drag") * (1.0 + float(binding.scene.has_field)),
         share=values["share"],
         reach=values["reach"],
         settling=values["settling"],
         furthest=values["furthest"],
         layers=len(rows),
-        by_field=float(binding.scene.has_field),
     )
 
 
@@ -115,7 +116,7 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
     depth, way = state[int(p[_AT.slot])], state[sv.INDENTATION]
     if p[_AT.drag] > 0.0:
         force = state[sv.AXIAL_FORCE]
-        count, by_field = int(p[_AT.layers]), p[_AT.by_field]
+        count, by_field = int(p[_AT.layers]), p[_AT.drag] - 1.0
         at = tissue_row(p, state, len(_AT), _ROW, count, by_field, depth - way)
         linear, quadratic = p[at + 1], p[at + 2]
         slope = linear + np.sqrt(linear * linear + 4.0 * quadratic * abs(force))

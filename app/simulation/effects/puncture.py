@@ -75,11 +75,10 @@ DECLARATION: Final[dict[str, Any]] = {
 class _PuncturePlaces(NamedTuple):
     """Constants, then the depth before [m], the free dimple [m] with its spring, and the count.
 
-    `rate` is 1 in the array of that model, which has places of its own behind it.
+    `snap_time` is -1 in the array of `rate`, which has other places.
     """
 
     slot: int
-    rate: int
     reopening: int
     snap_time: int
     membranes: int
@@ -122,7 +121,6 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
         _AT,
         np.ravel(rows),
         slot=binding.depth_slot,
-        rate=0.0,
         reopening=values["reopening"],
         snap_time=values["snap_time"] if binding.model == "snap" else 0.0,
         membranes=len(rows),
@@ -176,8 +174,8 @@ def _push(p: FloatArray, depth: float) -> tuple[float, float]:
 
 def carry(old: FloatArray, new: FloatArray) -> None:
     """Go on by another model with the same membranes punctured; `rate` goes on as itself alone."""
-    if old[_AT.rate] > 0.0 or new[_AT.rate] > 0.0:
-        if len(old) == len(new) and old[_AT.rate] == new[_AT.rate]:
+    if old[_AT.snap_time] < 0.0 or new[_AT.snap_time] < 0.0:
+        if len(old) == len(new) and old[_AT.snap_time] == new[_AT.snap_time]:
             new[:] = old
         return
     keep_memory(_AT, old, new)
@@ -188,7 +186,7 @@ def carry(old: FloatArray, new: FloatArray) -> None:
 @stage
 def step(state: FloatArray, parameters: FloatArray) -> None:
     """Add the membranes' force to AXIAL_FORCE; write INDENTATION and PUNCTURES."""
-    if parameters[_AT.rate] > 0.0:
+    if parameters[_AT.snap_time] < 0.0:
         push_membranes(state, parameters)
         return
     depth, dt = state[int(parameters[_AT.slot])], state[sv.DT]
@@ -217,7 +215,7 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
 def stored_energy(parameters: FloatArray) -> float:
     """Return what the membrane in front and the free dimple hold [J]."""
     p = parameters
-    if p[_AT.rate] > 0.0:
+    if p[_AT.snap_time] < 0.0:
         return held_energy(p)
     held = p[_AT.dimple] ** 2 * (p[_AT.linear] / 2.0 + p[_AT.quadratic] * p[_AT.dimple] / 3.0)
     for row in p[len(_AT) :].reshape(-1, len(_ROW)):
@@ -229,7 +227,7 @@ def stored_energy(parameters: FloatArray) -> float:
 
 def axial_energy_bound(parameters: FloatArray) -> float:
     """Return the most that the membranes can hold [J]: each pushed in to where it is punctured."""
-    if parameters[_AT.rate] > 0.0:
+    if parameters[_AT.snap_time] < 0.0:
         return most_energy(parameters)
     bound = 0.0
     for row in parameters[len(_AT) :].reshape(-1, len(_ROW)):
