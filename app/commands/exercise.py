@@ -141,9 +141,16 @@ def validate(
             help="Names or files of exercises.",
         ),
     ],
+    physics: Annotated[
+        bool,
+        typer.Option(
+            "--physics", help="Also that nothing that the patient calls for is absent: reads CTs."
+        ),
+    ] = False,
 ) -> Answer:
     """Check exercises to the last effect. Every mistake with its field and line; code 3 if any."""
     from app.compose.explaining import quick_explanation
+    from app.compose.physics import calls_of
     from app.core.errors import AcusError
     from app.exercises.library import load_exercise
 
@@ -159,9 +166,42 @@ def validate(
         wrong = quick_explanation(found)[1]
         row |= {"id": found.id, "version": found.version}
         row["problems"] = [f"{name}: {field}: {why}{_line(name, field)}" for field, why in wrong]
+        if physics and not wrong:
+            try:
+                calls, _ = calls_of(found)
+            except AcusError as error:
+                row["problems"] = [f"{name}: {error}"]
+            else:
+                row["problems"] = [f"{name}: {call.words}" for call in calls if call.is_absent]
     problems = Each("problems", "✖ {}", none="✔ {exercise}: {id}, version {version}")
     fine = not any(row["problems"] for row in rows)
     return Answer({"exercises": rows}, yes=fine, shown=Each("exercises", problems))
+
+
+@app.command()
+def suggest(exercise: Name) -> Answer:
+    """Print what to add to an exercise: what its CT, path, reach and target call for."""
+    from app.compose.physics import calls_of, suggested_lines
+    from app.exercises.called_for import additions
+    from app.exercises.library import load_exercise
+
+    chosen = load_exercise(exercise)
+    calls, _ = calls_of(chosen)
+    more = additions(calls, chosen)
+    rows = [
+        {
+            "effect": call.effect,
+            "reason": call.reason,
+            "simulated": call.is_present,
+            "without": call.without,
+            "absent": call.is_absent,
+        }
+        for call in calls
+    ]
+    facts = {"id": chosen.id, "version": chosen.version, "called_for": rows, "add": more}
+    absent = [f"# {call.effect}: {call.reason}" for call in calls if call.is_absent]
+    nothing = [f"# nothing is absent without a reason in {chosen.id}, version {chosen.version}"]
+    return Answer(facts, [*absent, *suggested_lines(more)] or nothing)
 
 
 @app.command()

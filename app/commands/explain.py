@@ -79,6 +79,7 @@ def _lines(document: dict[str, Any]) -> list[str]:
     lines += [f"\n  {dropped['effect']}\n    {dropped['why']}" for dropped in document["dropped"]]
     if not document["simulated"] and not document["dropped"]:
         lines.append("  no effects")
+    lines += ["", *called_for_lines(document)]
     if (touch := document["touch"]) is not None:
         lines.append(
             f"\n  touches {len(touch['depths_mm'])} targets, each for {touch['dwell_s']:g} s within"
@@ -96,6 +97,24 @@ def _lines(document: dict[str, Any]) -> list[str]:
         lines.append(f"\n  {line['metric']} passes to {line['pass']:g}: {line['words']}")
     for file in document["refused"]:
         lines.append(f"\n  refused {file['kind']}: {file['reason']}")
+    return lines
+
+
+def called_for_lines(document: dict[str, Any]) -> list[str]:
+    """Return what the patient calls for, and whether it is there, absent or left out."""
+    if not document["called_for"]:
+        return [f"  {document['called_for_note']}"]
+    lines = ["  the patient calls for"]
+    for call in document["called_for"]:
+        mark = "✔" if call["simulated"] else "–" if call["without"] else "✖"
+        lines.append(f"    {mark} {call['effect']}: {call['reason']}")
+        if call["without"] and not call["simulated"]:
+            lines.append(f"      left out: {call['without']}")
+        if call["absent"]:
+            cost = "" if call["cost_ns"] is None else f", {_cost(call['cost_ns'])}"
+            lines.append(f"      absent{cost}")
+    if document["add"]:
+        lines.append(f"  add it: acus exercise suggest {document['exercise']}")
     return lines
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from app.compose.declared_views import declared_views
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.exercises.parts import LayersFrom, OwnPlan, TissueSource
 from app.exercises.scene import (
@@ -40,12 +41,13 @@ def explanation(exercise: Exercise, simulated: bool = True) -> dict[str, Any]:
     Raises:
         AcusError: for a device, law, effect or parameter that there is not; names what is valid.
     """
-    profile = device_of(exercise)
+    profile, asked = device_of(exercise), exercise
     exercise = _with_tissue(exercise)
     exercise, bound, tissue = _tissue(exercise, profile)
     plan = compile_exercise(exercise, profile, declared_views(), simulated, bound=bound)
     document = _document(exercise, simulated, plan)
     document["tissue"] = tissue
+    document |= _called_for(asked, simulated)
     document["assistance"] = exercise.assistance
     document["laws"] = _laws(law_requests(exercise), profile)
     document["touch"] = _touch(exercise, profile)
@@ -118,6 +120,61 @@ def _tissue(
         "notes": list(field.notes),
     }
     return exercise, BoundField(field, placed.T_world_patient, placed.p_target), said
+
+
+def _called_for(exercise: Exercise, simulated: bool) -> dict[str, Any]:
+    """Return what the patient calls for, and what that which is absent would cost of a tick.
+
+    A CT that cannot be read calls for nothing, and the reason is given.
+
+    Raises:
+        ExerciseError: if `without` names what is not called for.
+    """
+    from app.compose.physics import calls_of, completed
+    from app.exercises.called_for import additions
+    from app.imaging.errors import ImagingError
+
+    try:
+        calls, field = calls_of(exercise)
+    except ImagingError as error:
+        return {"called_for": [], "add": {}, "called_for_note": str(error)}
+    costs: dict[str, float] = {}
+    if field is not None and any(call.is_absent for call in calls):
+        whole = completed(exercise, calls)
+        profile = device_of(whole)
+        whole, bound, _ = _tissue(_with_tissue(whole), profile)
+        costs = _own_costs(compile_exercise(whole, profile, declared_views(), bound=bound))
+    rows = [
+        {
+            "effect": call.effect,
+            "reason": call.reason,
+            "simulated": call.is_present,
+            "without": call.without,
+            "absent": call.is_absent,
+            "cost_ns": costs.get(call.effect) if call.is_absent else None,
+        }
+        for call in calls
+    ]
+    note = ""
+    if not calls:
+        note = sentence("nothing is called for: a tool in a trocar moves in an inflated belly")
+        if exercise.touch is None:
+            note = sentence("nothing is called for: there is no CT in Hounsfield units")
+    return {"called_for": rows, "add": additions(calls, exercise), "called_for_note": note}
+
+
+def _own_costs(plan: SimulationPlan) -> dict[str, float]:
+    """Measured time of each effect in a tick by its own model [ns]."""
+    from app.device.control.cost import stage_cost
+
+    state, costs = _working_state(), {}
+    for kept in plan.kept:
+        if kept.declaration.pictures:
+            continue
+        _, function, parameters = plan.stage(kept)
+        function(state.copy(), parameters)
+        costs[kept.name] = round(1e9 * stage_cost(function, parameters, state), 1)
+    return costs
 
 
 def quick_explanation(exercise: Exercise) -> tuple[dict[str, str], tuple[tuple[str, str], ...]]:

@@ -89,7 +89,7 @@ def agreement_of(
 
 def conditions_of(exercise: Exercise) -> dict[str, str]:
     """Return what the exercise sets, as a score is told with it, and a digest of its content."""
-    left_out = {"title", "description", "views", "assistance"}
+    left_out = {"title", "description", "views", "assistance", "without"}
     if exercise.layers_from is LayersFrom.CT:  # what they are follows from CT and path
         left_out.add("layers")
     content = exercise.model_dump(mode="json", exclude_defaults=True, exclude=left_out)

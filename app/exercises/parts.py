@@ -228,16 +228,27 @@ class LawPart(Strict):
     parameters: dict[str, Annotated[float, Field(strict=True)]] = Field(default_factory=dict)
 
 
+class TipShape(StrEnum):
+    """How a needle's tip is ground."""
+
+    SYMMETRIC = "symmetric"
+    """Pointed all round, as a trocar's stylet: it goes straight."""
+    BEVEL = "bevel"
+    """From one side: it cuts a curved way."""
+
+
 class NeedlePart(Strict):
     """The needle that is held, in the hand and in the simulated tissue.
 
     Attributes:
         gauge: of the needle; how thick it is says how it bends.
         length_mm: hub to tip; None for the one in the device's profile.
+        tip: how it is ground; a bevel calls for the effect `bevel`.
     """
 
     gauge: int = 18
     length_mm: Annotated[float, Field(gt=0.0)] | None = None
+    tip: TipShape = TipShape.SYMMETRIC
 
     @field_validator("gauge")
     @classmethod
@@ -260,14 +271,14 @@ class LayersFrom(StrEnum):
 
 
 class TissueSource(StrEnum):
-    """How the simulation knows the tissue that the needle meets."""
+    """Source of the tissue that the simulated needle meets."""
 
     AUTO = "auto"
     """Layers where every needle within reach would meet the same, else the field."""
     LAYERS = "layers"
     """In layers along the planned path, wherever the needle goes."""
     FIELD = "field"
-    """Where the needle is, in the patient in three dimensions."""
+    """Looked up where the needle is, in the patient in three dimensions."""
 
 
 class LayerPart(Strict):

@@ -42,7 +42,7 @@ from app.scoring.errors import ScoringError
 from app.scoring.rows import ScoreRules
 from app.scoring.score import check_names
 from app.scoring.tolerance import Tolerance
-from app.simulation.effects import declaration
+from app.simulation.effects import declaration, effect_names
 from app.simulation.errors import SimulationError
 from app.simulation.scene import check_order
 
@@ -68,6 +68,7 @@ class Exercise(Strict):
         laws: name -> parameters of the force laws that act on the hand; none if empty.
         effects: name -> parameters of what is asked for; the scene compiler keeps what somebody
             consumes.
+        without: name of an effect that the patient calls for -> why the exercise does without it.
         layers: tissue along the path, from the skin inwards; empty for the simulation's own.
         layers_from: `file` takes them as they are given; `ct` finds them in the CT along the path
             when the attempt begins, in place of those given.
@@ -107,6 +108,7 @@ class Exercise(Strict):
     fading: FadingPart | None = None
     laws: Mapping[str, LawPart] = Field(default_factory=lambda: {"fixture": LawPart()})
     effects: Mapping[str, EffectPart] = Field(default_factory=dict)
+    without: Mapping[str, str] = Field(default_factory=dict)
     layers: tuple[LayerPart, ...] = ()
     layers_from: LayersFrom = LayersFrom.FILE
     tissue: TissueSource = TissueSource.LAYERS
@@ -147,6 +149,39 @@ class Exercise(Strict):
         if isinstance(parts, Mapping):
             return {name: {} if part is None else part for name, part in parts.items()}
         return parts
+
+    @field_validator("without")
+    @classmethod
+    def _reasons_are_given(cls, without: Mapping[str, str]) -> Mapping[str, str]:
+        for name, reason in without.items():
+            if name not in effect_names():
+                raise ValueError(
+                    sentence(
+                        "no effect is called {name!r}; there are {names}",
+                        name=name,
+                        names=", ".join(effect_names()),
+                    )
+                )
+            if not reason.strip():
+                raise ValueError(
+                    sentence("{name} is left out without a reason: say why", name=name)
+                )
+        return without
+
+    @model_validator(mode="after")
+    def _nothing_is_both(self) -> Exercise:
+        both = [name for name in self.without if name in self.effects]
+        if "tissue_field" in self.without and self.tissue is TissueSource.FIELD:
+            both.append("tissue_field")
+        if both:
+            raise ValueError(
+                sentence(
+                    "without: {both_first} is left out, and the exercise asks for it: one of the "
+                    "two",
+                    both_first=both[0],
+                )
+            )
+        return self
 
     @field_validator("layers")
     @classmethod

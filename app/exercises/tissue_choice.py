@@ -55,13 +55,13 @@ def choose(
     diameter = OUTER_DIAMETER[exercise.needle.gauge]
     reach_mm = profile.depth_range[1] / MILLIMETRE
     depths = np.arange(0.0, reach_mm, _STEP_MM)
-    planned = _met(field, placed, placed.axis, reach_mm)
+    planned = met_by(field, placed, placed.axis, reach_mm)
     names = [field.tissues[part.code].words for part in planned]
     force = _force(planned, depths, values, diameter)
     limit = np.radians(profile.workspace.tilt_limit_deg[profile.workspace.joint])
     most = 0.0
-    for angle, way in _ways(limit):
-        met = _met(field, placed, way, reach_mm)
+    for angle, way in ways(limit):
+        met = met_by(field, placed, way, reach_mm)
         others = [field.tissues[part.code].words for part in met]
         where = f"a needle {np.degrees(angle):.0f}° from upright"
         if new := [part for part in met if field.tissues[part.code].words not in names]:
@@ -84,7 +84,7 @@ def choose(
     )
 
 
-def _ways(limit: float) -> list[tuple[float, FloatArray]]:
+def ways(limit: float) -> list[tuple[float, FloatArray]]:
     """Directions that a machine can hold, in world: (angle from upright [rad], unit vector)."""
     down = np.array([0.0, 0.0, -1.0])
     ways = [(0.0, down)]
@@ -96,7 +96,9 @@ def _ways(limit: float) -> list[tuple[float, FloatArray]]:
     return ways
 
 
-def _met(field: TissueField, placed: PlacedPlan, way: FloatArray, reach_mm: float) -> list[Crossed]:
+def met_by(
+    field: TissueField, placed: PlacedPlan, way: FloatArray, reach_mm: float
+) -> list[Crossed]:
     """Return what a straight needle from the entry meets, from the skin on; depths from there."""
     from app.imaging.field.walking import walk
 

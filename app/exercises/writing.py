@@ -75,7 +75,8 @@ def exercise_document(exercise: Exercise, folder: Path | None = None) -> dict[st
     whole = exercise.model_dump(mode="json", by_alias=True, exclude_none=True)
     whole["effects"] = _parts(exercise.effects)
     whole["laws"] = _parts(exercise.laws)
-    for name in ("description", "joint", "target_organ", "structures", "layers", "effects"):
+    emptied = ("description", "joint", "target_organ", "structures", "layers", "effects", "without")
+    for name in emptied:
         if whole[name] in _EMPTY:
             del whole[name]
     if not whole["guidance"].get("mode"):

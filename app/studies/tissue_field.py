@@ -151,13 +151,13 @@ def _turned(codes: Codes, values: tuple[TissueLayer, ...], fresh: FloatArray) ->
 
 
 def _boundaries(codes: Codes) -> list[tuple[int, int, int]]:
-    """Where tissues of one path begin: (sample, code before, code)."""
+    """Return where tissues of one path begin: (sample, code before, code)."""
     at = np.flatnonzero(np.diff(codes)) + 1
     return [(int(k), int(codes[k - 1]), int(codes[k])) for k in at]
 
 
 def _placed(reference: Codes, codes: Codes) -> tuple[list[float], int, int]:
-    """How far boundaries lie from those of the reference [mm]; how many are not there, of all."""
+    """Return how far boundaries lie off the reference's [mm]; how many are not there, of all."""
     off, missing, total = [], 0, 0
     for one, other in zip(reference, codes, strict=True):
         there = _boundaries(other)

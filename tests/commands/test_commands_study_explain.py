@@ -44,10 +44,15 @@ def test_explain_says_what_is_simulated_why_and_at_what_cost() -> None:
     assert done.exit_code == 0
     document = json.loads(done.stdout)["facts"]
     cost = {row["effect"]: (row["cost_ns"], row["picture_ns"]) for row in document["simulated"]}
-    assert set(cost) == {"lateral_tissue", "shaft_friction", "camera_tone", "camera_jpeg"}
+    along = {"shaft_friction", "puncture", "cutting", "relaxation", "bone_contact"}
+    whole = {"lateral_tissue", "tissue_field", "bone_slide", "camera_tone", "camera_jpeg", *along}
+    assert set(cost) == whole
     assert all(sum(one or 0.0 for one in both) > 0.0 for both in cost.values())
     assert all(row["why"] for row in document["simulated"])
-    assert document["dropped"][0]["effect"] == "breathing"
+    calls = {row["effect"]: row for row in document["called_for"]}
+    assert calls["puncture"]["simulated"]
+    assert calls["breathing"]["without"].startswith("the patient holds the breath")
+    assert document["add"] == {}
     (law,) = document["laws"]
     assert law["law"] == "fixture"
     assert law["energy"] == "potential"
@@ -59,6 +64,42 @@ def test_explain_for_the_real_robot_drops_what_it_cannot_render() -> None:
     done = RUN.invoke(build(), ["explain", "first-insertion", "--real"])
     assert done.exit_code == 0
     assert "shaft_friction\n    dropped: it gives the force along the needle" in done.stdout
+
+
+def test_what_is_absent_is_suggested_with_its_cost_and_refused_where_it_has_no_reason(
+    tmp_path: Path,
+) -> None:
+    file = tmp_path / "old.yaml"
+    file.write_text(
+        "id: old\ntitle: Old\nct: {phantom: {seed: 6}}\nplan: {own: true}\n"
+        "target_organ: liver\neffects: [lateral_tissue, shaft_friction]\n",
+        encoding="utf-8",
+    )
+    done = RUN.invoke(build(), ["exercise", "validate", "--physics", str(file)])
+    assert done.exit_code == 3
+    assert "bone_contact is called for and absent: no needle goes through rib" in done.stdout
+    assert RUN.invoke(build(), ["exercise", "validate", str(file)]).exit_code == 0
+
+    done = RUN.invoke(build(), ["explain", str(file), "--json"])
+    absent = {row["effect"]: row for row in json.loads(done.stdout)["facts"]["called_for"]}
+    assert absent["bone_contact"]["absent"]
+    assert 0.0 < absent["bone_contact"]["cost_ns"] < 1e5
+
+    done = RUN.invoke(build(), ["exercise", "suggest", str(file)])
+    assert done.exit_code == 0
+    lines = [line for line in done.stdout.splitlines() if not line.startswith(("#", "effects:"))]
+    text = file.read_text(encoding="utf-8").replace("[lateral_tissue, shaft_friction]", "")
+    file.write_text(
+        "\n".join([text.rstrip(), "  lateral_tissue:", "  shaft_friction:", *lines[1:], lines[0]]),
+        encoding="utf-8",
+    )
+    assert RUN.invoke(build(), ["exercise", "validate", "--physics", str(file)]).exit_code == 0
+
+    with file.open("a", encoding="utf-8") as added:
+        added.write('\nwithout: {bevel: "the tip goes straight"}\n')
+    done = RUN.invoke(build(), ["exercise", "validate", "--physics", str(file)])
+    assert done.exit_code == 3
+    assert "bevel is not called for" in done.stdout
 
 
 @pytest.mark.long("journey")

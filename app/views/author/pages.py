@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
     QLabel,
     QLineEdit,
     QPlainTextEdit,
+    QPushButton,
     QSpinBox,
     QTableWidget,
     QTableWidgetItem,
@@ -681,7 +682,9 @@ class EffectsPage(Form):
     """Effects with the live plan of what is simulated, why, and at what cost."""
 
     def __init__(self, editor: ExerciseEditor) -> None:
-        super().__init__(editor, tr("Effects"), ("effects", "layers", "layers_from"))
+        super().__init__(
+            editor, tr("Effects"), ("effects", "without", "tissue", "layers", "layers_from")
+        )
         self.parts = PartsBox(editor, "effects", "")
         self.rows.addWidget(self.parts)
         self.note(("effects",))
@@ -696,6 +699,13 @@ class EffectsPage(Form):
                 ("ct", tr("the CT along the path, found when an attempt begins")),
             ),
         )
+        self.calls = label("", "dim")
+        self.rows.addWidget(self.calls)
+        self.complete = QPushButton(tr("Add what is absent"), self)
+        self.complete.setVisible(False)
+        self.complete.clicked.connect(self._add_absent)
+        self.rows.addWidget(self.complete)
+        self._absent: Mapping[str, Any] = {}
         self.cost = label("", "dim")
         self.rows.addWidget(self.cost)
         self._loads.append(self.parts.load)
@@ -703,6 +713,7 @@ class EffectsPage(Form):
 
     def show_cost(self, result: Mapping[str, Any] | None) -> None:
         """Write what a tick costs; None while it is measured."""
+        self._show_calls(result or {})
         if result is None:
             self.cost.setText(tr("measuring what it costs …"))
             return
@@ -724,6 +735,33 @@ class EffectsPage(Form):
             if one["picture_ns"] is not None
         ]
         self.cost.setText("\n".join(lines))
+
+    def _show_calls(self, result: Mapping[str, Any]) -> None:
+        """List what the patient calls for and the exercise lacks, with the cost of each."""
+        self._absent = result.get("add", {})
+        absent = [call for call in result.get("called_for", ()) if call["absent"]]
+        lines = [
+            tr(
+                "✖ {name} is called for: {reason} ({ns:.0f} ns of each tick)",
+                name=call["effect"],
+                reason=call["reason"],
+                ns=call["cost_ns"] or 0.0,
+            )
+            for call in absent
+        ]
+        self.calls.setText("\n".join(lines))
+        self.calls.setVisible(bool(lines))
+        self.complete.setVisible(bool(self._absent))
+
+    def _add_absent(self) -> None:
+        """Put all that is absent into the exercise, as one step that undo takes back."""
+        effects = self._absent.get("effects", {})
+        values: dict[tuple[str, ...], Any] = {
+            ("effects", name): dict(part) for name, part in effects.items()
+        }
+        if "tissue" in self._absent:
+            values[("tissue",)] = self._absent["tissue"]
+        self._editor.put_all(values)
 
 
 LAYER_NUMBERS = (
