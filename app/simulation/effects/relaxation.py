@@ -33,6 +33,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.messages import sentence
 from app.core.parameters import numbered, packed
 from app.simulation.along_needle import (
     GAUGE_18,
@@ -169,10 +170,14 @@ def warnings(_: Mapping[str, float], binding: Binding) -> tuple[str, ...]:
         return ()
     if hosted:
         return (
-            "puncture by rate relaxes its dimple itself: this adds to the force that a membrane"
-            " tears at; take the model standing",
+            sentence(
+                "puncture by rate relaxes its dimple itself: this adds to the force that a "
+                "membrane tears at; take the model standing"
+            ),
         )
-    return ("the dimple does not relax: puncture by rate would, and its model is another",)
+    return (
+        sentence("the dimple does not relax: puncture by rate would, and its model is another"),
+    )
 
 
 def mean_stiffness(layer: TissueLayer, diameter: float) -> float:
