@@ -71,7 +71,7 @@ def test_what_is_absent_is_suggested_with_its_cost_and_refused_where_it_has_no_r
 ) -> None:
     file = tmp_path / "old.yaml"
     file.write_text(
-        "id: old\ntitle: Old\nct: {phantom: {seed: 6}}\nplan: {own: true}\n"
+        "id: old\ntitle: Old\nct: {phantom: {seed: 2}}\n"
         "target_organ: liver\neffects: [lateral_tissue, shaft_friction]\n",
         encoding="utf-8",
     )

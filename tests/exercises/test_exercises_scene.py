@@ -73,10 +73,12 @@ def test_scored_metrics_are_consumers_of_what_they_read() -> None:
     assert "target_shift_x" in consumer.reads
 
 
-def test_the_first_insertion_drops_breathing_of_an_organ_the_target_is_not_in() -> None:
-    kept, dropped = fate("first-insertion", simulated=True)
-    assert kept == ["camera_jpeg", "camera_tone", "lateral_tissue", "shaft_friction"]
-    assert "acts on lung, and the target lies in liver" in dropped["breathing"]
+def test_breathing_of_an_organ_that_the_target_is_not_in_is_dropped() -> None:
+    effects = {"lateral_tissue": {}, "breathing": {"organ": "lung"}}
+    chosen = exercise(effects=effects, target_organ="liver")
+    plan = compile_exercise(chosen, device_of(chosen), declared_views())
+    assert "lateral_tissue" in {effect.name for effect in plan.kept}
+    assert "acts on lung, and the target lies in liver" in plan.dropped[0].why
 
 
 def test_friction_along_the_needle_is_dropped_on_a_robot_that_cannot_push_that_way() -> None:
@@ -96,9 +98,9 @@ def test_breathing_is_dropped_where_neither_hand_nor_view_nor_metric_consumes_it
     plan = compile_exercise(chosen, device_of(chosen), declared_views(), simulated=False)
     assert plan.kept == ()
     assert "nobody" in plan.dropped[0].why
-    kept, dropped = fate("thick-tissue", simulated=False)
-    assert kept == ["lateral_tissue", "shaft_friction"]
-    assert "acts on lung" in dropped["breathing"]
+    kept, _ = fate("thick-tissue", simulated=False)  # its force gauge shows all along the needle
+    along = ["cutting", "puncture", "relaxation", "shaft_friction"]
+    assert kept == sorted(["lateral_tissue", *along])
 
 
 def test_an_unknown_effect_or_parameter_is_refused_with_the_names_that_exist() -> None:
