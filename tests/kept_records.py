@@ -18,7 +18,6 @@ from app.compose.cameras import AttachedCameras
 from app.compose.trainer import TrainerSetup, _context, build_loop, device_of
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
-from app.exercises.library import load_exercise
 from app.exercises.scene import placed_plan_of
 from app.planning.plan import Plan
 from app.scoring.result import SCORING_VERSION
@@ -26,6 +25,7 @@ from app.session.ct_facts import CtFacts
 from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.optics.rig import load_rig
+from tests.layered import layered
 
 FOLDER: Final = Path(__file__).parent / "data" / "records"
 PLAN: Final = Plan(np.array([0.0, -100.0, 0.0]), np.array([9.0, -45.0, 6.0]), "test")
@@ -44,7 +44,7 @@ TURNED: Final = (-0.5, 0.65)
 def make(name: str, folder: Path) -> Path:
     """Record an attempt whose hand swings and pushes; return the record."""
     unlocked = {"locks": ()}
-    exercise = load_exercise(RECORDS[name]).model_copy(update=unlocked)
+    exercise = layered(RECORDS[name]).model_copy(update=unlocked)
     profile, clock = device_of(exercise), VirtualClock(50.0)
     placed = placed_plan_of(exercise, profile, PLAN)
     setup = TrainerSetup(exercise, placed, CtFacts("ct-1"), None, 3, folder, clock)

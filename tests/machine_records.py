@@ -18,7 +18,6 @@ from app.compose.cameras import AttachedCameras
 from app.compose.trainer import TrainerSetup, _context, build_loop, device_of
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
-from app.exercises.library import load_exercise
 from app.exercises.parts import EffectPart, LawPart, NeedlePart
 from app.exercises.scene import placed_plan_of
 from app.planning.plan import Plan
@@ -26,6 +25,7 @@ from app.session.ct_facts import CtFacts
 from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.optics.rig import load_rig
+from tests.layered import layered
 
 FOLDER: Final = Path(__file__).parent / "data" / "records-machines"
 PLAN: Final = Plan(np.array([0.0, -100.0, 0.0]), np.array([9.0, -45.0, 6.0]), "test")
@@ -78,7 +78,7 @@ RECORDS: Final = {
 
 def make(made: Made, folder: Path) -> Path:
     """Record an attempt whose hand swings and pushes; returns the record."""
-    chosen = load_exercise("thick-tissue").model_copy(
+    chosen = layered("thick-tissue").model_copy(
         update={
             "device": made.device,
             "joint": made.joint,

@@ -9,7 +9,6 @@ import pytest
 from app.compose.trainer import TrainerSetup, build_loop, build_trainer, device_of, loop_table
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
-from app.exercises.library import load_exercise
 from app.exercises.scene import placed_plan_of
 from app.planning.placement import PatientOrientation, PlacedPlan, Placement
 from app.planning.plan import Plan
@@ -18,13 +17,14 @@ from app.session.machine import State
 from app.session.recording import read_recording
 from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
+from tests.layered import layered
 
 PLAN = Plan(np.array([0.0, -100.0, 0.0]), np.array([15.0, -35.0, 10.0]), "test")
 
 
 def run(skill, exercise="first-insertion", seed=3, assistance=0.7, seconds=60.0, plan=PLAN):
     """A whole attempt on the composed loop, the depth measured without cameras."""
-    chosen = load_exercise(exercise)
+    chosen = layered(exercise)
     profile = device_of(chosen)
     placed = placed_plan_of(chosen, profile, plan)
     clock = VirtualClock(100.0)
@@ -87,7 +87,7 @@ def test_without_guidance_no_force_of_the_fixture_is_felt():
 
 @pytest.mark.parametrize("exercise", ["against-repulsion", "past-the-vessel"])
 def test_a_harder_exercise_can_be_finished_and_its_forces_are_felt(exercise):
-    chosen = load_exercise(exercise)
+    chosen = layered(exercise)
     result, states, felt = run("expert", exercise, assistance=chosen.assistance, plan=None)
     assert {State.ALIGNING, State.INSERTING, State.HOLDING} <= set(states)
     assert result.state is State.ENDED
@@ -97,7 +97,7 @@ def test_a_harder_exercise_can_be_finished_and_its_forces_are_felt(exercise):
 
 
 def test_breathing_follows_the_way_the_patient_lies():
-    exercise = load_exercise("breathing-liver")
+    exercise = layered("breathing-liver")
     profile = device_of(exercise)
     for orientation, up in ((PatientOrientation.SUPINE, 1.0), (PatientOrientation.PRONE, -1.0)):
         plan = PLAN if up > 0 else Plan(-PLAN.entry_mm, -PLAN.target_mm, "prone")
@@ -114,7 +114,7 @@ def test_breathing_follows_the_way_the_patient_lies():
 
 
 def test_the_table_of_a_real_run_has_the_safety_after_all_forces():
-    exercise = load_exercise("thick-tissue")
+    exercise = layered("thick-tissue")
     profile = device_of(exercise)
     placed = placed_plan_of(exercise, profile, PLAN)
     names = [s.name for s in loop_table(TrainerSetup(exercise, placed, skill="novice"), profile)]
@@ -124,13 +124,13 @@ def test_the_table_of_a_real_run_has_the_safety_after_all_forces():
 
 
 def test_no_record_names_the_folder_or_the_series_of_a_ct(tmp_path):
-    exercise = load_exercise("first-insertion")
+    exercise = layered("first-insertion")
     ct = exercise.ct.model_copy(
         update={"phantom": None, "folder": tmp_path / "Doe_Jane_19600101", "series": "1.2.840.9"}
     )
     exercise = exercise.model_copy(update={"ct": ct, "plan": "phantom_default"})
     profile = device_of(exercise)
-    placed = placed_plan_of(load_exercise("first-insertion"), profile, PLAN)
+    placed = placed_plan_of(layered("first-insertion"), profile, PLAN)
     trainer = build_trainer(
         TrainerSetup(
             exercise,

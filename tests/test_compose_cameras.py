@@ -12,7 +12,6 @@ from app.compose.cameras import real_cameras
 from app.compose.desktop import _learner
 from app.compose.trainer import TrainerSetup, build_rig
 from app.core.clock import SystemClock
-from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of, plan_of
 from app.session.ct_facts import CtFacts
 from app.tracking.calibration.history import CalibrationHistory
@@ -28,6 +27,7 @@ from app.tracking.optics.calibration import CameraCalibration, PoseCalibration, 
 from app.tracking.optics.rig import load_rig
 from app.tracking.simulated.cameras import NeedleRenderer
 from app.tracking.simulated.scene import MarkerScene
+from tests.layered import layered
 
 DEPTH = 0.05
 
@@ -81,7 +81,7 @@ def test_a_trainer_measures_the_depth_with_cameras_and_its_record_says_which(
     wide, settings, tmp_path
 ):
     CalibrationHistory().keep(calibration(wide))
-    exercise = load_exercise("first-insertion")
+    exercise = layered("first-insertion")
     placed = placed_plan_of(exercise, device_of(exercise), plan_of(exercise))
     setup = TrainerSetup(exercise, placed, CtFacts("ct-1"), None, 1, tmp_path, cameras=settings)
     rig = build_rig(setup)
@@ -121,7 +121,7 @@ def test_a_learned_colour_is_looked_for_from_the_next_start_on(wide, settings, t
     assert load_settings().marker_colour is None
     _learner(tracker, settings)("left", np.zeros(2))
     assert clicks == ["left", "left"]
-    exercise = load_exercise("first-insertion")
+    exercise = layered("first-insertion")
     placed = placed_plan_of(exercise, device_of(exercise), plan_of(exercise))
     rig = build_rig(
         TrainerSetup(exercise, placed, CtFacts("ct-1"), None, 1, tmp_path, cameras=load_settings())

@@ -14,7 +14,6 @@ from app.core.errors import AcusError
 from app.device.control import Loop, Table, machine_stages
 from app.device.links.link import Link
 from app.exercises.errors import ExerciseError
-from app.exercises.library import load_exercise
 from app.exercises.locks import Lock
 from app.exercises.scene import placed_plan_of
 from app.exercises.schema import Purpose
@@ -25,13 +24,14 @@ from app.session.trainer import Trainer
 from app.session.verify import conditions
 from app.simulation.errors import SimulationError
 from app.views.reading.lock_words import why_locked
+from tests.layered import layered
 
 
 class Chooser:
     """Chooses models at given moments of an attempt."""
 
     def __init__(self, folder: Path, clock: Any, moments: dict[float, str]) -> None:
-        chosen = load_exercise("thick-tissue")
+        chosen = layered("thick-tissue")
         profile = device_of(chosen)
         placed = placed_plan_of(chosen, profile, PLAN)
         self.setup = TrainerSetup(chosen, placed, seed=3, sessions=folder, clock=clock)
@@ -141,7 +141,7 @@ def test_what_cannot_be_chosen_is_named_and_nothing_changes(tmp_path: Path) -> N
 
 
 def test_a_carry_that_fails_leaves_the_loop_as_it_was() -> None:
-    chosen = load_exercise("first-insertion")
+    chosen = layered("first-insertion")
     table = machine_stages(device_of(chosen), [], [], Link.of([], []))
 
     def fail() -> None:
@@ -161,5 +161,5 @@ def test_a_carry_that_fails_leaves_the_loop_as_it_was() -> None:
 
 
 def test_every_lock_has_words() -> None:
-    exercise = load_exercise("scans-only")
+    exercise = layered("scans-only")
     assert all(why_locked(exercise, lock) for lock in Lock)

@@ -7,16 +7,16 @@ from app.compose.trainer import TrainerSetup, build_loop, device_of
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
-from app.exercises.library import load_exercise
 from app.exercises.scene import placed_plan_of
 from app.planning.plan import Plan
+from tests.layered import layered
 
 PLAN = Plan(np.array([0.0, -100.0, 0.0]), np.array([15.0, -35.0, 10.0]), "test")
 FRAME = 33
 
 
 def rows_of(exercise: str, dial: float, seconds: float = 12.0) -> FloatArray:
-    chosen = load_exercise(exercise)
+    chosen = layered(exercise)
     profile = device_of(chosen)
     placed = placed_plan_of(chosen, profile, PLAN)
     clock = VirtualClock(10.0)

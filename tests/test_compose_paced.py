@@ -11,13 +11,13 @@ from app.compose.trainer import Rig, TrainerSetup, build_rig
 from app.compose.trial import attempt, trial_plan
 from app.core import state_vector as sv
 from app.core.paced_clock import PacedClock
-from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
 from app.session.machine import State
 from app.session.result import AttemptResult
 from app.session.ticker import SLOWED
 from app.simulation.hands import Script
 from app.simulation.trainee import ScriptPhase
+from tests.layered import layered
 
 POINTS = 0.5
 PATIENCE = 600.0
@@ -32,7 +32,7 @@ def slow(times: float) -> PacedClock:
 def rig_of(
     name: str, clock: PacedClock, folder: Path, skill: str | None = "expert", seed: int = 1
 ) -> Rig:
-    exercise = load_exercise(name)
+    exercise = layered(name)
     placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
     return build_rig(
         TrainerSetup(exercise, placed, skill=skill, seed=seed, sessions=folder, clock=clock)
@@ -74,7 +74,7 @@ def total_of(result: AttemptResult) -> float:
 
 
 def in_virtual_time(name: str, seed: int = 1) -> float:
-    exercise = load_exercise(name)
+    exercise = layered(name)
     placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
     return total_of(attempt(exercise, placed, "expert", seed, pictures=True, script=Script.QUICK))
 

@@ -11,7 +11,6 @@ from app.core.arrays import unit
 from app.core.clock import VirtualClock
 from app.device.errors import LinkError
 from app.device.links.pen import HOLD, PenLink, pen_stage
-from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
 from app.mechanisms.pantograph import system_forward
 from app.planning.plan import Plan
@@ -19,6 +18,7 @@ from app.session.machine import State
 from app.session.recording import read_recording
 from app.tracking.fix import FixStatus
 from app.tracking.pen.settings import PenSettings
+from tests.layered import layered
 
 PLAN = Plan(np.array([0.0, -100.0, 0.0]), np.array([15.0, -35.0, 10.0]), "test")
 
@@ -27,7 +27,7 @@ class Bench:
     """A rig in virtual time whose webcam delivers when a picture is due."""
 
     def __init__(self, folder, skill=None, seed=3):
-        exercise = load_exercise("first-insertion")
+        exercise = layered("first-insertion")
         self.clock = VirtualClock(100.0)
         placed = placed_plan_of(exercise, device_of(exercise), PLAN)
         setup = TrainerSetup(
@@ -64,7 +64,7 @@ def bench(tmp_path):
 
 
 def test_joint_angles_are_those_of_a_robot_whose_needle_points_that_way():
-    profile = device_of(load_exercise("first-insertion"))
+    profile = device_of(layered("first-insertion"))
     for lean in ((0.0, 0.0), (0.3, 0.1), (-0.2, 0.4)):
         axis = unit([*lean, -1.0])
         needle = system_forward(profile.pantograph, joint_angles(profile, axis), 0.15)
@@ -153,7 +153,7 @@ def test_the_tracker_says_once_that_the_tip_is_not_measured(bench):
 
 
 def test_the_effects_of_an_exercise_are_those_that_no_hand_must_feel():
-    exercise = load_exercise("thick-tissue")
+    exercise = layered("thick-tissue")
     profile = device_of(exercise)
     placed = placed_plan_of(exercise, profile, PLAN)
     table = Pen.of(PenSettings(), profile).table(exercise, placed, None, 1)

@@ -22,7 +22,6 @@ from app.device.links import host_end as host
 from app.device.links.link import LinkStatus
 from app.device.links.memory_link import MemoryLink
 from app.device.links.serial_link import SerialLink
-from app.exercises.library import load_exercise
 from app.exercises.scene import placed_plan_of
 from app.planning.plan import Plan
 from app.scoring.conditions import DeviceKind
@@ -30,9 +29,10 @@ from app.session.errors import IllegalTransitionError, NotReadyError
 from app.session.machine import State
 from app.session.recording import read_recording
 from app.simulation.plant import initial_plant, plant_stage
+from tests.layered import layered
 
 PLAN = Plan(np.array([0.0, -100.0, 0.0]), np.array([15.0, -35.0, 10.0]), "test")
-EXERCISE = load_exercise("first-insertion")
+EXERCISE = layered("first-insertion")
 PROFILE = device_of(EXERCISE)
 
 

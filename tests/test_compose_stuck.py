@@ -10,13 +10,13 @@ from app.compose.trainer import TrainerSetup, build_loop, device_of
 from app.core import state_vector as sv
 from app.core.compiled import stage
 from app.device.control.kernel import fence
-from app.exercises.library import load_exercise
 from app.exercises.scene import placed_plan_of
 from app.planning.plan import Plan
 from app.session.context import RunContext
 from app.session.machine import State
 from app.session.recording import read_recording
 from app.session.trainer import Trainer
+from tests.layered import layered
 
 PLAN = Plan(np.array([0.0, -100.0, 0.0]), np.array([15.0, -35.0, 10.0]), "test")
 
@@ -47,7 +47,7 @@ def sticky(monkeypatch):
 
 
 def test_the_window_is_told_which_law_and_the_attempt_is_saved(sticky, tmp_path):
-    exercise = load_exercise("first-insertion")
+    exercise = layered("first-insertion")
     profile = device_of(exercise)
     placed = placed_plan_of(exercise, profile, PLAN)
     loop = build_loop(TrainerSetup(exercise, placed), profile)

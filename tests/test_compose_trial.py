@@ -30,6 +30,7 @@ from app.tracking.simulated.picture_effects import picture_effects
 from app.tracking.simulated.sampled import SampledTracker
 from app.tracking.simulated.scene import MarkerScene
 from app.tracking.tracker import Tracker
+from tests.layered import layered
 from tools import trial_table
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
@@ -67,7 +68,7 @@ class _Moving:
 
 def _rendered(rig, needle):
     clock = VirtualClock(needle.times[0])
-    exercise = load_exercise("first-insertion")
+    exercise = layered("first-insertion")
     delivered = picture_effects(pictures_of(exercise, device_of(exercise)))
     cameras = simulated_cameras(rig, needle.scene, clock, 3, delivered)
     tracker = Tracker(cameras, rig, clock, needle.axis, FULCRUM)
@@ -129,7 +130,7 @@ def placed_of(exercise):
 
 @pytest.fixture(scope="module")
 def first():
-    exercise = load_exercise("first-insertion")
+    exercise = layered("first-insertion")
     return exercise, placed_of(exercise)
 
 
@@ -182,7 +183,7 @@ def test_a_trial_scores_what_a_running_trainer_scores(first, trials, results, sk
 @pytest.mark.long("machine")
 @pytest.mark.parametrize("skill", ["novice", "expert"])
 def test_a_trial_of_touches_scores_what_a_running_trainer_scores(skill):
-    exercise = load_exercise("laparoscopic-tool")
+    exercise = layered("laparoscopic-tool")
     placed = placed_of(exercise)
     ours, whole = Trials(exercise, placed).score(skill, 1), attempt(exercise, placed, skill, 1)
     assert ours.duration == pytest.approx(whole.duration, abs=0.041)
@@ -196,7 +197,7 @@ def test_a_trial_of_touches_scores_what_a_running_trainer_scores(skill):
 
 @pytest.mark.long("machine")
 def test_a_guided_attempt_at_targets_is_done_by_a_trainer_that_aims_at_each(monkeypatch):
-    exercise = load_exercise("laparoscopic-tool")
+    exercise = layered("laparoscopic-tool")
     guided = exercise.model_copy(update={"laws": {"fixture": LawPart()}, "assistance": 0.5})
     asked = []
     monkeypatch.setattr(trial, "attempt", lambda *rest: asked.append(rest) or results_of(rest))
@@ -350,7 +351,7 @@ def test_in_every_shipped_exercise_novices_fail_and_experts_pass_in_their_order(
 def test_attempts_are_kept_and_judged_by_bands_that_came_later(tmp_path, monkeypatch):
     kept, done = tmp_path / "trials.jsonl", []
     name = "first-insertion"
-    exercise = load_exercise(name)
+    exercise = layered(name)
     score = attempt(exercise, placed_of(exercise), "expert", 1).score
 
     class Here:

@@ -14,7 +14,6 @@ from app.compose.trainer import TrainerSetup, build_rig
 from app.core import state_vector as sv
 from app.core.bend import Bend
 from app.core.clock import VirtualClock
-from app.exercises.library import load_exercise
 from app.exercises.parts import NeedlePart
 from app.exercises.scene import device_of, placed_plan_of
 from app.planning.off_path import offset, path_to
@@ -29,6 +28,7 @@ from app.views.exercise.conductor import LiveNeedle
 from app.views.exercise.readings import figures, pad_view
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.target_motion import TargetMotion
+from tests.layered import layered
 
 PLAN = Plan(np.array([0.0, -100.0, 0.0]), np.array([15.0, -35.0, 10.0]), "test")
 
@@ -65,7 +65,7 @@ class Kept:
 
 def attempt(exercise, sessions, seconds=9.0, steer=None, change=None):
     """Drive the whole trainer in virtual time; yields each moment, then its record."""
-    chosen = load_exercise(exercise).model_copy(update=change or {})
+    chosen = layered(exercise).model_copy(update=change or {})
     placed = placed_plan_of(chosen, device_of(chosen), PLAN)
     clock = VirtualClock(100.0)
     skill = None if steer else "expert"
@@ -156,7 +156,7 @@ def test_panel_bullseye_slices_record_and_score_say_the_same_of_a_tick(
 def test_a_bent_needle_is_one_needle_for_panel_slices_record_and_score(
     gauge, tmp_path, application
 ):
-    chosen = load_exercise("first-insertion")
+    chosen = layered("first-insertion")
     placed = placed_plan_of(chosen, device_of(chosen), PLAN)
 
     def steer(trainer, time):  # straight in, then the hub is turned by 4°
@@ -222,7 +222,7 @@ def test_at_target_is_said_only_within_the_tolerance_across_too(tmp_path, applic
         depth = min(-0.015 + 0.04 * max(0.0, time - 1.0), placed.length / (axis @ placed.axis))
         trainer.hand(float(axis[0]), float(axis[1]), depth)
 
-    chosen = load_exercise("first-insertion")
+    chosen = layered("first-insertion")
     placed = placed_plan_of(chosen, device_of(chosen), PLAN)
     run, snapshots, _ = attempt("first-insertion", tmp_path, seconds=5.0, steer=steer)
     widget.set_scene(run.scene(), interactive=False)
@@ -252,7 +252,7 @@ def test_rings_and_target_stand_where_breathing_has_the_target(tmp_path, applica
 
 
 def test_a_target_at_rest_has_the_planned_path_to_the_last_bit():
-    chosen = load_exercise("first-insertion")
+    chosen = layered("first-insertion")
     placed = placed_plan_of(chosen, device_of(chosen), PLAN)
     assert (path_to(placed, placed.p_target) == placed.axis).all()
     many = np.array([placed.p_target, placed.p_target + [0.0, 0.01, 0.0], [np.nan] * 3])

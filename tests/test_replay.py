@@ -21,7 +21,7 @@ from app.core import state_vector as sv
 from app.core.build import BUILD
 from app.core.clock import Clock, SystemClock, VirtualClock
 from app.core.paths import resources
-from app.exercises.library import library, load_exercise
+from app.exercises.library import library
 from app.exercises.scene import placed_plan_of
 from app.planning.plan import Plan
 from app.session.ct_facts import CtFacts
@@ -31,6 +31,7 @@ from app.session.replay import contents
 from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.optics.rig import load_rig
+from tests.layered import layered
 
 PLAN = Plan(np.array([0.0, -100.0, 0.0]), np.array([15.0, -35.0, 10.0]), "test")
 
@@ -47,7 +48,7 @@ def attempt(
 
     `tell` is called every 20 ms with the trainer and the time since the beginning.
     """
-    chosen = load_exercise(exercise)
+    chosen = layered(exercise)
     profile = device_of(chosen)
     placed = placed_plan_of(chosen, profile, PLAN)
     setup = TrainerSetup(chosen, placed, CtFacts("ct-1"), skill, 3, folder, clock)

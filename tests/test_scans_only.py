@@ -8,7 +8,6 @@ from app.compose.trainer import TrainerSetup, build_rig, device_of
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.exercises.guidance import GuidanceMode
-from app.exercises.library import load_exercise
 from app.exercises.scene import placed_plan_of
 from app.imaging.phantom.series import phantom_series
 from app.imaging.reading import load_ct
@@ -20,6 +19,7 @@ from app.session.recording import read_recording
 from app.session.replay import contents
 from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
+from tests.layered import layered
 
 CAREFUL_MM = 45.0
 """So deep the student pushes before the first scan."""
@@ -27,7 +27,7 @@ CAREFUL_MM = 45.0
 
 @pytest.mark.long("journey")
 def test_a_needle_is_brought_to_the_target_by_control_scans_alone(tmp_path) -> None:
-    exercise, clock = load_exercise("scans-only"), VirtualClock(100.0)
+    exercise, clock = layered("scans-only"), VirtualClock(100.0)
     assert exercise.guidance_mode is GuidanceMode.CONTROL_CT
     volume = load_ct(phantom_series(1))
     placed = placed_plan_of(exercise, device_of(exercise))

@@ -13,7 +13,6 @@ from app.compose.trainer import TrainerSetup, build_rig, device_of
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.exchange.markups import write_plan
-from app.exercises.library import load_exercise
 from app.exercises.scene import placed_plan_of
 from app.imaging.body import find_body
 from app.imaging.reading import load_ct
@@ -24,6 +23,7 @@ from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
 from app.views.debrief.report import write_report
 from app.views.shell.application import start
+from tests.layered import layered
 
 START, SECONDS, ARRIVED = 100.0, 60.0, 9.0
 
@@ -32,7 +32,7 @@ def attempt(ct: Path, sessions: Path):
     """Guided insertion by the scripted expert; returns its result and the plan."""
     volume = load_ct(ct)
     plan = demonstration_plan(volume, find_body(volume))
-    exercise, clock = load_exercise("first-insertion"), VirtualClock(START)
+    exercise, clock = layered("first-insertion"), VirtualClock(START)
     exercise = exercise.model_copy(
         update={"ct": exercise.ct.model_copy(update={"phantom": None, "folder": ct})}
     )

@@ -10,7 +10,6 @@ from app.compose.cameras import AttachedCameras, simulated_on
 from app.compose.trainer import TrainerSetup, build_rig, device_of
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
-from app.exercises.library import load_exercise
 from app.exercises.scene import placed_plan_of
 from app.planning.plan import Plan
 from app.session.errors import ControlLockedError
@@ -20,6 +19,7 @@ from app.session.pad.hand import Handle, HandLimits, HandPose, PadHand
 from app.session.trainer import Trainer
 from app.session.withdrawal import Start
 from app.tracking.fix import FixStatus, NeedleFix
+from tests.layered import layered
 
 PLAN = Plan(np.array([0.0, -100.0, 0.0]), np.array([15.0, -35.0, 10.0]), "test")
 FRAME = 1.0 / 30.0
@@ -47,7 +47,7 @@ class Student:
     def __init__(
         self, folder: Path, exercise: str = "first-insertion", skill: str | None = None
     ) -> None:
-        chosen = load_exercise(exercise)
+        chosen = layered(exercise)
         profile = device_of(chosen)
         placed = placed_plan_of(chosen, profile, PLAN if chosen.touch is None else None)
         self.clock = VirtualClock(10.0)

@@ -15,6 +15,7 @@ from app.core.arrays import FloatArray, unit
 from app.core.messages import sentence
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
+from app.exercises.tissue import in_layers
 from app.planning.registration.errors import RegistrationError
 from app.planning.registration.plate import FiducialPlate
 from app.session.checks.facts import DailyFacts, TouchFacts
@@ -53,7 +54,7 @@ class DailyCheck:
         Raises:
             AcusError: if the robot does not answer or a camera cannot be opened.
         """
-        exercise = load_exercise(self.exercise)
+        exercise = in_layers(load_exercise(self.exercise))
         placed = placed_plan_of(exercise, device_of(exercise))
         self._folder = TemporaryDirectory()
         setup = TrainerSetup(

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import fields
 from typing import TYPE_CHECKING, Final
 
-from app.exercises.parts import KILOPASCAL, LayerPart, LayersFrom
+from app.exercises.parts import KILOPASCAL, LayerPart, LayersFrom, TissueSource
 from app.imaging.tissue import Tissue, tissue_along
 from app.simulation.scene import BONE, FAT, LIVER, LUNG, MUSCLE, SKIN, TissueLayer
 
@@ -79,6 +79,23 @@ def with_tissue(
     if exercise.layers_from is not LayersFrom.CT or volume is None:
         return exercise
     return exercise.model_copy(update={"layers": layers_along(volume, plan, structures)})
+
+
+def in_layers(exercise: Exercise) -> Exercise:
+    """Return an exercise without a patient: tissue in layers, by the effects' first models.
+
+    For what needs no patient, as a check of robot and cameras; nothing that is met fails it.
+    """
+    if exercise.tissue is TissueSource.LAYERS and not exercise.rules.forbidden:
+        return exercise
+    first = {"model": ""} if exercise.tissue is not TissueSource.LAYERS else {}
+    effects = {
+        name: part if name == "breathing" else part.model_copy(update=first)
+        for name, part in exercise.effects.items()
+    }
+    rules = exercise.rules.model_copy(update={"forbidden": ()})
+    changes = {"tissue": TissueSource.LAYERS, "effects": effects, "rules": rules}
+    return exercise.model_copy(update=changes)
 
 
 def _part(kind: TissueLayer, name: str, thickness_mm: float) -> LayerPart:

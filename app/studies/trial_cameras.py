@@ -11,6 +11,7 @@ from typing import Any, Final
 
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
+from app.exercises.tissue import in_layers
 from app.simulation.hands import Script
 from app.studies.in_use import called
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
@@ -30,7 +31,7 @@ Lent = tuple[Callable[..., Any], Callable[..., Any], Callable[..., Any]]
 
 @cache
 def _exercise(trial_plan: Callable[..., Any]) -> tuple[Any, Any]:
-    exercise = load_exercise(_EXERCISE)
+    exercise = in_layers(load_exercise(_EXERCISE))
     return exercise, placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
 
 

@@ -17,13 +17,13 @@ import zstandard
 
 from app.compose.trainer import Rig, TrainerSetup, build_rig, replay_recording
 from app.core.clock import Clock, SystemClock, VirtualClock
-from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
 from app.planning.plan import Plan
 from app.session import blocks
 from app.session.ct_facts import CtFacts
 from app.session.recording import read_recording
 from app.session.scan import scan
+from tests.layered import layered
 
 PLAN = Plan(np.array([0.0, -100.0, 0.0]), np.array([15.0, -35.0, 10.0]), "bench")
 MEGABYTE = 1e6
@@ -31,7 +31,7 @@ MEGABYTE = 1e6
 
 def rig(folder: Path, clock: Clock, skill: str | None) -> Rig:
     """Build a trainer on the simulated robot; nothing looks at its cameras."""
-    exercise = load_exercise("thick-tissue")
+    exercise = layered("thick-tissue")
     placed = placed_plan_of(exercise, device_of(exercise), PLAN)
     return build_rig(TrainerSetup(exercise, placed, CtFacts("bench"), skill, 1, folder, clock))
 

@@ -14,12 +14,12 @@ from app.compose.needle import measured_axis, needle_scene
 from app.compose.trainer import TrainerSetup, build_loop
 from app.compose.trial import Trials, attempt, trial_plan
 from app.core.clock import VirtualClock
-from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
 from app.tracking.optics.rig import load_rig
 from app.tracking.simulated.cameras import simulated_cameras
 from app.tracking.simulated.sampled import SampledTracker
 from app.tracking.tracker import Tracker
+from tests.layered import layered
 
 AIM = 0.1
 SECONDS = 15.0
@@ -31,7 +31,7 @@ def per_15_s(skill: str, seeds: range) -> tuple[float, float, float]:
     Returns:
         What is prepared once for an exercise (not scaled), a trial, the same by a trainer.
     """
-    exercise = load_exercise("first-insertion")
+    exercise = layered("first-insertion")
     placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
     start = process_time()
     trials = Trials(exercise, placed)
@@ -50,7 +50,7 @@ def per_15_s(skill: str, seeds: range) -> tuple[float, float, float]:
 
 def loop_alone() -> float:
     """Processor time of 15 s of the compiled loop alone [s]."""
-    exercise = load_exercise("first-insertion")
+    exercise = layered("first-insertion")
     profile, clock = device_of(exercise), VirtualClock(10.0)
     placed = placed_plan_of(exercise, profile, trial_plan(exercise))
     loop = build_loop(TrainerSetup(exercise, placed, skill="expert", clock=clock), profile)
@@ -66,7 +66,7 @@ def loop_alone() -> float:
 
 def pictures(count: int = 45) -> tuple[float, float]:
     """Processor time of 15 s of fixes [s]: rendered and tracked, and sampled."""
-    exercise = load_exercise("first-insertion")
+    exercise = layered("first-insertion")
     profile, clock, rig = device_of(exercise), VirtualClock(10.0), load_rig(exercise.rig)
     placed = placed_plan_of(exercise, profile, trial_plan(exercise))
     loop = build_loop(TrainerSetup(exercise, placed, clock=clock), profile)

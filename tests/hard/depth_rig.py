@@ -16,7 +16,6 @@ from app.compose.trainer import TrainerSetup, build_loop, device_of
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
-from app.exercises.library import load_exercise
 from app.exercises.scene import placed_plan_of
 from app.mechanisms.lever import axis_kernel, felt_kernel, hub_velocity_kernel, tool_force_kernel
 from app.mechanisms.pantograph.kernels import forward_kernel, jacobian_kernel
@@ -27,6 +26,7 @@ from app.session.trainer import Trainer
 from app.tracking.markers.extractor import Centre
 from app.tracking.optics.rig import load_rig
 from app.tracking.solver import FixSolver, SeenMarker
+from tests.layered import layered
 
 NOISE_PX = 0.1
 LATENCY = 0.040
@@ -68,7 +68,7 @@ class DepthRig:
     truth: list[Truth] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        chosen = load_exercise("first-insertion")
+        chosen = layered("first-insertion")
         profile = device_of(chosen)
         if not self.gravity:  # the needle's own weight is no force of the program
             level = profile.mounting.model_copy(update={"gravity": (0.0, 0.0, 0.0)})

@@ -16,6 +16,7 @@ from app.exercises.locks import EVERY_LOCK, HandName, Lock
 from app.exercises.reading import ReadingPart
 from app.exercises.scene import device_of, placed_plan_of
 from app.exercises.schema import Exercise
+from app.exercises.tissue import in_layers
 from app.imaging.window import PRESETS, WindowLevel
 from app.planning.plan import Plan
 from app.session.errors import ControlLockedError
@@ -75,7 +76,7 @@ def test_the_dial_of_against_repulsion_cannot_be_turned_in_the_window(opened):
 
 def trainer_of(exercise, folder):
     placed = placed_plan_of(exercise, device_of(exercise), PLAN)
-    setup = TrainerSetup(exercise, placed, sessions=folder, clock=VirtualClock(10.0))
+    setup = TrainerSetup(in_layers(exercise), placed, sessions=folder, clock=VirtualClock(10.0))
     trainer = build_trainer(setup)
     trainer._loop.open()
     return trainer
