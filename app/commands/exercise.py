@@ -180,7 +180,7 @@ def validate(
 
 @app.command()
 def suggest(exercise: Name) -> Answer:
-    """Print what to add to an exercise: what its CT, path, reach and target call for."""
+    """Print what an exercise lacks. Lines to add: what its CT, path and reach call for."""
     from app.compose.physics import calls_of, suggested_lines
     from app.exercises.called_for import additions
     from app.exercises.library import load_exercise

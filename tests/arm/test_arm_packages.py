@@ -34,7 +34,8 @@ A_TRIAL = """
 from app.compose.trial import attempt, trial_plan
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
-one = load_exercise("first-insertion")
+from app.exercises.tissue import in_layers
+one = in_layers(load_exercise("first-insertion"))
 placed = placed_plan_of(one, device_of(one), trial_plan(one))
 assert attempt(one, placed, "expert", 1).score.total > 0.0
 """
@@ -46,7 +47,8 @@ from app.compose.trial import trial_plan
 from app.core.clock import VirtualClock
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
-one = load_exercise("first-insertion")
+from app.exercises.tissue import in_layers
+one = in_layers(load_exercise("first-insertion"))
 placed = placed_plan_of(one, device_of(one), trial_plan(one))
 folder = Path("sessions").absolute()
 trainer = build_trainer(

@@ -99,6 +99,7 @@ EXAMPLES = {
     "exercise list": (),
     "exercise new": ("A title",),
     "exercise schema": (),
+    "exercise suggest": ("laparoscopic-tool",),
     "exercise validate": ("first-insertion", "scans-only"),
     "explain": ("first-insertion",),
     "law list": (),

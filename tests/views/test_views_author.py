@@ -331,6 +331,24 @@ def test_effects_say_live_why_they_are_simulated_or_left_out_and_what_they_cost(
     assert settle(lambda: "each tick" in form.effects.cost.text())
 
 
+def test_what_the_patient_calls_for_is_listed_and_added_by_one_click(form, author):
+    write(form.task.name, "X")
+    author.editor.put("effects", value={"lateral_tissue": {}})
+    call = {"effect": "bone_contact", "reason": "no needle goes through rib at 12 mm"}
+    call |= {"absent": True, "simulated": False, "without": "", "cost_ns": 20.0}
+    more = {"tissue": "field", "effects": {"bone_contact": {}}}
+    form.effects.show_cost({"simulated": [], "laws": [], "called_for": [call], "add": more})
+    assert "rib at 12 mm" in form.effects.calls.text()
+    form.effects.complete.click()
+    exercise = author.editor.exercise
+    assert set(exercise.effects) == {"lateral_tissue", "bone_contact"}
+    assert exercise.tissue.value == "field"
+    author.editor.undo()
+    assert set(author.editor.exercise.effects) == {"lateral_tissue"}
+    form.effects.show_cost({"simulated": [], "laws": [], "called_for": [], "add": {}})
+    assert not form.effects.complete.isVisibleTo(form)
+
+
 @pytest.mark.long("journey")
 def test_an_effect_is_of_an_organ_and_computed_in_a_way_that_is_chosen(form, author):
     write(form.task.name, "X")
