@@ -255,7 +255,7 @@ def _wall(
 def _missing(labels: NDArray[np.uint8], bones: Bones) -> list[str]:
     """Say what a CT of a trunk has and this one has not."""
     there = np.bincount(labels.ravel(), minlength=len(TABLE)) > 0
-    notes = []
+    notes: list[str] = []
     if there[_SKIN] and not there[_BONE]:
         notes.append(sentence("no bone was found: no needle can be told that it met one"))
     if there[_SKIN] and not there[_LUNG]:

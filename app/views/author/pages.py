@@ -761,7 +761,7 @@ class EffectsPage(Form):
         }
         if "tissue" in self._absent:
             values[("tissue",)] = self._absent["tissue"]
-        self._editor.put_all(values)
+        self.editor.put_all(values)
 
 
 LAYER_NUMBERS = (
