@@ -7,11 +7,13 @@ from pathlib import Path
 import pytest
 
 from app.simulation import effects
+from app.simulation.bound_field import stand_in
 from app.simulation.consumers import Consumer, DevicePort
 from app.simulation.effects import declaration, effect_names
 from app.simulation.errors import SimulationError
 from app.simulation.plan import compile
 from app.simulation.scene import Binding, EffectRequest, Scene, TissueLayer
+from app.simulation.tissue_values import tissue_values
 
 ALL = tuple(EffectRequest(n) for n in ("breathing", "shaft_friction", "lateral_tissue"))
 REAL = DevicePort("icube")
@@ -112,6 +114,14 @@ class Asked(dict[str, float]):
         return super().__getitem__(name)
 
 
+def scene_for(needs: tuple[str, ...]) -> Scene:
+    """Return a scene that has what an effect cannot be bound without."""
+    if "field" not in needs:
+        return Scene()
+    bound = stand_in()
+    return Scene(tissues=tissue_values(bound.tissue.tissues), field=bound)
+
+
 @pytest.mark.parametrize("name", effect_names())
 def test_what_is_declared_is_what_the_effect_has(name: str) -> None:
     from app.simulation.effects import parameters_of
@@ -121,7 +131,7 @@ def test_what_is_declared_is_what_the_effect_has(name: str) -> None:
         assert parameter.minimum <= parameter.default <= parameter.maximum
     asked = Asked(declared.checked({}))
     for model in declared.models:
-        parameters_of(name, asked, Binding(Scene(), model=model))
+        parameters_of(name, asked, Binding(scene_for(declared.needs), model=model))
     assert asked.names == set(declared.parameters)
 
 

@@ -125,10 +125,10 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
         depth += layer.thickness
     given = (values[name] for name in ("stiffness", "damping", "mass", "tick"))
     stiffness, damping = coefficients(binding.model, *given)
-    behind: list[FloatArray] = []
+    grip, behind = values["grip"], list[FloatArray]()
     if binding.model == "field" and binding.scene.has_field:
         rigid = np.array([float(tissue.rigid) for tissue in binding.scene.tissues])
-        behind = [packed(_ON, rigid, codes=len(rigid), grip=values["grip"])]
+        behind = [packed(_ON, rigid, codes=len(rigid), grip=grip)]
     return packed(
         _AT,
         *behind,
