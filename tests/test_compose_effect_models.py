@@ -15,6 +15,7 @@ from app.device.control import Loop, Table, machine_stages
 from app.device.links.link import Link
 from app.exercises.errors import ExerciseError
 from app.exercises.locks import Lock
+from app.exercises.parts import EffectPart
 from app.exercises.scene import placed_plan_of
 from app.exercises.schema import Purpose
 from app.session.effect_models import choices_of
@@ -32,6 +33,8 @@ class Chooser:
 
     def __init__(self, folder: Path, clock: Any, moments: dict[float, str]) -> None:
         chosen = layered("thick-tissue")
+        effects = {**chosen.effects, "breathing": EffectPart(organ="lung")}  # of another organ
+        chosen = chosen.model_copy(update={"effects": effects})
         profile = device_of(chosen)
         placed = placed_plan_of(chosen, profile, PLAN)
         self.setup = TrainerSetup(chosen, placed, seed=3, sessions=folder, clock=clock)
