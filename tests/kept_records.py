@@ -20,7 +20,6 @@ from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.exercises.scene import placed_plan_of
 from app.planning.plan import Plan
-from app.scoring.result import SCORING_VERSION
 from app.session.ct_facts import CtFacts
 from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
@@ -90,17 +89,6 @@ def with_score(path: Path, change: str, to: str) -> None:
     crc = zlib.crc32(data[body : body + size - 4])
     struct.pack_into("<I", data, body + size - 4, crc)
     path.write_bytes(data)
-
-
-def of_today(path: Path, folder: Path) -> Path:
-    """Copy a record of rules of version 5, whose score says that it is of today's.
-
-    Today's rules score these records as those of version 5 did.
-    """
-    copied = folder / path.name
-    copyfile(path, copied)
-    with_score(copied, '"scoring_version":5', f'"scoring_version":{SCORING_VERSION}')
-    return copied
 
 
 def main() -> None:

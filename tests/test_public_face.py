@@ -13,7 +13,6 @@ import pytest
 import acus
 from app.scoring.rows import Row
 from app.session.recording import read_recording
-from tests.kept_records import of_today
 from tests.machine_records import FOLDER
 
 ROOT = Path(acus.__file__).resolve().parents[1]
@@ -224,8 +223,7 @@ def test_a_score_is_the_written_one_and_another_by_other_rules():
 
 def test_records_are_listed_and_verified_and_what_is_none_is_refused(tmp_path):
     assert acus.records(FOLDER) == tuple(sorted(FOLDER.glob("*.mcap")))
-    kept = of_today(FOLDER.parent / "records" / "20261120-080001-a001.mcap", tmp_path)
-    assert acus.verify(kept).confirmed
+    assert acus.verify(FOLDER.parent / "records" / "20261120-080001-a001.mcap").confirmed
     with pytest.raises(acus.AcusError, match="not a folder"):
         acus.records(tmp_path / "none")
     with pytest.raises(acus.AcusError, match="cannot read"):
