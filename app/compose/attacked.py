@@ -9,6 +9,7 @@ judgement is not hidden from the study.
 from __future__ import annotations
 
 from collections import OrderedDict
+from collections.abc import Collection
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -29,7 +30,8 @@ from app.exercises.parts import LayersFrom, OwnPlan
 from app.exercises.scene import device_of, placed_plan_of
 from app.exercises.tissue import with_tissue
 from app.imaging.body import find_body, nearest_skin
-from app.scoring.met import FORBIDDEN
+from app.scoring.met import FORBIDDEN, Met
+from app.scoring.result import TRACKING
 from app.session.risks import risk_marks_of
 from app.session.tissues import tissues_met_of
 from app.simulation.trainee import tangent_basis, tangents
@@ -130,7 +132,7 @@ class Attacked:
             deepest = float(self._profile.depth_range[1])
             script = attack.script(placed.axis, self._aims(placed), deepest)
             dial = None if "dial" in self.shut else attack.dial
-            hand = PlayedHand(script, dial, attack.covered(script.duration))
+            hand = PlayedHand(script, dial, attack.covered(script))
             played = trials.play(hand, self._seed)
         except AcusError:
             return Verdict(None, False, closest_mm=self._plan.length_mm)
@@ -138,29 +140,31 @@ class Attacked:
 
     def _verdict(self, trials: Trials, placed: PlacedPlan, played: PlayedTrial) -> Verdict:
         score, true = played.score, trials.truth(played.rows)
-        kinds = {*FORBIDDEN, *self._exercise.rules.forbidden}
-        wrong = [
-            (met.sentence, met.length_mm)
-            for met in tissues_met_of(true, placed, self._field) or ()
-            if met.is_forbidden(kinds)
-        ]
-        wrong += [
-            (f"{mark.name} entered at {mark.depth_mm:.1f} mm", -mark.closest_mm)
-            for mark in risk_marks_of(true, placed, self._risks)
-            if mark.closest_mm < 0.0
-        ]
-        bad = sum(TOUCHED + (1.0 - TOUCHED) * length / WORST_MM for _, length in wrong)
+        met = self._forbidden(tissues_met_of(true, placed, self._field) or ())
+        known = self._forbidden(score.met or () if score is not None else ())
+        risks = [mark for mark in risk_marks_of(true, placed, self._risks) if mark.closest_mm < 0.0]
+        entered = [f"{mark.name} entered at {mark.depth_mm:.1f} mm" for mark in risks]
+        bad = _bad([one.length_mm for one in met])
         judged: tuple[str, ...] = ()
+        seen = 0.0
         if score is not None:
+            seen = next((row.value or 0.0 for row in score.rows if row.name == TRACKING), 0.0)
             judged = (*score.hard_fails, *(row.name for row in score.failures))
         return Verdict(
             total=None if score is None else score.total,
             passed=score is not None and score.passed,
-            fines=tuple(text for text, _ in wrong),
-            fine=min(1.0, bad),
+            fines=(*(one.sentence for one in met), *entered),
+            fine=min(1.0, bad + _bad([-mark.closest_mm for mark in risks])),
             closest_mm=self._closest_mm(true, placed),
             judged=judged,
+            hidden=max(0.0, 1.0 - _bad([one.length_mm for one in known]) / bad) if met else 0.0,
+            seen=seen / 100.0,
         )
+
+    def _forbidden(self, met: Collection[Met]) -> list[Met]:
+        """Return what of all that was met no needle may meet, here or anywhere."""
+        kinds = {*FORBIDDEN, *self._exercise.rules.forbidden}
+        return [one for one in met if one.is_forbidden(kinds)]
 
     def _closest_mm(self, true: Samples, placed: PlacedPlan) -> float:
         """Return how near the true tip came to the target, or to the furthest of several [mm]."""
@@ -188,7 +192,7 @@ class Attacked:
         steps = np.zeros(2)
         if self._plans_itself:
             steps = np.rint(np.array([attack.entry_1_mm, attack.entry_2_mm]) / ENTRY_STEP_MM)
-        hides = attack.views_hidden > 0.5 and "views_hidden" not in self.shut
+        hides = attack.views_hidden > 0.0 and "views_hidden" not in self.shut
         key = (*steps.tolist(), hides)
         if key in self._ready:
             self._ready.move_to_end(key)
@@ -209,3 +213,8 @@ class Attacked:
             return self._plan
         across = ENTRY_STEP_MM * steps @ tangent_basis(self._plan.direction)
         return self._plan.with_entry(nearest_skin(self._body, self._plan.entry_mm + across))
+
+
+def _bad(lengths_mm: Collection[float]) -> float:
+    """Return how bad it is to go through so much of so many things, from 0 on."""
+    return sum(TOUCHED + (1.0 - TOUCHED) * length / WORST_MM for length in lengths_mm)

@@ -147,9 +147,7 @@ def _lines(rows: Sequence[tuple[Cell, ...]], holes: Sequence[tuple[Cell, ...]]) 
     clean = [str(row[0]) for row in rows if not any(hole[0] == row[0] for hole in holes)]
     lines = [f"{row[0]}: {row[1]}, {row[2]} points of 100: {row[6]}" for row in holes]
     if clean:
-        lines.append(
-            f"nothing is paid that ought not to be, as far as was tried: {', '.join(clean)}"
-        )
+        lines.append(f"no hole, as far as was tried: {', '.join(clean)}")
     return tuple(lines)
 
 

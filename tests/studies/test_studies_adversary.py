@@ -6,14 +6,16 @@ from math import hypot
 
 import numpy as np
 import pytest
-XX
+from typer.testing import CliRunner
 
+from app.commands import build
 from app.core.progress import Cancelled, Progress
 from app.simulation.trainee import ScriptPhase
 from app.studies.adversary import attack_exercises
 from app.studies.attacks.attack import GENES, HONEST, RANGES, Attack, honest_genes
 from app.studies.attacks.journal import Journal
 from app.studies.attacks.search import FAR_MM, Hole, Verdict, search, worst
+from app.studies.errors import StudyError
 from app.studies.findings import Survey
 from app.studies.runner import find_study
 
@@ -55,7 +57,7 @@ class Patient:
         time, depth = np.arange(len(rows)) * script.row, 1e3 * rows[:, 2]
         tip = depth[:, None] * rows[:, :2]
         covered = np.zeros(len(rows), bool)
-        for begin, end in attack.covered(script.duration):
+        for begin, end in attack.covered(script):
             covered |= (time >= begin) & (time < end)
         in_rib = (depth > RIB_MM[0]) & (depth < RIB_MM[1]) & (abs(tip[:, 1]) < 6.0)
         in_rib &= (tip[:, 0] > RIB_BESIDE_MM[0]) & (tip[:, 0] < RIB_BESIDE_MM[1])
@@ -64,24 +66,27 @@ class Patient:
         reached = bool(inside.any())
         seen = 1.0 - float(covered[inside].mean()) if reached else 1.0
         last = int(np.flatnonzero(inside)[-1]) if reached else 0
-        last = last if attack.leaves < 0.5 else int(depth.argmax())
+        last = last if attack.leaves <= 0.0 else int(depth.argmax())
         miss, deep = hypot(*tip[last]), abs(depth[last] - 1e3 * LENGTH)
         total = 30.0 * max(0.0, 1.0 - miss / 5.4) + 40.0 * max(0.0, 1.0 - deep / 5.4)
         total += 30.0 * (script.duration < 60.0)
-        if not reached or deep > 10.0:
+        if not reached or max(deep, miss) > 10.0:
             total = 0.0 if self.gate else 70.0
         known = in_rib & ~covered if not self.sees_all else in_rib
         hard = self.rib_fails and bool(known.any())
         void = seen < 0.8
-        passed = not void and total >= 75.0 and miss < 2.7 and deep < 2.7 and not hard
-        length = float(np.ptp(depth[in_rib])) if in_rib.any() else 0.0
+        passed = bool(not void and total >= 75.0 and miss < 2.7 and deep < 2.7 and not hard)
+        ways = np.abs(np.diff(depth, prepend=depth[0]))
+        length, hidden = float(ways[in_rib].sum()), float(ways[in_rib & ~known].sum())
         return Verdict(
-            None if void else total,
+            None if void else float(total),
             passed,
             ("rib touched at 18.0 mm",) if in_rib.any() else (),
-            min(1.0, 0.3 + 0.035 * length) if in_rib.any() else 0.0,
+            min(1.0, 0.3 + 0.015 * length) if in_rib.any() else 0.0,
             closest,
             ("rib touched at 18.0 mm",) if hard else (),
+            hidden / length if length else 0.0,
+            seen,
         )
 
 
@@ -108,7 +113,8 @@ def test_each_planted_hole_is_shown_within_500_attempts(patient, hole, seed):
     assert verdict.fines if hole is Hole.FINED_PASS else verdict.total == 70.0
     if not patient.sees_all:
         assert not verdict.judged
-        assert worst(tried, hole).attack.covered_share > 0.0
+        attack = worst(tried, hole).attack
+        assert max(attack.covered_share, attack.covered_astray) > 0.0
 
 
 @pytest.mark.parametrize("seed", [1, 2])
@@ -124,7 +130,7 @@ def test_an_honest_attack_ends_on_the_target_and_covers_nothing():
     assert attack == Attack()
     script = attack.script(AXIS, [(0.0, 0.0, LENGTH)], 0.13)
     assert script.rows[-1].tolist() == [0.0, 0.0, LENGTH, float(ScriptPhase.DONE)]
-    assert attack.covered(script.duration) == ()
+    assert attack.covered(script) == ()
     assert attack.words() == "nothing out of the ordinary"
 
 
@@ -132,7 +138,9 @@ def test_genes_reach_both_ends_of_what_they_stand_for_and_no_script_leaves_the_m
     assert set(HONEST) == set(GENES)
     for gene, end in ((0.0, 0), (1.0, 1)):
         attack = Attack.of([gene] * len(GENES))
-        assert all(getattr(attack, name) == RANGES[name][end] for name in GENES)
+        assert [getattr(attack, name) for name in GENES] == pytest.approx(
+            [RANGES[name][end] for name in GENES]
+        )
     random = np.random.default_rng(3)
     for _ in range(50):
         attack = Attack.of(random.random(len(GENES)))
@@ -155,17 +163,17 @@ def test_no_hole_is_an_attempt_that_missed_by_less_than_the_length_of_a_nodule()
 
 def test_a_search_that_was_cancelled_goes_on_where_it_stopped_and_ends_as_a_whole_one(tmp_path):
     whole = Patient(rib_fails=False)
-    expected = attack_exercises(None, lambda *_: whole, ["x"], 120, 1, tmp_path / "whole")
+    expected = attack_exercises(None, lambda *_: whole, ["x"], 150, 1, tmp_path / "whole")
     first = Patient(rib_fails=False)
     progress = Progress(lambda fraction, _: progress.cancel() if fraction > 0.5 else None)
     with pytest.raises(Cancelled):
-        attack_exercises(progress, lambda *_: first, ["x"], 120, 1, tmp_path / "parts")
-    assert 40 < first.played < 80
+        attack_exercises(progress, lambda *_: first, ["x"], 150, 1, tmp_path / "parts")
+    assert 50 < first.played < 100
     (file,) = (tmp_path / "parts").iterdir()
     with file.open("a", encoding="utf-8") as journal:
         journal.write('{"genes": [0.5, 0.')  # the machine went off in the middle of a line
     second = Patient(rib_fails=False)
-    found = attack_exercises(None, lambda *_: second, ["x"], 120, 1, tmp_path / "parts")
+    found = attack_exercises(None, lambda *_: second, ["x"], 150, 1, tmp_path / "parts")
     assert second.played == whole.played - first.played
     assert found.sheets[1] == expected.sheets[1]
     assert len(Journal("closed-form", file.stem.removeprefix("closed-form-"), file.parent)) == (
@@ -184,17 +192,18 @@ def test_the_study_names_its_camera_model_and_answers_no_where_it_shows_a_hole(t
     sound = attack_exercises(None, lambda *_: Patient(), ["x"], 100, 1, tmp_path)
     assert sound.passed
     assert sound.sheets[0].rows[0][-1] == "closed form"
-    assert sound.lines == ("no hole where this was tried: closed-form",)
+    assert sound.lines == ("no hole, as far as was tried: closed-form",)
     broken = attack_exercises(None, lambda *_: Patient(gate=False), ["x"], 100, 1, tmp_path)
     assert broken.passed is False
     assert "points for nothing" in broken.lines[0]
 
 
-def test_options_of_the_adversary_are_its_own(monkeypatch):
+def test_options_of_the_adversary_are_its_own():
     study = find_study("adversary")
     assert isinstance(study, Survey)
-    assert run("study", "stability", "--evaluations", "5")[0] != 0
-    assert run("study", "all", "--seed", "5")[0] != 0
+    for name, option in (("stability", "evaluations"), ("all", "seed")):
+        with pytest.raises(StudyError, match=f"study {name} takes no --{option}; leave it out"):
+            CliRunner().invoke(build(), ["study", name, f"--{option}", "5"], catch_exceptions=False)
 
 
 @pytest.mark.long("machine")

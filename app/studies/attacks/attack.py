@@ -1,14 +1,14 @@
 """An attempt at an exercise by somebody who wants its points, as numbers and as a script.
 
-Every gene lies in 0 ... 1; 0.5 is what an honest hand does, and the nearer to it, the less a gene
-changes. A gene whose honest value is its least (nothing covered, no detour) does nothing below 0.5:
-half of all attacks leave each such trick alone.
+Every gene lies in 0 ... 1, and 0.5 is what an honest hand does. A gene whose honest value is its
+least (nothing covered, no detour) does nothing below 0.5.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from math import ceil
 from typing import Final
 
 import numpy as np
@@ -44,13 +44,14 @@ class Attack:
         end_mm: where the tip is left, beyond the target.
         past_mm: how far it goes beyond that first.
         hover_s, align_s, dwell_s: time before the skin, to turn there, and at the end.
-        detours: ways in another direction before the last one, each drawn back from.
+        detours: ways in another direction before the last one, each drawn back from; rounded up.
         detour_1_deg, detour_2_deg, detour_mm: direction and depth of these.
         back_mm: depth to which it is drawn back; below 0 out of the body.
-        leaves: from 0.5 on the needle is drawn out before the end.
+        leaves: above 0 the needle is drawn out before the end.
         dial: the robot's help, where it may be turned.
-        views_hidden: from 0.5 on the student hides all views, where he may.
+        views_hidden: above 0 the student hides all views, where he may.
         covered_from, covered_share: when both cameras are covered, in shares of the attempt.
+        covered_astray: above 0 they are covered on all detours.
     """
 
     entry_1_mm: float = 0.0
@@ -73,13 +74,14 @@ class Attack:
     views_hidden: float = 0.0
     covered_from: float = 0.3
     covered_share: float = 0.0
+    covered_astray: float = 0.0
 
     @classmethod
     def of(cls, genes: Sequence[float]) -> Attack:
         """Return what genes mean, one for each of `GENES`, each 0 ... 1."""
         values = {}
         for (name, (low, high)), gene in zip(RANGES.items(), genes, strict=True):
-            honest, bent = HONEST[name], (2.0 * gene - 1.0) ** 3
+            honest, bent = HONEST[name], (2.0 * gene - 1.0) ** (3 if name in FINE else 1)
             values[name] = honest + bent * (high - honest if bent > 0.0 else honest - low)
         return cls(**values)
 
@@ -92,12 +94,16 @@ class Attack:
         ]
         return ", ".join(changed) or "nothing out of the ordinary"
 
-    def covered(self, duration: float) -> tuple[tuple[float, float], ...]:
-        """Return when the cameras are covered, of an attempt of a duration [s]: (from, to) [s]."""
-        if self.covered_share <= 0.0:
-            return ()
-        begin = self.covered_from * duration
-        return ((begin, begin + self.covered_share * duration),)
+    def covered(self, script: TraineeScript) -> tuple[tuple[float, float], ...]:
+        """Return when the cameras are covered while a script is played: (from, to) [s]."""
+        windows = []
+        if self.covered_share > 0.0:
+            begin = self.covered_from * script.duration
+            windows.append((begin, begin + self.covered_share * script.duration))
+        turns = np.flatnonzero(script.rows[:, 3] == ScriptPhase.REDIRECT)
+        if self.covered_astray > 0.0 and len(turns):
+            windows.append((float(turns[0]) * script.row, float(turns[-1]) * script.row))
+        return tuple(windows)
 
     def script(self, axis: FloatArray, aims: Sequence[Aim], deepest: float) -> TraineeScript:
         """Script it.
@@ -120,7 +126,7 @@ class Attack:
             Move(ScriptPhase.HOVER, max(QUICKEST, self.hover_s), turned, ABOVE_SKIN),
             Move(ScriptPhase.ALIGN, max(QUICKEST, self.align_s), turned, ABOVE_SKIN),
         ]
-        for _ in range(round(self.detours)):
+        for _ in range(ceil(self.detours)):
             astray = _pair(np.array(turned) + beside)
             partway = float(np.clip(self.detour_mm * MILLIMETRE, back, deepest))
             moves.append(self._way(ScriptPhase.REDIRECT, moves[-1], astray, moves[-1].depth))
@@ -136,7 +142,7 @@ class Attack:
                 moves.append(self._way(ScriptPhase.CORRECT, moves[-1], there, left))
             moves.append(Move(ScriptPhase.HOLD, max(QUICKEST, self.dwell_s), there, left))
         last = moves[-1]
-        if self.leaves > 0.5:
+        if self.leaves > 0.0:
             moves.append(self._way(ScriptPhase.WITHDRAW, last, last.error, ABOVE_SKIN))
         moves.append(Move(ScriptPhase.WAIT, WAITING, moves[-1].error, moves[-1].depth))
         return moves
@@ -172,10 +178,28 @@ RANGES: Final[Mapping[str, tuple[float, float]]] = {
     "views_hidden": (0.0, 1.0),
     "covered_from": (0.0, 1.0),
     "covered_share": (0.0, 1.0),
+    "covered_astray": (0.0, 1.0),
 }
 """Gene -> least and most of what it stands for."""
 
 GENES: Final = tuple(RANGES)
+
+FINE: Final = frozenset(
+    ("entry_1_mm", "entry_2_mm", "tilt_1_deg", "tilt_2_deg", "speed_mm_s", "end_mm", "past_mm")
+)
+"""Genes whose cube counts: small changes are tried as often as large ones."""
+
+GROUPS: Final = (
+    ("entry_1_mm", "entry_2_mm"),
+    ("tilt_1_deg", "tilt_2_deg"),
+    ("speed_mm_s", "hover_s", "align_s", "dwell_s"),
+    ("end_mm", "past_mm", "leaves"),
+    ("detours", "detour_1_deg", "detour_2_deg", "detour_mm", "back_mm"),
+    ("dial",),
+    ("views_hidden",),
+    ("covered_from", "covered_share", "covered_astray"),
+)
+"""Tricks: genes that do something together."""
 
 _HONEST_ATTACK: Final = Attack()
 HONEST: Final[Mapping[str, float]] = {name: getattr(_HONEST_ATTACK, name) for name in GENES}
@@ -186,9 +210,10 @@ def honest_genes() -> FloatArray:
     return np.full(len(GENES), 0.5)
 
 
-def open_genes(shut: Collection[str]) -> list[int]:
-    """Numbers of the genes that an exercise leaves open, ascending."""
-    return [number for number, name in enumerate(GENES) if name not in shut]
+def open_tricks(shut: Collection[str]) -> tuple[tuple[int, ...], ...]:
+    """Numbers of the genes that an exercise leaves open, trick by trick."""
+    numbers = (tuple(GENES.index(name) for name in one if name not in shut) for one in GROUPS)
+    return tuple(one for one in numbers if one)
 
 
 def _pair(values: FloatArray) -> tuple[float, float]:

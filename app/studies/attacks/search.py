@@ -1,45 +1,55 @@
 """The search for an attack that is paid and ought not to be: a small evolution with a seed.
 
-A (μ + λ) evolution of its own, and not differential evolution of scipy: half of the genes are
-switches that do nothing most of the time, where differences of populations say little; two aims
-share what was tried; and an evaluation counts for itself, so that a search that was broken off goes
-on at the attempt at which it stopped.
+A (μ + 1) evolution of its own, and not differential evolution of scipy: genes work together in
+tricks that most attacks leave alone, where differences between members of a population say little;
+three aims share what was tried; and each attempt counts for itself, so that a search that was
+broken off goes on at the attempt at which it stopped.
 
-**Worth** of an attempt is its total and whether it passes. **Wrong** is, for the one aim, what the
-needle truly met that no needle may, for the other, how far its tip stayed from the target. An aim
-is paid with the product; the two take turns, so that the easier does not crowd out the other.
+**Worth** of an attempt is its total and whether it passes. **Wrong** is, for one aim, what the
+needle truly met that no needle may; for another, how far its tip stayed from the target; for the
+third, what share of that the score knows nothing of. An aim is paid with the product; the
+three take turns, so that the easiest does not crowd out the others.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import asdict, dataclass
 from enum import StrEnum
 from typing import Any, Final
 
 import numpy as np
-from scipy.stats import qmc
 
 from app.core.arrays import FloatArray
 from app.core.progress import Progress
-from app.studies.attacks.attack import GENES, Attack, honest_genes, open_genes
+from app.studies.attacks.attack import Attack, honest_genes, open_tricks
 
 PARENTS: Final = 12
 FIRST: Final = 64
-"""So many attacks lie evenly over all that can be tried, before the first parents are chosen."""
+"""So many attacks are an honest hand's with some tricks, before parents are chosen."""
 
-FRESH: Final = 0.1
-CROSSED: Final = 0.25
-"""Shares of the attacks that have no parents, and two."""
+FRESH, CROSSED, TRICKED = 0.1, 0.3, 0.5
+"""Shares of the attacks that are begun so anew, that have two parents, that get another trick."""
 
-CHANGED: Final = 2.5
-"""Genes that a child changes, in the mean."""
+TRICKS: Final = 3
+"""At most so many in an attack that is begun anew."""
+
+FORGOTTEN: Final = 0.25
+"""Share of the changes of a trick that leave it off."""
+
+CHANGED: Final = 2.0
+"""Genes that any other child changes a little, in the mean."""
 
 FAR_MM: Final = 20.0
 """A tip that stayed this far from the target has reached nothing."""
 
-NOTHING_POINTS: Final = 30.0
-"""So many points or more for an attempt that has reached nothing are points for nothing."""
+NOTHING_POINTS: Final = 50.0
+"""Half of all points or more, for an attempt that has reached nothing, are points for nothing."""
+
+LITTLE: Final = 0.1
+
+VOID: Final = 0.6
+"""Worth of a void attempt that was nearly seen: hiding less of it is the way to points."""
 
 ROUNDED: Final = 4
 """Digits of a gene that count: what is kept is what was played."""
@@ -63,7 +73,9 @@ class Verdict:
         fines: what the needle truly met and no needle may, in sentences.
         fine: how bad that is, 0 to 1.
         closest_mm: least distance of the true tip from the target.
-        judged: what of the fines the score knows; empty where it knows of nothing.
+        judged: for what the score fails it; empty where it does not.
+        hidden: share of what is fined that the score knows nothing of.
+        seen: share of the insertion that was tracked, 0 to 1.
     """
 
     total: float | None
@@ -72,10 +84,14 @@ class Verdict:
     fine: float = 0.0
     closest_mm: float = 0.0
     judged: tuple[str, ...] = ()
+    hidden: float = 0.0
+    seen: float = 1.0
 
     @property
     def worth(self) -> float:
-        """Return what it pays, 0 to 1."""
+        """Return what it pays, 0 to 1; a void one the less, the less of it was seen."""
+        if self.total is None:
+            return VOID * self.seen
         return 0.5 * ((self.total or 0.0) / 100.0 + float(self.passed))
 
     @property
@@ -110,6 +126,8 @@ class Verdict:
             float(document["fine"]),
             float(document["closest_mm"]),
             tuple(map(str, document["judged"])),
+            float(document["hidden"]),
+            float(document["seen"]),
         )
 
 
@@ -126,15 +144,24 @@ class Tried:
         return Attack.of(self.genes)
 
 
+def _paid(worth: float, wrong: float) -> float:
+    """Return what an attempt is to an aim: a little also where one of the two is nothing."""
+    return (LITTLE + (1.0 - LITTLE) * worth) * (LITTLE + (1.0 - LITTLE) * wrong)
+
+
 def _met(verdict: Verdict) -> float:
-    return verdict.worth * (0.1 + 0.9 * verdict.fine)
+    return _paid(verdict.worth, verdict.fine)
 
 
 def _missed(verdict: Verdict) -> float:
-    return verdict.worth * (0.1 + 0.9 * min(1.0, verdict.closest_mm / FAR_MM))
+    return _paid(verdict.worth, min(1.0, verdict.closest_mm / FAR_MM))
 
 
-AIMS: Final[tuple[Callable[[Verdict], float], ...]] = (_met, _missed)
+def _hidden(verdict: Verdict) -> float:
+    return _paid(verdict.worth, verdict.hidden + 0.5 * (1.0 - verdict.hidden) * bool(verdict.fines))
+
+
+AIMS: Final[tuple[Callable[[Verdict], float], ...]] = (_met, _missed, _hidden)
 """What is paid for, in turns."""
 
 
@@ -164,16 +191,15 @@ def search(
         Cancelled: if `progress` was cancelled.
     """
     watch, random = progress or Progress(), np.random.default_rng([seed, 27])
-    free = open_genes(shut)
-    first = _first(free, min(FIRST, evaluations), seed)
+    tricks = open_tricks(shut)
     tried: list[Tried] = []
     holes = 0
     for number in range(evaluations):
         watch.report(number / evaluations, f"{label}: {number} of {evaluations}, {holes} holes")
-        if number < len(first):
-            genes = first[number]
+        if number < FIRST:
+            genes = _fresh(tricks, random) if number else honest_genes()
         else:
-            genes = _child(tried, AIMS[number % len(AIMS)], free, random)
+            genes = _child(tried, AIMS[number % len(AIMS)], tricks, random)
         key = tuple(np.round(genes, ROUNDED).tolist())
         verdict = known(key)
         if verdict is None:
@@ -191,39 +217,58 @@ def worst(tried: Collection[Tried], hole: Hole) -> Tried | None:
     return max(showing, key=lambda one: one.verdict.worth, default=None)
 
 
-def _first(free: list[int], count: int, seed: int) -> FloatArray:
-    """Return an honest attempt and others evenly over all that can be tried, shape (count, n)."""
-    genes = np.tile(honest_genes(), (count, 1))
-    if count > 1 and free:
-        even = qmc.Sobol(len(free), rng=np.random.default_rng([seed, 28]))
-        genes[1:, free] = even.random_base2(int(np.ceil(np.log2(count))))[: count - 1]
+def _fresh(tricks: Sequence[tuple[int, ...]], random: np.random.Generator) -> FloatArray:
+    """Return the genes of an honest hand with some tricks, shape (n,)."""
+    genes = honest_genes()
+    for _ in range(int(random.integers(1, TRICKS + 1)) if tricks else 0):
+        _play_trick(genes, tricks, random)
     return genes
+
+
+def _play_trick(
+    genes: FloatArray, tricks: Sequence[tuple[int, ...]], random: np.random.Generator
+) -> None:
+    """Change one trick as a whole: to anything, or to what is honest."""
+    numbers = list(tricks[int(random.integers(len(tricks)))])
+    genes[numbers] = 0.5 if random.random() < FORGOTTEN else random.random(len(numbers))
+
+
+def _parents(
+    tried: list[Tried], aim: Callable[[Verdict], float], tricks: Sequence[tuple[int, ...]]
+) -> list[Tried]:
+    """Return those that an aim pays best, of each set of tricks one alone."""
+    best: dict[tuple[bool, ...], Tried] = {}
+    for one in sorted(tried, key=lambda one: -aim(one.verdict)):
+        played = tuple(any(one.genes[n] != 0.5 for n in numbers) for numbers in tricks)
+        best.setdefault(played, one)
+        if len(best) == PARENTS:
+            break
+    return list(best.values())
 
 
 def _child(
     tried: list[Tried],
     aim: Callable[[Verdict], float],
-    free: list[int],
+    tricks: Sequence[tuple[int, ...]],
     random: np.random.Generator,
 ) -> FloatArray:
     """Return genes made of those that an aim pays best."""
-    if not free or random.random() < FRESH:
-        fresh = honest_genes()
-        fresh[free] = random.random(len(free))
-        return fresh
-    ranked = sorted(tried, key=lambda one: -aim(one.verdict))
-    parents = list({one.genes: one for one in ranked[: 4 * PARENTS]}.values())[:PARENTS]
+    if not tricks or random.random() < FRESH:
+        return _fresh(tricks, random)
+    parents = _parents(tried, aim, tricks)
     genes = np.array(parents[int(random.integers(len(parents)))].genes)
     if random.random() < CROSSED:
         other = np.array(parents[int(random.integers(len(parents)))].genes)
-        genes = np.where(random.random(len(GENES)) < 0.5, genes, other)
+        for numbers in tricks:  # a trick comes from one of the two as a whole
+            if random.random() < 0.5:
+                genes[list(numbers)] = other[list(numbers)]
+    if random.random() < TRICKED:
+        _play_trick(genes, tricks, random)
+        return genes
+    free = np.concatenate([np.array(numbers) for numbers in tricks])
     changed = random.random(len(free)) < CHANGED / len(free)
     changed[int(random.integers(len(free)))] = True
-    step = 10.0 ** random.uniform(-2.0, -0.3)
-    for number in np.array(free)[changed].tolist():
-        if random.random() < 0.2:
-            genes[number] = random.choice([0.5, random.random()])
-        else:
-            genes[number] += step * random.standard_normal()
+    step = 10.0 ** random.uniform(-2.0, -0.5)
+    genes[free[changed]] += step * random.standard_normal(int(changed.sum()))
     inside: FloatArray = 1.0 - np.abs(1.0 - np.abs(genes) % 2.0)
     return inside
