@@ -32,6 +32,7 @@ from app.exercises.tissue import with_tissue
 from app.imaging.body import find_body, nearest_skin
 from app.scoring.met import FORBIDDEN, Met
 from app.scoring.result import TRACKING
+from app.scoring.rows import Row
 from app.session.risks import risk_marks_of
 from app.session.tissues import tissues_met_of
 from app.simulation.trainee import tangent_basis, tangents
@@ -146,8 +147,9 @@ class Attacked:
         entered = [f"{mark.name} entered at {mark.depth_mm:.1f} mm" for mark in risks]
         bad = _bad([one.length_mm for one in met])
         judged: tuple[str, ...] = ()
-        seen = 0.0
+        seen = otherwise = 0.0
         if score is not None:
+            otherwise = _total(score.rows)
             seen = next((row.value or 0.0 for row in score.rows if row.name == TRACKING), 0.0)
             judged = (*score.hard_fails, *(row.name for row in score.failures))
         return Verdict(
@@ -159,6 +161,7 @@ class Attacked:
             judged=judged,
             hidden=max(0.0, 1.0 - _bad([one.length_mm for one in known]) / bad) if met else 0.0,
             seen=seen / 100.0,
+            otherwise=otherwise,
         )
 
     def _forbidden(self, met: Collection[Met]) -> list[Met]:
@@ -218,3 +221,11 @@ class Attacked:
 def _bad(lengths_mm: Collection[float]) -> float:
     """Return how bad it is to go through so much of so many things, from 0 on."""
     return sum(TOUCHED + (1.0 - TOUCHED) * length / WORST_MM for length in lengths_mm)
+
+
+def _total(rows: Collection[Row]) -> float:
+    """Return the total of rows, whether they are void or not."""
+    weight = sum(row.weight for row in rows)
+    return (
+        100.0 * sum(row.weight * (row.utility or 0.0) for row in rows) / weight if weight else 0.0
+    )

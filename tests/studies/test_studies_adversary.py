@@ -87,6 +87,7 @@ class Patient:
             ("rib touched at 18.0 mm",) if hard else (),
             hidden / length if length else 0.0,
             seen,
+            float(total),
         )
 
 

@@ -49,7 +49,7 @@ NOTHING_POINTS: Final = 50.0
 LITTLE: Final = 0.1
 
 VOID: Final = 0.6
-"""Worth of a void attempt that was nearly seen: hiding less of it is the way to points."""
+"""What a void attempt is worth by what it would have; so the search learns to be seen enough."""
 
 ROUNDED: Final = 4
 """Digits of a gene that count: what is kept is what was played."""
@@ -76,6 +76,7 @@ class Verdict:
         judged: for what the score fails it; empty where it does not.
         hidden: share of what is fined that the score knows nothing of.
         seen: share of the insertion that was tracked, 0 to 1.
+        otherwise: the total that it would have were it not void.
     """
 
     total: float | None
@@ -86,12 +87,13 @@ class Verdict:
     judged: tuple[str, ...] = ()
     hidden: float = 0.0
     seen: float = 1.0
+    otherwise: float = 0.0
 
     @property
     def worth(self) -> float:
         """Return what it pays, 0 to 1; a void one the less, the less of it was seen."""
         if self.total is None:
-            return VOID * self.seen
+            return VOID * self.seen * self.otherwise / 100.0
         return 0.5 * ((self.total or 0.0) / 100.0 + float(self.passed))
 
     @property
@@ -128,6 +130,7 @@ class Verdict:
             tuple(map(str, document["judged"])),
             float(document["hidden"]),
             float(document["seen"]),
+            float(document["otherwise"]),
         )
 
 
