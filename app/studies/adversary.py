@@ -40,7 +40,7 @@ SUMMARY: Final = (
     "camera model",
 )
 
-FOUND: Final = ("exercise", "hole", "total", "met", "judged", "nearest [mm]", "attempt")
+SHOWN: Final = ("exercise", "hole", "total", "met", "judged", "nearest [mm]", "attempt")
 
 
 class Target(Protocol):
@@ -110,7 +110,7 @@ def attack_exercises(
         holes += _holes(target.id, tried)
     sheets = [Sheet("attempts", "What was tried", SUMMARY, tuple(rows))]
     if holes:
-        sheets.append(Sheet("holes", "The best paid of each kind", FOUND, tuple(holes)))
+        sheets.append(Sheet("holes", "The best paid of each kind", SHOWN, tuple(holes)))
     return Findings(tuple(sheets), lines=_lines(rows, holes), passed=not holes)
 
 
