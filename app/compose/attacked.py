@@ -37,7 +37,7 @@ from app.session.risks import risk_marks_of
 from app.session.tissues import tissues_met_of
 from app.simulation.trainee import tangent_basis, tangents
 from app.studies.attacks.attack import Aim, Attack
-from app.studies.attacks.search import Verdict
+from app.studies.attacks.search import AttackVerdict
 from app.studies.errors import StudyError
 
 if TYPE_CHECKING:
@@ -123,7 +123,7 @@ class Attacked:
         content = self._exercise.model_dump(mode="json")
         return content, build(), field, self.cameras, self._seed
 
-    def play(self, attack: Attack) -> Verdict:
+    def play(self, attack: Attack) -> AttackVerdict:
         """Play an attack and judge it; the same for the same attack.
 
         An attack that cannot be played (the plan is out of reach, say) is worth nothing.
@@ -136,10 +136,10 @@ class Attacked:
             hand = PlayedHand(script, dial, attack.covered(script))
             played = trials.play(hand, self._seed)
         except AcusError:
-            return Verdict(None, False, closest_mm=self._plan.length_mm)
+            return AttackVerdict(None, False, closest_mm=self._plan.length_mm)
         return self._verdict(trials, placed, played)
 
-    def _verdict(self, trials: Trials, placed: PlacedPlan, played: PlayedTrial) -> Verdict:
+    def _verdict(self, trials: Trials, placed: PlacedPlan, played: PlayedTrial) -> AttackVerdict:
         score, true = played.score, trials.truth(played.rows)
         met = self._forbidden(tissues_met_of(true, placed, self._field) or ())
         known = self._forbidden(score.met or () if score is not None else ())
@@ -152,7 +152,7 @@ class Attacked:
             otherwise = _total(score.rows)
             seen = next((row.value or 0.0 for row in score.rows if row.name == TRACKING), 0.0)
             judged = (*score.hard_fails, *(row.name for row in score.failures))
-        return Verdict(
+        return AttackVerdict(
             total=None if score is None else score.total,
             passed=score is not None and score.passed,
             fines=(*(one.sentence for one in met), *entered),

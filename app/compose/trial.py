@@ -24,10 +24,10 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from app.compose.course import Course
 from app.compose.needle import UPRIGHT, measured_axis, needle_scene
 from app.compose.trainee import trainee_of
 from app.compose.trainer import START_DEPTH, TrainerSetup, build_loop, loop_table, pictures_of
+from app.compose.trial_course import TrialCourse
 from app.compose.trial_parts import NoRecords, PlayedHand, PlayedTrial, RenderedTracker, Trial
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
@@ -285,7 +285,7 @@ class Trials:
         samples = self._samples(rows)
         faults = rows[rows[:, sv.TIME] > begin + GRACE, sv.FAULT]
         touching = None if self._task is None else Touching(self._task)
-        went = Course.of(samples, begin, touching)
+        went = TrialCourse.of(samples, begin, touching)
         if faults.any() or went.unseen >= LOST or (self._pulls and dial != 0.0):
             return None
         samples = replace(samples, state=went.states, target=went.target)

@@ -15,8 +15,8 @@ from typing import Any, Final, Protocol
 from app.core.progress import Progress
 from app.exercises.library import library
 from app.studies.attacks.attack import Attack
-from app.studies.attacks.journal import Journal, key_of
-from app.studies.attacks.search import Hole, Tried, Verdict, search, worst
+from app.studies.attacks.journal import AttackJournal, key_of
+from app.studies.attacks.search import AttackVerdict, Hole, TriedAttack, search, worst
 from app.studies.findings import Cell, Findings, Sheet, Survey
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -61,7 +61,7 @@ class Target(Protocol):
     def facts(self) -> tuple[object, ...]:
         """Return all that a verdict depends on beside the genes."""
 
-    def play(self, attack: Attack) -> Verdict:
+    def play(self, attack: Attack) -> AttackVerdict:
         """Play an attack and judge it."""
 
 
@@ -94,7 +94,7 @@ def attack_exercises(
         part = watch.part(number / len(names), (number + 1) / len(names))
         part.report(0.0, name)
         target = open_target(name, seed, part.part(0.0, 0.05))
-        journal = Journal(target.id, key_of(*target.facts()), folder)
+        journal = AttackJournal(target.id, key_of(*target.facts()), folder)
         before = len(journal)
         tried = search(
             target.play,
@@ -114,7 +114,7 @@ def attack_exercises(
     return Findings(tuple(sheets), lines=_lines(rows, holes), passed=not holes)
 
 
-def _summary(target: Target, tried: Sequence[Tried], before: int) -> tuple[Cell, ...]:
+def _summary(target: Target, tried: Sequence[TriedAttack], before: int) -> tuple[Cell, ...]:
     totals = [one.verdict.total for one in tried if one.verdict.total is not None]
     counts = [sum(hole in one.verdict.holes for one in tried) for hole in Hole]
     passed = sum(one.verdict.passed for one in tried)
@@ -122,7 +122,7 @@ def _summary(target: Target, tried: Sequence[Tried], before: int) -> tuple[Cell,
     return (target.id, len(tried), before, passed, best, *counts, target.cameras)
 
 
-def _holes(name: str, tried: Sequence[Tried]) -> list[tuple[Cell, ...]]:
+def _holes(name: str, tried: Sequence[TriedAttack]) -> list[tuple[Cell, ...]]:
     rows: list[tuple[Cell, ...]] = []
     for hole in Hole:
         shown = worst(tried, hole)

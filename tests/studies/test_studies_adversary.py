@@ -13,8 +13,8 @@ from app.core.progress import Cancelled, Progress
 from app.simulation.trainee import ScriptPhase
 from app.studies.adversary import attack_exercises
 from app.studies.attacks.attack import GENES, HONEST, RANGES, Attack, honest_genes
-from app.studies.attacks.journal import Journal
-from app.studies.attacks.search import FAR_MM, Hole, Verdict, search, worst
+from app.studies.attacks.journal import AttackJournal
+from app.studies.attacks.search import FAR_MM, AttackVerdict, Hole, search, worst
 from app.studies.errors import StudyError
 from app.studies.findings import Survey
 from app.studies.runner import find_study
@@ -78,7 +78,7 @@ class Patient:
         passed = bool(not void and total >= 75.0 and miss < 2.7 and deep < 2.7 and not hard)
         ways = np.abs(np.diff(depth, prepend=depth[0]))
         length, hidden = float(ways[in_rib].sum()), float(ways[in_rib & ~known].sum())
-        return Verdict(
+        return AttackVerdict(
             None if void else float(total),
             passed,
             ("rib touched at 18.0 mm",) if in_rib.any() else (),
@@ -153,13 +153,13 @@ def test_genes_reach_both_ends_of_what_they_stand_for_and_no_script_leaves_the_m
 
 
 def test_no_hole_is_an_attempt_that_missed_by_less_than_the_length_of_a_nodule():
-    assert Verdict(90.0, True, closest_mm=FAR_MM - 1.0).holes == ()
-    assert Verdict(90.0, True, closest_mm=FAR_MM + 1.0).holes == (
+    assert AttackVerdict(90.0, True, closest_mm=FAR_MM - 1.0).holes == ()
+    assert AttackVerdict(90.0, True, closest_mm=FAR_MM + 1.0).holes == (
         Hole.MISSED_PASS,
         Hole.POINTS_FOR_NOTHING,
     )
-    assert Verdict(None, False, ("rib",), 1.0, 70.0).holes == ()
-    assert Verdict(80.0, False, ("rib",), 1.0).holes == ()
+    assert AttackVerdict(None, False, ("rib",), 1.0, 70.0).holes == ()
+    assert AttackVerdict(80.0, False, ("rib",), 1.0).holes == ()
 
 
 def test_a_search_that_was_cancelled_goes_on_where_it_stopped_and_ends_as_a_whole_one(tmp_path):
@@ -177,9 +177,9 @@ def test_a_search_that_was_cancelled_goes_on_where_it_stopped_and_ends_as_a_whol
     found = attack_exercises(None, lambda *_: second, ["x"], 150, 1, tmp_path / "parts")
     assert second.played == whole.played - first.played
     assert found.sheets[1] == expected.sheets[1]
-    assert len(Journal("closed-form", file.stem.removeprefix("closed-form-"), file.parent)) == (
-        whole.played
-    )
+    assert len(
+        AttackJournal("closed-form", file.stem.removeprefix("closed-form-"), file.parent)
+    ) == (whole.played)
     assert json.loads(file.read_text("utf-8").splitlines()[0])["exercise"] == "closed-form"
 
 

@@ -13,7 +13,7 @@ from typing import Any, Final
 
 from app.core import paths, plugin_folders
 from app.core.messages import sentence
-from app.studies.attacks.search import Tried, Verdict
+from app.studies.attacks.search import AttackVerdict, TriedAttack
 from app.studies.errors import StudyError
 
 FORMAT: Final = "acus-attacks/1"
@@ -27,7 +27,7 @@ def key_of(*parts: Any) -> str:
     return digest.hexdigest()[:16]
 
 
-class Journal:
+class AttackJournal:
     """What was tried at one exercise.
 
     Args:
@@ -41,7 +41,7 @@ class Journal:
 
     def __init__(self, name: str, key: str, folder: Path | None = None) -> None:
         self._file = (folder or paths.cache() / "adversary") / f"{name}-{key}.jsonl"
-        self._known: dict[tuple[float, ...], Verdict] = {}
+        self._known: dict[tuple[float, ...], AttackVerdict] = {}
         try:
             self._file.parent.mkdir(parents=True, exist_ok=True)
             lines = self._file.read_text("utf-8").splitlines() if self._file.exists() else []
@@ -59,7 +59,7 @@ class Journal:
             try:
                 document = json.loads(line)
                 genes = tuple(float(one) for one in document["genes"])
-                self._known[genes] = Verdict.of(document["verdict"])
+                self._known[genes] = AttackVerdict.of(document["verdict"])
             except (LookupError, TypeError, ValueError):
                 continue  # a line that was not finished when the run was broken off
 
@@ -67,11 +67,11 @@ class Journal:
         """Return how many attacks are known."""
         return len(self._known)
 
-    def known(self, genes: tuple[float, ...]) -> Verdict | None:
+    def known(self, genes: tuple[float, ...]) -> AttackVerdict | None:
         """Return what came of genes; None if they have not been tried."""
         return self._known.get(genes)
 
-    def tell(self, tried: Tried) -> None:
+    def tell(self, tried: TriedAttack) -> None:
         """Keep one more, at once."""
         self._known[tried.genes] = tried.verdict
         self._append({"genes": list(tried.genes), "verdict": tried.verdict.document()})

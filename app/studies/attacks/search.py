@@ -64,7 +64,7 @@ class Hole(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class AttackVerdict:
     """What came of an attack.
 
     Attributes:
@@ -114,7 +114,7 @@ class Verdict:
         return asdict(self) | {"fines": list(self.fines), "judged": list(self.judged)}
 
     @classmethod
-    def of(cls, document: dict[str, Any]) -> Verdict:
+    def of(cls, document: dict[str, Any]) -> AttackVerdict:
         """Read what `document` wrote.
 
         Raises:
@@ -135,11 +135,11 @@ class Verdict:
 
 
 @dataclass(frozen=True, slots=True)
-class Tried:
+class TriedAttack:
     """An attack with what came of it."""
 
     genes: tuple[float, ...]
-    verdict: Verdict
+    verdict: AttackVerdict
 
     @property
     def attack(self) -> Attack:
@@ -152,32 +152,32 @@ def _paid(worth: float, wrong: float) -> float:
     return (LITTLE + (1.0 - LITTLE) * worth) * (LITTLE + (1.0 - LITTLE) * wrong)
 
 
-def _met(verdict: Verdict) -> float:
+def _met(verdict: AttackVerdict) -> float:
     return _paid(verdict.worth, verdict.fine)
 
 
-def _missed(verdict: Verdict) -> float:
+def _missed(verdict: AttackVerdict) -> float:
     return _paid(verdict.worth, min(1.0, verdict.closest_mm / FAR_MM))
 
 
-def _hidden(verdict: Verdict) -> float:
+def _hidden(verdict: AttackVerdict) -> float:
     return _paid(verdict.worth, verdict.hidden + 0.5 * (1.0 - verdict.hidden) * bool(verdict.fines))
 
 
-AIMS: Final[tuple[Callable[[Verdict], float], ...]] = (_met, _missed, _hidden)
+AIMS: Final[tuple[Callable[[AttackVerdict], float], ...]] = (_met, _missed, _hidden)
 """What is paid for, in turns."""
 
 
 def search(
-    play: Callable[[Attack], Verdict],
+    play: Callable[[Attack], AttackVerdict],
     evaluations: int,
     seed: int,
     shut: Collection[str] = (),
-    known: Callable[[tuple[float, ...]], Verdict | None] = lambda _: None,
-    tell: Callable[[Tried], object] = lambda _: None,
+    known: Callable[[tuple[float, ...]], AttackVerdict | None] = lambda _: None,
+    tell: Callable[[TriedAttack], object] = lambda _: None,
     progress: Progress | None = None,
     label: str = "",
-) -> tuple[Tried, ...]:
+) -> tuple[TriedAttack, ...]:
     """Try attacks; returns all of them, in order; the same for the same seed.
 
     Args:
@@ -195,7 +195,7 @@ def search(
     """
     watch, random = progress or Progress(), np.random.default_rng([seed, 27])
     tricks = open_tricks(shut)
-    tried: list[Tried] = []
+    tried: list[TriedAttack] = []
     holes = 0
     for number in range(evaluations):
         watch.report(number / evaluations, f"{label}: {number} of {evaluations}, {holes} holes")
@@ -207,14 +207,14 @@ def search(
         verdict = known(key)
         if verdict is None:
             verdict = play(Attack.of(key))
-            tell(Tried(key, verdict))
-        tried.append(Tried(key, verdict))
+            tell(TriedAttack(key, verdict))
+        tried.append(TriedAttack(key, verdict))
         holes += bool(verdict.holes)
     watch.report(1.0)
     return tuple(tried)
 
 
-def worst(tried: Collection[Tried], hole: Hole) -> Tried | None:
+def worst(tried: Collection[TriedAttack], hole: Hole) -> TriedAttack | None:
     """Return the attack that shows a hole and is paid the most; None where none shows it."""
     showing = [one for one in tried if hole in one.verdict.holes]
     return max(showing, key=lambda one: one.verdict.worth, default=None)
@@ -237,10 +237,12 @@ def _play_trick(
 
 
 def _parents(
-    tried: list[Tried], aim: Callable[[Verdict], float], tricks: Sequence[tuple[int, ...]]
-) -> list[Tried]:
+    tried: list[TriedAttack],
+    aim: Callable[[AttackVerdict], float],
+    tricks: Sequence[tuple[int, ...]],
+) -> list[TriedAttack]:
     """Return those that an aim pays best, of each set of tricks one alone."""
-    best: dict[tuple[bool, ...], Tried] = {}
+    best: dict[tuple[bool, ...], TriedAttack] = {}
     for one in sorted(tried, key=lambda one: -aim(one.verdict)):
         played = tuple(any(one.genes[n] != 0.5 for n in numbers) for numbers in tricks)
         best.setdefault(played, one)
@@ -250,8 +252,8 @@ def _parents(
 
 
 def _child(
-    tried: list[Tried],
-    aim: Callable[[Verdict], float],
+    tried: list[TriedAttack],
+    aim: Callable[[AttackVerdict], float],
     tricks: Sequence[tuple[int, ...]],
     random: np.random.Generator,
 ) -> FloatArray:

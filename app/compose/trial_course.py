@@ -18,7 +18,7 @@ from app.session.transitions import Classifier, classify
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Course:
+class TrialCourse:
     """What a trainer would have made of the samples of an attempt, one after the other.
 
     Attributes:
@@ -34,7 +34,7 @@ class Course:
     touches: Touches | None = None
 
     @classmethod
-    def of(cls, samples: Samples, begin: float, touching: Touching | None = None) -> Course:
+    def of(cls, samples: Samples, begin: float, touching: Touching | None = None) -> TrialCourse:
         """Judge samples that are all taken for `aligning`, of an attempt from `begin` [s] on."""
         attempt = machine.advance(machine.Attempt(), AttemptEvent.BEGIN, begin)
         memory = Classifier()
