@@ -10,6 +10,8 @@ from app.commands.answer import Answer
 from app.core.messages import sentence
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from rich.console import Console
 
     from app.studies.findings import SurveyResult
@@ -56,8 +58,20 @@ def study(
     write: Annotated[
         bool, typer.Option("--write", help="keep the table with the program (app/studies/tables)")
     ] = False,
+    exercise: Annotated[
+        list[str] | None, typer.Option(metavar="NAME", help="`adversary`: exercises; else all")
+    ] = None,
+    evaluations: Annotated[
+        int | None, typer.Option(min=1, help="`adversary`: attempts at each exercise")
+    ] = None,
+    seed: Annotated[
+        int | None, typer.Option(min=0, help="`adversary`: of search and noise")
+    ] = None,
 ) -> Answer:
     """Run a study, or `all`, or `list` them: error against time."""
+    options = {"exercise": exercise, "evaluations": evaluations, "seed": seed}
+    asked = {key: value for key, value in options.items() if value is not None}
+    _refuse_options(name, asked)
     if name == "list":
         return _list()
     if quick:
@@ -67,7 +81,6 @@ def study(
     if name == "all":
         return _all(out, repeats, fresh, write, quick)
     from app.commands.output import console as open_console
-    from app.studies.errors import StudyError
     from app.studies.findings import Survey
     from app.studies.runner import examine, find_study, run
     from app.studies.study import Result
@@ -77,14 +90,10 @@ def study(
     given = tuple(inputs or ())
     result: Result | SurveyResult
     if isinstance(chosen, Survey):
-        result = examine(chosen, inputs=given, quick=quick, lend=lent)
-    elif given:
-        raise StudyError(
-            sentence(
-                "study {name} takes no folders; leave {given_first} out",
-                name=name,
-                given_first=given[0],
-            )
+        from app.commands.calibrate_parts import with_progress
+
+        result = with_progress(
+            lambda progress: examine(chosen, progress, given, quick, lent, asked)
         )
     else:
         result = run(chosen, repeats, lend=lent)
@@ -103,6 +112,23 @@ def study(
         console = open_console(width=max(console.width, PIPE_WIDTH))
     passed = result.findings.passed if result.findings is not None else None
     return Answer(data, lambda: _print(result, console), yes=passed)
+
+
+def _refuse_options(name: str, asked: "Mapping[str, object]") -> None:
+    """Refuse what is asked of a study that does not take it, before anything is run."""
+    from app.studies.errors import StudyError
+    from app.studies.findings import Survey
+    from app.studies.runner import find_study
+
+    if not asked:
+        return
+    chosen = None if name in ("list", "all") else find_study(name)
+    takes = chosen.options if isinstance(chosen, Survey) else ()
+    for option in asked:
+        if option not in takes:
+            raise StudyError(
+                sentence("study {name} takes no --{option}; leave it out", name=name, option=option)
+            )
 
 
 def _print(result: "Result | SurveyResult", console: "Console") -> None:

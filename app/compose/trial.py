@@ -17,16 +17,18 @@ an attempt is done over by `attempt`. `tests/test_compose_trial.py` holds the on
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.compose.needle import UPRIGHT, measured_axis, needle_scene
 from app.compose.trainee import trainee_of
 from app.compose.trainer import START_DEPTH, TrainerSetup, build_loop, loop_table, pictures_of
+from app.compose.trial_course import TrialCourse
+from app.compose.trial_parts import NoRecords, PlayedHand, PlayedTrial, RenderedTracker, Trial
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.bend import tips_beside
@@ -38,28 +40,24 @@ from app.device.control import Loop, Table
 from app.exercises.parts import OwnPlan
 from app.exercises.scene import device_of, plan_of
 from app.planning.plan import Plan
-from app.scoring.touches import Touches
-from app.session import machine
-from app.session.context import RunContext
 from app.session.fixes import AGREEING, FORGOTTEN, DepthTrust
 from app.session.fusion import across_noise, depth_noise
 from app.session.inputs import LoopInputs
-from app.session.machine import AttemptEvent, State
+from app.session.machine import State
 from app.session.needle import DepthSource
 from app.session.observation import GRACE
-from app.session.recorder import Recorder
 from app.session.risks import risk_marks_of
 from app.session.samples import Samples
 from app.session.scored import scorer, trajectory
 from app.session.tissues import tissues_met_of
 from app.session.touching import Touching
 from app.session.trainer import Trainer
-from app.session.transitions import LOST, Classifier, classify
+from app.session.transitions import LOST
 from app.session.withdrawal import Start
 from app.simulation.hands import Script, named
 from app.simulation.plant import initial_plant
 from app.simulation.skills import find_skill
-from app.simulation.trainee import ScriptPhase
+from app.simulation.trainee import ScriptPhase, script_stage
 from app.tracking.optics.rig import RigProfile, load_rig
 from app.tracking.simulated.cameras import simulated_cameras
 from app.tracking.simulated.picture_effects import picture_effects
@@ -69,19 +67,16 @@ from app.tracking.simulated.sampled import (
     SampledDepth,
     SampledTracker,
     Spoiled,
+    cover,
 )
 from app.tracking.simulated.scene import MarkerScene
-from app.tracking.tracker import Tracker
 
 if TYPE_CHECKING:
     from app.exercises.schema import Exercise
     from app.imaging.field import TissueField
     from app.planning.placement import PlacedPlan
-    from app.scoring.result import Score
     from app.session.result import AttemptResult
     from app.session.risks import Risk
-    from app.tracking.cameras.camera import Camera
-    from app.tracking.fix import NeedleFix
 
 STEP_TICKS: Final = 20
 """Ticks of the loop between two looks of the trainer, as in the program at 1 kHz."""
@@ -97,48 +92,6 @@ BEYOND: Final = 20.0 * MILLIMETRE
 
 HEARTBEATS: Final = 10
 """Looks from one sign of life of the window to the next: 0.2 s, of 1 s that the loop allows."""
-
-
-class _Unrecorded(Recorder):
-    """A recorder that writes nothing: it is never open, so it drops what it is given."""
-
-    def open(self) -> None:
-        """Leave the disk alone."""
-
-
-@dataclass(frozen=True, slots=True)
-class _NoRecords(RunContext):
-    """The context of attempts of which nothing is kept."""
-
-    def recorder(self, header: Any, loop: Any, placed: Any, clock: Any) -> Recorder:
-        """Return one that writes nothing; no checkpoint is taken."""
-        return _Unrecorded(self.folder, header, clock=clock)
-
-
-class _RenderedTracker:
-    """Fixes by rendered pictures, taken at the looks of a trainer; late as those of `tracker`."""
-
-    def __init__(self, cameras: tuple[Camera, Camera], rig: RigProfile, *how: Any) -> None:
-        self._tracker, self._next = Tracker(cameras, rig, *how), inf
-        self._cameras, self._rig = cameras, rig
-        self._late: list[tuple[float, NeedleFix]] = []
-
-    def begin(self, now: float) -> None:
-        """Take the first pictures now."""
-        self._next = now
-        for camera in self._cameras:
-            camera.open()
-
-    def due(self, now: float) -> list[NeedleFix]:
-        """Take pictures if it is time, and return the fixes that are there by now."""
-        if now >= self._next:
-            self._next += 1.0 / self._rig.rate_hz
-            left, right = (camera.read() for camera in self._cameras)
-            fix = self._tracker.process(left, right)
-            self._late.append((now + self._rig.latency_ms * MILLISECOND + PROCESSING, fix))
-        there = [fix for time, fix in self._late if time <= now]
-        self._late = [(time, fix) for time, fix in self._late if time > now]
-        return there
 
 
 def trial_plan(exercise: Exercise) -> Plan:
@@ -161,6 +114,8 @@ def attempt(
     pictures: bool = False,
     tissues: TissueField | None = None,
     script: Script = Script.HAND,
+    hand: PlayedHand | None = None,
+    watch: Callable[[FloatArray], object] = lambda row: None,
 ) -> AttemptResult:
     """Let a scripted trainee do one attempt in virtual time; nothing is written.
 
@@ -173,19 +128,32 @@ def attempt(
         tissues: field of the patient that tells what the needle met.
         pictures: whether both cameras' pictures are rendered and tracked: seven times the work.
         script: how the trainee behaves: as people do, or as in a demonstration.
+        hand: plays in place of the skill's.
+        watch: told the loop's state at each look, as the attempt goes on; what it is told is the
+            loop's own memory.
 
     Raises:
         AcusError: if a profile, an effect or the path cannot be used; says which and why.
     """
+    if hand is not None and hand.dial is not None:
+        exercise = exercise.model_copy(update={"assistance": hand.dial})
     profile, clock = device_of(exercise), VirtualClock(BEGIN)
     played = named(find_skill(skill).name, script)
-    setup = TrainerSetup(exercise, placed, skill=played, seed=seed, clock=clock, tissues=tissues)
+    setup = TrainerSetup(
+        exercise,
+        placed,
+        skill=played,
+        seed=seed,
+        clock=clock,
+        tissues=tissues,
+        script=None if hand is None else hand.script,
+    )
     loop, rig = build_loop(setup, profile), load_rig(exercise.rig)
     scene = needle_scene(loop, profile, rig.needle.marker_offset)
     fulcrum = profile.fulcrum
     axis, spoiling = measured_axis(loop), pictures_of(exercise, profile)
     tracker = (
-        _RenderedTracker(
+        RenderedTracker(
             simulated_cameras(rig, scene, clock, seed, picture_effects(spoiling)),
             rig,
             clock,
@@ -196,7 +164,12 @@ def attempt(
         else SampledTracker(rig, fulcrum, scene, axis, seed, Spoiled.by(spoiling, rig.blur_px))
     )
 
+    began = inf
+
     def measure(now: float) -> None:
+        until = None if hand is None else hand.covers(now - began)
+        if until is not None:
+            tracker.cover(began + until)
         for fix in tracker.due(now):
             trainer.on_fix(fix)
 
@@ -205,7 +178,7 @@ def attempt(
         None,
         placed,
         exercise,
-        _NoRecords(seed=seed),
+        NoRecords(seed=seed),
         clock,
         measure,
         risks=risks,
@@ -220,8 +193,11 @@ def attempt(
         while clock.now() < BEGIN + SETTLED:
             trainer.step(STEP_TICKS)
         trainer.begin()
+        began = clock.now()
         while clock.now() < BEGIN + LONGEST:
             row = trainer.step(STEP_TICKS).device
+            if row is not None:
+                watch(row.row)
             if row is None or row.row[sv.TRAINEE_PHASE] == ScriptPhase.DONE:
                 break
             if trainer.result is not None:  # aborted: a fault of the robot, say
@@ -229,19 +205,6 @@ def attempt(
         return trainer.end()
     finally:
         loop.close()
-
-
-@dataclass(frozen=True, slots=True)
-class Trial:
-    """What an attempt of `Trials` came to.
-
-    Attributes:
-        score: None where it could not be scored.
-        duration: virtual time of the attempt [s].
-    """
-
-    score: Score | None
-    duration: float
 
 
 class Trials:
@@ -273,7 +236,7 @@ class Trials:
         self._scorer = scorer(exercise)
         self._task = exercise.touch_task(placed)
         # What pulls towards the target follows the touches, which the loop alone does not know.
-        self._pulled = self._task is not None and bool(exercise.laws) and exercise.assistance != 0.0
+        self._pulls = self._task is not None and bool(exercise.laws)
         setup = TrainerSetup(exercise, placed, clock=VirtualClock(BEGIN), tissues=tissues)
         table = loop_table(setup, self._profile)
         # What stages remember is in their arrays: each attempt takes copies, shared ones once.
@@ -289,39 +252,73 @@ class Trials:
         Raises:
             AcusError: for an unknown skill.
         """
-        rows, begin = self._rows(skill, seed)
+        played = named(find_skill(skill).name, self._script)
+        trainee = trainee_of(self._exercise, self._placed, played, seed)
+        rows, begin = self._rows(trainee, seed)
+        trial = self._judged(rows, begin, self._exercise.assistance)
+        if trial is not None:
+            return trial
+        result = self._whole(skill, seed)
+        return Trial(result.score, result.duration)
+
+    def play(self, hand: PlayedHand, seed: int) -> PlayedTrial:
+        """Let a hand do one attempt; the same for one seed, which is of the cameras' noise."""
+        trainee = script_stage(hand.script, self._placed.axis)
+        rows, begin = self._rows(trainee, seed, hand)
+        trial = self._judged(rows, begin, self._dial(hand))
+        if trial is not None:
+            return PlayedTrial(trial.score, trial.duration, rows)
+        looks: list[FloatArray] = []
+        result = self._whole("expert", seed, hand, lambda row: looks.append(row.copy()))
+        return PlayedTrial(result.score, result.duration, np.array(looks or rows))
+
+    def _dial(self, hand: PlayedHand | None) -> float:
+        return self._exercise.assistance if hand is None or hand.dial is None else hand.dial
+
+    def _whole(self, skill: str, seed: int, *of_hand: Any) -> AttemptResult:
+        """Do it with a whole trainer, which judges what is not judged here."""
+        of_trainer = self._risks, False, self._tissues, self._script
+        return attempt(self._exercise, self._placed, skill, seed, *of_trainer, *of_hand)
+
+    def _judged(self, rows: FloatArray, begin: float, dial: float) -> Trial | None:
+        """Score an attempt by its rows; None where only a trainer can judge it."""
         samples = self._samples(rows)
         faults = rows[rows[:, sv.TIME] > begin + GRACE, sv.FAULT]
         touching = None if self._task is None else Touching(self._task)
-        went = _Course.of(samples, begin, touching)
-        if faults.any() or went.unseen >= LOST or self._pulled:
-            result = attempt(
-                self._exercise,
-                self._placed,
-                skill,
-                seed,
-                self._risks,
-                tissues=self._tissues,
-                script=self._script,
-            )
-            return Trial(result.score, result.duration)
+        went = TrialCourse.of(samples, begin, touching)
+        if faults.any() or went.unseen >= LOST or (self._pulls and dial != 0.0):
+            return None
         samples = replace(samples, state=went.states, target=went.target)
         near = risk_marks_of(samples, self._placed, self._risks)
         met = tissues_met_of(samples, self._placed, self._tissues)
         path = trajectory(samples, self._placed, risks=near, touches=went.touches, met=met)
         return Trial(self._scorer(path), float(samples.time[-1]) - begin)
 
-    def _rows(self, skill: str, seed: int) -> tuple[FloatArray, float]:
+    def truth(self, rows: FloatArray) -> Samples:
+        """Return the needle as it truly was at each look, whatever the cameras saw of it."""
+        samples, depth = self._samples(rows), rows[:, sv.PLANT_DEPTH]
+        tip = samples.tip + (depth - samples.depth)[:, None] * samples.axis
+        inside = np.where(depth > 0.0, State.INSERTING.value, State.ALIGNING.value)
+        return replace(
+            samples,
+            state=inside.astype("<U10"),
+            depth_source=np.full(len(rows), DepthSource.TRACKED.value),
+            depth=depth,
+            tip=tip,
+            spread=None,
+        )
+
+    def _rows(
+        self, trainee: Stage, seed: int, hand: PlayedHand | None = None
+    ) -> tuple[FloatArray, float]:
         """Run the loop; returns its state at each look of an attempt, and when that began [s]."""
-        placed, profile, clock = self._placed, self._profile, VirtualClock(BEGIN)
+        profile, clock = self._profile, VirtualClock(BEGIN)
         own: dict[int, FloatArray] = {}
 
         def fresh(stage: Stage) -> Stage:
             values = own.setdefault(id(stage.parameters), stage.parameters.copy())
             return stage._replace(parameters=values)
 
-        played = named(find_skill(skill).name, self._script)
-        trainee = trainee_of(self._exercise, placed, played, seed)
         before = trainee, self._cameras.stage(seed, self._spoiled)
         table = Table.of([*before, *map(fresh, self._stages)], map(fresh, self._write))
         initial = initial_plant(profile, UPRIGHT, START_DEPTH)
@@ -333,7 +330,7 @@ class Trials:
             force_cap=profile.limits.hand_force,
         )
         inputs = LoopInputs(loop.inbox)
-        inputs.prepare(placed, self._exercise.assistance)
+        inputs.prepare(self._placed, self._dial(hand))
         loop.open()
         try:
             inputs.heartbeat(BEGIN)
@@ -342,6 +339,9 @@ class Trials:
             inputs.arm(True)
             rows: list[FloatArray] = []
             while clock.now() < BEGIN + LONGEST:
+                until = None if hand is None else hand.covers(clock.now() - begin)
+                if until is not None:
+                    cover(before[1], begin + until)
                 if len(rows) % HEARTBEATS == 0:
                     inputs.heartbeat(clock.now())
                 loop.step(STEP_TICKS)
@@ -429,49 +429,3 @@ class Trials:
             FORGOTTEN,
         )
         return cameras, (depths, across)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Course:
-    """What a trainer would have made of the samples of an attempt, one after the other.
-
-    Attributes:
-        states: at each sample, shape (n,).
-        unseen: longest time in the body without a depth [s].
-        target: at each sample [m], shape (n, 3).
-        touches: targets that were to be touched; None where there were none.
-    """
-
-    states: NDArray[np.str_]
-    unseen: float
-    target: FloatArray
-    touches: Touches | None = None
-
-    @classmethod
-    def of(cls, samples: Samples, begin: float, touching: Touching | None = None) -> _Course:
-        """Judge samples that are all taken for `aligning`, of an attempt from `begin` [s] on."""
-        attempt = machine.advance(machine.Attempt(), AttemptEvent.BEGIN, begin)
-        memory = Classifier()
-        seen = (samples.depth_source == DepthSource.TRACKED.value) & samples.valid
-        shift = samples.target - samples.target[0] if touching else None
-        target, depths, states = samples.target.copy(), samples.depth.tolist(), []
-        since, unseen, times = begin, 0.0, []
-        for k, time in enumerate(samples.time.tolist()):
-            if touching is not None and shift is not None:
-                target[k] = touching.state.aim.p_target + shift[k]
-            depth = depths[k] if seen[k] else None
-            away = float(np.linalg.norm(samples.tip[k] - target[k]))
-            memory, event = classify(memory, attempt.state, time, depth, away)
-            if event is not None:
-                attempt = machine.advance(attempt, event, time)
-            if depth is not None or attempt.state is State.ALIGNING:
-                since = time
-            unseen = max(unseen, time - since)
-            states.append(attempt.state.value)
-            if touching is not None and samples.spread is not None:
-                inside = depth is not None and attempt.state in (State.INSERTING, State.HOLDING)
-                at = time - float(samples.spread[k, 2]) if inside else None
-                if touching.take(samples.tip[k], at):
-                    times.append(time)
-        of = 0 if touching is None else len(touching.state.task)
-        return cls(np.array(states), unseen, target, Touches(of, tuple(times)) if of else None)

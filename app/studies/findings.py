@@ -93,6 +93,7 @@ class Survey:
         quick: the same on less, for a first look (`--quick`); None if there is nothing less.
         inputs: what the paths are that may be given to it; empty if it takes none.
         borrows: what it needs from rooms above, as a `Study` does: the last arguments of `measure`.
+        options: names of what may be asked of it, which `measure` takes by these names.
     """
 
     name: str = ""
@@ -103,6 +104,7 @@ class Survey:
     quick: Callable[..., Findings] | None = None
     inputs: str = ""
     borrows: tuple[str, ...] = ()
+    options: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

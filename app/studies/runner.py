@@ -3,7 +3,7 @@
 import math
 import statistics
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final
@@ -134,6 +134,7 @@ def examine(
     inputs: tuple[Path, ...] = (),
     quick: bool = False,
     lend: Callable[[str], Any] | None = None,
+    asked: Mapping[str, Any] | None = None,
 ) -> SurveyResult:
     """Run a survey.
 
@@ -143,6 +144,7 @@ def examine(
         inputs: paths that it works on, for one that takes some.
         quick: on less, where it knows how.
         lend: gives what it borrows, by `module:name`.
+        asked: its options, by name.
 
     Raises:
         StudyError: for an unknown study, one that is timed (see `run`), one that takes no paths,
@@ -166,7 +168,7 @@ def examine(
         )
     measure = (chosen.quick if quick else None) or chosen.measure
     given = (inputs,) if inputs else ()
-    return SurveyResult(chosen, measure(progress, *given, *_lent(chosen, lend)))
+    return SurveyResult(chosen, measure(progress, *given, *_lent(chosen, lend), **(asked or {})))
 
 
 def _lent(chosen: Study | Survey, lend: Callable[[str], Any] | None) -> tuple[Any, ...]:

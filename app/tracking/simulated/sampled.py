@@ -153,6 +153,10 @@ class SampledTracker:
         """Capture from `now` [s] on."""
         self._next = now
 
+    def cover(self, until: float) -> None:
+        """Let both cameras capture nothing before a time [s]; what is on its way still comes."""
+        self._next = max(self._next, until)
+
     def due(self, now: float) -> list[NeedleFix]:
         """Return the fixes that have come since they were last asked for, at `now` [s]."""
         fixes = []
@@ -336,3 +340,8 @@ class SampledDepth:
             rows=float(len(self.table)),
         )
         return Stage("cameras", sampled_depth, parameters)
+
+
+def cover(cameras: Stage, until: float) -> None:
+    """Let the cameras of a stage of `SampledDepth` capture nothing before a time [s]."""
+    cameras.parameters[_AT.next] = max(float(cameras.parameters[_AT.next]), until)

@@ -1,0 +1,111 @@
+"""What an attempt in virtual time has in place of a running program's: records, cameras, a hand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+from typing import TYPE_CHECKING, Any
+
+from app.core.arrays import FloatArray
+from app.core.units import MILLISECOND
+from app.session.context import RunContext
+from app.session.recorder import Recorder
+from app.simulation.trainee import TraineeScript
+from app.tracking.optics.rig import RigProfile
+from app.tracking.simulated.sampled import PROCESSING
+from app.tracking.tracker import Tracker
+
+if TYPE_CHECKING:
+    from app.scoring.result import Score
+    from app.tracking.cameras.camera import Camera
+    from app.tracking.fix import NeedleFix
+
+
+class _Unrecorded(Recorder):
+    """A recorder that writes nothing: it is never open, so it drops what it is given."""
+
+    def open(self) -> None:
+        """Leave the disk alone."""
+
+
+@dataclass(frozen=True, slots=True)
+class NoRecords(RunContext):
+    """The context of attempts of which nothing is kept."""
+
+    def recorder(self, header: Any, loop: Any, placed: Any, clock: Any) -> Recorder:
+        """Return one that writes nothing; no checkpoint is taken."""
+        return _Unrecorded(self.folder, header, clock=clock)
+
+
+class RenderedTracker:
+    """Fixes by rendered pictures, taken at the looks of a trainer; late as those of `tracker`."""
+
+    def __init__(self, cameras: tuple[Camera, Camera], rig: RigProfile, *how: Any) -> None:
+        self._tracker, self._next = Tracker(cameras, rig, *how), inf
+        self._cameras, self._rig = cameras, rig
+        self._late: list[tuple[float, NeedleFix]] = []
+
+    def begin(self, now: float) -> None:
+        """Take the first pictures now."""
+        self._next = now
+        for camera in self._cameras:
+            camera.open()
+
+    def cover(self, until: float) -> None:
+        """Take no pictures before a time [s]."""
+        self._next = max(self._next, until)
+
+    def due(self, now: float) -> list[NeedleFix]:
+        """Take pictures if it is time, and return the fixes that are there by now."""
+        if now >= self._next:
+            self._next += 1.0 / self._rig.rate_hz
+            left, right = (camera.read() for camera in self._cameras)
+            fix = self._tracker.process(left, right)
+            self._late.append((now + self._rig.latency_ms * MILLISECOND + PROCESSING, fix))
+        there = [fix for time, fix in self._late if time <= now]
+        self._late = [(time, fix) for time, fix in self._late if time > now]
+        return there
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PlayedHand:
+    """A hand that no skill describes, and what it does beside the needle.
+
+    Attributes:
+        script: of the hand.
+        dial: what it turns the robot's help to before it begins; None leaves it.
+        covered: when it covers both cameras, (from, to) since the attempt began [s].
+    """
+
+    script: TraineeScript
+    dial: float | None = None
+    covered: tuple[tuple[float, float], ...] = ()
+
+    def covers(self, since: float) -> float | None:
+        """Return until when the cameras are covered at a time since the beginning [s], if so."""
+        ends = [end for begin, end in self.covered if begin <= since < end]
+        return max(ends, default=None)
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """What an attempt of `Trials` came to.
+
+    Attributes:
+        score: None where it could not be scored.
+        duration: virtual time of the attempt [s].
+    """
+
+    score: Score | None
+    duration: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PlayedTrial(Trial):
+    """The same of a hand that no skill describes.
+
+    Attributes:
+        rows: the loop's state at each look, as it truly was, shape (n, slots).
+    """
+
+    rows: FloatArray

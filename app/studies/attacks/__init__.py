@@ -1,0 +1,1 @@
+"""Attempts that want points for what earns none: described, searched for, kept."""
