@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.messages import sentence
 from app.core.units import MILLIMETRE
@@ -208,6 +209,7 @@ class StepKind(StrEnum):
     TILT = "tilt"
     INSERT = "insert"
     FEEL = "feel"
+    BONE = "bone"
     DEEPER = "deeper"
     BACK = "back"
     HOLD = "hold"
@@ -281,6 +283,8 @@ class NextSteps:
         offset, pose = snapshot.offset, snapshot.pose
         if snapshot.touch is not None:
             return self._to_touch(snapshot, snapshot.touch)
+        if snapshot.device is not None and snapshot.device.row[sv.BONE_CONTACT] > 0.0:
+            return NextStep(StepKind.BONE)  # whoever pushed on would bend the needle, or turn it
         if pose.measured and -offset.remaining > self._within(StepKind.BACK, self._along):
             return NextStep(StepKind.BACK, distance=-offset.remaining)
         wrong = pose.axis - offset.path  # the hub goes to the side that the tip is on

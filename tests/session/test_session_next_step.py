@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from app.core import state_vector as sv
 from app.core.rotation import rotation_exp
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
@@ -32,6 +33,7 @@ class Moment:
     pose: SimpleNamespace
     offset: object
     touch: object = None
+    device: object = None
 
 
 def moment(plan, depth, turn=None, state=State.INSERTING, measured=True, valid=True, p_target=None):
@@ -109,6 +111,22 @@ def test_who_follows_the_tilt_is_on_the_path():
     towards = -np.cross(wrong.pose.axis, plan.axis)
     turned = rotation_exp(-step.angle * towards / np.linalg.norm(towards)) @ wrong.pose.axis
     np.testing.assert_allclose(turned, plan.axis, atol=1e-9)
+
+
+def on_bone(contact):
+    row = np.zeros(sv.BONE_CONTACT + 1)
+    row[sv.BONE_CONTACT] = contact
+    return SimpleNamespace(row=row)
+
+
+@pytest.mark.parametrize("turn", [None, (0.1, 0.0, 0.0)])
+def test_a_tip_on_bone_is_not_ordered_deeper(turn):
+    plan = placed()
+    stopped = replace(moment(plan, 0.015, turn), device=on_bone(1.0))
+    assert steps(plan).of(stopped).kind.value == "bone"
+    assert steps(plan).of(stopped, live=False).kind is StepKind.SCAN
+    freed = replace(moment(plan, 0.014), device=on_bone(0.0))
+    assert steps(plan).of(freed).kind is StepKind.DEEPER
 
 
 def test_holding_at_the_target_ends_the_attempt():

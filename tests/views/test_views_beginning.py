@@ -108,6 +108,14 @@ def test_do_not_show_again_holds_for_that_exercise_and_never_for_an_assessment(
     assert not beginning._is_known(beginning.exercise)
 
 
+def test_the_reason_over_the_buttons_of_the_briefing_is_shown_whole(window, beginning, settle):
+    choose(window, "plan-it-yourself")
+    window.resize(1366, 768)
+    note = beginning.page.why_not
+    assert note.isVisible()
+    assert settle(lambda: note.height() >= note.heightForWidth(note.width()) > 0)
+
+
 @pytest.mark.long("journey")
 def test_an_exercise_that_the_student_plans_leads_to_the_plan(window, beginning, settle):
     choose(window, "plan-it-yourself")

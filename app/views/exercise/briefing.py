@@ -285,6 +285,7 @@ class BriefingPage(QWidget):
         self.back = _key_button(tr("Back (Esc)"))
         self.skip = QCheckBox(tr("Do not show this again for this exercise"), self)
         self.why_not = label("", "dim")
+        self.why_not.setAlignment(Qt.AlignmentFlag.AlignRight)  # a layout would narrow and cut it
         self.begin.setToolTip(tr("The attempt starts as soon as robot and cameras are there"))
         self.show_me.setToolTip(tr("An expert does the exercise; nothing is recorded"))
         self.look.setToolTip(tr("Study the CT without the clock; F5 starts the attempt"))
@@ -391,7 +392,7 @@ class BriefingPage(QWidget):
         page.addWidget(self.title)
         page.addWidget(self.kind)
         page.addLayout(middle, 1)
-        page.addWidget(self.why_not, 0, Qt.AlignmentFlag.AlignRight)
+        page.addWidget(self.why_not)
         page.addLayout(buttons)
         page.addWidget(disclaimer_label(self))
 

@@ -187,6 +187,7 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False) -> str:
         StepKind.TILT: tilt.format(angle=_amount(degrees(step.angle)), sides=sides),
         StepKind.INSERT: tr("Push the needle in{how}", how=inwards),
         StepKind.FEEL: tr("Push slowly{how}: the cameras do not see the depth", how=inwards),
+        StepKind.BONE: tr("The tip stands on bone: do not push, pull back{how}", how=outwards),
         StepKind.DEEPER: tr("Push {mm} mm deeper{how}").format(mm=_amount(mm), how=inwards),
         StepKind.BACK: tr("Pull back {mm} mm{how}").format(mm=_amount(mm), how=outwards),
         StepKind.HOLD: tr("Hold still"),
