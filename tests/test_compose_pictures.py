@@ -19,10 +19,11 @@ from app.tracking.simulated.cameras import simulated_cameras
 from app.tracking.simulated.delivery import from_srgb
 from app.tracking.simulated.sampled import BOTH, SampledDepth, Spoiled
 from app.tracking.simulated.scene import MarkerScene
+from tests.layered import layered
 
 
 def asking(**effects):
-    exercise = load_exercise("first-insertion")
+    exercise = layered("first-insertion")
     parts = {name: EffectPart(parameters=values) for name, values in effects.items()}
     return exercise.model_copy(update={"effects": parts})
 

@@ -82,6 +82,7 @@ PARTS: Final[Mapping[str, Part]] = {
     "studies": Part(
         (
             *("app/studies", "app/*/studies", "app/*/hard_cases", "app/*/comparisons"),
+            "app/compose/attacked.py",
             *("app/commands/study.py", "app/views/accuracy", "tests/studies", "tests/hard"),
             *("docs/studies.md", "docs/accuracy", "tools/hard_*.py", "tools/exact"),
             *("tools/accuracy_pages.py", "tests/views/test_views_accuracy.py"),

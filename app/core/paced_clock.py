@@ -3,7 +3,7 @@
 In a run where robot, cameras and hand are all simulated, a slow computer must slow the world down,
 not drop what it has no time for: the hand that the program leads is judged, not the computer. The
 loop lets time pass (`grant`, `advance`); cameras, tracker and trainer each hold it at the moment
-by which they have to be done (`Hold`). Time never runs faster than the wall's, and what was lost
+by which they have to be done (`TimeHold`). Time never runs faster than the wall's, and what was lost
 is not caught up.
 """
 
@@ -29,7 +29,7 @@ PATIENCE: Final = 30.0
 _LOOK: Final = 0.05
 
 
-class Hold:
+class TimeHold:
     """One part's word until when time may go on without it; from its making on it holds nothing."""
 
     def __init__(self, clock: "PacedClock", name: str) -> None:
@@ -62,7 +62,7 @@ class PacedClock:
         self._now = wall() if begin is None else begin
         self._offset = wall() - self._now
         self._passing = threading.Condition()
-        self._holds: list[Hold] = []
+        self._holds: list[TimeHold] = []
         self._runs = False
         self._held_since: float | None = None
         self._lost = 0.0
@@ -97,15 +97,15 @@ class PacedClock:
         return True
 
     # --- who holds time ---------------------------------------------------------------------------
-    def hold(self, name: str) -> Hold:
+    def hold(self, name: str) -> TimeHold:
         """Return a word of one part's own."""
-        hold = Hold(self, name)
+        hold = TimeHold(self, name)
         with self._passing:
             self._holds.append(hold)
         return hold
 
-    def set_limit(self, hold: Hold, moment: float) -> None:
-        """Take a part's word; see `Hold`."""
+    def set_limit(self, hold: TimeHold, moment: float) -> None:
+        """Take a part's word; see `TimeHold`."""
         with self._passing:
             hold.limit = moment
             self._held_since = None

@@ -99,7 +99,7 @@ class Call:
 
 
 @dataclass(frozen=True, slots=True)
-class Met:
+class Reachable:
     """A tissue within reach, and the least depth at which a needle meets it [mm]; None: unknown."""
 
     tissue: FieldTissue
@@ -151,7 +151,7 @@ def called_for(
 
 def within_reach(
     exercise: Exercise, placed: PlacedPlan, profile: DeviceProfile, field: TissueField
-) -> tuple[Met, ...]:
+) -> tuple[Reachable, ...]:
     """Return the tissues that a needle can meet, by the table of the field."""
     least: dict[int, float | None] = {}
     if isinstance(exercise.plan, OwnPlan):
@@ -165,7 +165,7 @@ def within_reach(
                 if before is None or part.begin_mm < before:
                     least[part.code] = part.begin_mm
     met = (
-        Met(tissue, least[tissue.code])
+        Reachable(tissue, least[tissue.code])
         for tissue in field.tissues
         if tissue.code in least and tissue.confidence >= LEAST_CONFIDENCE
     )

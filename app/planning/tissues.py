@@ -21,7 +21,7 @@ SMALL_VESSELS: Final = frozenset({"small vessel", "lung vessel"})
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Along:
+class PathTissues:
     """What paths meet, arrays of shape (n,); lengths of what holds the target are 0.
 
     Attributes:
@@ -42,7 +42,7 @@ class Along:
 
 def along(
     field: TissueField, target_mm: FloatArray, points_mm: FloatArray, length_mm: FloatArray
-) -> Along:
+) -> PathTissues:
     """Return what straight paths to one target meet.
 
     Args:
@@ -64,7 +64,7 @@ def along(
         result: FloatArray = np.isin(codes, wanted).mean(axis=1) * length_mm
         return result
 
-    return Along(
+    return PathTissues(
         bone_mm=through(TissueKind.BONE),
         lung_mm=through(TissueKind.LUNG),
         vessel_mm=through(TissueKind.VESSEL),

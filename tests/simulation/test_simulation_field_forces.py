@@ -139,7 +139,7 @@ def test_a_hundred_thousand_pushes_and_tilts_give_out_no_more_than_was_supplied(
     assert given < supplied
 
 
-@pytest.mark.long
+@pytest.mark.long("statistics")
 def test_a_million_pushes_and_tilts_give_out_no_more_than_was_supplied() -> None:
     assert wander(1_000_000, 4)[3] < 1e-6
 

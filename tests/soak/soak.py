@@ -100,6 +100,11 @@ def note(state: FloatArray, p: FloatArray) -> None:
     p[FAULTS] += 1.0 if state[sv.FAULT] != 0.0 else 0.0
 
 
+def layered_effects() -> list[str]:
+    """Return the effects that need no field of tissue: the soak's scenes have layers."""
+    return [name for name in effect_names() if "field" not in declaration(name).needs]
+
+
 @dataclass(frozen=True)
 class Found:
     """What a soak found; times are simulated but for those that say so.
@@ -158,7 +163,7 @@ class Soak:
         self.loop.close()
 
     def _plan(self) -> SimulationPlan:
-        names = effect_names()
+        names = layered_effects()
         chosen = [name for name in names if self.rng.uniform() < 0.7] or [names[0]]
         requests = []
         for name in chosen:

@@ -2,8 +2,7 @@
 
 import pytest
 
-from app.simulation.effects import effect_names
-from tests.soak.soak import Found, soak
+from tests.soak.soak import Found, layered_effects, soak
 
 
 @pytest.fixture(scope="module")
@@ -20,7 +19,7 @@ def test_nothing_is_ever_no_number_and_no_force_is_beyond_five_newton(found):
 
 
 def test_every_effect_that_ships_was_played(found):
-    assert {name.split()[0] for name in found.effects} == set(effect_names())
+    assert {name.split()[0] for name in found.effects} == set(layered_effects())
 
 
 def test_no_memory_grows_and_rest_leaves_no_subnormal_numbers(found):

@@ -106,7 +106,7 @@ def test_a_void_attempt_is_not_judged_and_what_can_be_done_is_said(page):
     assert not any("expert" in text or "/" in text for k in (2, 3) for text in column(page, k))
     assert column(page, 1)[0] == "2.40 mm"
     assert page._total.text() == "not scored"
-    assert page._reason.text().startswith("The attempt was aborted: student. It counts for nothing")
+    assert page._reason.text().startswith("The attempt was aborted: student. It does not count")
     assert "try again" in page._reason.text()
     lost = score().recomputed(rules=score().rules.model_copy(update={"minimum_tracking": 99.0}))
     assert "both cameras see the marker" in verdict(review(score=lost))[2]

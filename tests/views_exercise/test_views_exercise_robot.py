@@ -148,7 +148,7 @@ def test_the_gauge_shows_dashes_until_somebody_accounts_for_energy(qt):
     assert not gauge.grab().isNull()
     gauge.show_energy(energy_figures(snapshot(slots=ENERGY)))
     assert gauge.lines == (
-        "stored 4.0 mJ", "left 12.0 mJ of 20.0 mJ", "✔ guard at rest", "taken out 1.0 mJ",
+        "stored 4.0 mJ", "left 12.0 mJ of 20.0 mJ", "✔ guard at rest", "removed 1.0 mJ",
     )  # fmt: skip
     assert not gauge.grab().isNull()
     gauge.deleteLater()

@@ -94,9 +94,20 @@ def _completed(
     way = _normals(flat, shape, spacing, voxels, row, depth)
     rings = int(np.ceil(FARTHEST_MM / float(spacing.min())))
     _spread(
-        flat, shape, spacing, voxels, stored, depth, way, _AROUND, _BESIDE, rings, FARTHEST_MM,
-        STEPS_PER_MM, result,
-    )  # fmt: skip
+        flat,
+        shape,
+        spacing,
+        voxels,
+        stored,
+        depth,
+        way,
+        _AROUND,
+        _BESIDE,
+        rings,
+        FARTHEST_MM,
+        STEPS_PER_MM,
+        result,
+    )
     return result.reshape(sizes)
 
 

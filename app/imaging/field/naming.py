@@ -15,29 +15,67 @@ LUNG_VESSEL: Final = "lung vessel"
 
 _WORDS: Final = {
     TissueKind.BONE: (
-        "bone", "rib", "vertebra", "sternum", "pelvis", "scapula", "clavicle", "spine", "sacrum",
-        "femur", "humerus", "hip",
+        "bone",
+        "rib",
+        "vertebra",
+        "sternum",
+        "pelvis",
+        "scapula",
+        "clavicle",
+        "spine",
+        "sacrum",
+        "femur",
+        "humerus",
+        "hip",
     ),
     TissueKind.HEART: ("heart", "ventricle", "atrium", "myocard"),
     TissueKind.VESSEL: (
-        "vessel", "vein", "vena", "artery", "arteries", "aorta", "arterial", "venous", "cava",
-        "portal", "iliac",
+        "vessel",
+        "vein",
+        "vena",
+        "artery",
+        "arteries",
+        "aorta",
+        "arterial",
+        "venous",
+        "cava",
+        "portal",
+        "iliac",
     ),
     TissueKind.GUT: (
-        "gut", "bowel", "colon", "intestin", "stomach", "duodenum", "rectum", "jejunum", "ileum",
-        "esophagus", "oesophagus", "gas",
+        "gut",
+        "bowel",
+        "colon",
+        "intestin",
+        "stomach",
+        "duodenum",
+        "rectum",
+        "jejunum",
+        "ileum",
+        "esophagus",
+        "oesophagus",
+        "gas",
     ),
     TissueKind.LUNG: ("lung", "trachea", "bronch"),
     TissueKind.MUSCLE: ("muscle", "diaphragm", "autochthon", "psoas", "gluteus", "cartilage"),
     TissueKind.FAT: ("fat", "adipose"),
     TissueKind.SKIN: ("skin",),
-}  # fmt: skip
+}
 
 _LESIONS: Final = ("nodule", "lesion", "tumour", "tumor", "metastasis", "cyst", "target")
 _ORGANS: Final = (
-    "liver", "kidney", "spleen", "pancreas", "gallbladder", "adrenal", "bladder", "prostate",
-    "uterus", "thyroid", "brain",
-)  # fmt: skip
+    "liver",
+    "kidney",
+    "spleen",
+    "pancreas",
+    "gallbladder",
+    "adrenal",
+    "bladder",
+    "prostate",
+    "uterus",
+    "thyroid",
+    "brain",
+)
 
 
 def kind_of(structure: Structure) -> TissueKind:

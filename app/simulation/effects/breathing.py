@@ -293,7 +293,7 @@ def _varying(state: FloatArray, p: FloatArray, since: float) -> None:
 
 
 @njit
-def _displace(state: FloatArray, parameters: FloatArray) -> None:
+def displace(state: FloatArray, parameters: FloatArray) -> None:
     if len(parameters) == _DRAWS + _PLACES:
         _on_command(state, parameters)
         return
@@ -320,6 +320,6 @@ def _displace(state: FloatArray, parameters: FloatArray) -> None:
 def step(state: FloatArray, parameters: FloatArray) -> None:
     """Add the displacement of the target to TARGET_SHIFT_*, and say it in BREATH_*."""
     before = (state[sv.TARGET_SHIFT_X], state[sv.TARGET_SHIFT_Y], state[sv.TARGET_SHIFT_Z])
-    _displace(state, parameters)
+    displace(state, parameters)
     for axis in range(3):
         state[sv.BREATH_X + axis] = state[sv.TARGET_SHIFT_X + axis] - before[axis]
