@@ -3,8 +3,8 @@
 In a run where robot, cameras and hand are all simulated, a slow computer must slow the world down,
 not drop what it has no time for: the hand that the program leads is judged, not the computer. The
 loop lets time pass (`grant`, `advance`); cameras, tracker and trainer each hold it at the moment
-by which they have to be done (`TimeHold`). Time never runs faster than the wall's, and what was lost
-is not caught up.
+by which they have to be done (`TimeHold`). Time never runs faster than the wall's, and what was
+lost is not caught up.
 """
 
 import threading

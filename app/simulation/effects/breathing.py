@@ -294,6 +294,7 @@ def _varying(state: FloatArray, p: FloatArray, since: float) -> None:
 
 @njit
 def displace(state: FloatArray, parameters: FloatArray) -> None:
+    """Add the displacement of the target to TARGET_SHIFT_*: by command, by a course or a rhythm."""
     if len(parameters) == _DRAWS + _PLACES:
         _on_command(state, parameters)
         return
