@@ -686,7 +686,7 @@ def test_bone_before_the_target_is_said_with_its_depth_and_layers_end_there(auth
     author.editor.put("layers", value=[skin, bone])
     form.show_page(6)
     said = form.review.verdict.text()
-    assert said.startswith("▲ The exercise can be used, but: Bone stands in the way at 2 mm")
+    assert said.startswith("▲ The exercise can be used, but: Bone is in the way at 2 mm")
     assert f"before the target at {path.length_mm:.0f} mm" in said
     deep = skin | {"thickness_mm": path.length_mm + 1.0}
     author.editor.put("layers", value=[deep, bone])
