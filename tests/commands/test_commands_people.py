@@ -235,7 +235,7 @@ def test_results_that_a_course_holds_are_shown_to_the_instructor_alone(acus, mon
 
 
 OPEN_TO_ALL = {
-    *("exercise list", "exercise validate", "exercise schema"),
+    *("exercise list", "exercise suggest", "exercise validate", "exercise schema"),
     *("session list", "session recover", "store status", "store rebuild", "session gather"),
 }
 """Of these nouns, what needs no instructor: `session list` lists what is nobody's, `session gather`
