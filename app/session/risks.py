@@ -144,26 +144,36 @@ def mark_sentence(mark: RiskMark) -> str:
     )
 
 
-def needles_in_body(samples: Samples, placed: PlacedPlan) -> tuple[Any, FloatArray, FloatArray]:
-    """Find the needles in the body: number of their sample, corners in LPS [mm], how long [s].
+def needles_seen(samples: Samples, placed: PlacedPlan) -> tuple[Any, FloatArray, FloatArray]:
+    """Find the needles in the body: numbers of their samples, corners, and the target's motion [m].
 
-    Two corners each, entry and tip; as many as a bent needle has where one of them is bent.
+    Two corners each, entry and tip, in world; as many as a bent needle has where one is bent.
     """
     seen = samples.valid & np.isin(samples.depth_source, FROM_CAMERAS)
     seen &= np.isin(samples.state, IN_BODY) & (samples.depth > 0.0)
     seen &= np.isfinite(samples.tip).all(axis=1) & np.isfinite(samples.axis).all(axis=1)
     rows = np.flatnonzero(seen)
     if not len(rows):
-        return rows, np.empty((0, 2, 3)), np.empty(0)
+        return rows, np.empty((0, 2, 3)), np.empty((0, 3))
     shift = samples.target[rows] - placed.p_target
     shift = np.where(np.isfinite(shift), shift, 0.0)
-    tips = samples.tip[rows] - shift
+    tips = samples.tip[rows]
     lines = np.stack([tips - samples.depth[rows, None] * samples.axis[rows], tips], axis=1)
     if samples.bend is not None:
         lines = _bent(lines, samples.axis[rows], samples.depth[rows], samples.bend[rows])
+    return rows, lines, shift
+
+
+def needles_in_body(samples: Samples, placed: PlacedPlan) -> tuple[Any, FloatArray, FloatArray]:
+    """Find the needles in the body: number of their sample, corners in LPS [mm], how long [s].
+
+    All of the patient is taken to move with the target, as a control scan's whole picture does.
+    """
+    rows, lines, shift = needles_seen(samples, placed)
+    lines = lines - shift[:, None, :]
     corners = placed.T_world_patient.inverse() @ lines.reshape(-1, 3) / MILLIMETRE
     lines = corners.reshape(lines.shape)
-    return rows, lines, np.diff(samples.time, append=samples.time[-1])[rows]
+    return rows, lines, np.diff(samples.time, append=samples.time[-1:])[rows]
 
 
 def different_needles(lines: FloatArray) -> Any:

@@ -1,10 +1,10 @@
 """What the needle met in the patient, from an attempt's samples; in the record as events.
 
-The tip's way is followed through the tissue field, in the tissue's own coordinates: the patient
-moves with the target, as the whole picture of a control scan does. Only where the cameras vouched
-for the tip; between two such samples the way is straight. A way forwards is followed once: what the
-tip draws back through is not met again, what it then meets anew is. The shaft is looked at too: it
-may be pushed into what the tip went past.
+The tip's way is followed through the tissue field, in the tissue's own coordinates: organs go along
+with the target as they breathe, the wall of the body with its ribs stays. Only where the cameras
+vouched for the tip; between two such samples the way is straight. A way forwards is followed once:
+what the tip draws back through is not met again, what it then meets anew is. The shaft is looked at
+too: it may be pushed into what the tip went past.
 """
 
 from __future__ import annotations
@@ -24,8 +24,9 @@ from app.imaging.field.walking import Crossed, directions, holding, joined, walk
 from app.planning.placement import PlacedPlan
 from app.scoring.errors import TrajectoryError
 from app.scoring.met import BY_SHAFT, BY_TIP, SMALL_VESSELS, Met
-from app.session.risks import different_needles, needles_in_body
+from app.session.risks import different_needles, needles_seen
 from app.session.samples import Samples
+from app.simulation.bound_field import BoundField
 
 KIND: Final = "tissue"
 """Kind of the event."""
@@ -71,21 +72,65 @@ class _Way:
     spreads: FloatArray
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Needles:
+    """Needles in the body, looked at where the tissue about them rests.
+
+    Attributes:
+        bound: the field in world.
+        lines: corners in world [m], shape (n, corners, 3).
+        shift: displacement of the target then [m], shape (n, 3).
+    """
+
+    bound: BoundField
+    lines: FloatArray
+    shift: FloatArray
+
+    @property
+    def tips(self) -> FloatArray:
+        """Places of all tips, LPS [mm], shape (n, 3)."""
+        return self._resting(self.lines[:, -1], self.shift)
+
+    def shaft(self, number: int) -> tuple[FloatArray, FloatArray]:
+        """Return places along a shaft, LPS [mm], shape (m, 3), and their shares of its length."""
+        corners, shift = self.lines[number], self.shift[number]
+        lengths = np.linalg.norm(np.diff(corners, axis=0), axis=1)
+        along = np.concatenate([[0.0], np.cumsum(lengths)])
+        shares = along / max(along[-1], 1e-9)
+        if shift.any():  # what moves lies beside what does not: a line is none at rest
+            fine = int(np.ceil(along[-1] / MILLIMETRE / SHAFT_STEP_MM)) + 1
+            shares = np.union1d(shares, np.linspace(0.0, 1.0, fine))
+            at = shares * along[-1]
+            corners = np.column_stack([np.interp(at, along, column) for column in corners.T])
+        return self._resting(corners, np.broadcast_to(shift, corners.shape)), shares
+
+    def different(self) -> NDArray[np.intp]:
+        """Return the numbers of needles that lie elsewhere in the target's tissue, ascending."""
+        lines = (self.lines - self.shift[:, None, :]) / MILLIMETRE
+        return np.asarray(different_needles(lines))
+
+    def _resting(self, p_world: FloatArray, shift: FloatArray) -> FloatArray:
+        resting = self.bound.at_rest(p_world, shift)
+        return np.asarray(self.bound.T_world_patient.inverse() @ resting / MILLIMETRE)
+
+
 def tissues_met_of(
     samples: Samples, placed: PlacedPlan, field: TissueField | None
 ) -> tuple[Met, ...] | None:
     """Return what the needle met, in order; None where there is no field to tell it by."""
     if field is None:
         return None
-    rows, lines, _ = needles_in_body(samples, placed)
+    rows, lines, shift = needles_seen(samples, placed)
     if not len(rows):
         return ()
+    bound = BoundField(field, placed.T_world_patient, placed.p_target)
+    needles = _Needles(bound, lines, shift)
     target = placed.T_world_patient.inverse() @ placed.p_target / MILLIMETRE
     held = set(holding(field, target).tolist())
     found: list[Met] = []
-    for way in _ways(samples, rows, lines):
+    for way in _ways(samples, rows, needles):
         found += _met_on(field, way, held)
-    return (*found, *_by_shaft(field, samples, rows, lines, held, found))
+    return (*found, *_by_shaft(field, samples, rows, needles, held, found))
 
 
 def event_of(met: Met) -> Event:
@@ -121,26 +166,25 @@ def events_of(met: tuple[Met, ...] | None, samples: Samples) -> tuple[Event, ...
     return tuple(map(event_of, met))
 
 
-def _ways(samples: Samples, rows: NDArray[np.intp], lines: FloatArray) -> list[_Way]:
+def _ways(samples: Samples, rows: NDArray[np.intp], needles: _Needles) -> list[_Way]:
     """Take the tip's ways forwards out of the needles in the body."""
     depth = samples.depth[rows] / MILLIMETRE
     spread = np.full((len(samples.time), 2), np.nan)
     if samples.spread is not None:
         spread = samples.spread[:, :2] / MILLIMETRE
     ways: list[_Way] = []
+    tips = needles.tips
     step = np.median(np.diff(samples.time)) if len(samples.time) > 1 else 0.0
     for stay in _stays(rows, samples, float(step)):
         corners: list[tuple[FloatArray, float, float, FloatArray]] = []
         first = stay[0]
-        shaft = lines[first]
-        lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(shaft, axis=0), axis=1))])
-        for place, share in zip(shaft, lengths / max(lengths[-1], 1e-9), strict=True):
+        for place, share in zip(*needles.shaft(first), strict=True):
             corners.append(
                 (place, share * depth[first], samples.time[rows[first]], spread[rows[first]])
             )
         front, back = depth[first], None
         for n in stay[1:]:
-            here = (lines[n, -1], depth[n], samples.time[rows[n]], spread[rows[n]])
+            here = (tips[n], depth[n], samples.time[rows[n]], spread[rows[n]])
             if back is not None:
                 if here[1] < back[1]:
                     back = here
@@ -254,12 +298,12 @@ def _by_shaft(
     field: TissueField,
     samples: Samples,
     rows: NDArray[np.intp],
-    lines: FloatArray,
+    needles: _Needles,
     held: set[int],
     by_tip: list[Met],
 ) -> list[Met]:
     """Return what shafts lie in that no tip has met, the longest of each tissue."""
-    chosen = different_needles(lines)
+    chosen = needles.different()
     if len(chosen) > SHAFTS:
         chosen = chosen[np.linspace(0, len(chosen) - 1, SHAFTS).astype(np.intp)]
     known = {(met.kind, met.name) for met in by_tip}
@@ -270,10 +314,10 @@ def _by_shaft(
         spread = np.full(2, np.nan)
         if samples.spread is not None:
             spread = samples.spread[row, :2] / MILLIMETRE
-        shares = np.linspace(0.0, depth, len(lines[n]))
+        places, shares = needles.shaft(n)
         way = _Way(
-            lines[n],
-            shares,
+            places,
+            shares * depth,
             np.full(len(shares), samples.time[row]),
             np.broadcast_to(spread, (len(shares), 2)),
         )

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, frozen
 from app.core.messages import sentence
@@ -26,6 +27,8 @@ AT_SPINE: Final = 0.5
 """Share of the target's motion that is left at the spine: an estimate, none found by organ."""
 
 _LIMITS: Final = (0.5, 1.2)
+_INFLATED: Final = 2.0  # the lung's share at most
+_TURNS: Final = 6
 _SHALLOW: Final = 0.03  # [m] nearer to the spine than this, place makes no difference
 
 
@@ -115,6 +118,45 @@ class BoundField:
                 for one, value in zip(tissues, values, strict=True)
             ]
         )
+
+    def at_rest(self, p_world: FloatArray, breath: FloatArray) -> FloatArray:
+        """Return where the tissue at points rests, as `tissue_walk` looks it up in the loop.
+
+        Args:
+            p_world: points [m], shape (n, 3).
+            breath: displacement of what goes along with all of breathing [m], shape (n, 3).
+        """
+        resting = p_world.copy()
+        moved = np.flatnonzero(breath.any(axis=1))
+        moved = moved[self._moves[self._codes(p_world[moved])]]
+        points, way = p_world[moved], breath[moved]
+        share = np.zeros(len(moved))
+        held = np.zeros(len(moved), bool)  # halved: it came to what stays
+        for _ in range(_TURNS):
+            codes = self._codes(points - share[:, None] * way)
+            lies = self._moves[codes]
+            now = self._shares(codes, points - share[:, None] * way)
+            share = np.where(lies, np.where(held, share, now), 0.5 * share)
+            held |= ~lies
+        lies = self._moves[self._codes(points - share[:, None] * way)]
+        resting[moved] -= np.where(lies, share, 0.0)[:, None] * way
+        return resting
+
+    @property
+    def _moves(self) -> NDArray[np.bool_]:
+        """Whether each tissue goes along with breathing, by code."""
+        return np.array([one.kind in MOVING for one in self.tissue.tissues])
+
+    def _codes(self, p_world: FloatArray) -> NDArray[np.intp]:
+        patient = (p_world - self.T_world_patient.translation) @ self.T_world_patient.rotation
+        return self.tissue.codes_at(patient / MILLIMETRE)
+
+    def _shares(self, codes: NDArray[np.intp], p_world: FloatArray) -> FloatArray:
+        """Share of breathing of what rests at points and moves."""
+        share = np.clip(self._spine[0] + p_world @ self._spine[1:], *_LIMITS)
+        lung = np.array([one.kind is TissueKind.LUNG for one in self.tissue.tissues])
+        volume = np.clip(self._lung[0] + p_world @ self._lung[1:], 0.0, _INFLATED)
+        return np.asarray(share * np.where(lung[codes], volume, 1.0))
 
     def _towards_spine(self) -> FloatArray:
         """Constant and gradient of the share by place: 1 at the target, less towards the spine."""

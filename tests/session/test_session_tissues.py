@@ -1,6 +1,7 @@
 """What the needle met: from the samples into record, score and replay."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ from app.scoring.result import Score, judge
 from app.scoring.rows import ScoreRules
 from app.session.recording import read_recording
 from app.session.replay import contents
-from app.session.tissues import event_of, tissues_met
+from app.session.tissues import event_of, tissues_met, tissues_met_of
 from app.session.verify import verify
 
 ENTRY = np.array([-12.5, -98.0, 310.2])
@@ -110,12 +111,25 @@ def test_a_rib_beside_the_path_is_not_met(bench: Bench) -> None:
     assert "bone" not in [one.kind for one in result.trajectory.met]
 
 
+def test_the_breath_that_moves_the_target_moves_no_rib(bench: Bench) -> None:
+    """A control scan's whole picture moves with the target; the ribs of a patient do not."""
+    field = body(rib(15.2, beside=-6.3, radius=3.2))
+    attempt(bench, field)
+    recording = read_recording(next(bench.folder.glob("*.mcap")))
+    samples, placed = recording.samples, recording.placed_plan()
+    met = tissues_met_of(samples, placed, field)
+    assert [one.kind for one in met] == ["skin", "fat", "muscle", "organ"]
+    breathed = replace(samples, target=samples.target + [0.006, 0.0, 0.0])
+    moved = tissues_met_of(breathed, placed, field)
+    assert [one.kind for one in moved] == ["skin", "fat", "muscle", "organ"]
+    side = moved[-1].points[-1][0] - met[-1].points[-1][0]
+    assert side == pytest.approx(-6.0, abs=0.1)  # the liver, which went along, is met elsewhere
+
+
 def test_unknown_tissue_is_neither_met_nor_failed(bench: Bench) -> None:
     field = body()
     hole = np.array(field.labels)
     hole[:, 45:55] = 0
-    from dataclasses import replace
-
     result = attempt(bench, replace(field, labels=hole))
     assert "unknown" not in [one.kind for one in result.trajectory.met]
     assert result.score.hard_fails == ()

@@ -150,6 +150,23 @@ def test_what_rests_elsewhere_is_looked_up_to_two_tenths_of_a_millimetre() -> No
     assert moved > 200
 
 
+def test_what_is_judged_rests_where_the_loop_looks_it_up() -> None:
+    scene = scene_in(torso(), "tissue_field", target=(0.0, 0.01, -0.03))
+    memory = stages_in(scene)[1].parameters
+    views = walk.labels_of(memory), walk.distances_of(memory)
+    rng = np.random.default_rng(5)
+    points = rng.uniform((-0.018, -0.038, -0.055), (0.018, 0.078, 0.055), (400, 3))
+    breaths = np.array([0.001, -0.004, -0.015]) * rng.uniform(size=(400, 1))
+    resting = scene.field.at_rest(points, breaths)
+    for point, breath, rests in zip(points, breaths, resting, strict=True):
+        seen = walk.tissue_at(memory, *views, *point, tuple(breath), 0.0)
+        assert np.linalg.norm(point - seen[6] * breath - rests) < 2e-4
+    stays = points[:, 1] < -0.021  # the wall
+    assert stays.sum() > 20
+    assert (resting[stays] == points[stays]).all()
+    assert np.linalg.norm(resting - points, axis=1).max() > 0.008
+
+
 def test_the_wall_stays_the_lung_changes_its_volume_and_the_spine_side_goes_less() -> None:
     scene = scene_in(torso(), "tissue_field", target=(0.0, 0.0, -0.03))
     memory = stages_in(scene)[1].parameters
