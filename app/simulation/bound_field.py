@@ -15,6 +15,7 @@ from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.imaging.field import FieldTissue, TissueField, TissueKind
+from app.imaging.field.walking import holding as holding_codes
 from app.simulation.errors import SimulationError
 from app.simulation.scene import TissueLayer
 
@@ -179,8 +180,8 @@ class BoundField:
         if not len(lung) or (height := float(np.ptp(lung[:, 2]))) < _SHALLOW:
             return np.array([1.0, 0.0, 0.0, 0.0])
         apex = float(lung[:, 2].max())
-        code = int(self.tissue.codes_at(self._patient(self.p_target) / MILLIMETRE)[0])
-        in_lung = self.tissue.tissues[code].kind is TissueKind.LUNG
+        holds = holding_codes(self.tissue, self._patient(self.p_target) / MILLIMETRE)
+        in_lung = any(self.tissue.tissues[code].kind is TissueKind.LUNG for code in holds)
         reference = apex - float(self._patient(self.p_target)[2]) if in_lung else height
         superior = self.T_world_patient.rotation[:, 2]
         gradient = -superior / max(reference, _SHALLOW)

@@ -1,9 +1,12 @@
 """What the needle met, as scoring sees it: words, what is forbidden, what counts."""
 
+from types import SimpleNamespace
+
 import pytest
 
 from app.scoring.errors import TrajectoryError
 from app.scoring.met import FORBIDDEN, Met, fails
+from app.scoring.metrics import pleural_crossings
 
 
 def met(kind, name="", entered=12.0, length=3.0, **more):
@@ -38,6 +41,24 @@ def test_bone_is_touched_at_a_depth_and_the_first_time_is_told():
 )
 def test_what_a_new_exercise_forbids(one, forbidden):
     assert one.is_forbidden(FORBIDDEN) is forbidden
+
+
+@pytest.mark.parametrize(
+    ("parts", "crossings"),
+    [
+        (
+            [
+                met("lung", before="fat", after="organ", holds_target=True),
+                met("organ", "nodule", holds_target=True),
+            ],
+            1,
+        ),
+        ([met("lung", before="fat", after="organ"), met("organ", "liver", holds_target=True)], 2),
+        ([met("lung", before="fat", after="")], 1),
+    ],
+)
+def test_no_pleura_lies_between_the_lung_and_the_nodule_in_it(parts, crossings):
+    assert pleural_crossings.compute(SimpleNamespace(tissues_met=lambda: parts)) == crossings
 
 
 def test_it_reads_back_what_it_wrote_and_refuses_what_is_no_number():

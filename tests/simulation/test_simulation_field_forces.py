@@ -182,24 +182,41 @@ def test_bone_stops_the_tip_at_its_surface_with_the_spring_that_layers_have() ->
 
 
 @pytest.mark.parametrize("tilt", [0.3, 0.9])
-def test_a_slanted_surface_turns_the_tip_aside_where_it_is_steeper_than_the_tip_grips(
-    tilt: float,
-) -> None:
+def test_a_slanted_surface_turns_the_tip_aside(tilt: float) -> None:
     stages = stages_in(scene_in(rib(tilt), "tissue_field", "bone_contact", "bone_slide"))
     surface = 0.012 / np.cos(tilt)
     rows = go(stages, straight(0.005, surface + 3e-4, 5e-6))
     last = rows[-1]
     beyond = 3e-4 * np.cos(tilt)
-    total = last[sv.AXIAL_FORCE] / np.cos(tilt)
+    across = last[sv.AXIAL_FORCE] * np.tan(tilt)
     assert last[sv.BONE_CROSSED] == pytest.approx(beyond / np.cos(tilt), abs=4e-5)
-    across = total * (np.sin(tilt) - 0.5 * np.cos(tilt))
-    if across <= 0.0:
-        assert not last[sv.BONE_PUSH].any()
-        assert not last[sv.FORCE].any()
-        return
     np.testing.assert_allclose(last[sv.BONE_PUSH], [-across, 0.0, 0.0], atol=0.05 * across)
     lever = last[sv.DEPTH] / last[sv.L_OUT]
     assert last[sv.FORCE_X] == pytest.approx(lever * across, rel=0.06)
+
+
+@pytest.mark.parametrize("tilt", [0.3, 0.9, 1.1])
+@pytest.mark.parametrize("turn", [0.02, -0.02])
+def test_a_closed_way_on_slanted_bone_gives_out_nothing(tilt: float, turn: float) -> None:
+    """In past the surface, turned along it, out, and turned back: both ports are counted."""
+    stages = stages_in(scene_in(rib(tilt), "tissue_field", "bone_contact", "bone_slide"))
+    deep, high, count = 0.012 / np.cos(tilt) + 1e-4, 0.002, 2000
+    angles = np.concatenate(
+        [np.zeros(count), np.linspace(0.0, turn, count), np.full(count, turn)]
+        + [np.linspace(turn, 0.0, count)]
+    )
+    depths = np.concatenate(
+        [np.linspace(high, deep, count), np.full(count, deep), np.linspace(deep, high, count)]
+        + [np.full(count, high)]
+    )
+    axes = np.column_stack([np.sin(angles), 0.0 * angles, -np.cos(angles)])
+    rows = go(stages, depths[:, None] * axes, dt=1e-2)
+    along, across = rows[:, sv.AXIAL_FORCE], rows[:, sv.FORCE]
+    hub = -(0.2 - depths)[1:, None] * np.diff(axes, axis=0)  # across the needle
+    given = -0.5 * (along[1:] + along[:-1]) @ np.diff(depths)
+    given += 0.5 * ((across[1:] + across[:-1]) * hub).sum()
+    assert np.abs(across).max() > 0.0
+    assert given < 2e-5  # of a millijoule and more that went in
 
 
 def test_a_hand_that_bone_cannot_stop_is_told_how_far_it_has_crossed() -> None:

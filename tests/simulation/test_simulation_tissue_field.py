@@ -150,6 +150,25 @@ def test_what_rests_elsewhere_is_looked_up_to_two_tenths_of_a_millimetre() -> No
     assert moved > 200
 
 
+def test_a_nodule_goes_along_with_the_lung_that_it_lies_in() -> None:
+    centre = np.array([0.0, 20.0, 30.0])
+    nodule = lambda p: 5.0 - np.linalg.norm(p - centre, axis=1)  # noqa: E731
+    field = field_of(
+        [
+            ("muscle", "", lambda p: -20.0 - p[:, 1]),
+            ("lung", "", lambda p: np.minimum(p[:, 1] + 20.0, -nodule(p))),
+            ("organ", "nodule", nodule),
+            ("bone", "spine", lambda p: p[:, 1] - 60.0),
+        ],
+        low=(-30.0, -40.0, -30.0),
+        high=(30.0, 80.0, 60.0),
+        spacing=2.0,
+    )
+    memory = stages_in(scene_in(field, "tissue_field", target=tuple(1e-3 * centre)))[1].parameters
+    assert walk.share_at(memory, 3, *(1e-3 * centre)) == pytest.approx(1.0)
+    assert walk.share_at(memory, 2, *(1e-3 * centre)) == pytest.approx(1.0, abs=0.02)
+
+
 def test_what_is_judged_rests_where_the_loop_looks_it_up() -> None:
     scene = scene_in(torso(), "tissue_field", target=(0.0, 0.01, -0.03))
     memory = stages_in(scene)[1].parameters

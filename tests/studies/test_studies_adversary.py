@@ -1,7 +1,7 @@
 """The adversary finds holes that were made on purpose, and none in a judgement without."""
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import hypot
 
 import numpy as np
@@ -228,13 +228,12 @@ def test_a_shipped_exercise_is_attacked_in_virtual_time(tmp_path):
 
 @pytest.mark.long("machine")
 def test_what_covered_cameras_do_not_see_the_truth_tells():
-    pytest.xfail("known: failed on the revised exercise, not yet looked at")
     """All the way in and out behind covered cameras: the judge knows no depth, the study does."""
     from app.compose.attacked import Attacked
 
-    target = Attacked("lung-between-ribs", 1)
-    into_rib = Attack(tilt_1_deg=9.0)
-    open_eyes = target.play(into_rib)
-    hidden = target.play(Attack(tilt_1_deg=9.0, covered_from=0.1, covered_share=1.0))
+    target, into_vein = Attacked("scans-only", 1), Attack(tilt_2_deg=-9.0)
+    open_eyes = target.play(into_vein)
+    hidden = target.play(replace(into_vein, covered_from=0.1, covered_share=1.0))
+    assert "hepatic vein" in open_eyes.fines[0]
     assert hidden.total is None
-    assert hidden.closest_mm == pytest.approx(open_eyes.closest_mm, abs=6.0)
+    assert hidden.fines == open_eyes.fines

@@ -1,6 +1,7 @@
 """How often the tip crossed the pleura: into the lung, and out of it into something else.
 
-Vessels and airways within the lung are lung, as is a nodule in it that is the target.
+Vessels and airways within the lung are lung, as is a nodule in it that holds the target: going from
+one into the other crosses no pleura.
 """
 
 from typing import Any, Final
@@ -20,11 +21,14 @@ DECLARATION: Final[dict[str, Any]] = {
 def compute(trajectory: Trajectory) -> float:
     """Return how often, inwards and outwards."""
     met = trajectory.tissues_met()
+    holding = {one.kind for one in met if one.holds_target}
+    within = holding - {TissueKind.LUNG} if TissueKind.LUNG in holding else set()
     return float(
         sum(
-            (one.before != "") + (one.after != "")
+            (side != "" and side not in within)
             for one in met
             if one.kind == TissueKind.LUNG and one.by == BY_TIP and one.counts
+            for side in (one.before, one.after)
         )
     )
 

@@ -15,11 +15,12 @@ BONE_CONTACT is 1 while the tip is beyond the surface.
 `field` meets bone where the patient's field has it, at its surface with its normal n (into the
 bone). The surface is the plane that WALL says, followed while the tip is near it, kept while the
 tip is deeper. With x the tip's distance beyond it and v the speed of the tip into it, F is the same
-law; what of it acts along the needle, F n·d, is felt there, and what acts across, beyond the
-friction F μ n·d of the tip on bone, pushes the tip along the surface (BONE_PUSH, which the effect
-`bone_slide` brings to the hand). A hand whose device has no port along the needle cannot be
-stopped: the needle is as deep as it is measured, and BONE_CROSSED says how far that is beyond the
-surface along the needle, whatever has been passed on the way.
+law; what of it acts along the needle, F n·d, is felt there, and what acts across pushes the tip
+along the surface (BONE_PUSH, which the effect `bone_slide` brings to the hand), without friction on
+it, none having been measured: so both together store A x²/2 and give back no more. A hand whose
+device has no port along the needle cannot be stopped: the needle is as deep as it is measured, and
+BONE_CROSSED says how far that is beyond the surface along the needle, whatever has been passed on
+the way.
 
 Energy: A x²/2 is stored; the damping part only takes, since it never makes the bone pull.
 """
@@ -59,7 +60,6 @@ DECLARATION: Final[dict[str, Any]] = {
         "mass": (0.05, "kg", 0.005, 5.0, "that slides along the needle"),
         "tick": (0.001, "s", 0.0001, 0.005, "step that the force is made for"),
         "speed_smoothing": (0.03, "s", 0.0, 1.0, "time constant of a measured depth's speed"),
-        "grip": (0.5, "-", 0.0, 5.0, "friction of the tip on bone (field); an estimate"),
     },
 }
 
@@ -77,14 +77,13 @@ class _BonePlaces(NamedTuple):
 
 
 class _PlanePlaces(NamedTuple):
-    """Of a field, behind these: how many tissues, the grip; then the surface that is touched.
+    """Of a field, behind these: how many tissues; then the surface that is touched.
 
     `touches` is 1 while there is one: its normal, and how far along it the straight needle's tip
     touched it [m]. Whether each tissue is rigid follows.
     """
 
     codes: int
-    grip: int
     touches: int = 0
     x: int = 0
     y: int = 0
@@ -125,10 +124,10 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
         depth += layer.thickness
     given = (values[name] for name in ("stiffness", "damping", "mass", "tick"))
     stiffness, damping = coefficients(binding.model, *given)
-    grip, behind = values["grip"], list[FloatArray]()
+    behind = list[FloatArray]()
     if binding.model == "field" and binding.scene.has_field:
         rigid = np.array([float(tissue.rigid) for tissue in binding.scene.tissues])
-        behind = [packed(_ON, rigid, codes=len(rigid), grip=grip)]
+        behind = [packed(_ON, rigid, codes=len(rigid))]
     return packed(
         _AT,
         *behind,
@@ -198,13 +197,9 @@ def _press(state: FloatArray, p: FloatArray) -> None:
     state[sv.BONE_CONTACT] = 1.0
     state[sv.BONE_CROSSED] = beyond / max(along, _FLAT)
     x, y, z = p[_ON.x] - along * ax, p[_ON.y] - along * ay, p[_ON.z] - along * az
-    across = np.sqrt(x * x + y * y + z * z)
-    push = force * (across - p[_ON.grip] * max(along, 0.0))
-    if push > 0.0:
-        scale = -push / across
-        state[sv.BONE_PUSH_X] += scale * x
-        state[sv.BONE_PUSH_Y] += scale * y
-        state[sv.BONE_PUSH_Z] += scale * z
+    state[sv.BONE_PUSH_X] -= force * x
+    state[sv.BONE_PUSH_Y] -= force * y
+    state[sv.BONE_PUSH_Z] -= force * z
 
 
 @stage

@@ -6,7 +6,8 @@ the fulcrum; at the hub, L_out on the other side, that is
     F = -BONE_PUSH d / L_out.
 
 What presses the tip on bone is the hand's own push along the needle, so what is given back here
-came in there: declared active. A device without a port along the needle takes none in, and gives
+came in there: with the work of `bone_contact` along the needle a closed way gives out nothing. By
+itself it is declared active. A device without a port along the needle takes none in, and gives
 none back: where the hand is real, nothing is added.
 """
 
@@ -31,17 +32,15 @@ DECLARATION: Final[dict[str, Any]] = {
     "energy": ("active", "gives back what the push along the needle stored"),
     "cost_class": "A",
     "parameters": {
-        "strongest": (3.0, "N", 0.0, 20.0, "at the hand; an estimate of what a thin needle bears"),
         "shortest_lever": (0.02, "m", 0.005, 0.2, "L_out below which the force stops growing"),
     },
 }
 
 
 class _SlidePlaces(NamedTuple):
-    """Slot of the depth, the strongest force [N], the shortest lever [m]; 1 where it acts."""
+    """Slot of the depth, the shortest lever [m]; 1 where it acts."""
 
     slot: int
-    strongest: int
     lever: int
     acts: int
 
@@ -54,7 +53,6 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
     return packed(
         _AT,
         slot=binding.depth_slot,
-        strongest=values["strongest"],
         lever=values["shortest_lever"],
         acts=float(binding.depth_slot == sv.PLANT_DEPTH),
     )
@@ -66,11 +64,8 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
     p = parameters
     x, y, z = state[sv.BONE_PUSH_X], state[sv.BONE_PUSH_Y], state[sv.BONE_PUSH_Z]
     scale = -max(state[int(p[_AT.slot])], 0.0) / max(state[sv.L_OUT], p[_AT.lever])
-    size = abs(scale) * np.sqrt(x * x + y * y + z * z)
-    if p[_AT.acts] == 0.0 or state[sv.KINEMATICS] != 0.0 or not np.isfinite(size):
+    if p[_AT.acts] == 0.0 or state[sv.KINEMATICS] != 0.0 or not np.isfinite(scale * (x + y + z)):
         return
-    if size > p[_AT.strongest]:
-        scale *= p[_AT.strongest] / size
     state[sv.FORCE_X] += scale * x
     state[sv.FORCE_Y] += scale * y
     state[sv.FORCE_Z] += scale * z
