@@ -77,8 +77,8 @@ class Met:
         if not all(map(isfinite, (*numbers, self.confidence, *places))) or self.length_mm < 0.0:
             raise TrajectoryError(
                 sentence(
-                    "{words} at {entered_mm} mm: a number is not finite",
-                    words=self.words,
+                    "{tissue} at {entered_mm} mm: a number is not finite",
+                    tissue=self.words,
                     entered_mm=self.entered_mm,
                 )
             )

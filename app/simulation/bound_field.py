@@ -101,10 +101,10 @@ class BoundField:
         if len(values) != len(tissues):
             raise SimulationError(
                 sentence(
-                    "the field has {tissues_count} tissues and {values_count} rows of values; "
+                    "the field has {tissues} tissues and {rows} rows of values; "
                     "give one for each code",
-                    tissues_count=len(tissues),
-                    values_count=len(values),
+                    tissues=len(tissues),
+                    rows=len(values),
                 )
             )
         return np.array(

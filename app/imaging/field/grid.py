@@ -164,8 +164,8 @@ def grid_over(
         if not volume.contains(entry):
             raise FieldError(
                 sentence(
-                    "entry {entry_round} mm lies outside the CT: move it",
-                    entry_round=entry.round(1).tolist(),
+                    "entry {entry_mm} mm lies outside the CT: move it",
+                    entry_mm=entry.round(1).tolist(),
                 )
             )
         middle = entry @ axes
@@ -182,8 +182,8 @@ def grid_over(
     if counts.min() < 2:
         raise FieldError(
             sentence(
-                "the CT is {high_min:.1f} mm thick: no field of {spacing_mm:g} mm fits",
-                high_min=(high - low).min(),
+                "the CT is {thickness_mm:.1f} mm thick: no field of {spacing_mm:g} mm fits",
+                thickness_mm=(high - low).min(),
                 spacing_mm=spacing_mm,
             )
         )

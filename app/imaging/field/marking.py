@@ -79,9 +79,9 @@ def mark(
     if len(structures) + len(table) > MOST_TISSUES:
         raise FieldError(
             sentence(
-                "{structures_count} structures: a field has room for {most_tissues}",
-                structures_count=len(structures),
-                most_tissues=MOST_TISSUES - len(table),
+                "{structures} structures: a field has room for {most_structures}",
+                structures=len(structures),
+                most_structures=MOST_TISSUES - len(table),
             )
         )
     tissues = list(table)

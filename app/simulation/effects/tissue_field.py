@@ -132,8 +132,8 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
     if not isinstance(bound, BoundField):
         raise SimulationError(
             sentence(
-                "the scene's field is a {bound_type}; bind it first",
-                bound_type=type(bound).__name__,
+                "the scene's field is a {type_name}; bind it first",
+                type_name=type(bound).__name__,
             )
         )
     rows = bound.rows(scene.tissues)
