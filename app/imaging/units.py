@@ -117,8 +117,8 @@ def _named_unit(words: Sequence[str], rescale_type: str, multi_energy: bool) -> 
         named = _UNITS.get(rescale_type)
         what = f"{rescale_type} ({named})" if named else "another unit"
         return sentence(
-            "no Hounsfield units: RescaleType is {rescale_type}, where HU is read",
-            rescale_type=what,
+            "no Hounsfield units: RescaleType is {unit_name}, where HU is read",
+            unit_name=what,
         )
     if rescale_type or not multi_energy or any(map(_HOUNSFIELD.fullmatch, words)):
         return ""

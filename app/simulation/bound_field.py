@@ -144,7 +144,7 @@ class BoundField:
 
     @property
     def _moves(self) -> NDArray[np.bool_]:
-        """Whether each tissue goes along with breathing, by code."""
+        """Return whether each tissue goes along with breathing, by code."""
         return np.array([one.kind in MOVING for one in self.tissue.tissues])
 
     def _codes(self, p_world: FloatArray) -> NDArray[np.intp]:

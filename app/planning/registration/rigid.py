@@ -159,9 +159,9 @@ def require_spread(points: FloatArray, name: str) -> None:
     if len(points) < FEWEST:
         raise DegenerateFiducialsError(
             sentence(
-                "{given} {name} {points}: a registration needs at least "
+                "{points_given} {name} {points}: a registration needs at least "
                 "{fewest}, and {fewest_to_check} to find a wrong one",
-                given=len(points),
+                points_given=len(points),
                 name=name,
                 points=counted(len(points), "point", "points"),
                 fewest=FEWEST,
