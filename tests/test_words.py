@@ -3,7 +3,7 @@
 import ast
 from collections import Counter
 
-from tools.words import count, lowered, risen, unmarked_in, words_in
+from tools.words import count, fields_in, lowered, risen, unmarked_in, words_in
 
 
 def test_no_refused_word_is_there_more_often_than_before():
@@ -57,3 +57,24 @@ def test_a_raise_below_the_window_that_nobody_can_translate_is_seen():
     )
     assert [list(unmarked_in(ast.parse(code))) for code in wrong] == [[1]] * len(wrong)
     assert [list(unmarked_in(ast.parse(code))) for code in right] == [[]] * len(right)
+
+
+def test_a_field_that_no_translator_understands_is_seen():
+    wrong = {
+        'sentence("{text} is no number", text=text)': "text",
+        'sentence("{path}: {value!r} is not finite", path=path, value=x)': "value",
+        'sentence("{not_}", not_=why)': "not_",
+        'sentence("{mm} mm, within {mm_2:.1f} mm", mm=a, mm_2=b)': "_2",
+        'sentence("{a} of {a_13}", a=a, a_13=b)': "_2",
+        'sentence("{missing_first!r} is missing", missing_first=missing[0])': "_first",
+        'sentence("{rays_count} rays of {rays_count}", rays_count=len(rays))': "_count",
+    }
+    for code, word in wrong.items():
+        assert list(fields_in(ast.parse(code))) == [(f"field: {word}", 1)], code
+    right = (
+        'sentence("entry {entry} and target {target}", entry=a, target=b)',
+        'sentence("{{text}} {first} {account} {value_mm} {context}", **values)',
+        'tr("{text} is no number", text=text)',
+        'sentence("nothing is there")',
+    )
+    assert [list(fields_in(ast.parse(code))) for code in right] == [[]] * len(right)

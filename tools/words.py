@@ -3,8 +3,9 @@
     python -m tools.words [--list] [--write]
 
 Looked at are names that cross a function's border (functions, parameters, attributes and fields),
-the first word of a function's docstring, which is a verb, literal texts of the window, and raises
-below the window whose text is no `core.messages.sentence`, so that nobody can translate it. What is
+the first word of a function's docstring, which is a verb, literal texts of the window, raises below
+the window whose text is no `core.messages.sentence`, so that nobody can translate it, and fields of
+sentences whose names no translator understands (`{text}`, `{points_2}`, `{shape_first}`). What is
 there now stands in tools/words.yaml: a count that rises ends with code 3 and is never written; one
 that falls is, by `--write`. docs/vocabulary.md says which words to use.
 """
@@ -18,6 +19,7 @@ import sys
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from string import Formatter
 
 import yaml
 
@@ -33,6 +35,17 @@ NO_VERBS = frozenset(("How", "What", "When", "Where", "Whether", "Which", "Who",
 PHRASES = ("beside the window", "anew", "counts for nobody", "tells of", "is said")
 """A native speaker says it otherwise."""
 
+
+FIELDS = frozenset(
+    (
+        *("text", "what", "word", "words", "number", "value", "values", "given", "message"),
+        *("item", "result", "stored", "not_"),
+    )
+)
+"""Fields of a sentence that tell a translator nothing of what comes in their place."""
+
+FIELD_ENDS = re.compile(r"_(\d+|first|last|count|min|max|type|round)$")
+"""Ends of fields that a script made of code: `points_count_2`, `shape_first`."""
 
 NOT_FOR_PEOPLE = frozenset(
     (
@@ -76,6 +89,20 @@ def templates_in(tree: ast.AST) -> Iterator[tuple[str, int]]:
             if not isinstance(first, ast.Constant) or not isinstance(first.value, str):
                 raise ValueError(f"line {node.lineno}: the template of a sentence is no literal")
             yield first.value, node.lineno
+
+
+def fields_in(tree: ast.AST) -> Iterator[tuple[str, int]]:
+    """Yield each refused field of a module's sentences, as `field: word` or its end, with its line.
+
+    A field that stands twice in a sentence is one field.
+    """
+    for template, line in templates_in(tree):
+        names = dict.fromkeys(name for _, name, _, _ in Formatter().parse(template) if name)
+        for name in names:
+            if name in FIELDS:
+                yield f"field: {name}", line
+            elif end := FIELD_ENDS.search(name):
+                yield f"field: {'_2' if end[1].isdigit() else end[0]}", line
 
 
 def unmarked_in(tree: ast.AST) -> Iterator[int]:
@@ -125,6 +152,7 @@ def count(root: Path = ROOT) -> tuple[Counter[str], list[str]]:
         words = list(words_in(tree))
         if path.is_relative_to(root / "app") and not path.is_relative_to(root / "app" / "views"):
             words += [("raise: no sentence", line) for line in unmarked_in(tree)]
+            words += fields_in(tree)
         for word, line in words:
             counts[word] += 1
             places.append(f"{path.relative_to(root)}:{line}: {word}")

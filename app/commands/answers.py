@@ -34,18 +34,18 @@ def numbers(text: str, name: str, count: int) -> tuple[float, ...]:
     except ValueError as error:
         raise AnswerError(
             sentence(
-                "{name}: {text!r} are not numbers between commas, e.g. 20.5,51,102",
+                "{name}: {answer!r} are not numbers between commas, e.g. 20.5,51,102",
                 name=name,
-                text=text,
+                answer=text,
             )
         ) from error
     if len(found) != count or not all(isfinite(value) for value in found):
         raise AnswerError(
             sentence(
-                "{name}: {count} finite numbers are needed, got {text!r}",
+                "{name}: {count} finite numbers are needed, got {answer!r}",
                 name=name,
                 count=count,
-                text=text,
+                answer=text,
             )
         )
     return found

@@ -141,8 +141,8 @@ def place_of(text: str) -> "RigidTransform":
     if len(numbers) not in (3, 6) or not all(isfinite(number) for number in numbers):
         raise CalibrationError(
             sentence(
-                "--at {text!r} is not {pose}: millimetres and degrees, e.g. -60,180,90,180,0,0",
-                text=text,
+                "--at {place!r} is not {pose}: millimetres and degrees, e.g. -60,180,90,180,0,0",
+                place=text,
                 pose=POSE,
             )
         )
@@ -418,7 +418,7 @@ def _names(text: str) -> tuple[str, str]:
     parts = [part.strip() for part in text.split(",")]
     if len(parts) != 2 or not all(parts) or parts[0] == parts[1]:
         raise ConfigurationError(
-            sentence("--names {text!r} is not two names, e.g. left,right", text=text)
+            sentence("--names {names!r} is not two names, e.g. left,right", names=text)
         )
     return parts[0], parts[1]
 

@@ -79,9 +79,9 @@ def lens_named(text: str | None) -> "LensModel | None":
     if text not in set(LensModel):
         raise ConfigurationError(
             sentence(
-                "--lens {text!r}: there are {lens_model}; equidistant is the fisheye model",
-                text=text,
-                lens_model=", ".join(LensModel),
+                "--lens {lens!r}: there are {known_lenses}; equidistant is the fisheye model",
+                lens=text,
+                known_lenses=", ".join(LensModel),
             )
         )
     return LensModel(text)

@@ -231,7 +231,7 @@ def _size(text: str) -> tuple[int, int]:
     width, x, height = text.lower().partition("x")
     if not (x and width.isdecimal() and height.isdecimal()):
         raise CameraError(
-            sentence("{text!r} is no size of a picture; give for example 640x480", text=text)
+            sentence("{size!r} is no size of a picture; give for example 640x480", size=text)
         )
     return int(width), int(height)
 

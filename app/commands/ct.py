@@ -209,7 +209,7 @@ def _numbers(text: str, option: str) -> list[float]:
         x, y, z = (float(part) for part in text.split(","))
     except ValueError as error:
         raise ConfigurationError(
-            sentence("{option} {text!r}: three numbers X,Y,Z in mm", option=option, text=text)
+            sentence("{option} {point!r}: three numbers X,Y,Z in mm", option=option, point=text)
         ) from error
     return [x, y, z]
 
@@ -313,7 +313,7 @@ def remedy_of(text: str | None) -> str:
     valid = [one.name for one in remedies()]
     if text is not None and text not in valid:
         raise ConfigurationError(
-            sentence("--remedy {text!r} is none of {valid}", text=text, valid=", ".join(valid))
+            sentence("--remedy {remedy!r} is none of {valid}", remedy=text, valid=", ".join(valid))
         )
     return NO_REMEDY if text is None else text
 
@@ -337,9 +337,9 @@ def _box(text: str) -> "MaskBox":
     if len(numbers) not in (4, 5):
         raise ConfigurationError(
             sentence(
-                "--mask {text!r} is not COL,ROW,WIDTH,HEIGHT or COL,ROW,WIDTH,HEIGHT,PICTURE: "
+                "--mask {mask!r} is not COL,ROW,WIDTH,HEIGHT or COL,ROW,WIDTH,HEIGHT,PICTURE: "
                 "four or five whole numbers, no blanks",
-                text=text,
+                mask=text,
             )
         )
     return MaskBox(*numbers)
@@ -415,9 +415,9 @@ def _integers(text: str, count: int, option: str, form: str) -> list[int]:
     if len(numbers) != count:
         raise ConfigurationError(
             sentence(
-                "{option} {text!r} is not {form}: {count} whole numbers, no blanks",
+                "{option} {argument!r} is not {form}: {count} whole numbers, no blanks",
                 option=option,
-                text=text,
+                argument=text,
                 form=form,
                 count=count,
             )

@@ -109,7 +109,7 @@ def _target(text: str | None) -> "FloatArray":
         values = []
     if len(values) != 3 or not np.isfinite(values).all():
         raise ConfigurationError(
-            sentence("--target {text}: three numbers X,Y,Z in mm are needed", text=text)
+            sentence("--target {target}: three numbers X,Y,Z in mm are needed", target=text)
         )
     return np.array(values) * MILLIMETRE
 

@@ -189,9 +189,9 @@ class EmulatedHand:
             case _:
                 raise LinkError(
                     sentence(
-                        "{words!r} is not understood; valid are: hold on|off,"
+                        "{order!r} is not understood; valid are: hold on|off,"
                         " turn left|right DEGREES, lean X Y (degrees towards x and y)",
-                        words=" ".join(words),
+                        order=" ".join(words),
                     )
                 )
 
@@ -226,12 +226,12 @@ def _degrees(text: str) -> float:
     try:
         value = float(text)
     except ValueError as error:
-        raise LinkError(sentence("{text!r} is no number of degrees", text=text)) from error
+        raise LinkError(sentence("{angle!r} is no number of degrees", angle=text)) from error
     if not abs(value) <= _LARGEST_TILT:
         raise LinkError(
             sentence(
-                "{text} degrees is too much; give at most {largest_tilt:g}",
-                text=text,
+                "{angle} degrees is too much; give at most {largest_tilt:g}",
+                angle=text,
                 largest_tilt=_LARGEST_TILT,
             )
         )
@@ -460,7 +460,7 @@ def _understood(order: str) -> tuple[str, float]:
         return name, float({"on": "1", "off": "0"}.get(text, text))
     except ValueError as error:
         raise LinkError(
-            sentence("fault {name}: {text!r} is no number, on or off", name=name, text=text)
+            sentence("fault {name}: {setting!r} is no number, on or off", name=name, setting=text)
         ) from error
 
 

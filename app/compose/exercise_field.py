@@ -99,10 +99,10 @@ def recorded_field(recording: Recording) -> TissueField | None:
         raise ReplayError(
             sentence(
                 "this record cannot be replayed: {tissue_file} is {field_digest}, and it was made"
-                " with {message}",
+                " with {recorded_digest}",
                 tissue_file=TISSUE_FILE,
                 field_digest=field.digest[:12],
-                message=said[:12] or "none",
+                recorded_digest=said[:12] or "none",
             )
         )
     return field

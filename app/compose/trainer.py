@@ -505,5 +505,5 @@ def _seed(recording: Recording) -> int:
         return int(text)
     except ValueError as error:
         raise ReplayError(
-            sentence("this record cannot be replayed: its seed is {text!r}", text=text)
+            sentence("this record cannot be replayed: its seed is {seed!r}", seed=text)
         ) from error

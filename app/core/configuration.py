@@ -226,7 +226,7 @@ def parse(document: Any, model: type[M], origin: str, text: str = "") -> M:
         if len(wrong) > room:
             said.append(f"and {len(wrong) - room} more like these")
         raise ConfigurationError(
-            sentence("{origin}: {message}", origin=origin, message="; ".join(said))
+            sentence("{origin}: {faults}", origin=origin, faults="; ".join(said))
         ) from error
 
 

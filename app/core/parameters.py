@@ -62,8 +62,8 @@ def packed(places: NamedTuple, *behind: Iterable[float], **values: float) -> Flo
     if unknown := sorted(set(values) - set(places._fields)):
         raise TypeError(
             sentence(
-                "{places_type} has no field {unknown}; it has {places_fields}",
-                places_type=type(places).__name__,
+                "{group} has no field {unknown}; it has {places_fields}",
+                group=type(places).__name__,
                 unknown=", ".join(unknown),
                 places_fields=", ".join(places._fields),
             )
@@ -72,8 +72,8 @@ def packed(places: NamedTuple, *behind: Iterable[float], **values: float) -> Flo
     if missing := [name for name in places._fields if name not in given]:
         raise TypeError(
             sentence(
-                "{places_type} needs {missing} as well",
-                places_type=type(places).__name__,
+                "{group} needs {missing} as well",
+                group=type(places).__name__,
                 missing=", ".join(missing),
             )
         )

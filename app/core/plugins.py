@@ -113,10 +113,10 @@ class StageDeclaration(Declaration):
         """Return a sentence for each of `values` outside its range in the literature."""
         return tuple(
             sentence(
-                "{name} is {values:g} {parameters_unit}; published are "
+                "{name} is {setting:g} {parameters_unit}; published are "
                 "{known_least:g} to {known_most:g} ({known_source})",
                 name=name,
-                values=values[name],
+                setting=values[name],
                 parameters_unit=self.parameters[name].unit,
                 known_least=known.least,
                 known_most=known.most,
@@ -221,8 +221,8 @@ class PluginKind(Generic[D]):
         if not found:
             raise self.error(
                 sentence(
-                    "there is no {word} {name!r}; there are {known}",
-                    word=self.word,
+                    "there is no {kind} {name!r}; there are {known}",
+                    kind=self.word,
                     name=name,
                     known=self._known(),
                 )
@@ -233,9 +233,8 @@ class PluginKind(Generic[D]):
         if len(found) > 1:
             raise self.error(
                 sentence(
-                    "two files are the {word_split_last} {name!r}:"
-                    " {first} and {second}; rename one",
-                    word_split_last=self.word.split()[-1],
+                    "two files are the {noun} {name!r}: {first} and {second}; rename one",
+                    noun=self.word.split()[-1],
                     name=name,
                     first=found[0],
                     second=found[1],
@@ -256,8 +255,8 @@ class PluginKind(Generic[D]):
                 raise
             raise self.error(
                 sentence(
-                    "{word} file {path} cannot be read: {reason}",
-                    word=self.word,
+                    "{kind} file {path} cannot be read: {reason}",
+                    kind=self.word,
                     path=path,
                     reason=reason,
                 )
@@ -322,10 +321,10 @@ class PluginKind(Generic[D]):
         package = self._module_name(path).rpartition(".")[0]
         if found := import_fault(path, package):
             return sentence(
-                "{word} file {path} cannot be imported: {result}",
-                word=self.word,
+                "{kind} file {path} cannot be imported: {fault}",
+                kind=self.word,
                 path=path,
-                result=found,
+                fault=found,
             )
         return "" if self.trial is None else self.trial.fault(path)
 
@@ -344,7 +343,7 @@ class PluginKind(Generic[D]):
         except BaseException as reason:
             text = f"{type(reason).__name__}: {reason}".rstrip(": ")
             raise self.error(
-                sentence("{path}: {doing}: {text}", path=path, doing=doing, text=text)
+                sentence("{path}: {doing}: {fault}", path=path, doing=doing, fault=text)
             ) from reason
 
     def is_own(self, path: Path) -> bool:
@@ -392,10 +391,10 @@ class PluginKind(Generic[D]):
                 text = str(reason) if isinstance(reason, Exception) else type(reason).__name__
                 raise self.error(
                     sentence(
-                        "{word} file {declared_path} cannot be imported: {text}",
-                        word=self.word,
+                        "{kind} file {declared_path} cannot be imported: {fault}",
+                        kind=self.word,
                         declared_path=declared.path,
-                        text=text,
+                        fault=text,
                     )
                 ) from reason
             if shared is None:
@@ -472,13 +471,13 @@ def _read(kind: PluginKind[Any], path: Path, text: str) -> Any:
         raise kind.error(
             sentence(
                 "{path}, line {line}: {name} must have exactly the keys"
-                " {kind_fields}{may}; check {given}",
+                " {kind_fields}{may}; check {differing}",
                 path=path,
                 line=source.lines.get("", 1),
                 name=_NAME,
                 kind_fields=", ".join(kind.fields),
                 may=may,
-                given=sorted(given ^ set(kind.fields)),
+                differing=sorted(given ^ set(kind.fields)),
             )
         )
     defined = {node.name for node in body if isinstance(node, ast.FunctionDef)}
@@ -486,9 +485,9 @@ def _read(kind: PluginKind[Any], path: Path, text: str) -> Any:
     if missing := [name for name in needed if name not in defined]:
         raise kind.error(
             sentence(
-                "{path} has no function {missing_first}(); see 'How to add {kind_noun}'",
+                "{path} has no function {function}(); see 'How to add {kind_noun}'",
                 path=path,
-                missing_first=missing[0],
+                function=missing[0],
                 kind_noun=kind.noun,
             )
         )
@@ -499,10 +498,10 @@ def _read(kind: PluginKind[Any], path: Path, text: str) -> Any:
         raise kind.error(
             sentence(
                 "{path}, line {line}: published names "
-                "{unknown_first!r}, which is no parameter; it has {parameters}",
+                "{unknown_name!r}, which is no parameter; it has {parameters}",
                 path=path,
                 line=source.lines.get(f"published {unknown[0]!r}", 1),
-                unknown_first=unknown[0],
+                unknown_name=unknown[0],
                 parameters=", ".join(values["parameters"]),
             )
         )
@@ -556,21 +555,21 @@ def _value(kind: PluginKind[Any], key: str, source: PluginText, path: Path) -> A
         what = wrong if wrong.part else f"{key}: {wrong}"
         raise kind.error(
             sentence(
-                "{path}, line {line}: {what}; give {wanted_valid}",
+                "{path}, line {line}: {fault}; give {wanted_valid}",
                 path=path,
                 line=line,
-                what=what,
+                fault=what,
                 wanted_valid=wanted.valid,
             )
         ) from wrong
     except (TypeError, ValueError, AttributeError, KeyError) as wrong:
         raise kind.error(
             sentence(
-                "{path}, line {line}: {key} is {value!r}; give {wanted_valid}",
+                "{path}, line {line}: {key} is {setting!r}; give {wanted_valid}",
                 path=path,
                 line=line,
                 key=key,
-                value=value,
+                setting=value,
                 wanted_valid=wanted.valid,
             )
         ) from wrong
@@ -679,12 +678,12 @@ def _range(name: str, row: Any) -> Published:
             raise _WrongPartError(
                 sentence("published {name!r}", name=name),
                 sentence(
-                    "published {name!r} is {least:g} to {most:g}, and {value:g} was measured,"
+                    "published {name!r} is {least:g} to {most:g}, and {measured:g} was measured,"
                     " which lies outside",
                     name=name,
                     least=found.least,
                     most=found.most,
-                    value=value,
+                    measured=value,
                 ),
             )
     return found
@@ -743,9 +742,9 @@ def complete(
     if unknown := sorted(set(given) - set(declared.parameters)):
         raise kind.error(
             sentence(
-                "{what} has no parameter {unknown_first!r}; it has {declared_parameters}",
-                what=what,
-                unknown_first=unknown[0],
+                "{owner} has no parameter {unknown_name!r}; it has {declared_parameters}",
+                owner=what,
+                unknown_name=unknown[0],
                 declared_parameters=", ".join(sorted(declared.parameters)) or "none",
             )
         )
@@ -768,8 +767,8 @@ def complete(
         if value is None:
             raise kind.error(
                 sentence(
-                    "{what} needs {name} [{limit_unit}]: {limit_meaning}",
-                    what=what,
+                    "{owner} needs {name} [{limit_unit}]: {limit_meaning}",
+                    owner=what,
                     name=name,
                     limit_unit=limit.unit,
                     limit_meaning=limit.meaning,
@@ -779,11 +778,11 @@ def complete(
         if number is None:
             raise kind.error(
                 sentence(
-                    "{what}: {name} is {value!r}; "
+                    "{owner}: {name} is {setting!r}; "
                     "give {limit_minimum:g} to {limit_maximum:g} {limit_unit}",
-                    what=what,
+                    owner=what,
                     name=name,
-                    value=value,
+                    setting=value,
                     limit_minimum=limit.minimum,
                     limit_maximum=limit.maximum,
                     limit_unit=limit.unit,

@@ -288,10 +288,10 @@ def _require_same(result: str, wanted: str | None, subject: str) -> None:
         raise CtMissingError(
             sentence(
                 "{subject} is another one than the exercise was made on: its digest is "
-                "{result}…, {wanted}… is needed (acus ct digest tells it)",
+                "{digest}…, {wanted_digest}… is needed (acus ct digest tells it)",
                 subject=subject,
-                result=result[:12],
-                wanted=wanted[:12],
+                digest=result[:12],
+                wanted_digest=wanted[:12],
             )
         )
 
@@ -408,9 +408,9 @@ def _manifest(archive: zipfile.ZipFile, path: Path) -> PackageManifest:
     if len(names) > _MOST_FILES:
         raise PackageError(
             sentence(
-                "{path} holds {names_count} files; {most_files} are the most",
+                "{path} holds {files} files; {most_files} are the most",
                 path=path,
-                names_count=len(names),
+                files=len(names),
                 most_files=_MOST_FILES,
             )
         )
@@ -428,7 +428,9 @@ def _manifest(archive: zipfile.ZipFile, path: Path) -> PackageManifest:
     if twice:
         raise PackageError(
             sentence(
-                "{path} is not used: {twice_min!r} is in it twice", path=path, twice_min=min(twice)
+                "{path} is not used: {double_name!r} is in it twice",
+                path=path,
+                double_name=min(twice),
             )
         )
     if _MANIFEST not in names:
@@ -484,10 +486,10 @@ def _require_room(archive: zipfile.ZipFile, folder: Path, path: Path) -> None:
     if whole > _MOST_BYTES or (whole > _FREE_GROWTH and whole / packed > _MOST_GROWTH):
         raise PackageError(
             sentence(
-                "{path} is not used: it would grow {whole:.0f} times to {whole_2:.1f} GB",
+                "{path} is not used: it would grow {growth:.0f} times to {unpacked_gb:.1f} GB",
                 path=path,
-                whole=whole / packed,
-                whole_2=whole / 1e9,
+                growth=whole / packed,
+                unpacked_gb=whole / 1e9,
             )
         )
     free = shutil.disk_usage(folder).free
@@ -602,9 +604,9 @@ def _ct_folder(
         if len(asked) > 1:
             raise CtMissingError(
                 sentence(
-                    "none of the {asked_count} CT series in {ct} is that of {path}: one with the "
+                    "none of the {series} CT series in {ct} is that of {path}: one with the "
                     "digest {wanted}… is needed; name the folder that holds it",
-                    asked_count=len(asked),
+                    series=len(asked),
                     ct=ct,
                     path=path,
                     wanted=wanted[:12],

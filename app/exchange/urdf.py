@@ -153,8 +153,8 @@ class _Joints:
             turned = origin.get("rpy")
             raise UrdfError(
                 sentence(
-                    "{what}: rpy is {turned!r}; turned joints are not supported",
-                    what=what,
+                    "{place}: rpy is {turned!r}; turned joints are not supported",
+                    place=what,
                     turned=turned,
                 )
             )
@@ -182,13 +182,13 @@ def _equal(path: Path, joints: _Joints, left: str, right: str) -> float:
     if abs(one - other) > _SAME:
         raise UrdfError(
             sentence(
-                "{path}: the arms differ: {left} at {item} m, {right} at {other} m; Acus' "
+                "{path}: the arms differ: {left} at {left_m} m, {right} at {right_m} m; Acus' "
                 "pantograph is symmetric",
                 path=path,
                 left=left,
-                item=one,
+                left_m=one,
                 right=right,
-                other=other,
+                right_m=other,
             )
         )
     return one
@@ -213,7 +213,9 @@ def _needle_length(path: Path, root: ET.Element) -> float:
 def _numbers(text: str, place: str) -> tuple[float, float, float]:
     parts = text.split()
     if len(parts) != 3:
-        raise UrdfError(sentence("{place}: {text!r} is not three numbers", place=place, text=text))
+        raise UrdfError(
+            sentence("{place}: {coordinates!r} is not three numbers", place=place, coordinates=text)
+        )
     x, y, z = (_number(part, place) for part in parts)
     return x, y, z
 
@@ -222,20 +224,22 @@ def _number(text: str, place: str) -> float:
     if "$" in text:
         raise UrdfError(
             sentence(
-                "{place}: {text!r} is a xacro expression; expand the file first"
+                "{place}: {expression!r} is a xacro expression; expand the file first"
                 " (xacro FILE > out.urdf)",
                 place=place,
-                text=text,
+                expression=text,
             )
         )
     try:
         value = float(text)
     except ValueError:
         raise UrdfError(
-            sentence("{place}: {text!r} is not a number", place=place, text=text)
+            sentence("{place}: {coordinate!r} is not a number", place=place, coordinate=text)
         ) from None
     if not isfinite(value):
-        raise UrdfError(sentence("{place}: {text!r} is not finite", place=place, text=text))
+        raise UrdfError(
+            sentence("{place}: {coordinate!r} is not finite", place=place, coordinate=text)
+        )
     return value
 
 

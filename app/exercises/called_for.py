@@ -243,4 +243,6 @@ def _listed(names: Any) -> str:
     each = list(dict.fromkeys(names))
     more = len(each) - _FEW
     text = ", ".join(each[:_FEW])
-    return sentence("{text} and {more} more", text=text, more=more) if more > 0 else text
+    return (
+        sentence("{first_names} and {more} more", first_names=text, more=more) if more > 0 else text
+    )

@@ -206,8 +206,8 @@ def unknown_profile(field: str, value: str) -> str:
     if value in names or _is_path(value):
         return ""
     return sentence(
-        "{value!r} is not known; valid names are {names}, or the path of a .yaml file",
-        value=value,
+        "{exercise_name!r} is not known; valid names are {names}, or the path of a .yaml file",
+        exercise_name=value,
         names=", ".join(names),
     )
 

@@ -206,10 +206,10 @@ def _watching(exercise: Exercise, views: Mapping[str, Consumer]) -> list[Consume
     if missing := [name for name in names if name not in views]:
         raise ExerciseError(
             sentence(
-                "exercise {exercise_id}: nothing declares the view {missing_first!r}; declared "
+                "exercise {exercise_id}: nothing declares the view {view_name!r}; declared "
                 "are {views}; see 'How to add a view'",
                 exercise_id=exercise.id,
-                missing_first=missing[0],
+                view_name=missing[0],
                 views=", ".join(sorted(views)) or "none",
             )
         )

@@ -176,9 +176,9 @@ class Exercise(Strict):
         if both:
             raise ValueError(
                 sentence(
-                    "without: {both_first} is left out, and the exercise asks for it: one of the "
+                    "without: {effect_name} is left out, and the exercise asks for it: one of the "
                     "two",
-                    both_first=both[0],
+                    effect_name=both[0],
                 )
             )
         return self
@@ -209,7 +209,9 @@ class Exercise(Strict):
         twice = {name for name in names if names.count(name) > 1}
         if twice:
             raise ValueError(
-                sentence("structures: {twice_min!r} is a risk twice", twice_min=min(twice))
+                sentence(
+                    "structures: {structure_name!r} is a risk twice", structure_name=min(twice)
+                )
             )
         return self
 

@@ -156,16 +156,16 @@ def _drawn(pattern: TouchPattern, radius_mm: float, plan: Plan, seed: int) -> Fl
             return np.array(found)
     raise ExerciseError(
         sentence(
-            "touch.pattern: {pattern_count} targets that follow each other {apart:g} radii of "
+            "touch.pattern: {targets} targets that follow each other {apart:g} radii of "
             "{radius_mm:g} mm apart find no room within {pattern_within_deg:g}° and depths of "
-            "{pattern_depth_mm_first:g} to {pattern_depth_mm_second:g} mm; give more room or a "
+            "{least_depth_mm:g} to {largest_depth_mm:g} mm; give more room or a "
             "smaller radius",
-            pattern_count=pattern.count,
+            targets=pattern.count,
             apart=_APART,
             radius_mm=radius_mm,
             pattern_within_deg=pattern.within_deg,
-            pattern_depth_mm_first=pattern.depth_mm[0],
-            pattern_depth_mm_second=pattern.depth_mm[1],
+            least_depth_mm=pattern.depth_mm[0],
+            largest_depth_mm=pattern.depth_mm[1],
         )
     )
 
@@ -189,7 +189,9 @@ def touch_task(part: TouchPart | None, placed: PlacedPlan, seed: int) -> TouchTa
             plan = Plan(placed.plan.entry_mm, at, f"target {number}")
         except PlanError as error:
             raise ExerciseError(
-                sentence("touch: target {number}: {error}", number=number, error=error)
+                sentence(
+                    "touch: target {target_number}: {error}", target_number=number, error=error
+                )
             ) from error
         plans.append(PlacedPlan.of(plan, placed.placement, placed.p_entry))
     return TouchTask(tuple(plans), part.radius_mm * MILLIMETRE, part.dwell_s)
@@ -225,11 +227,11 @@ def check_touch(task: TouchTask | None, profile: DeviceProfile, quick: bool = Fa
         if reasons:
             raise ExerciseError(
                 sentence(
-                    "touch: target {number} at [{x:g}, {y:g}, {z:g}] mm cannot be touched with "
-                    "{profile_name}: {reasons}. Reachable are targets "
+                    "touch: target {target_number} at [{x:g}, {y:g}, {z:g}] mm cannot be touched "
+                    "with {profile_name}: {reasons}. Reachable are targets "
                     "{least_depth:g} to {limits_depth_limit_mm:.0f} mm from the entry, by a "
                     "way that leans at most {limits_tilt_limit_deg:.0f}° from straight down",
-                    number=number,
+                    target_number=number,
                     x=x,
                     y=y,
                     z=z,
@@ -250,13 +252,13 @@ def _check_apart(task: TouchTask) -> None:
         if gap * MILLIMETRE <= 2.0 * task.radius:
             raise ExerciseError(
                 sentence(
-                    "touch: targets {number} and {number_2} lie {gap:.1f} mm apart; with a "
-                    "radius of {task_radius_mm:g} mm a tip that stays touches both: lay them "
-                    "more than {task_radius_mm_2:g} mm apart, or give a smaller radius_mm",
-                    number=number - 1,
-                    number_2=number,
+                    "touch: targets {first} and {second} lie {gap:.1f} mm apart; with a "
+                    "radius of {radius_mm:g} mm a tip that stays touches both: lay them "
+                    "more than {least_gap_mm:g} mm apart, or give a smaller radius_mm",
+                    first=number - 1,
+                    second=number,
                     gap=gap,
-                    task_radius_mm=task.radius / MILLIMETRE,
-                    task_radius_mm_2=2.0 * task.radius / MILLIMETRE,
+                    radius_mm=task.radius / MILLIMETRE,
+                    least_gap_mm=2.0 * task.radius / MILLIMETRE,
                 )
             )

@@ -119,10 +119,10 @@ def exercise_text(exercise: Exercise, folder: Path | None = None) -> str:
         if len(raw) > LARGEST_FILE:
             raise ExerciseError(
                 sentence(
-                    "exercise {exercise_id} would be a file of {raw_count} kB; "
+                    "exercise {exercise_id} would be a file of {size_kb} kB; "
                     "{largest_file} kB are the most: shorten its texts",
                     exercise_id=exercise.id,
-                    raw_count=len(raw) >> 10,
+                    size_kb=len(raw) >> 10,
                     largest_file=LARGEST_FILE >> 10,
                 )
             )

@@ -80,7 +80,7 @@ def decode(data: bytes, syntax: str, form: PixelFormat, out: Stored) -> None:
     except BaseException as error:  # nearly anything can come; a panic in Rust is no Exception
         what = f"{type(error).__name__} in {DECODERS[syntax][0]}"
         raise FileDamagedError(
-            sentence("its pixels cannot be decoded ({what})", what=what)
+            sentence("its pixels cannot be decoded ({fault})", fault=what)
         ) from None
     width = form.bits_allocated // 8 if syntax == RLE or precision > 8 else 1
     found = np.frombuffer(pixels, f"<u{width}")
@@ -109,9 +109,9 @@ def _installed(syntax: str) -> Codec:
             continue
     raise FileDamagedError(
         sentence(
-            "a decoder for transfer syntax {syntax} is missing: pip install {decoders_first}",
+            "a decoder for transfer syntax {syntax} is missing: pip install {package}",
             syntax=syntax,
-            decoders_first=DECODERS[syntax][0],
+            package=DECODERS[syntax][0],
         )
     )
 

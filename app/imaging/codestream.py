@@ -84,10 +84,10 @@ def contradiction(data: bytes, syntax: str, form: PixelFormat) -> str:
     found = describe(data)
     if found is not None and found.kind != _kind(syntax):
         return sentence(
-            "its pixels are compressed as {kind}, and its transfer syntax is of "
-            "{kind_2}; have it sent again",
-            kind=found.kind,
-            kind_2=_kind(syntax),
+            "its pixels are compressed as {found_compression}, and its transfer syntax is of "
+            "{stated_compression}; have it sent again",
+            found_compression=found.kind,
+            stated_compression=_kind(syntax),
         )
     if syntax == RLE:
         return _rle_contradiction(data, form)

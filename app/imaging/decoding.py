@@ -98,9 +98,9 @@ def _read_raw(header: SliceHeader, stream: BinaryIO, out: Stored) -> None:
     if got < len(view):
         raise FileDamagedError(
             sentence(
-                "{header_path} ends {view_count} bytes too early; read it again",
+                "{header_path} ends {missing_bytes} bytes too early; read it again",
                 header_path=header.path,
-                view_count=len(view) - got,
+                missing_bytes=len(view) - got,
             )
         )
     _finish_raw(header, out)

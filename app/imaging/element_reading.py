@@ -137,10 +137,10 @@ def _check_order(start: bytes, syntax: str) -> None:
         is_big = syntax == EXPLICIT_BIG
         raise FileDamagedError(
             sentence(
-                "its transfer syntax says {text} endian, and its header is "
-                "{text_2} endian; have it sent again",
-                text="big" if is_big else "little",
-                text_2="little" if is_big else "big",
+                "its transfer syntax says {stated_order} endian, and its header is "
+                "{found_order} endian; have it sent again",
+                stated_order="big" if is_big else "little",
+                found_order="little" if is_big else "big",
             )
         )
 

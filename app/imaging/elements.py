@@ -130,10 +130,10 @@ def require_size(name: str, values: Sequence[float]) -> None:
         if value != 0.0 and not least <= abs(value) <= most:
             raise FileDamagedError(
                 sentence(
-                    "{name} is {value:g}{unit}; its size must lie between {least:g} and "
+                    "{name} is {quantity:g}{unit}; its size must lie between {least:g} and "
                     "{most:g}{unit}",
                     name=name,
-                    value=value,
+                    quantity=value,
                     unit=unit,
                     least=least,
                     most=most,
@@ -193,9 +193,9 @@ def integer(header: Elements, tag: int, name: str, signed: bool = False) -> int 
         if len(value) < 2:
             raise FileDamagedError(
                 sentence(
-                    "{name} has {value_count} bytes; 2 are needed",
+                    "{name} has {byte_length} bytes; 2 are needed",
                     name=name,
-                    value_count=len(value),
+                    byte_length=len(value),
                 )
             )
         order = "<" if getattr(element, "is_little_endian", True) else ">"

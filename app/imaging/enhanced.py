@@ -94,9 +94,10 @@ def _groups(stream: BinaryIO, file: SliceHeader) -> list[_Group]:
         if not 1 <= len(each) <= _MOST_FRAMES or len(each) != file.format.frames:
             raise FileDamagedError(
                 sentence(
-                    "NumberOfFrames is {file_format_frames}, and {each_count} frames are described",
-                    file_format_frames=file.format.frames,
-                    each_count=len(each),
+                    "NumberOfFrames is {stated_frames}, and {described_frames} frames are "
+                    "described",
+                    stated_frames=file.format.frames,
+                    described_frames=len(each),
                 )
             )
         return [_Group(own, shared) for own in each]

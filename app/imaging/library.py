@@ -202,18 +202,19 @@ class Imported:
         """Return what became of it, for people."""
         if self.again and self.given < self.before:
             return sentence(
-                "all {before} images of this series are in the library already; the "
-                "{given} given are a part of them",
-                before=self.before,
-                given=self.given,
+                "all {stored_images} images of this series are in the library already; the "
+                "{given_images} given are a part of them",
+                stored_images=self.before,
+                given_images=self.given,
             )
         if self.again:
             return sentence("was in the library already, image for image")
         if 0 < self.before < self.given:
             return sentence(
-                "taken into the library, in place of {before} of its {given} images that lay there",
-                before=self.before,
-                given=self.given,
+                "taken into the library, in place of {earlier_images} of its {new_images} images "
+                "that lay there",
+                earlier_images=self.before,
+                new_images=self.given,
             )
         return sentence("taken into the library")
 
@@ -350,15 +351,15 @@ def _require_comparable(name: str, before: Images, given: Images, masked: bool) 
         return
     raise ImportFailedError(
         sentence(
-            "the library holds {before_count} images of this series as {name}; of the "
-            "{given_count} given {given_count_2} are among them and {before_count_2} of those "
+            "the library holds {stored_images} images of this series as {name}; of the "
+            "{given_images} given {known_images} are among them and {images_not_given} of those "
             "there are not given: give all images of the series at once, or remove what lies "
             "there first (acus library remove {name}); nothing was changed",
-            before_count=len(before),
+            stored_images=len(before),
             name=name,
-            given_count=len(given),
-            given_count_2=len(given & before),
-            before_count_2=len(before - given),
+            given_images=len(given),
+            known_images=len(given & before),
+            images_not_given=len(before - given),
         )
     )
 

@@ -134,7 +134,7 @@ def _opened(path: Path) -> Any:
         image = nibabel.load(str(path), mmap=False, keep_file_open=True)
     if not hasattr(image.header, "get_sform"):
         raise FileDamagedError(
-            sentence("it is {image_type}, not NIfTI", image_type=type(image).__name__)
+            sentence("it is {format_name}, not NIfTI", format_name=type(image).__name__)
         )
     return image
 

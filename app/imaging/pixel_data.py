@@ -83,11 +83,11 @@ class PixelFormat:
         return sentence(
             "HighBit {high_bit} and BitsStored {bits_stored} leave the lowest "
             "{bits_below} bits of a pixel empty, and they are not; HighBit must be "
-            "{bits_stored_2}",
+            "{right_high_bit}",
             high_bit=self.high_bit,
             bits_stored=self.bits_stored,
             bits_below=self.bits_below,
-            bits_stored_2=self.bits_stored - 1,
+            right_high_bit=self.bits_stored - 1,
         )
 
     @property

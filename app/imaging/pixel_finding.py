@@ -107,8 +107,8 @@ def frame_places(
             return tuple(places[a:b] for a, b in zip(starts, ends, strict=True))
     raise FileDamagedError(
         sentence(
-            "its {places_count} compressed fragments are not {frames} frames",
-            places_count=len(places),
+            "its {fragments} compressed fragments are not {frames} frames",
+            fragments=len(places),
             frames=frames,
         )
     )
@@ -237,7 +237,9 @@ def _raw(syntax: str, stream: BinaryIO, size: int, length: int, form: PixelForma
             "its pixels are compressed, and its transfer syntax is {raw_names}",
             raw_names=_RAW_NAMES[syntax],
         )
-        return PixelData(syntax, None, sentence("{what}; have it sent again", what=what))
+        return PixelData(
+            syntax, None, sentence("{contradiction}; have it sent again", contradiction=what)
+        )
     if size - offset < min(length, needed):
         missing = needed - (size - offset)
         what = sentence(

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from app.core.arrays import FloatArray, frozen, read_only
 from app.core.messages import sentence
 from app.core.progress import Progress
+from app.core.words import counted
 from app.imaging import memory, stack
 from app.imaging.errors import (
     FileDamagedError,
@@ -227,9 +228,9 @@ def choose(listing: Listing, series_uid: str | None = None, remedy: str = NO_REM
         uids = ", ".join(f"{series.key} ({series.label})" for series in usable)
         raise SeriesAmbiguousError(
             sentence(
-                "{listing_path} holds {usable_count} usable CT series; name one: {uids}",
+                "{listing_path} holds {usable} usable CT series; name one: {uids}",
                 listing_path=listing.path,
-                usable_count=len(usable),
+                usable=len(usable),
                 uids=uids,
             ),
             usable,
@@ -257,11 +258,11 @@ def nothing_in(listing: Listing) -> str:
     first = listing.ignored[0]
     count = len(listing.ignored)
     return sentence(
-        "no DICOM series in {listing_path}: {count} file{count_2} ignored "
+        "no DICOM series in {listing_path}: {ignored} {files} ignored "
         "({first_path_name}: {first_reason})",
         listing_path=listing.path,
-        count=count,
-        count_2="s" * (count > 1),
+        ignored=count,
+        files=counted(count, "file", "files"),
         first_path_name=first.path.name,
         first_reason=first.reason,
     )

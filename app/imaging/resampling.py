@@ -17,6 +17,7 @@ from scipy import ndimage
 from app.core.arrays import FloatArray, read_only
 from app.core.messages import sentence
 from app.core.progress import Progress
+from app.core.words import counted
 from app.imaging import memory, stack
 from app.imaging.errors import SeriesRefusedError, TooLargeError
 from app.imaging.filling import padding_of
@@ -233,18 +234,19 @@ def _words(series: Series, grid: stack.Stack, target: _Target, empty: int) -> tu
     if not grid.tilt_deg or np.ptp(gaps) > stack.TOLERANCE_MM:
         words.append(
             sentence(
-                "resampled from slices {gaps_min:.3g} to {gaps_max:.3g} mm apart to {step:.3g} mm",
-                gaps_min=gaps.min(),
-                gaps_max=gaps.max(),
+                "resampled from slices {narrowest_mm:.3g} to {widest_mm:.3g} mm apart to "
+                "{step:.3g} mm",
+                narrowest_mm=gaps.min(),
+                widest_mm=gaps.max(),
                 step=step,
             )
         )
     if empty:
         words.append(
             sentence(
-                "{empty} gap{empty_2} of missing slices left empty",
+                "{empty} {gaps} of missing slices left empty",
                 empty=empty,
-                empty_2="s" * (empty > 1),
+                gaps=counted(empty, "gap", "gaps"),
             )
         )
     return tuple(words)

@@ -173,7 +173,9 @@ def _object(header: SliceHeader) -> str:
         return ""
     if header.format.samples > 1 or header.format.photometric not in ("MONOCHROME1", "MONOCHROME2"):
         what = header.format.photometric or sentence("no photometric interpretation")
-        return sentence("not a CT image but a picture ({what}, secondary capture)", what=what)
+        return sentence(
+            "not a CT image but a picture ({photometric}, secondary capture)", photometric=what
+        )
     if kind.startswith(SECONDARY_CAPTURE):
         return sentence("secondary capture, not an original CT image")
     if "LOCALIZER" in image_type:
@@ -376,9 +378,9 @@ def _frame_notes(headers: list[SliceHeader]) -> tuple[str, ...]:
         )
     return (
         sentence(
-            "its files name {frames_count} frames of reference: they lie together only if "
+            "its files name {frames} frames of reference: they lie together only if "
             "whoever de-identified them gave each a number of its own",
-            frames_count=len(frames),
+            frames=len(frames),
         ),
     )
 

@@ -147,7 +147,7 @@ def kind_beside(header: SliceHeader) -> str:
 def _aside(headers: Headers, what: str) -> str:
     names = ", ".join(header.path.name for header in headers[:_NAMED])
     more = f" and {len(headers) - _NAMED} more" if len(headers) > _NAMED else ""
-    return sentence("set aside, as {what}: {names}{more}", what=what, names=names, more=more)
+    return sentence("set aside, as {role}: {names}{more}", role=what, names=names, more=more)
 
 
 # --- where they lie

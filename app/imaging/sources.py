@@ -69,7 +69,7 @@ def unpack_into(
             return tuple(_extract(archive, members, root, progress))
     except (zipfile.BadZipFile, NotImplementedError, EOFError) as error:
         raise FolderError(
-            sentence("it is damaged ({error_type})", error_type=type(error).__name__)
+            sentence("it is damaged ({error_name})", error_name=type(error).__name__)
         ) from error
 
 
@@ -79,27 +79,27 @@ def _check(members: list[zipfile.ZipInfo], bounds: Bounds) -> None:
     if len(members) > bounds.files:
         raise FolderError(
             sentence(
-                "it holds {members_count} files; {bounds_files} are unpacked at most",
-                members_count=len(members),
+                "it holds {files} files; {bounds_files} are unpacked at most",
+                files=len(members),
                 bounds_files=bounds.files,
             )
         )
     if whole > bounds.bomb_bytes and whole / packed > bounds.ratio:
         raise FolderError(
             sentence(
-                "it would grow {whole:.0f} times to {whole_2:.1f} GB: no archive of "
+                "it would grow {growth:.0f} times to {unpacked_gb:.1f} GB: no archive of "
                 "pictures does that; unpack it yourself if you trust it",
-                whole=whole / packed,
-                whole_2=whole / 1e9,
+                growth=whole / packed,
+                unpacked_gb=whole / 1e9,
             )
         )
     if whole > bounds.free_bytes:
         raise FolderError(
             sentence(
-                "it unpacks to {whole:.1f} GB and {bounds_free_bytes_max:.1f} GB are free in the "
+                "it unpacks to {unpacked_gb:.1f} GB and {free_gb:.1f} GB are free in the "
                 "temporary folder; make room, or unpack it elsewhere and open that folder",
-                whole=whole / 1e9,
-                bounds_free_bytes_max=max(bounds.free_bytes, 0) / 1e9,
+                unpacked_gb=whole / 1e9,
+                free_gb=max(bounds.free_bytes, 0) / 1e9,
             )
         )
 
@@ -151,9 +151,7 @@ def named_files(path: Path, progress: Progress) -> tuple[tuple[str, ...], ...]:
 
     records = pydicom.dcmread(path, force=True).get("DirectoryRecordSequence") or []
     if len(records) > _MOST_RECORDS:
-        raise FileDamagedError(
-            sentence("it holds {records_count} records", records_count=len(records))
-        )
+        raise FileDamagedError(sentence("it holds {records} records", records=len(records)))
     named = [record.get("ReferencedFileID") for record in records]
     return tuple(
         (each,) if isinstance(each, str) else tuple(map(str, each)) for each in named if each

@@ -207,9 +207,9 @@ def doubled(slices: Stack, names: Sequence[str]) -> str:
     count = int((gaps < TOLERANCE_MM).sum())
     more = f" (and {count - 1} more)" if count > 1 else ""
     return sentence(
-        "doubled slices: {names} and {names_2} lie at the same position and differ{more}",
-        names=names[k],
-        names_2=names[k + 1],
+        "doubled slices: {lower_slice} and {upper_slice} lie at the same position and differ{more}",
+        lower_slice=names[k],
+        upper_slice=names[k + 1],
         more=more,
     )
 
@@ -299,12 +299,12 @@ def _missing(gaps: FloatArray, names: Sequence[str]) -> str:
         if times >= 2 and abs(gap - times * usual) <= times * _GAP_SHARE * usual:
             plural = "slice is" if times == 2 else "slices are"
             return sentence(
-                "gap: {times} {plural} missing between {names} and {names_2} "
+                "gap: {times} {plural} missing between {slice_before} and {slice_after} "
                 "({gap:.3f} mm apart where {usual:.3f} mm is usual)",
                 times=times - 1,
                 plural=plural,
-                names=names[k],
-                names_2=names[k + 1],
+                slice_before=names[k],
+                slice_after=names[k + 1],
                 gap=gap,
                 usual=usual,
             )
@@ -317,19 +317,19 @@ def _uneven(slices: Stack, names: Sequence[str]) -> str:
     gaps = slices.gaps_mm
     if np.ptp(gaps) <= TOLERANCE_MM:
         return sentence(
-            "slices shifted sideways against each other: up to {slices_off_mm_max:.3f} mm "
+            "slices shifted sideways against each other: up to {largest_mm:.3f} mm "
             "off a straight stack at {names} (limit {tolerance_mm:g} mm)",
-            slices_off_mm_max=slices.off_mm.max(),
+            largest_mm=slices.off_mm.max(),
             names=names[int(np.argmax(slices.off_mm))],
             tolerance_mm=TOLERANCE_MM,
         )
     return sentence(
-        "uneven spacing: slices {gaps_min:.3f} to {gaps_max:.3f} mm apart, up to "
-        "{slices_off_mm_max:.3f} mm off an even grid at {names} "
+        "uneven spacing: slices {narrowest_mm:.3f} to {widest_mm:.3f} mm apart, up to "
+        "{largest_mm:.3f} mm off an even grid at {names} "
         "(limit {tolerance_mm:g} mm)",
-        gaps_min=gaps.min(),
-        gaps_max=gaps.max(),
-        slices_off_mm_max=slices.off_mm.max(),
+        narrowest_mm=gaps.min(),
+        widest_mm=gaps.max(),
+        largest_mm=slices.off_mm.max(),
         names=names[int(np.argmax(slices.off_mm))],
         tolerance_mm=TOLERANCE_MM,
     )

@@ -126,8 +126,8 @@ def tissue_along(
     if len(points) * STEP_MM < SKIN_MM:
         raise ImagingError(
             sentence(
-                "entry {entry_round} mm lies outside the CT: move it",
-                entry_round=entry.round(1).tolist(),
+                "entry {entry_mm} mm lies outside the CT: move it",
+                entry_mm=entry.round(1).tolist(),
             )
         )
     hu = _values(volume, points, unit(target - entry, "path"))

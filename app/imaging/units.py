@@ -116,7 +116,10 @@ def _named_unit(words: Sequence[str], rescale_type: str, multi_energy: bool) -> 
     if rescale_type not in ("", "HU"):
         named = _UNITS.get(rescale_type)
         what = f"{rescale_type} ({named})" if named else "another unit"
-        return sentence("no Hounsfield units: RescaleType is {what}, where HU is read", what=what)
+        return sentence(
+            "no Hounsfield units: RescaleType is {unit_name}, where HU is read",
+            unit_name=what,
+        )
     if rescale_type or not multi_energy or any(map(_HOUNSFIELD.fullmatch, words)):
         return ""
     return sentence(

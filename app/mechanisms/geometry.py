@@ -37,9 +37,9 @@ class Geometry:
             if not 0.0 < getattr(self, name) < float("inf"):
                 raise MechanismError(
                     sentence(
-                        "geometry: {name} is {value} m; a positive length is needed",
+                        "geometry: {name} is {length} m; a positive length is needed",
                         name=name,
-                        value=getattr(self, name),
+                        length=getattr(self, name),
                     )
                 )
         fulcrum = frozen(self.fulcrum, (3,), "fulcrum")

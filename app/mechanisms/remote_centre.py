@@ -249,9 +249,9 @@ class RemoteCentre(ABC):
         said = ", ".join(f"{b.name}: {b.status.name.lower()}" for b in branches)
         raise MechanismError(
             sentence(
-                "no joint angles point the needle along {axis} ({message})",
+                "no joint angles point the needle along {axis} ({branches})",
                 axis=np.asarray(axis).tolist(),
-                message=said,
+                branches=said,
             )
         )
 

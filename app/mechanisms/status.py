@@ -51,5 +51,5 @@ def check(status: int, what: str) -> None:
     if status != OK:
         name = Status(status)
         raise _ERRORS[name](
-            sentence("{status}: {what}", status=name.name.lower().replace("_", " "), what=what)
+            sentence("{status}: {cause}", status=name.name.lower().replace("_", " "), cause=what)
         )

@@ -44,11 +44,11 @@ class Plan:
         if self.length_mm < SHORTEST_MM * (1.0 - 1e-9):
             raise PlanError(
                 sentence(
-                    "entry {text} and target {text_2} are "
+                    "entry {entry} and target {target} are "
                     "{length_mm:.3g} mm apart; a path needs at least {shortest_mm:g} mm: "
                     "move one of the two points",
-                    text=_text(self.entry_mm),
-                    text_2=_text(self.target_mm),
+                    entry=_text(self.entry_mm),
+                    target=_text(self.target_mm),
                     length_mm=self.length_mm,
                     shortest_mm=SHORTEST_MM,
                 )
@@ -84,8 +84,8 @@ class Plan:
         if not is_inside(self.target_mm):
             raise PlanError(
                 sentence(
-                    "target {text} lies outside the body: click inside the patient",
-                    text=_text(self.target_mm),
+                    "target {target} lies outside the body: click inside the patient",
+                    target=_text(self.target_mm),
                 )
             )
 

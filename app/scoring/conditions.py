@@ -241,5 +241,5 @@ def _assistance(document: Mapping[str, Any]) -> Assistance:
 def _number(value: Any) -> float:
     number = float(value)
     if not math.isfinite(number):
-        raise ValueError(sentence("{value!r} is no number", value=value))
+        raise ValueError(sentence("{entry!r} is no number", entry=value))
     return number

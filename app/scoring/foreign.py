@@ -199,7 +199,7 @@ def _module(path: Path) -> Any:
 def _named(error: BaseException) -> str:
     text = f"{type(error).__name__}: {error}".rstrip(": ")
     return (
-        sentence("it ends the program ({text})", text=text)
+        sentence("it ends the program ({fault})", fault=text)
         if isinstance(error, SystemExit)
         else text
     )

@@ -77,8 +77,8 @@ class Met:
         if not all(map(isfinite, (*numbers, self.confidence, *places))) or self.length_mm < 0.0:
             raise TrajectoryError(
                 sentence(
-                    "{words} at {entered_mm} mm: a number is not finite",
-                    words=self.words,
+                    "{tissue} at {entered_mm} mm: a number is not finite",
+                    tissue=self.words,
                     entered_mm=self.entered_mm,
                 )
             )
@@ -109,15 +109,52 @@ class Met:
     @property
     def sentence(self) -> str:
         """Say it in one line: "rib touched at 12.0 mm"."""
-        by = sentence(" by the shaft") if self.by == BY_SHAFT else ""
-        where = f"at {self.entered_mm:.1f} mm"
+        return self._bone_sentence() if self.is_bone else self._soft_sentence()
+
+    def _depth(self) -> str:
         if self.sd_mm is not None and self.sd_mm >= 0.05:
-            where = f"at {self.entered_mm:.1f} ± {self.sd_mm:.1f} mm"
-        if self.is_bone:
-            crossed = f", {self.length_mm:.1f} mm crossed" if self.length_mm >= 1.0 else ""
-            return f"{self.words} touched{by} {where}{crossed}"
-        grazed = "grazed" if self.length_mm < LEAST_MM else f"{self.length_mm:.1f} mm"
-        return f"{self.words}{by} {where}: {grazed}"
+            return sentence("{depth:.1f} ± {sd:.1f} mm", depth=self.entered_mm, sd=self.sd_mm)
+        return sentence("{depth:.1f} mm", depth=self.entered_mm)
+
+    def _bone_sentence(self) -> str:
+        bone, depth, crossed_mm = self.words, self._depth(), self.length_mm
+        if self.by == BY_SHAFT and crossed_mm >= 1.0:
+            return sentence(
+                "{bone} touched by the shaft at {depth}, {crossed_mm:.1f} mm crossed",
+                bone=bone,
+                depth=depth,
+                crossed_mm=crossed_mm,
+            )
+        if self.by == BY_SHAFT:
+            return sentence("{bone} touched by the shaft at {depth}", bone=bone, depth=depth)
+        if crossed_mm >= 1.0:
+            return sentence(
+                "{bone} touched at {depth}, {crossed_mm:.1f} mm crossed",
+                bone=bone,
+                depth=depth,
+                crossed_mm=crossed_mm,
+            )
+        return sentence("{bone} touched at {depth}", bone=bone, depth=depth)
+
+    def _soft_sentence(self) -> str:
+        tissue, depth, length_mm = self.words, self._depth(), self.length_mm
+        if self.by == BY_SHAFT and length_mm < LEAST_MM:
+            return sentence("{tissue} by the shaft at {depth}: grazed", tissue=tissue, depth=depth)
+        if self.by == BY_SHAFT:
+            return sentence(
+                "{tissue} by the shaft at {depth}: {length_mm:.1f} mm",
+                tissue=tissue,
+                depth=depth,
+                length_mm=length_mm,
+            )
+        if length_mm < LEAST_MM:
+            return sentence("{tissue} at {depth}: grazed", tissue=tissue, depth=depth)
+        return sentence(
+            "{tissue} at {depth}: {length_mm:.1f} mm",
+            tissue=tissue,
+            depth=depth,
+            length_mm=length_mm,
+        )
 
     def document(self) -> dict[str, Any]:
         """Return it as JSON-ready values."""

@@ -141,9 +141,9 @@ class Score:
             if document["format"] != FORMAT:
                 raise ScoreFormatError(
                     sentence(
-                        "format {format!r}; only {format_2} is known",
+                        "format {format!r}; only {known_format} is known",
                         format=document["format"],
-                        format_2=FORMAT,
+                        known_format=FORMAT,
                     )
                 )
             return cls(

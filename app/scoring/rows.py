@@ -56,8 +56,8 @@ class ScoreRules(Strict):
         if unknown:
             raise ValueError(
                 sentence(
-                    "no tissue is called {unknown_first!r}; there are {forbiddable}",
-                    unknown_first=unknown[0],
+                    "no tissue is called {unknown_name!r}; there are {forbiddable}",
+                    unknown_name=unknown[0],
                     forbiddable=", ".join(FORBIDDABLE),
                 )
             )

@@ -194,9 +194,9 @@ def _insertion(trajectory: Trajectory) -> NDArray[np.intp]:
     if not SHORTEST <= time[-1] - time[0] <= LONGEST:
         raise MetricUnavailableError(
             sentence(
-                "the insertion was measured for {time_last:.2f} s; smoothness needs "
+                "the insertion was measured for {duration_s:.2f} s; smoothness needs "
                 "{shortest:g} to {longest:g} s",
-                time_last=time[-1] - time[0],
+                duration_s=time[-1] - time[0],
                 shortest=SHORTEST,
                 longest=LONGEST,
             )

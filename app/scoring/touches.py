@@ -30,10 +30,10 @@ class Touches:
         if not (0 <= len(self.times) <= self.of and self.of > 0 and rise):
             raise TrajectoryError(
                 sentence(
-                    "{times_count} touches of {of} targets at {times} s; they must be no more "
+                    "{touches} touches of {targets} targets at {times} s; they must be no more "
                     "than the targets, of which one at least is needed, one after the other",
-                    times_count=len(self.times),
-                    of=self.of,
+                    touches=len(self.times),
+                    targets=self.of,
                     times=self.times,
                 )
             )

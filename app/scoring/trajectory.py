@@ -332,12 +332,12 @@ def _samples(values: ArrayLike, name: str, n: int | None, shape: tuple[int, ...]
         first = int(np.argmax(bad))
         raise TrajectoryError(
             sentence(
-                "{name} is not finite within ±{largest:g} in {bad} of {array_count} samples, "
+                "{name} is not finite within ±{largest:g} in {bad} of {samples} samples, "
                 "first at sample {first}: {array}; leave such samples out",
                 name=name,
                 largest=LARGEST,
                 bad=bad.sum(),
-                array_count=len(array),
+                samples=len(array),
                 first=first,
                 array=array[first].tolist(),
             )
@@ -367,11 +367,11 @@ def _check_time(time: FloatArray) -> None:
         what = "stands still" if steps[first] == 0.0 else "goes backwards"
         raise TrajectoryError(
             sentence(
-                "time {what} at sample {first}: {time} s after {time_2} s",
-                what=what,
+                "time {fault} at sample {first}: {time} s after {previous_time} s",
+                fault=what,
                 first=first + 1,
                 time=time[first + 1],
-                time_2=time[first],
+                previous_time=time[first],
             )
         )
 
@@ -399,8 +399,8 @@ def _phases(values: Sequence[Any] | NDArray[Any], n: int) -> NDArray[np.int8]:
         if unknown:
             raise TrajectoryError(
                 sentence(
-                    "unknown phase '{unknown_first}'; phases are {codes}",
-                    unknown_first=unknown[0],
+                    "unknown phase '{unknown_name}'; phases are {codes}",
+                    unknown_name=unknown[0],
                     codes=", ".join(_CODES),
                 )
             )
@@ -410,8 +410,8 @@ def _phases(values: Sequence[Any] | NDArray[Any], n: int) -> NDArray[np.int8]:
     else:
         raise TrajectoryError(
             sentence(
-                "phase must be names or codes of Phase 0 ... {codes_count}",
-                codes_count=len(_CODES) - 1,
+                "phase must be names or codes of Phase 0 ... {largest_code}",
+                largest_code=len(_CODES) - 1,
             )
         )
     if codes.shape != (n,):

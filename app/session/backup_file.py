@@ -91,9 +91,9 @@ def read_manifest(archive: zipfile.ZipFile, source: Path) -> Manifest:
     if odd:
         raise ArchiveError(
             sentence(
-                "{source} is damaged: {odd_first!r} is missing in it or no name of Acus",
+                "{source} is damaged: {odd_name!r} is missing in it or no name of Acus",
                 source=source,
-                odd_first=odd[0],
+                odd_name=odd[0],
             )
         )
     return Manifest(files, key, station, left_out)

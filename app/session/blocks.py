@@ -117,8 +117,8 @@ def unpack(data: bytes, budget: ReadingBudget) -> TickBlock:
     if len(data) < _HEADER.size or data[:4] != MAGIC:
         raise BrokenRecordingError(
             sentence(
-                "a block of {data_count} bytes does not begin with {magic}",
-                data_count=len(data),
+                "a block of {block_bytes} bytes does not begin with {magic}",
+                block_bytes=len(data),
                 magic=MAGIC.decode(),
             )
         )
@@ -126,9 +126,9 @@ def unpack(data: bytes, budget: ReadingBudget) -> TickBlock:
     if version != VERSION:
         raise BrokenRecordingError(
             sentence(
-                "block version {version}; this program reads {version_2}",
+                "block version {version}; this program reads {known_version}",
                 version=version,
-                version_2=VERSION,
+                known_version=VERSION,
             )
         )
     body = data[_HEADER.size :]
@@ -137,7 +137,7 @@ def unpack(data: bytes, budget: ReadingBudget) -> TickBlock:
     if rows > len(body):  # a digest alone takes four bytes a row
         raise BrokenRecordingError(
             sentence(
-                "a block of {rows} rows has {data_count} bytes", rows=rows, data_count=len(data)
+                "a block of {rows} rows has {block_bytes} bytes", rows=rows, block_bytes=len(data)
             )
         )
     values, place = columns.decode(body, rows, count, budget)
@@ -157,7 +157,7 @@ def _state_rows(tick: FloatArray) -> NDArray[np.int64]:
 def _empty(body: bytes, count: int, lost: int, first: int) -> TickBlock:
     if body:
         raise BrokenRecordingError(
-            sentence("a block of 0 rows has {body_count} bytes of numbers", body_count=len(body))
+            sentence("a block of 0 rows has {body_bytes} bytes of numbers", body_bytes=len(body))
         )
     none, nowhere = np.zeros(0, dtype=np.uint32), np.zeros(0, dtype=np.int64)
     nothing = read_only(np.zeros((0, count)))
@@ -170,9 +170,9 @@ def _checks(data: bytes, rows: int, states: int) -> tuple[NDArray[np.uint32], Fl
     if len(data) != end + 2 + 8 * size * states or size == 0:
         raise BrokenRecordingError(
             sentence(
-                "a block of {rows} rows has {data_count} bytes of checks",
+                "a block of {rows} rows has {check_bytes} bytes of checks",
                 rows=rows,
-                data_count=len(data),
+                check_bytes=len(data),
             )
         )
     whole = np.frombuffer(data, dtype="<f8", offset=end + 2).reshape(states, size)

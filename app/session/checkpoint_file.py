@@ -93,9 +93,9 @@ def unpack(data: bytes) -> RecordedCheckpoint:
     if version != VERSION:
         raise BrokenRecordingError(
             sentence(
-                "checkpoint version {version}; this program reads {version_2}",
+                "checkpoint version {version}; this program reads {known_version}",
                 version=version,
-                version_2=VERSION,
+                known_version=VERSION,
             )
         )
     body = data[_HEADER.size + length :]
@@ -116,9 +116,9 @@ def _read(document: dict[str, Any], body: bytes) -> RecordedCheckpoint:
     if min(sizes, default=0) < 0 or len(numbers) != len(slots) + sum(sizes):
         raise ValueError(
             sentence(
-                "{numbers_count} numbers for {slots_count} slots and {sizes} more",
-                numbers_count=len(numbers),
-                slots_count=len(slots),
+                "{numbers_given} numbers for {slots} slots and {sizes} more",
+                numbers_given=len(numbers),
+                slots=len(slots),
                 sizes=sum(sizes),
             )
         )

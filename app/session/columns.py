@@ -77,7 +77,8 @@ class _Reader:
         if len(part) < count:
             raise BrokenRecordingError(
                 sentence(
-                    "a block ends after {data_count} bytes in a column", data_count=len(self._data)
+                    "a block ends after {block_bytes} bytes in a column",
+                    block_bytes=len(self._data),
                 )
             )
         self.place += count

@@ -113,10 +113,10 @@ class ControlScan:
         """Say it in one line, the time counted from `origin` [s]."""
         order = self.order
         return sentence(
-            "control scan {number} at {time:.1f} s: {order_slices} slices of "
+            "control scan {scan_number} at {time:.1f} s: {order_slices} slices of "
             "{order_slice_mm:g} mm about z {order_centre_mm:.1f} mm, {seen_words}, "
             "{dose:.1f} mGy·cm ({teaching_estimate})",
-            number=self.number,
+            scan_number=self.number,
             time=self.time - origin,
             order_slices=order.slices,
             order_slice_mm=order.slice_mm,

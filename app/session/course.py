@@ -93,8 +93,8 @@ class Course(Strict):
         if twice:
             raise ValueError(
                 sentence(
-                    "{twice_first!r} stands there twice: an exercise has one place",
-                    twice_first=twice[0],
+                    "{exercise_name!r} stands there twice: an exercise has one place",
+                    exercise_name=twice[0],
                 )
             )
         return self

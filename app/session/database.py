@@ -202,10 +202,10 @@ class Database:
         if found > self._version:
             raise self._error(
                 sentence(
-                    "was written by a newer version of Acus (form {result}, this one knows "
-                    "{version}): use that version",
-                    result=found,
-                    version=self._version,
+                    "was written by a newer version of Acus (form {found_version}, this one knows "
+                    "{known_version}): use that version",
+                    found_version=found,
+                    known_version=self._version,
                 )
             )
         return found
@@ -284,8 +284,8 @@ class Database:
             reason = _FULL
         return DatabaseError(
             sentence(
-                "the {what} {path} {reason}",
-                what=self._what,
+                "the {database_name} {path} {reason}",
+                database_name=self._what,
                 path=self.path or "in memory",
                 reason=reason,
             )

@@ -105,8 +105,8 @@ def gather(result: Elsewhere, folder: Path, people: People) -> int:
         what = error.filename or folder
         raise SessionError(
             sentence(
-                "cannot bring attempts here: {what}: {error_strerror}",
-                what=what,
+                "cannot bring attempts here: {place}: {error_strerror}",
+                place=what,
                 error_strerror=error.strerror,
             )
         ) from error

@@ -121,7 +121,9 @@ def untaken(of: PeopleRows, left: PeopleRows, whose: str) -> list[str]:
         words = count_words(len(missing), "student", whose)
         lines.append(
             sentence(
-                "{words} ({shown}): their attempts are nobody's here", words=words, shown=shown
+                "{students} ({shown}): their attempts are nobody's here",
+                students=words,
+                shown=shown,
             )
         )
     there, known = _said(of), _said(left)

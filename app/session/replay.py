@@ -263,16 +263,16 @@ class ReplayReport:
                 seconds=self.seconds,
             )
         text = sentence(
-            "differs from tick {first_difference_tick} on: {words}",
+            "differs from tick {first_difference_tick} on: {difference}",
             first_difference_tick=self.first_difference.tick,
-            words=_words(self.first_difference),
+            difference=_words(self.first_difference),
         )
         most = self.largest_difference
         if most is not None and most != self.first_difference:
             text += sentence(
-                "; the largest difference is in tick {most_seen_at}: {words}",
+                "; the largest difference is in tick {most_seen_at}: {difference}",
                 most_seen_at=most.seen_at,
-                words=_words(most),
+                difference=_words(most),
             )
         return text
 
@@ -412,7 +412,9 @@ def _states(
     inputs = recording.inputs
     recorded = inputs.checkpoint
     if recorded is None:
-        raise ReplayError(sentence("this record cannot be replayed: {not_}", not_=why_not(inputs)))
+        raise ReplayError(
+            sentence("this record cannot be replayed: {reason}", reason=why_not(inputs))
+        )
     values = np.zeros((len(inputs.values), len(given)))  # an input that came later was never given
     for place, name in enumerate(given):
         if name in inputs.columns:

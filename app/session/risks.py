@@ -124,23 +124,39 @@ def risk_marks(events: Iterable[Event]) -> tuple[RiskMark, ...]:
 
 def mark_sentence(mark: RiskMark) -> str:
     """Say it in one line."""
-    place = (
-        sentence(
-            "{mark_closest_mm:.1f} mm deep in {mark_name}",
-            mark_closest_mm=-mark.closest_mm,
-            mark_name=mark.name,
-        )
-        if mark.closest_mm <= 0.0
-        else f"{mark.closest_mm:.1f} mm from {mark.name}"
-    )
-    kept = "too near" if mark.breach_mm > 0.0 else "kept"
-    inside = f"; inside for {mark.inside_s:.1f} s" if mark.inside_s else ""
+    nearness = _limit_sentence(mark, _place(mark))
+    if not mark.inside_s:
+        return nearness
     return sentence(
-        "needle {place} at the closest; limit {mark_limit_mm:g} mm: {stored}{inside}",
+        "{nearness}; inside for {inside_s:.1f} s", nearness=nearness, inside_s=mark.inside_s
+    )
+
+
+def _place(mark: RiskMark) -> str:
+    if mark.closest_mm <= 0.0:
+        return sentence(
+            "{depth_mm:.1f} mm deep in {structure}",
+            depth_mm=-mark.closest_mm,
+            structure=mark.name,
+        )
+    return sentence(
+        "{distance_mm:.1f} mm from {structure}",
+        distance_mm=mark.closest_mm,
+        structure=mark.name,
+    )
+
+
+def _limit_sentence(mark: RiskMark, place: str) -> str:
+    if mark.breach_mm > 0.0:
+        return sentence(
+            "needle {place} at the closest; limit {limit_mm:g} mm: too near",
+            place=place,
+            limit_mm=mark.limit_mm,
+        )
+    return sentence(
+        "needle {place} at the closest; limit {limit_mm:g} mm: kept",
         place=place,
-        mark_limit_mm=mark.limit_mm,
-        stored=kept,
-        inside=inside,
+        limit_mm=mark.limit_mm,
     )
 
 

@@ -54,24 +54,24 @@ def checked_pseudonym(text: str) -> str:
     if len(found) > LONGEST_PSEUDONYM:
         raise PeopleError(
             sentence(
-                "the pseudonym {result!r}… has over {longest_pseudonym} characters",
-                result=found[:20],
+                "the pseudonym {beginning!r}… has over {longest_pseudonym} characters",
+                beginning=found[:20],
                 longest_pseudonym=LONGEST_PSEUDONYM,
             )
         )
     if not _PSEUDONYM.fullmatch(found) or ".." in found:
         raise PeopleError(
             sentence(
-                "{result!r} cannot be a pseudonym: letters, digits, blanks and . _ @ + - only, "
+                "{pseudonym!r} cannot be a pseudonym: letters, digits, blanks and . _ @ + - only, "
                 "beginning with a letter or digit",
-                result=found,
+                pseudonym=found,
             )
         )
     if _KEY.fullmatch(found):
         raise PeopleError(
             sentence(
-                "{result!r} looks like a key of this program: choose another pseudonym",
-                result=found,
+                "{pseudonym!r} looks like a key of this program: choose another pseudonym",
+                pseudonym=found,
             )
         )
     return found

@@ -123,8 +123,8 @@ class RunningAttempt:
         if self.attempt.running:
             raise IllegalTransitionError(
                 sentence(
-                    "{what} while {attempt_state}: end the attempt first",
-                    what=what,
+                    "{refusal} while {attempt_state}: end the attempt first",
+                    refusal=what,
                     attempt_state=self.attempt.state,
                 )
             )

@@ -86,10 +86,10 @@ def unpack(data: bytes, budget: ReadingBudget) -> Samples:
     if version != VERSION:
         raise BrokenRecordingError(
             sentence(
-                "{samples_file} has version {version}, not {version_2}",
+                "{samples_file} has version {version}, not {known_version}",
                 samples_file=SAMPLES_FILE,
                 version=version,
-                version_2=VERSION,
+                known_version=VERSION,
             )
         )
     if crc32(data[_HEADER.size :]) != checksum:
@@ -139,10 +139,10 @@ def _read(document: dict[str, Any], data: bytes, budget: ReadingBudget) -> Sampl
     if rows < 0 or min((int(w) for *_, w in known), default=0) < 0 or (rows and not data):
         raise ValueError(
             sentence(
-                "{rows} rows of {count} columns in {data_count} bytes",
+                "{rows} rows of {columns} columns in {block_bytes} bytes",
                 rows=rows,
-                count=count,
-                data_count=len(data),
+                columns=count,
+                block_bytes=len(data),
             )
         )
     budget.take(4 * LONGEST_WORD * rows * sum(kind == "word" for _, kind, _ in known))

@@ -245,9 +245,9 @@ def _check_magic(stream: IO[bytes], path: Path) -> None:
         found = magic.hex(" ") or "nothing"
         raise BrokenRecordingError(
             sentence(
-                "{path_name} is not an MCAP file: it begins with {result}",
+                "{path_name} is not an MCAP file: it begins with {first_bytes}",
                 path_name=path.name,
-                result=found,
+                first_bytes=found,
             )
         )
 
@@ -309,7 +309,7 @@ def _parse(frame: bytes, offset: int, problems: list[str]) -> list[McapRecord]:
 def _damaged(offset: int, error: Exception) -> str:
     text = " ".join(str(error).split()) or type(error).__name__
     return sentence(
-        "the record at byte {offset} is damaged and left out: {text}", offset=offset, text=text
+        "the record at byte {offset} is damaged and left out: {fault}", offset=offset, fault=text
     )
 
 

@@ -124,7 +124,7 @@ class StationKey:
             station, salt = str(document["station"]), bytes.fromhex(document["salt"])
             nonce, sealed = bytes.fromhex(document["nonce"]), bytes.fromhex(document["sealed"])
             if len(nonce) != _NONCE_BYTES:
-                raise ValueError(sentence("a nonce of {nonce_count} bytes", nonce_count=len(nonce)))
+                raise ValueError(sentence("a nonce of {nonce_bytes} bytes", nonce_bytes=len(nonce)))
         except (ValueError, LookupError, TypeError) as error:
             raise SignatureError(sentence("the station's key in this backup is damaged")) from error
         try:

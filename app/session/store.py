@@ -75,9 +75,9 @@ def find(folder: Path, session_id: str) -> Path:
     what = "fits several sessions" if fitting and session_id else "is no session"
     raise SessionNotFoundError(
         sentence(
-            "{session_id!r} {what} in {folder}: `acus session list` says which there are",
+            "{session_id!r} {trouble} in {folder}: `acus session list` says which there are",
             session_id=session_id,
-            what=what,
+            trouble=what,
             folder=folder,
         )
     )

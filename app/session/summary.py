@@ -102,9 +102,9 @@ class Summary:
         if document["version"] != _VERSION:
             raise ValueError(
                 sentence(
-                    "version {version!r}; only {version_2} is known",
+                    "version {version!r}; only {known_version} is known",
                     version=document["version"],
-                    version_2=_VERSION,
+                    known_version=_VERSION,
                 )
             )
         exercise, score, known = document["exercise"], document["score"], document["conditions"]

@@ -88,10 +88,10 @@ class TouchCollector:
         if count < FEWEST:
             raise TouchError(
                 sentence(
-                    "only {count} of {count_2} fixes could be used, {fewest} are "
+                    "only {usable} of {seen} fixes could be used, {fewest} are "
                     "needed: keep the marker in both pictures and hold still",
-                    count=count,
-                    count_2=count + self._refused,
+                    usable=count,
+                    seen=count + self._refused,
                     fewest=FEWEST,
                 )
             )

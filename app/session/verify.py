@@ -51,10 +51,10 @@ class Change:
     def sentence(self) -> str:
         """Say it in one line."""
         return sentence(
-            "{what}: {word} written, {word_2} by the record",
-            what=self.what,
-            word=_word(self.written),
-            word_2=_word(self.recomputed),
+            "{quantity}: {written} written, {recomputed} by the record",
+            quantity=self.what,
+            written=_word(self.written),
+            recomputed=_word(self.recomputed),
         )
 
 

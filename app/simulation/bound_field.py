@@ -102,10 +102,10 @@ class BoundField:
         if len(values) != len(tissues):
             raise SimulationError(
                 sentence(
-                    "the field has {tissues_count} tissues and {values_count} rows of values; "
+                    "the field has {tissues} tissues and {rows} rows of values; "
                     "give one for each code",
-                    tissues_count=len(tissues),
-                    values_count=len(values),
+                    tissues=len(tissues),
+                    rows=len(values),
                 )
             )
         return np.array(
@@ -145,7 +145,7 @@ class BoundField:
 
     @property
     def _moves(self) -> NDArray[np.bool_]:
-        """Whether each tissue goes along with breathing, by code."""
+        """Return whether each tissue goes along with breathing, by code."""
         return np.array([one.kind in MOVING for one in self.tissue.tissues])
 
     def _codes(self, p_world: FloatArray) -> NDArray[np.intp]:

@@ -73,9 +73,9 @@ class DevicePort:
         if unknown:
             raise SimulationError(
                 sentence(
-                    "device {name!r} renders {unknown_first!r}; known axes are {device_axes}",
+                    "device {name!r} renders {unknown_axis!r}; known axes are {device_axes}",
                     name=self.name,
-                    unknown_first=unknown[0],
+                    unknown_axis=unknown[0],
                     device_axes=", ".join(DEVICE_AXES),
                 )
             )

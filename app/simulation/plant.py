@@ -47,9 +47,9 @@ class SimulatedHand:
             if not (np.isfinite(getattr(self, name)) and getattr(self, name) >= 0.0):
                 raise SimulationError(
                     sentence(
-                        "hand {name} is {value}; give a finite value of 0 or more",
+                        "hand {name} is {setting}; give a finite value of 0 or more",
                         name=name,
-                        value=getattr(self, name),
+                        setting=getattr(self, name),
                     )
                 )
 

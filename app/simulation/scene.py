@@ -89,10 +89,10 @@ class TissueLayer:
             if not (np.isfinite(value) and value >= 0.0):
                 raise SimulationError(
                     sentence(
-                        "layer {name!r}: {quantity} is {value}; give a finite value of 0 or more",
+                        "layer {name!r}: {quantity} is {setting}; give a finite value of 0 or more",
                         name=self.name,
                         quantity=quantity,
-                        value=value,
+                        setting=value,
                     )
                 )
         if self.moves is not None and not 0.0 <= self.moves <= 1.0:
@@ -171,9 +171,9 @@ class Needle:
             if not (np.isfinite(value) and value > 0.0):
                 raise SimulationError(
                     sentence(
-                        "needle {quantity} is {value}; give a finite value above 0",
+                        "needle {quantity} is {setting}; give a finite value above 0",
                         quantity=quantity,
-                        value=value,
+                        setting=value,
                     )
                 )
 
@@ -298,8 +298,8 @@ class Scene:
         if twice:
             raise SimulationError(
                 sentence(
-                    "effect {twice_first!r} stands twice in the scene; name it once",
-                    twice_first=twice[0],
+                    "effect {effect_name!r} stands twice in the scene; name it once",
+                    effect_name=twice[0],
                 )
             )
 

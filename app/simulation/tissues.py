@@ -33,8 +33,8 @@ friction force per unit length"."""
 FAT: Final = replace(scene.FAT, side_stiffness=3.3e3, toughness=1000.0, relaxation_share=0.4)
 """J: published are 4100 J/m² of porcine fat (same table), which is 5.2 N for 18 G, more than skin,
 fat and muscle together take in vivo (2 to 3 N, Maurin 2004); both cannot hold, and the low end is
-taken, 1.3 N. Side stiffness: breast fat 3.25 ± 0.91 kPa (Samani 2007). All else: estimates, none
-found: searched "subcutaneous fat needle insertion force"."""
+taken, 1.3 N. Side stiffness: breast fat 3.25 ± 0.91 kPa (Samani 2007, from memory, to be read
+again). All else: estimates, none found: searched "subcutaneous fat needle insertion force"."""
 
 MUSCLE: Final = replace(
     scene.MUSCLE,
@@ -64,8 +64,8 @@ Side stiffness: shear waves, 4.74 ± 0.91 kPa in 115 and 5.10 ± 1.02 kPa in 502
 (PMC7595329); three decades from 0.5 s."""
 
 CIRRHOTIC_LIVER: Final = replace(LIVER, name="cirrhotic liver", side_stiffness=20e3)
-"""Of 20 kPa, which elastography calls cirrhotic (above 12.5 to 15 kPa by FibroScan, Castera 2005).
-Its other values are those of healthy liver: estimates, none found."""
+"""Of 20 kPa, which elastography calls cirrhotic (above 12.5 to 15 kPa by FibroScan, Castera 2005,
+from memory, to be read again). Its other values are those of healthy liver: estimates, none found."""
 
 KIDNEY: Final = replace(LIVER, name="kidney", side_stiffness=6e3, puncture_force=0.6)
 """Capsule 0.3 to 1 N in vivo (Maurin 2004, kidney and liver together). All else that of liver:

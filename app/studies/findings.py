@@ -39,11 +39,11 @@ class Sheet:
             if len(row) != len(self.columns):
                 raise StudyError(
                     sentence(
-                        "table {name}: a row has {row_count} cells, there are "
-                        "{columns_count} headings: {row}",
+                        "table {name}: a row has {cells} cells, there are "
+                        "{headings} headings: {row}",
                         name=self.name,
-                        row_count=len(row),
-                        columns_count=len(self.columns),
+                        cells=len(row),
+                        headings=len(self.columns),
                         row=row,
                     )
                 )

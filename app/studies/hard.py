@@ -53,7 +53,7 @@ def cases() -> tuple[HardCase, ...]:
     called = [case.name for case in gathered]
     if twice := sorted({name for name in called if called.count(name) > 1}):
         raise StudyError(
-            sentence("two hard cases are called {twice_first!r}; rename one", twice_first=twice[0])
+            sentence("two hard cases are called {case_name!r}; rename one", case_name=twice[0])
         )
     if bare := set(SUBSYSTEMS) - {case.subsystem for case in gathered}:
         raise StudyError(

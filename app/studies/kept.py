@@ -116,10 +116,10 @@ def read(path: Path) -> Kept:
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise StudyError(
             sentence(
-                "{path} is no table of a study ({error_type}: {error}); "
+                "{path} is no table of a study ({error_name}: {error}); "
                 "write it anew with: acus study NAME --write",
                 path=path,
-                error_type=type(error).__name__,
+                error_name=type(error).__name__,
                 error=error,
             )
         ) from error

@@ -143,9 +143,9 @@ def read_cases(path: Path) -> tuple[PublishedCase, ...]:
     if twice := sorted({name for name in names if names.count(name) > 1}):
         raise StudyError(
             sentence(
-                "{path}: two cases are called {twice_first!r}; rename one",
+                "{path}: two cases are called {case_name!r}; rename one",
                 path=path,
-                twice_first=twice[0],
+                case_name=twice[0],
             )
         )
     return read
@@ -163,9 +163,9 @@ def _case(path: Path, number: int, row: Any) -> PublishedCase:
     if wrong := sorted((set(_WANTED) - set(row)) | (set(row) - set(_WANTED) - set(_MAY))):
         raise StudyError(
             sentence(
-                "{where}: check {wrong_first!r}; there must be {wanted}, and may be {may}",
+                "{where}: check {key!r}; there must be {wanted}, and may be {may}",
                 where=where,
-                wrong_first=wrong[0],
+                key=wrong[0],
                 wanted=", ".join(_WANTED),
                 may=", ".join(_MAY),
             )
@@ -188,13 +188,13 @@ def _case(path: Path, number: int, row: Any) -> PublishedCase:
     if not ends[0] <= row["value"] <= ends[1]:
         raise StudyError(
             sentence(
-                "{where}: {value:g} {unit} was measured, and the range {ends_first:g} to"
-                " {ends_second:g} excludes it; give the range that holds it",
+                "{where}: {measured:g} {unit} was measured, and the range {least:g} to"
+                " {largest:g} excludes it; give the range that holds it",
                 where=where,
-                value=row["value"],
+                measured=row["value"],
                 unit=row["unit"],
-                ends_first=ends[0],
-                ends_second=ends[1],
+                least=ends[0],
+                largest=ends[1],
             )
         )
     _check_names(where, row)
@@ -216,10 +216,10 @@ def _check_names(where: str, row: Mapping[str, Any]) -> None:
         if value not in valid:
             raise StudyError(
                 sentence(
-                    "{where}: {what} is {value!r}; there are {valid}",
+                    "{where}: {quantity} is {entry!r}; there are {valid}",
                     where=where,
-                    what=what,
-                    value=value,
+                    quantity=what,
+                    entry=value,
                     valid=", ".join(map(str, valid)),
                 )
             )

@@ -161,9 +161,9 @@ def examine(
     if inputs and not chosen.inputs:
         raise StudyError(
             sentence(
-                "study {chosen_name} takes no folders; leave {inputs_first} out",
+                "study {chosen_name} takes no folders; leave {folder} out",
                 chosen_name=chosen.name,
-                inputs_first=inputs[0],
+                folder=inputs[0],
             )
         )
     measure = (chosen.quick if quick else None) or chosen.measure

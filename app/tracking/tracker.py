@@ -183,7 +183,7 @@ def with_cause(fix: NeedleFix, markers: Markers, names: Sequence[str]) -> Needle
         for name, word in seen.items():
             lost = sentence("the marker is out of view of the {name} camera", name=name)
             instead = sentence(
-                "the {name} camera does not measure the marker ({word})", name=name, word=word
+                "the {name} camera does not measure the marker ({reason})", name=name, reason=word
             )
             return replace(fix, reason=fix.reason.replace(lost, instead))
     return fix
@@ -236,9 +236,7 @@ class Tracker:
     ) -> None:
         if len(cameras) != 2:
             raise TrackingError(
-                sentence(
-                    "the tracker needs two cameras, got {cameras_count}", cameras_count=len(cameras)
-                )
+                sentence("the tracker needs two cameras, got {cameras}", cameras=len(cameras))
             )
         self.latest: Latest[NeedleFix] = Latest()
         self.events = events if events is not None else EventQueue()

@@ -25,6 +25,7 @@ GERMAN = {
     "board {spec!r} is not {forms}": "{forms} wird verlangt, nicht {spec!r}",
     "{path} is not a serial port; see `acus device list`": "{path} ist kein serieller Anschluss",
     "{settings_name}: {reason}": "In {settings_name}: {reason}",
+    "{listing_path} is empty; name a folder with DICOM files": "Keine Dateien in {listing_path}",
     "line {line}": "Zeile {line}",
     "{n} mm": "{nonsense} mm",
 }
@@ -53,7 +54,7 @@ def raised(operation):
     return error.value
 
 
-def test_errors_of_three_rooms_are_shown_in_german_with_their_values(german, application):
+def test_errors_of_three_rooms_are_shown_in_german_with_their_values(german, application, tmp_path):
     bar = MessageBar()
     board = raised(lambda: parse_board("a:b"))
     bar.show_error(board)
@@ -65,6 +66,11 @@ def test_errors_of_three_rooms_are_shown_in_german_with_their_values(german, app
         AcusError(sentence("{settings_name}: {reason}", settings_name="a", reason=wrong))
     )
     assert bar.text == "In a: /dev/null ist kein serieller Anschluss"
+
+    empty = raised(lambda: load_ct(tmp_path))
+    bar.show_error(empty)
+    assert bar.text == f"Keine Dateien in {tmp_path}"
+    assert str(empty) == f"{tmp_path} is empty; name a folder with DICOM files"
     bar.deleteLater()
 
 

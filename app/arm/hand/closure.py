@@ -99,7 +99,7 @@ class Contacts:
         for name in ("friction", "soft"):
             if not 0.0 <= (value := getattr(self, name)) < inf:
                 raise GraspError(
-                    sentence("{name} is {value}; give 0 or more", name=name, value=value)
+                    sentence("{name} is {bound}; give 0 or more", name=name, bound=value)
                 )
         if self.soft and points.shape[1] == 2:
             raise GraspError(
@@ -331,10 +331,10 @@ def pair_margin(rays: FloatArray) -> float:
     if rays.shape != (4, 3):
         raise GraspError(
             sentence(
-                "no closed form for {rays_count} rays of {rays_shape_second} dimensions, only "
+                "no closed form for {rays} rays of {dimensions} dimensions, only "
                 "for two contacts in the plane",
-                rays_count=len(rays),
-                rays_shape_second=rays.shape[1],
+                rays=len(rays),
+                dimensions=rays.shape[1],
             )
         )
     return float(pair_kernel(rays))
@@ -417,9 +417,9 @@ def _solved(
     if found.status != 0:
         raise GraspError(
             sentence(
-                "a linear programme of {cost_count} unknowns ended with: {message}",
-                cost_count=len(cost),
-                message=found.message,
+                "a linear programme of {unknowns} unknowns ended with: {ending}",
+                unknowns=len(cost),
+                ending=found.message,
             )
         )
     return found

@@ -88,18 +88,18 @@ class HandGeometry:
             if not 0.0 < (value := getattr(self, name)) < inf:
                 raise MechanismError(
                     sentence(
-                        "hand: {name} is {value} m; a positive length is needed",
+                        "hand: {name} is {length} m; a positive length is needed",
                         name=name,
-                        value=value,
+                        length=value,
                     )
                 )
         for name in ("most_proximal", "most_distal", "most_spread"):
             if not 0.0 < (value := getattr(self, name)) <= pi:
                 raise MechanismError(
                     sentence(
-                        "hand: {name} is {value} rad; give more than 0, at most π",
+                        "hand: {name} is {angle} rad; give more than 0, at most π",
                         name=name,
-                        value=value,
+                        angle=value,
                     )
                 )
         if not 0.0 <= self.pad < self.distal:

@@ -128,9 +128,9 @@ class SoftContact:
                 least = "more than 0" if name == "stiffness" else "0 or more"
                 raise GraspError(
                     sentence(
-                        "contact: {name} is {value} {unit_name}; give {least}",
+                        "contact: {name} is {setting} {unit_name}; give {least}",
                         name=name,
-                        value=value,
+                        setting=value,
                         unit_name=unit_name,
                         least=least,
                     )
@@ -168,7 +168,9 @@ class FirmGrasp:
             if not 0.0 < (value := getattr(self, name)) < inf:
                 raise GraspError(
                     sentence(
-                        "firm grasp: {name} is {value}; give more than 0", name=name, value=value
+                        "firm grasp: {name} is {setting}; give more than 0",
+                        name=name,
+                        setting=value,
                     )
                 )
         if self.gain is not None and not 0.0 < self.gain < inf:
@@ -248,10 +250,10 @@ class Press:
         if len(off) and off[-1] == len(self.force) - 1:
             raise GraspError(
                 sentence(
-                    "after {times_last:.3g} s the force is {force_last:.4g} N, not {goal:.4g}"
+                    "after {seconds:.3g} s the force is {force:.4g} N, not {goal:.4g}"
                     " N; give it more time, or a gain for a softer contact",
-                    times_last=self.times[-1],
-                    force_last=self.force[-1],
+                    seconds=self.times[-1],
+                    force=self.force[-1],
                     goal=goal,
                 )
             )

@@ -103,8 +103,8 @@ def load_hand(name_or_path: str | Path = "bh8-282") -> HandProfile:
     if path.suffix not in (".yaml", ".yml"):
         raise ConfigurationError(
             sentence(
-                "no hand {text!r}; valid names: {hand_names}, or the path of a .yaml file",
-                text=text,
+                "no hand {wanted!r}; valid names: {hand_names}, or the path of a .yaml file",
+                wanted=text,
                 hand_names=", ".join(hand_names()),
             )
         )

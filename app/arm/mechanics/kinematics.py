@@ -279,12 +279,13 @@ def in_words(arm: ArmProfile, pose: RigidTransform) -> str:
     within = min(max(reach, least), most)
     if within == reach or not 0.0 < reach < float("inf"):
         return sentence(
-            "{words}; nearest_pose gives the nearest that is within the joint limits", words=words
+            "{refusal}; nearest_pose gives the nearest that is within the joint limits",
+            refusal=words,
         )
     x, y, z = shoulder + within / reach * away
     return sentence(
-        "{words}; the nearest that they reach is ({x:.4f}, {y:.4f}, {z:.4f}) m (nearest_pose)",
-        words=words,
+        "{refusal}; the nearest that they reach is ({x:.4f}, {y:.4f}, {z:.4f}) m (nearest_pose)",
+        refusal=words,
         x=x,
         y=y,
         z=z,

@@ -85,10 +85,10 @@ class ArmProfile:
             if not 0.0 < getattr(self, name) < float("inf"):
                 raise MechanismError(
                     sentence(
-                        "arm {name}: {name_2} is {value} m; a positive length is needed",
+                        "arm {name}: {quantity} is {length} m; a positive length is needed",
                         name=self.name,
-                        name_2=name,
-                        value=getattr(self, name),
+                        quantity=name,
+                        length=getattr(self, name),
                     )
                 )
         for name in ("lower", "upper", "speed", "acceleration", "jerk", "torque"):

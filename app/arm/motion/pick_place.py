@@ -327,7 +327,7 @@ class _Planning:
             raise _StuckError(
                 name,
                 Hindrance.TOUCH,
-                sentence("{what} after {share:.0f} %", what=what, share=share),
+                sentence("{collision} after {share:.0f} %", collision=what, share=share),
             )
 
     def way(self, name: PhaseName, things: Collisions, a: FloatArray, b: FloatArray) -> list[_Leg]:

@@ -191,9 +191,9 @@ class Pivot:
             raise FulcrumError(
                 sentence(
                     "the shaft would lean {tilt_deg:.4g}° from the trocar's axis; it grazes"
-                    " beyond {tilt_deg_2:.4g}°",
+                    " beyond {largest_tilt_deg:.4g}°",
                     tilt_deg=tilt / DEGREE,
-                    tilt_deg_2=self.tilt / DEGREE,
+                    largest_tilt_deg=self.tilt / DEGREE,
                 )
             )
         outside = self.tool.grip - depth

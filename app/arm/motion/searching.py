@@ -218,9 +218,9 @@ def search(
         if not arm.allows(q):
             raise SearchError(
                 sentence(
-                    "the {name} has a joint {arm_beyond_max:.3g} rad beyond",
+                    "the {name} has a joint {excess:.3g} rad beyond",
                     name=name,
-                    arm_beyond_max=arm.beyond(q).max(),
+                    excess=arm.beyond(q).max(),
                 )
             )
         if not collisions.free(q):

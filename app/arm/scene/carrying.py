@@ -460,10 +460,10 @@ def _pressed(running: RunningScene) -> float:
         raise CarryError(
             CarryFailure.TOUCHED,
             sentence(
-                "the shaft pressed the trocar's ring with {pressed:.1f} N; up to {pressed_2:g} N "
+                "the shaft pressed the trocar's ring with {pressed:.1f} N; up to {allowed:g} N "
                 "are allowed: look again, or lay the trocar for this path",
                 pressed=pressed,
-                pressed_2=PRESSED,
+                allowed=PRESSED,
             ),
         )
     return pressed

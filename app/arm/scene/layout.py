@@ -91,18 +91,17 @@ class ArmScene:
             if not 0.0 < (value := getattr(self, name)) < float("inf"):
                 raise SimulationError(
                     sentence(
-                        "scene of the arm: {name} is {value}; give more than 0",
+                        "scene of the arm: {name} is {length}; give more than 0",
                         name=name,
-                        value=value,
+                        length=value,
                     )
                 )
         if not self.arm.allows(self.home):
             raise SimulationError(
                 sentence(
-                    "scene of the arm: home {home_deg_round}° is beyond the"
-                    " joint limits ±{arm_upper_deg_round}°",
-                    home_deg_round=np.degrees(self.home).round(1).tolist(),
-                    arm_upper_deg_round=np.degrees(self.arm.upper).round(1).tolist(),
+                    "scene of the arm: home {home_deg}° is beyond the joint limits ±{limits_deg}°",
+                    home_deg=np.degrees(self.home).round(1).tolist(),
+                    limits_deg=np.degrees(self.arm.upper).round(1).tolist(),
                 )
             )
         x, y, _ = self.trocar.p_world

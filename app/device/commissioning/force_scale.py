@@ -131,10 +131,10 @@ def fit(commanded: ArrayLike, readings_g: ArrayLike) -> tuple[float, float]:
     if len(grams) == 0 or len(grams) != len(wanted):
         raise CommissioningError(
             sentence(
-                "Force scale: {grams_count} readings for {wanted_count} forces; give one reading "
+                "Force scale: {readings} readings for {forces} forces; give one reading "
                 "in grams for each",
-                grams_count=len(grams),
-                wanted_count=len(wanted),
+                readings=len(grams),
+                forces=len(wanted),
             )
         )
     if not np.isfinite(grams).all():
@@ -162,10 +162,10 @@ def refusal(factor: float, residual: float, gear: float) -> str:
         if residual <= _RESIDUAL:
             return ""
         return sentence(
-            "the readings scatter by {residual:.3f} N about a line (at most {residual_2:g} "
+            "the readings scatter by {residual:.3f} N about a line (at most {largest_residual:g} "
             "N): tare the scale, keep the needle still, and weigh again",
             residual=residual,
-            residual_2=_RESIDUAL,
+            largest_residual=_RESIDUAL,
         )
     allowed = f"{text}, outside 1 ± {SCALE_TOLERANCE:g}: "
     if abs(factor) < _NOTHING:
@@ -279,11 +279,11 @@ def fit_gauge(weights_g: ArrayLike, readings: ArrayLike) -> Gauge:
         raise CommissioningError(
             sentence(
                 "Gauge calibration: the reading changes by {slope:.3f} N per newton (valid "
-                "{scales_first:g} to {scales_second:g}): check the amplifier's gain and "
+                "{least_scale:g} to {largest_scale:g}): check the amplifier's gain and "
                 "polarity, and which way the weights pull",
                 slope=slope,
-                scales_first=_SCALES[0],
-                scales_second=_SCALES[1],
+                least_scale=_SCALES[0],
+                largest_scale=_SCALES[1],
             )
         )
     residual = float(np.sqrt(np.mean(((shown - zero) / slope - force) ** 2)))

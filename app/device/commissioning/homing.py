@@ -120,10 +120,10 @@ class HomingRoutine(Routine):
             left, right = np.degrees(angles)
             raise CommissioningError(
                 sentence(
-                    "{title}: {what} (left {left:.1f}°, right {right:.1f}°) is none that the"
+                    "{title}: {pose} (left {left:.1f}°, right {right:.1f}°) is none that the"
                     " links can take: {error}; check home_offsets and the link lengths",
                     title=self.TITLE,
-                    what=what,
+                    pose=what,
                     left=left,
                     right=right,
                     error=error,

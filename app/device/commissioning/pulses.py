@@ -239,9 +239,9 @@ def diagnose(response: ArrayLike) -> list[str]:
     if idle:
         return [
             sentence(
-                "the {idle_first} motor moves nothing up to 0.03 N·m: its joint is blocked, or "
+                "the {motor} motor moves nothing up to 0.03 N·m: its joint is blocked, or "
                 "its amplifier has no power or no enable",
-                idle_first=idle[0],
+                motor=idle[0],
             )
         ]
     if strongest == [1, 0]:

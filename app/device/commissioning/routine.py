@@ -99,9 +99,9 @@ class Routine(ABC):
         if self._report.unit and (value is None or not isfinite(value)):
             raise CommissioningError(
                 sentence(
-                    "{title}: {value} is not a number; type the reading in {report_unit}",
+                    "{title}: {reading} is not a number; type the reading in {report_unit}",
                     title=self.TITLE,
-                    value=value,
+                    reading=value,
                     report_unit=self._report.unit,
                 )
             )

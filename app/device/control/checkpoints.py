@@ -213,11 +213,11 @@ def _memories(table: Table, checkpoint: Checkpoint) -> list[tuple[Stage, FloatAr
         if len(values) != len(stage.parameters):
             raise RerunError(
                 sentence(
-                    "stage {stage_name!r} has {values_count} numbers in the record and "
-                    "{stage_parameters_count} in this program: another version recorded it",
+                    "stage {stage_name!r} has {recorded_numbers} numbers in the record and "
+                    "{expected_numbers} in this program: another version recorded it",
                     stage_name=stage.name,
-                    values_count=len(values),
-                    stage_parameters_count=len(stage.parameters),
+                    recorded_numbers=len(values),
+                    expected_numbers=len(stage.parameters),
                 )
             )
         values[: ADDRESSED.get(stage.name, 0)] = stage.parameters[: ADDRESSED.get(stage.name, 0)]

@@ -112,8 +112,8 @@ def _finite(what: str, first: float, second: float) -> tuple[float, float]:
     if not (isfinite(first) and isfinite(second)):
         raise DeviceError(
             sentence(
-                "{what} are {first} and {second}; both must be finite: calibrate anew",
-                what=what,
+                "{quantities} are {first} and {second}; both must be finite: calibrate anew",
+                quantities=what,
                 first=first,
                 second=second,
             )

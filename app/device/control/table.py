@@ -281,8 +281,8 @@ def _dynamics(machine: MachineStages, laws: Iterable[Stage], device: str) -> lis
     if machine.dynamics is None:
         raise DeviceError(
             sentence(
-                "law {readers_first!r} needs the dynamics of the machine, and {device} states none",
-                readers_first=readers[0],
+                "law {law_name!r} needs the dynamics of the machine, and {device} states none",
+                law_name=readers[0],
                 device=device,
             )
         )

@@ -117,9 +117,9 @@ class TickWatch:
             return str(error)
         text = f"{type(error).__name__}: {error}".rstrip(": ")
         return sentence(
-            "{named} raises {text}; mend or remove it, and start again",
+            "{named} raises {fault}; mend or remove it, and start again",
             named=self._named(running),
-            text=text,
+            fault=text,
         )
 
     def _words(self, running: int) -> str:

@@ -91,12 +91,12 @@ def read_info(payload: bytes, wanted: int = VERSION) -> tuple[BoardInfo, int, fl
         raise BoardVersionError(
             sentence(
                 "the board speaks version {theirs} of the protocol, this program version {wanted}"
-                " ({payload_count} bytes): update the"
-                " {text} (docs/protocol.md)",
+                " ({received_bytes} bytes): update the"
+                " {older_side} (docs/protocol.md)",
                 theirs=theirs,
                 wanted=wanted,
-                payload_count=len(payload),
-                text="board" if theirs < wanted else "program",
+                received_bytes=len(payload),
+                older_side="board" if theirs < wanted else "program",
             )
         )
     _, version, major, minor, boot, counts, torque, features, watchdog, serial, name = (

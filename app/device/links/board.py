@@ -385,9 +385,9 @@ class Faults:
         if not 0.0 <= value <= most:
             raise LinkError(
                 sentence(
-                    "fault {name} is {value:g}; it must be from 0 to {most:g}",
+                    "fault {name} is {setting:g}; it must be from 0 to {most:g}",
                     name=name,
-                    value=value,
+                    setting=value,
                     most=most,
                 )
             )

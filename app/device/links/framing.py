@@ -128,8 +128,8 @@ def frame(payload: bytes) -> bytes:
     if not 1 <= len(payload) <= LARGEST_PAYLOAD:
         raise ValueError(
             sentence(
-                "payload of {payload_count} bytes; a frame holds 1 to {largest_payload}",
-                payload_count=len(payload),
+                "payload of {given_bytes} bytes; a frame holds 1 to {largest_payload}",
+                given_bytes=len(payload),
                 largest_payload=LARGEST_PAYLOAD,
             )
         )

@@ -70,7 +70,7 @@ class PenLink:
         values = np.array([*q, time], dtype=np.float64)
         if values.shape != (len(_ROW),) or not np.isfinite(values).all():
             raise LinkError(
-                sentence("the pen's joint angles {values} are not finite", values=values.tolist())
+                sentence("the pen's joint angles {angles} are not finite", angles=values.tolist())
             )
         if time <= self._last:
             return

@@ -85,10 +85,10 @@ class AcusSpeech(Speech):
                 sentence(
                     "the board says that it belongs to a robot of the profile {info_profile!r}, "
                     "the program was started for {wanted_name!r}; choose the profile "
-                    "{info_profile_2}",
+                    "{right_profile}",
                     info_profile=info.profile,
                     wanted_name=wanted.name,
-                    info_profile_2=info.profile,
+                    right_profile=info.profile,
                 )
             )
         if counts != wanted.encoder.counts_per_turn:
@@ -146,7 +146,9 @@ class HaplySpeech(Speech):
             if len(data) == haply.REPLY_BYTES and data[0] == number:
                 return self._found()
         raise LinkError(
-            silence(seen, sentence("no Haply board with number {number}", number=number))
+            silence(
+                seen, sentence("no Haply board with number {board_number}", board_number=number)
+            )
         )
 
     def _found(self) -> BoardInfo:

@@ -119,7 +119,9 @@ def field_of_ct(
                 volume_unit=volume.unit or "no unit",
             )
         )
-    notes = [] if body.coarse.any() else ["there is no body in this CT: all of it is air"]
+    notes: list[str] = []
+    if not body.coarse.any():
+        notes.append(sentence("there is no body in this CT: all of it is air"))
     progress.report(0.1, "reading the CT on the field's grid")
     hu = smoothed(grid.from_volume(volume.hu, volume.affine_mm))
     progress.report(0.25, "looking for the skin")

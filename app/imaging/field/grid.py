@@ -158,23 +158,26 @@ def grid_over(
         cells = (low_cell + np.array(list(np.ndindex(2, 2, 2))) * size) * body.factors
         held = _ends(volume.lps_mm(cells) @ axes, _AIR_MM + GRID_MM)
     low, high = np.maximum(whole[0], held[0]), np.minimum(whole[1], held[1])
-    note, entry = "", None
+    note: str = ""
+    entry = None
     if entry_mm is not None:
         entry = frozen(entry_mm, (3,), "entry")
         if not volume.contains(entry):
             raise FieldError(
                 sentence(
-                    "entry {entry_round} mm lies outside the CT: move it",
-                    entry_round=entry.round(1).tolist(),
+                    "entry {entry_mm} mm lies outside the CT: move it",
+                    entry_mm=entry.round(1).tolist(),
                 )
             )
         middle = entry @ axes
         to_end = np.stack([middle - whole[0], whole[1] - middle])
         cut = np.stack([held[0] < whole[0], held[1] > whole[1]]) & (to_end < reach_mm)
         if cut.any():
-            note = (
-                f"the CT ends {to_end[cut].min():.0f} mm from the entry, within the body, and the "
-                f"needle reaches {reach_mm:.0f} mm: what lies beyond is unknown"
+            note = sentence(
+                "the CT ends {to_end_mm:.0f} mm from the entry, within the body, and the "
+                "needle reaches {reach_mm:.0f} mm: what lies beyond is unknown",
+                to_end_mm=float(to_end[cut].min()),
+                reach_mm=reach_mm,
             )
         reach = reach_mm + _MARGIN_MM
         low, high = np.maximum(low, middle - reach), np.minimum(high, middle + reach)
@@ -182,8 +185,8 @@ def grid_over(
     if counts.min() < 2:
         raise FieldError(
             sentence(
-                "the CT is {high_min:.1f} mm thick: no field of {spacing_mm:g} mm fits",
-                high_min=(high - low).min(),
+                "the CT is {thickness_mm:.1f} mm thick: no field of {spacing_mm:g} mm fits",
+                thickness_mm=(high - low).min(),
                 spacing_mm=spacing_mm,
             )
         )

@@ -79,9 +79,9 @@ def mark(
     if len(structures) + len(table) > MOST_TISSUES:
         raise FieldError(
             sentence(
-                "{structures_count} structures: a field has room for {most_tissues}",
-                structures_count=len(structures),
-                most_tissues=MOST_TISSUES - len(table),
+                "{structures} structures: a field has room for {most_structures}",
+                structures=len(structures),
+                most_structures=MOST_TISSUES - len(table),
             )
         )
     tissues = list(table)
@@ -99,8 +99,13 @@ def mark(
                 over, under = structures[number].name, structures[code - len(table)].name
                 millilitres = count * grid.spacing_mm**3 / 1000.0
                 notes.append(
-                    f"structures {over} and {under} overlap by {millilitres:.2g} ml, which count "
-                    f"as {over}"
+                    sentence(
+                        "structures {over} and {under} overlap by {millilitres:.2g} ml, "
+                        "which count as {over}",
+                        over=over,
+                        under=under,
+                        millilitres=millilitres,
+                    )
                 )
         labels[box][held] = len(table) + number
     return Marks(tuple(tissues), shares, len(table), grid.shape, tuple(reversed(notes)))

@@ -71,7 +71,7 @@ def from_bytes(content: bytes, check: bool = True) -> TissueField:
         if isinstance(error, FieldError):
             raise
         raise FieldError(
-            sentence("the tissue field is damaged ({error_type})", error_type=type(error).__name__)
+            sentence("the tissue field is damaged ({error_name})", error_name=type(error).__name__)
         ) from error
 
 

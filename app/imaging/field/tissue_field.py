@@ -174,9 +174,9 @@ class TissueField:
         if largest >= len(codes):
             raise FieldError(
                 sentence(
-                    "label {largest} has no row in the table of {codes_count} tissues",
+                    "label {largest} has no row in the table of {tissues} tissues",
                     largest=largest,
-                    codes_count=len(codes),
+                    tissues=len(codes),
                 )
             )
         if int(self.distance.min()) < 0:

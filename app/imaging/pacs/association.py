@@ -230,10 +230,10 @@ def require(linked: Any, status: Any, settings: PacsSettings, doing: str) -> int
     if code >> 12 in (0xA, 0xC) or code >> 8 in (0x01, 0x02):
         raise PacsError(
             sentence(
-                "{settings_name} refused while {doing}: {words}",
+                "{settings_name} refused while {doing}: {refusal}",
                 settings_name=settings.name,
                 doing=doing,
-                words=words(code),
+                refusal=words(code),
             )
         )
     return code

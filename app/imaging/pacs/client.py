@@ -202,10 +202,9 @@ class Pacs:
         if incoming.problems:
             raise PacsDataError(
                 sentence(
-                    "{settings_name}: {incoming_problems_first}; nothing was taken into the "
-                    "library",
+                    "{settings_name}: {problem}; nothing was taken into the library",
                     settings_name=self.settings.name,
-                    incoming_problems_first=incoming.problems[0],
+                    problem=incoming.problems[0],
                 )
             ) from None
 
@@ -224,11 +223,11 @@ class Pacs:
         if missing or failed:
             raise PacsDataError(
                 sentence(
-                    "{name} did not send {missing_max} of {listed_count} pictures; "
+                    "{name} did not send {missing_pictures} of {listed_pictures} pictures; "
                     "repeat the retrieval: only those are fetched{refused}",
                     name=name,
-                    missing_max=max(missing, failed),
-                    listed_count=len(listed) or "the",
+                    missing_pictures=max(missing, failed),
+                    listed_pictures=len(listed) or "the",
                     refused=refused,
                 )
             )

@@ -313,7 +313,7 @@ def read_original(header: SliceHeader) -> Dataset:
         ) from None
     except Exception as error:  # hostile bytes make the parser raise nearly anything
         raise FileDamagedError(
-            sentence("it cannot be read ({error_type})", error_type=type(error).__name__)
+            sentence("it cannot be read ({error_name})", error_name=type(error).__name__)
         ) from None
     if str(dataset.get("SOPInstanceUID", "")).strip(" \0") != header.identity.sop_uid:
         raise FileDamagedError(sentence("it has changed since the folder was looked at"))
@@ -402,7 +402,7 @@ def _write(result: Dataset, to: Path, syntax: UID) -> None:
         raise
     except Exception as error:  # a value that pydicom will not write; its message would quote it
         raise PrivacyError(
-            sentence("it cannot be written anew ({error_type})", error_type=type(error).__name__)
+            sentence("it cannot be written anew ({error_name})", error_name=type(error).__name__)
         ) from None
     sync(to)
 
@@ -501,7 +501,12 @@ def _counted(number: int, count: int, work: Callable[[], _Made]) -> _Made:
         raise
     except (PrivacyError, FileDamagedError) as error:
         raise type(error)(
-            sentence("file {number} of {count}: {error}", number=number, count=count, error=error)
+            sentence(
+                "file {file_number} of {count}: {error}",
+                file_number=number,
+                count=count,
+                error=error,
+            )
         ) from None
 
 

@@ -48,11 +48,11 @@ def installation_key() -> bytes:
     if len(key) != BYTES:
         raise KeyDamagedError(
             sentence(
-                "the privacy key {path} has {key_count} bytes, {bytes} are needed; put the kept "
-                "copy back, or delete it: then every patient gets a new pseudonym",
+                "the privacy key {path} has {stored_bytes} bytes, {needed_bytes} are needed; put "
+                "the kept copy back, or delete it: then every patient gets a new pseudonym",
                 path=path,
-                key_count=len(key),
-                bytes=BYTES,
+                stored_bytes=len(key),
+                needed_bytes=BYTES,
             )
         )
     return key

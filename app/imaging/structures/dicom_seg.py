@@ -138,8 +138,8 @@ def _header(path: Path, number: int) -> Any:
     except Exception as error:  # hostile bytes make the parser raise nearly anything
         raise StructureFileError(
             sentence(
-                "file {number} of this CT is gone or damaged ({brief})",
-                number=number,
+                "file {file_number} of this CT is gone or damaged ({brief})",
+                file_number=number,
                 brief=brief(error),
             )
         ) from error

@@ -58,7 +58,9 @@ def read_labels(path: Path) -> Found:
     except Exception as error:  # nibabel raises whatever the bytes lead it to
         what = brief(error)
         raise StructureFileError(
-            sentence("{path_name} cannot be read as NIfTI ({what})", path_name=path.name, what=what)
+            sentence(
+                "{path_name} cannot be read as NIfTI ({fault})", path_name=path.name, fault=what
+            )
         ) from error
     exact = values.dtype.kind in "iub"
     if not exact and (not np.isfinite(values).all() or (np.rint(values) != values).any()):
@@ -71,10 +73,9 @@ def read_labels(path: Path) -> Found:
     if not labels or len(labels) > MOST_LABELS:
         raise StructureFileError(
             sentence(
-                "{path_name} holds {labels_count} labels above 0; a label map holds 1 to "
-                "{most_labels}",
+                "{path_name} holds {labels} labels above 0; a label map holds 1 to {most_labels}",
                 path_name=path.name,
-                labels_count=len(labels),
+                labels=len(labels),
                 most_labels=MOST_LABELS,
             )
         )
@@ -91,9 +92,9 @@ def _affine(image: Any, path: Path) -> Any:
     if not hasattr(header, "get_sform"):
         raise StructureFileError(
             sentence(
-                "{path_name} is {image_type}, not NIfTI",
+                "{path_name} is {format_name}, not NIfTI",
                 path_name=path.name,
-                image_type=type(image).__name__,
+                format_name=type(image).__name__,
             )
         )
     sform, s_code = header.get_sform(coded=True)
@@ -275,8 +276,9 @@ def _class_name(uid: str) -> str:
 def _unknown(path: Path, what: str) -> StructureFileError:
     return StructureFileError(
         sentence(
-            "{path_name} is {what}; DICOM SEG, RTSTRUCT, .seg.nrrd and NIfTI labels are read",
+            "{path_name} is {found_format}; DICOM SEG, RTSTRUCT, .seg.nrrd and NIfTI labels are "
+            "read",
             path_name=path.name,
-            what=what,
+            found_format=what,
         )
     )

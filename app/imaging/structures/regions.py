@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
 from app.core.messages import sentence
+from app.core.words import counted
 from app.imaging.structures.contours import ONE_PLANE_MM, ContourPlane, gathered, stacked
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.structure import Colour, StructureKind
@@ -59,10 +60,10 @@ class ContourRegion:
         """Say what was left out, a line for each reason."""
         return [
             sentence(
-                "{name}: {count} contour{text} {reason} left out",
+                "{name}: {count} {contours} {reason} left out",
                 name=self.name,
                 count=count,
-                text="s" if count > 1 else "",
+                contours=counted(count, "contour", "contours"),
                 reason=reason,
             )
             for reason, count in self.left_out.items()
@@ -175,9 +176,9 @@ class Layers:
         ):
             raise StructureFileError(
                 sentence(
-                    "its contours spread over {shape_second} × {shape_first} × {slices} voxels",
-                    shape_second=shape[1],
-                    shape_first=shape[0],
+                    "its contours spread over {columns} × {rows} × {slices} voxels",
+                    columns=shape[1],
+                    rows=shape[0],
                     slices=slices,
                 )
             )

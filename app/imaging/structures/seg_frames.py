@@ -213,9 +213,9 @@ def spacing_note(frames: Sequence[SegFrame]) -> str:
         return ""
     return sentence(
         "its SpacingBetweenSlices ({between:g} mm) contradicts its frames (at least "
-        "{gaps_min:.3g} mm apart): each frame was placed where it says itself",
+        "{least_gap_mm:.3g} mm apart): each frame was placed where it says itself",
         between=between,
-        gaps_min=gaps.min(),
+        least_gap_mm=gaps.min(),
     )
 
 

@@ -61,7 +61,9 @@ def read_nrrd(path: Path) -> Found:
     except Exception as error:  # pynrrd raises whatever the bytes lead it to
         what = brief(error)
         raise StructureFileError(
-            sentence("{path_name} cannot be read as NRRD ({what})", path_name=path.name, what=what)
+            sentence(
+                "{path_name} cannot be read as NRRD ({fault})", path_name=path.name, fault=what
+            )
         ) from error
     if values.dtype.kind not in "iub":
         raise StructureFileError(
@@ -149,9 +151,9 @@ def _segments(header: Any, layers: NDArray[Any], affine: FloatArray, path: Path)
         if len(labels) > MOST_LABELS:
             raise StructureFileError(
                 sentence(
-                    "{path_name} holds {labels_count} labels: not a label map",
+                    "{path_name} holds {labels} labels: not a label map",
                     path_name=path.name,
-                    labels_count=len(labels),
+                    labels=len(labels),
                 )
             )
         plain = (Labelled(f"label {n}", layers[0] == n, affine) for n in labels)
@@ -171,19 +173,19 @@ def _segment(
     except ValueError:
         raise StructureFileError(
             sentence(
-                "{path_name}, segment {number}: its layer or label is no whole number",
+                "{path_name}, segment {segment_number}: its layer or label is no whole number",
                 path_name=path.name,
-                number=number,
+                segment_number=number,
             )
         ) from None
     if not 0 <= layer < len(layers):
         raise StructureFileError(
             sentence(
-                "{path_name}, segment {number}: layer {layer} of {layers_count}",
+                "{path_name}, segment {segment_number}: layer {layer} of {layers}",
                 path_name=path.name,
-                number=number,
+                segment_number=number,
                 layer=layer,
-                layers_count=len(layers),
+                layers=len(layers),
             )
         )
     kind, warn = _tags(value("Tags"))

@@ -425,7 +425,7 @@ class StructureSet:
         if double:
             raise StructureError(
                 sentence(
-                    "structure {double_min} is there twice: rename one", double_min=min(double)
+                    "structure {double_name} is there twice: rename one", double_name=min(double)
                 )
             )
 

@@ -147,12 +147,12 @@ def _named(header: SliceHeader, outcome: Exception) -> Exception:
         decoder = DECODERS.get(header.pixels.syntax, ("inflating",))[0]
         return WorkerLostError(
             sentence(
-                "{path}: {text} (decoder {decoder}); leave it out",
+                "{path}: {fault} (decoder {decoder}); leave it out",
                 path=path,
-                text=text,
+                fault=text,
                 decoder=decoder,
             )
         )
     return FileDamagedError(
-        text if str(path) in text else sentence("{path}: {text}", path=path, text=text)
+        text if str(path) in text else sentence("{path}: {fault}", path=path, fault=text)
     )

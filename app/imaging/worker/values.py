@@ -110,9 +110,7 @@ class _Attached:
         def read(value: Any) -> Any:
             if not is_array(value):
                 raise ValueError(
-                    sentence(
-                        "{value_type} where an array is wanted", value_type=type(value).__name__
-                    )
+                    sentence("{type_name} where an array is wanted", type_name=type(value).__name__)
                 )
             import numpy as np
 

@@ -429,9 +429,9 @@ def load_profile(name_or_path: str | Path) -> DeviceProfile:
     if path.suffix not in (".yaml", ".yml"):
         raise ConfigurationError(
             sentence(
-                "no device profile {text!r}; valid names: {profile_names},"
+                "no device profile {wanted!r}; valid names: {profile_names},"
                 " or the path of a .yaml file",
-                text=text,
+                wanted=text,
                 profile_names=", ".join(profile_names()),
             )
         )

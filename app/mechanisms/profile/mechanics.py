@@ -99,9 +99,9 @@ class WorkspaceSection(Section):
         if self.depth_min >= self.depth_max:
             raise ValueError(
                 sentence(
-                    "depth_min {depth_min} must be below depth_max {depth_max}",
-                    depth_min=self.depth_min,
-                    depth_max=self.depth_max,
+                    "depth_min {least_depth} must be below depth_max {largest_depth}",
+                    least_depth=self.depth_min,
+                    largest_depth=self.depth_max,
                 )
             )
         return self

@@ -279,8 +279,6 @@ def _by_joint(geometry: TensegrityGeometry, beta: ArrayLike, first: int) -> Floa
 def _six(entries: FloatArray) -> list[Any]:
     if entries.shape != (6,):
         raise MechanismError(
-            sentence(
-                "Jacobian has {entries_count} entries; 6 are needed", entries_count=len(entries)
-            )
+            sentence("Jacobian has {entries} entries; 6 are needed", entries=len(entries))
         )
     return entries.tolist()

@@ -78,9 +78,9 @@ class TensegrityGeometry:
             if not 0.0 < getattr(self, name) < float("inf"):
                 raise MechanismError(
                     sentence(
-                        "geometry: {name} is {value} m; a positive length is needed",
+                        "geometry: {name} is {length} m; a positive length is needed",
                         name=name,
-                        value=getattr(self, name),
+                        length=getattr(self, name),
                     )
                 )
         for name in ("first_tilt", "second_tilt"):
@@ -113,12 +113,13 @@ class TensegrityGeometry:
         if first + second <= apart:
             raise MechanismError(
                 sentence(
-                    "geometry: the bars reach {degrees:.4g}° and {degrees_2:.4g}°, the"
-                    " base joints are {degrees_3:.4g}° apart: no pose closes both pantographs;"
+                    "geometry: the bars reach {first_reach_deg:.4g}° and "
+                    "{second_reach_deg:.4g}°, the"
+                    " base joints are {apart_deg:.4g}° apart: no pose closes both pantographs;"
                     " lengthen f1 or f2",
-                    degrees=degrees(first),
-                    degrees_2=degrees(second),
-                    degrees_3=degrees(apart),
+                    first_reach_deg=degrees(first),
+                    second_reach_deg=degrees(second),
+                    apart_deg=degrees(apart),
                 )
             )
         (side1, side2), half = self.sides, 0.5 * apart
@@ -205,9 +206,9 @@ class Cables:
             if not isfinite(getattr(self, name)):
                 raise MechanismError(
                     sentence(
-                        "cables: {name} is {value}; give a number",
+                        "cables: {name} is {quantity}; give a number",
                         name=name,
-                        value=getattr(self, name),
+                        quantity=getattr(self, name),
                     )
                 )
         if not self.stiffness > 0.0 or self.stiffening < 0.0:
@@ -258,9 +259,9 @@ class CurvedBars:
             if not (isfinite(value) and value > 0.0):
                 raise MechanismError(
                     sentence(
-                        "bars: {name} is {value}; a positive number is needed",
+                        "bars: {name} is {quantity}; a positive number is needed",
                         name=name,
-                        value=value,
+                        quantity=value,
                     )
                 )
 
@@ -289,9 +290,9 @@ class GuideMasses:
             if not (isfinite(getattr(self, name)) and getattr(self, name) >= 0.0):
                 raise MechanismError(
                     sentence(
-                        "masses: {name} is {value}; a number from 0 on is needed",
+                        "masses: {name} is {mass}; a number from 0 on is needed",
                         name=name,
-                        value=getattr(self, name),
+                        mass=getattr(self, name),
                     )
                 )
 

@@ -83,9 +83,9 @@ def machine_points(geometry: TensegrityGeometry, t: ArrayLike) -> MachinePoints:
         if np.linalg.norm(aside) < _TOUCHING:
             raise DegenerateError(
                 sentence(
-                    "degenerate: T stands on A{number}; its rhombus has no plane there, turn the"
-                    " guide away",
-                    number=number,
+                    "degenerate: T stands on A{base_number}; its rhombus has no plane there, "
+                    "turn the guide away",
+                    base_number=number,
                 )
             )
         middle, outwards = unit(base + direction), unit(aside)

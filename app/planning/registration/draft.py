@@ -9,6 +9,7 @@ from app.core.messages import sentence
 from app.core.rotation import rotation_log
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
+from app.core.words import counted
 from app.planning.placement import Placement
 from app.planning.plan import Plan
 from app.planning.registration.check import RegistrationCheck
@@ -52,16 +53,16 @@ class CheckDraft:
         lacking = FEWEST - len(self.touched)
         if lacking > 0:
             return sentence(
-                "touch {lacking} more fiducial{lacking_2}",
+                "touch {lacking} more {fiducials}",
                 lacking=lacking,
-                lacking_2="s" * (lacking > 1),
+                fiducials=counted(lacking, "fiducial", "fiducials"),
             )
         lacking = FEWEST - len(self.picked)
         if self.picked and lacking > 0:
             return sentence(
-                "pick {lacking} more bead{lacking_2} in the CT, or none",
+                "pick {lacking} more {beads} in the CT, or none",
                 lacking=lacking,
-                lacking_2="s" * (lacking > 1),
+                beads=counted(lacking, "bead", "beads"),
             )
         try:
             picked = points_of(self.picked) if self.picked else None

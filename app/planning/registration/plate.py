@@ -117,9 +117,9 @@ class FiducialPlate(Strict):
             if name not in self.names:
                 raise RegistrationError(
                     sentence(
-                        "plate {name} has no fiducial {name_2!r}; it has {names}",
-                        name=self.name,
-                        name_2=name,
+                        "plate {plate_name} has no fiducial {fiducial_name!r}; it has {names}",
+                        plate_name=self.name,
+                        fiducial_name=name,
                         names=", ".join(self.names),
                     )
                 )
@@ -147,9 +147,9 @@ def load_plate(name_or_path: str | Path) -> FiducialPlate:
     if Path(text).suffix not in (".yaml", ".yml"):
         raise ConfigurationError(
             sentence(
-                "no fiducial plate {text!r}; valid names: {plate_names}, "
+                "no fiducial plate {wanted!r}; valid names: {plate_names}, "
                 "or the path of a .yaml file",
-                text=text,
+                wanted=text,
                 plate_names=", ".join(plate_names()),
             )
         )

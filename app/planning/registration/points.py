@@ -66,7 +66,7 @@ def find_bead(volume: Volume, near_mm: ArrayLike, diameter_mm: float) -> Bead:
     click = frozen(near_mm, (3,), "near_mm")
     if not volume.contains(click):
         raise OutsideImageError(
-            sentence("the point {text} lies outside the CT: click a slice", text=_text(click))
+            sentence("the point {point} lies outside the CT: click a slice", point=_text(click))
         )
     search = 1.5 * diameter_mm + float(volume.spacing_mm.max())
     reach = 0.5 * diameter_mm + 1.5 * float(volume.spacing_mm.max())
@@ -79,10 +79,10 @@ def find_bead(volume: Volume, near_mm: ArrayLike, diameter_mm: float) -> Bead:
     if contrast < LEAST_CONTRAST:
         raise BeadError(
             sentence(
-                "no bead within {search:.1f} mm of {text}: the brightest voxel is "
+                "no bead within {search:.1f} mm of {point}: the brightest voxel is "
                 "{contrast:.0f} HU above its surroundings, {least_contrast:.0f} are needed",
                 search=search,
-                text=_text(click),
+                point=_text(click),
                 contrast=contrast,
                 least_contrast=LEAST_CONTRAST,
             )
@@ -93,7 +93,8 @@ def find_bead(volume: Volume, near_mm: ArrayLike, diameter_mm: float) -> Bead:
     if box.clipped and not _inside(volume, centre, reach):
         raise BeadError(
             sentence(
-                "the bead at {text} reaches the edge of the CT: use another one", text=_text(centre)
+                "the bead at {centre} reaches the edge of the CT: use another one",
+                centre=_text(centre),
             )
         )
     return Bead(frozen(centre), contrast, diameter, float(np.linalg.norm(centre - click)))
@@ -136,12 +137,13 @@ def _require_size(result: float, wanted: float, voxel: float, at: FloatArray) ->
     if result > largest:
         raise BeadError(
             sentence(
-                "what is bright at {text} is {result:.1f} mm across, a bead is {wanted:.1f} mm "
-                "(at most {largest:.1f} mm in this CT): bone, or two beads; click on a bead",
-                text=_text(at),
-                result=result,
-                wanted=wanted,
-                largest=largest,
+                "what is bright at {point} is {measured_mm:.1f} mm across, a bead is "
+                "{bead_mm:.1f} mm "
+                "(at most {largest_mm:.1f} mm in this CT): bone, or two beads; click on a bead",
+                point=_text(at),
+                measured_mm=result,
+                bead_mm=wanted,
+                largest_mm=largest,
             )
         )
 
@@ -193,9 +195,9 @@ class NamedPoints:
         if len(self.points) != len(self.names):
             raise RegistrationError(
                 sentence(
-                    "{names_count} names for {points_count} points",
-                    names_count=len(self.names),
-                    points_count=len(self.points),
+                    "{names} names for {points} points",
+                    names=len(self.names),
+                    points=len(self.points),
                 )
             )
         for name in self.names:
@@ -256,10 +258,10 @@ def _from_csv(path: Path) -> list[_Row]:
     if missing:
         raise RegistrationError(
             sentence(
-                "{path}: column {missing_first} is missing; the first line must be "
+                "{path}: column {column} is missing; the first line must be "
                 "name,x_mm,y_mm,z_mm and may add sd_mm",
                 path=path,
-                missing_first=missing[0],
+                column=missing[0],
             )
         )
     return [_row(path, f"line {reader.line_num}", row) for row in reader]
@@ -291,10 +293,10 @@ def _from_yaml(path: Path) -> list[_Row]:
         if not isinstance(value, list) or len(value) != 3:
             raise RegistrationError(
                 sentence(
-                    "{path}, {name}: [x, y, z] in mm is needed, got {value!r}",
+                    "{path}, {name}: [x, y, z] in mm is needed, got {entry!r}",
                     path=path,
                     name=name,
-                    value=value,
+                    entry=value,
                 )
             )
         rows.append((str(name), [_number(path, str(name), v) for v in value], 0.0))
@@ -306,10 +308,12 @@ def _number(path: Path, where: str, text: object) -> float:
         value = float(str(text))
     except ValueError as error:
         raise RegistrationError(
-            sentence("{path}, {where}: {text!r} is not a number", path=path, where=where, text=text)
+            sentence(
+                "{path}, {where}: {entry!r} is not a number", path=path, where=where, entry=text
+            )
         ) from error
     if not np.isfinite(value):
         raise RegistrationError(
-            sentence("{path}, {where}: {text!r} is not finite", path=path, where=where, text=text)
+            sentence("{path}, {where}: {entry!r} is not finite", path=path, where=where, entry=text)
         )
     return value

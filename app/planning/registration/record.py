@@ -83,10 +83,10 @@ class RegistrationRecord(Strict):
         if self.format != FORMAT or self.version != 1:
             raise ValueError(
                 sentence(
-                    "format {format} {version} is not {format_2} 1",
+                    "format {format} {version} is not {known_format} 1",
                     format=self.format,
                     version=self.version,
-                    format_2=FORMAT,
+                    known_format=FORMAT,
                 )
             )
         return self

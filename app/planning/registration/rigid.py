@@ -10,6 +10,7 @@ from app.core.messages import sentence
 from app.core.rotation import closest_rotation
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
+from app.core.words import counted
 from app.planning.registration.errors import DegenerateFiducialsError, RegistrationError
 
 FEWEST = 3
@@ -84,10 +85,10 @@ def rigid_fit(
     if x.shape != y.shape:
         raise RegistrationError(
             sentence(
-                "{x_count} reference points and {y_count} measured ones: give each fiducial once "
-                "in both",
-                x_count=len(x),
-                y_count=len(y),
+                "{reference_points} reference points and {measured_points} measured ones: give "
+                "each fiducial once in both",
+                reference_points=len(x),
+                measured_points=len(y),
             )
         )
     w = _checked_weights(weights, len(x))
@@ -158,13 +159,13 @@ def require_spread(points: FloatArray, name: str) -> None:
     if len(points) < FEWEST:
         raise DegenerateFiducialsError(
             sentence(
-                "{points_count} {name} point{points_count_2}: a registration needs at least "
-                "{fewest}, and {fewest_2} to find a wrong one",
-                points_count=len(points),
+                "{points_given} {name} {points}: a registration needs at least "
+                "{fewest}, and {fewest_to_check} to find a wrong one",
+                points_given=len(points),
                 name=name,
-                points_count_2="s" * (len(points) != 1),
+                points=counted(len(points), "point", "points"),
                 fewest=FEWEST,
-                fewest_2=FEWEST + 1,
+                fewest_to_check=FEWEST + 1,
             )
         )
     values = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)

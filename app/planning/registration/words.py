@@ -59,10 +59,10 @@ def target_line(check: RegistrationCheck, p_world: FloatArray) -> str:
     radius = covariance_radius(check.spread(p_world))
     rms = float(np.sqrt(np.trace(check.expected(p_world))))
     return sentence(
-        "TRE at the target: {mm} mm RMS expected, at least 95 % within {mm_2} mm "
+        "TRE at the target: {expected_mm} mm RMS expected, at least 95 % within {within_95_mm} mm "
         "({check_world_condition})",
-        mm=_mm(rms),
-        mm_2=_mm(radius),
+        expected_mm=_mm(rms),
+        within_95_mm=_mm(radius),
         check_world_condition=check.world.condition,
     )
 
@@ -71,18 +71,18 @@ def _figures(title: str, part: PointCheck) -> list[str]:
     error = part.fiducial
     return [
         sentence(
-            "{title}: {part_fit_count} fiducials, FRE {mm} mm (fit of the points, not accuracy)",
+            "{title}: {fiducials} fiducials, FRE {fre_mm} mm (fit of the points, not accuracy)",
             title=title,
-            part_fit_count=part.fit.count,
-            mm=_mm(part.fit.fre),
+            fiducials=part.fit.count,
+            fre_mm=_mm(part.fit.fre),
         ),
         sentence(
-            "{title}: FLE {mm} mm, between {mm_2} and {mm_3} mm "
+            "{title}: FLE {fle_mm} mm, between {lower_mm} and {upper_mm} mm "
             "with 95 % ({error_freedom} degrees of freedom)",
             title=title,
-            mm=_mm(error.rms),
-            mm_2=_mm(error.lower),
-            mm_3=_mm(error.upper),
+            fle_mm=_mm(error.rms),
+            lower_mm=_mm(error.lower),
+            upper_mm=_mm(error.upper),
             error_freedom=error.freedom,
         ),
     ]
@@ -106,11 +106,11 @@ def _troubles(verb: str, part: PointCheck) -> list[str]:
         name = part.names[part.outlier.index]
         return [
             sentence(
-                "fiducial {name} lies {mm} mm from where the others put it "
-                "(they agree within {mm_2} mm): do {name} again",
+                "fiducial {name} lies {distance_mm} mm from where the others put it "
+                "(they agree within {agreement_mm} mm): do {name} again",
                 name=name,
-                mm=_mm(part.outlier.distance, 1),
-                mm_2=_mm(part.outlier.fre),
+                distance_mm=_mm(part.outlier.distance, 1),
+                agreement_mm=_mm(part.outlier.fre),
             )
         ]
     worst = (part.fit.residuals**2).sum(axis=1)
@@ -119,12 +119,12 @@ def _troubles(verb: str, part: PointCheck) -> list[str]:
         return [
             sentence(
                 "the {verb} points do not fit the plate: the largest residual is "
-                "{mm} mm at {name}, the limit is "
-                "{mm_2} mm; is it this plate? do all points again",
+                "{residual_mm} mm at {name}, the limit is "
+                "{limit_mm} mm; is it this plate? do all points again",
                 verb=verb,
-                mm=_mm(float(worst.max()) ** 0.5, 1),
+                residual_mm=_mm(float(worst.max()) ** 0.5, 1),
                 name=name,
-                mm_2=_mm(part.tolerance, 1),
+                limit_mm=_mm(part.tolerance, 1),
             )
         ]
     if part.scattered:
@@ -142,18 +142,20 @@ def _troubles(verb: str, part: PointCheck) -> list[str]:
 def _scale_words(verb: str, part: PointCheck) -> str:
     off = part.scale.value - 1.0
     what = sentence(
-        "lengths between the {verb} points are {off:.1%} too {text} (± {part_scale_sd:.1%})",
+        "lengths between the {verb} points are {off:.1%} too {direction} (± {part_scale_sd:.1%})",
         verb=verb,
         off=abs(off),
-        text="long" if off > 0 else "short",
+        direction="long" if off > 0 else "short",
         part_scale_sd=part.scale.sd,
     )
     if verb == "picked":
-        return sentence("{what}: the CT's spacing is wrong, or this is another plate", what=what)
+        return sentence(
+            "{finding}: the CT's spacing is wrong, or this is another plate", finding=what
+        )
     return sentence(
-        "{what}: the cameras were calibrated with a board of another size than said. Measure "
+        "{finding}: the cameras were calibrated with a board of another size than said. Measure "
         "its line of 100 mm and its squares, calibrate again; or this is another plate",
-        what=what,
+        finding=what,
     )
 
 

@@ -688,8 +688,8 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
     if ends[-1] > _LONGEST:
         raise SimulationError(
             sentence(
-                "the layers are {ends_last:g} m thick together; at most {longest:g} m",
-                ends_last=ends[-1],
+                "the layers are {thickness:g} m thick together; at most {longest:g} m",
+                thickness=ends[-1],
                 longest=_LONGEST,
             )
         )

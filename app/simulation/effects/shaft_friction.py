@@ -259,12 +259,12 @@ def warnings(values: Mapping[str, float], binding: Binding) -> tuple[str, ...]:
     return (
         sentence(
             "presliding_stiffness {presliding_stiffness:g} N/m² times a count of "
-            "{count:g} µm is more than the friction of {least:g} N/m: a still hand feels it "
-            "change sign with every count; give {least_2:g} N/m² or less",
+            "{count:g} µm is more than the friction of {friction:g} N/m: a still hand feels it "
+            "change sign with every count; give {largest_stiffness:g} N/m² or less",
             presliding_stiffness=values["presliding_stiffness"],
             count=1e6 * COUNT,
-            least=least,
-            least_2=least / COUNT,
+            friction=least,
+            largest_stiffness=least / COUNT,
         ),
     )
 

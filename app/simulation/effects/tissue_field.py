@@ -21,7 +21,7 @@ diameters apart, in the place that the tissue has at rest, and one at the very e
 dimples is not cut (INDENTATION of the tick before is taken off). The tip is in a channel where a
 point lies less than `channel` diameters from it, and ahead of it or beside: not on the way that led
 here (so 0.93 of that is sure, the points being apart). The last 2048 are
-remembered (1.2 m of cutting with 22 G), found by a hash of their places; they are forgotten when
+remembered (1.1 m of cutting with 22 G), found by a hash of their places; they are forgotten when
 forces are armed while the tip is outside: a new attempt.
 
 CARRIED is the displacement by breathing of the tissue at the tip, CARRIED_SHARE its share of
@@ -132,8 +132,8 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
     if not isinstance(bound, BoundField):
         raise SimulationError(
             sentence(
-                "the scene's field is a {bound_type}; bind it first",
-                bound_type=type(bound).__name__,
+                "the scene's field is a {type_name}; bind it first",
+                type_name=type(bound).__name__,
             )
         )
     rows = bound.rows(scene.tissues)

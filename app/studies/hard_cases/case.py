@@ -265,11 +265,10 @@ class HardCase:
         if len(values) != len(right):
             raise StudyError(
                 sentence(
-                    "hard case {case!r}: {values_count} values found, the reference has"
-                    " {right_count}",
+                    "hard case {case!r}: {computed} values found, the reference has {expected}",
                     case=self.case,
-                    values_count=len(values),
-                    right_count=len(right),
+                    computed=len(values),
+                    expected=len(right),
                 )
             )
         if not np.isfinite(values).all():

@@ -50,11 +50,11 @@ def require_cameras(
     if list(names) == known[::-1] and names[0] != names[1]:
         raise CalibrationError(
             sentence(
-                "the cameras are swapped: calibration {calibration_id} has {known_first} on the "
-                "left and {known_second} on the right; exchange the two sources",
+                "the cameras are swapped: calibration {calibration_id} has {left_camera} on the "
+                "left and {right_camera} on the right; exchange the two sources",
                 calibration_id=calibration.id,
-                known_first=known[0],
-                known_second=known[1],
+                left_camera=known[0],
+                right_camera=known[1],
             )
         )
     if list(names) != known:

@@ -187,11 +187,11 @@ def _check_markers(board: Board) -> None:
         raise CalibrationError(
             sentence(
                 "board {board_spec} needs {needed} markers; {board_dictionary} has "
-                "{dictionary_bytes_list_count}; take a larger dictionary",
+                "{dictionary_size}; take a larger dictionary",
                 board_spec=board.spec,
                 needed=needed,
                 board_dictionary=board.dictionary,
-                dictionary_bytes_list_count=len(_dictionary(board).bytesList),
+                dictionary_size=len(_dictionary(board).bytesList),
             )
         )
 
@@ -200,7 +200,7 @@ def _counts(text: str, spec: str) -> tuple[int, int]:
     found = re.fullmatch(r"(\d{1,3})[xX×](\d{1,3})", text.strip())
     if not found:
         raise CalibrationError(
-            sentence("board {spec!r}: {text!r} is not COLSxROWS, e.g. 9x6", spec=spec, text=text)
+            sentence("board {spec!r}: {size!r} is not COLSxROWS, e.g. 9x6", spec=spec, size=text)
         )
     return int(found[1]), int(found[2])
 
@@ -210,10 +210,10 @@ def _length(text: str, spec: str) -> float:
     if not found:
         raise CalibrationError(
             sentence(
-                "board {spec!r}: {text!r} is not a length with its unit; write e.g. 25mm, 2.5cm "
+                "board {spec!r}: {length!r} is not a length with its unit; write e.g. 25mm, 2.5cm "
                 "or 0.025m",
                 spec=spec,
-                text=text,
+                length=text,
             )
         )
     return float(found[1]) * UNITS[found[2]]

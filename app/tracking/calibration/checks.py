@@ -74,8 +74,8 @@ def _check(
     ratio = measured / known
     passed = abs(ratio - 1.0) <= limit
     text = sentence(
-        "{what} are {measured:.4g} mm apart, {known:.4g} mm known ({ratio:+.1%})",
-        what=what,
+        "{points} are {measured:.4g} mm apart, {known:.4g} mm known ({ratio:+.1%})",
+        points=what,
         measured=measured,
         known=known,
         ratio=ratio - 1.0,
@@ -83,10 +83,10 @@ def _check(
     if not passed and calibration.board:
         square = parse_board(calibration.board).square / MILLIMETRE
         text += sentence(
-            ": more than {limit:.0%}; measure the board: squares of {square:.4g} mm "
-            "instead of {square_2:g} mm would explain it",
+            ": more than {limit:.0%}; measure the board: squares of {fitting_mm:.4g} mm "
+            "instead of {stated_mm:g} mm would explain it",
             limit=limit,
-            square=square / ratio,
-            square_2=square,
+            fitting_mm=square / ratio,
+            stated_mm=square,
         )
     return Check(name, known, measured, passed, text)

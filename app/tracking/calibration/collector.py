@@ -59,12 +59,10 @@ def missing_words(coverage: Coverage, alone: bool) -> list[str]:
 def _place_words(coverage: Coverage, alone: bool) -> list[str]:
     bare = coverage.bare_corners()
     if alone and bare:
-        return [sentence("{bare_first} corner of the picture not covered", bare_first=bare[0])]
+        return [sentence("{corner} corner of the picture not covered", corner=bare[0])]
     if coverage.covered < ENOUGH_COVERED:
         share = round(100.0 * coverage.covered)
-        where = (
-            sentence(", nothing near the {bare_first} corner", bare_first=bare[0]) if bare else ""
-        )
+        where = sentence(", nothing near the {corner} corner", corner=bare[0]) if bare else ""
         wanted = round(100.0 * ENOUGH_COVERED)
         return [
             sentence(
@@ -143,8 +141,8 @@ class ViewCollector:
         if not 1 <= len(names) <= 2:
             raise CalibrationError(
                 sentence(
-                    "{names_count} cameras were named; one or two can be calibrated",
-                    names_count=len(names),
+                    "{cameras} cameras were named; one or two can be calibrated",
+                    cameras=len(names),
                 )
             )
         self.board, self.names, self._live = board, tuple(names), live
@@ -189,9 +187,9 @@ class ViewCollector:
         if len(seen) != len(self.names):
             raise CalibrationError(
                 sentence(
-                    "{seen_count} pictures were given; there are {names_count} cameras: {names}",
-                    seen_count=len(seen),
-                    names_count=len(self.names),
+                    "{pictures} pictures were given; there are {cameras} cameras: {names}",
+                    pictures=len(seen),
+                    cameras=len(self.names),
                     names=", ".join(self.names),
                 )
             )

@@ -219,10 +219,10 @@ def _measured(grey: Grey, board: Board, result: Found, window: int | None) -> Bo
         return Rejection(
             RejectionReason.EDGE_ON,
             sentence(
-                "the board is seen on edge ({arccos_deg:.0f}°); turn it to "
-                "the camera, up to {arccos_deg_2:.0f}° are possible",
-                arccos_deg=np.degrees(np.arccos(cosine.min())),
-                arccos_deg_2=np.degrees(np.arccos(LEAST_COSINE)),
+                "the board is seen on edge ({tilt_deg:.0f}°); turn it to "
+                "the camera, up to {largest_tilt_deg:.0f}° are possible",
+                tilt_deg=np.degrees(np.arccos(cosine.min())),
+                largest_tilt_deg=np.degrees(np.arccos(LEAST_COSINE)),
             ),
         )
     if square_px < SMALLEST_SQUARE:

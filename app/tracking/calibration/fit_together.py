@@ -71,11 +71,10 @@ def together_remarks(result: FitTogether) -> list[str]:
     if result.sd_factor <= 1.0:
         return []
     px = sentence(
-        "{result_together_px:.2f} px against {result_alone_px_first:.2f} and "
-        "{result_alone_px_second:.2f}",
-        result_together_px=result.together_px,
-        result_alone_px_first=result.alone_px[0],
-        result_alone_px_second=result.alone_px[1],
+        "{together_px:.2f} px against {left_alone_px:.2f} and {right_alone_px:.2f}",
+        together_px=result.together_px,
+        left_alone_px=result.alone_px[0],
+        right_alone_px=result.alone_px[1],
     )
     done = sentence(
         "standard deviations are multiplied by {result_sd_factor:.1f}",

@@ -97,11 +97,11 @@ class CalibrationHistory:
         if calibration.id != calibration_id:
             raise CalibrationError(
                 sentence(
-                    "{path}: id: {calibration_id} is needed as the file's name says, got "
-                    "{calibration_id_2}; was the file renamed?",
+                    "{path}: id: {needed_id} is needed as the file's name says, got "
+                    "{stated_id}; was the file renamed?",
                     path=path,
-                    calibration_id=calibration_id,
-                    calibration_id_2=calibration.id,
+                    needed_id=calibration_id,
+                    stated_id=calibration.id,
                 )
             )
         return calibration
@@ -121,8 +121,8 @@ class CalibrationHistory:
         what = "several calibrations begin" if found else "no calibration begins"
         raise CalibrationError(
             sentence(
-                "{what} with {beginning!r}; there are {names}",
-                what=what,
+                "{trouble} with {beginning!r}; there are {names}",
+                trouble=what,
                 beginning=beginning,
                 names=names,
             )

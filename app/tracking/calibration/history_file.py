@@ -44,9 +44,9 @@ class HistoryFile(Strict):
         if self.position >= len(self.used):
             raise ValueError(
                 sentence(
-                    "position {position} lies beyond the {used_count} used",
+                    "position {position} lies beyond the {used_positions} used",
                     position=self.position,
-                    used_count=len(self.used),
+                    used_positions=len(self.used),
                 )
             )
         if unknown := set(self.used) - {known.id for known in self.calibrations}:

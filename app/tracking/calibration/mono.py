@@ -213,10 +213,10 @@ def _require(views: Sequence[BoardView], name: str) -> None:
     if len(views) < LEAST_VIEWS:
         raise CalibrationError(
             sentence(
-                "camera {name}: {views_count} usable views of the board; at least {least_views} "
+                "camera {name}: {usable_views} usable views of the board; at least {least_views} "
                 "are needed, 15 to 30 are good",
                 name=name,
-                views_count=len(views),
+                usable_views=len(views),
                 least_views=LEAST_VIEWS,
             )
         )
@@ -240,18 +240,18 @@ def _require_one_size(views: Sequence[BoardView], name: str) -> None:
         width, height = other[0].image_size
         raise CalibrationError(
             sentence(
-                "camera {name}: pictures of different sizes: {other_first_name} has "
-                "{width}x{height} ({other_count} of {views_count} are not "
-                "{usual_first}x{usual_second}); one camera at one resolution is needed: leave "
+                "camera {name}: pictures of different sizes: {view_name} has "
+                "{width}x{height} ({differing_views} of {views} are not "
+                "{usual_width}x{usual_height}); one camera at one resolution is needed: leave "
                 "the others out",
                 name=name,
-                other_first_name=other[0].name or "a view",
+                view_name=other[0].name or "a view",
                 width=width,
                 height=height,
-                other_count=len(other),
-                views_count=len(views),
-                usual_first=usual[0],
-                usual_second=usual[1],
+                differing_views=len(other),
+                views=len(views),
+                usual_width=usual[0],
+                usual_height=usual[1],
             )
         )
 
@@ -314,12 +314,12 @@ def _require_determined(adjusted: Adjusted, name: str) -> None:
     if undetermined or not np.isfinite(worst) or worst > MOST_FOCAL_SPREAD:
         raise CalibrationError(
             sentence(
-                "camera {name}: the views do not determine the focal length ({focal_first:.0f} ± "
-                "{spread_first:.0f} px; at most {most_focal_spread:.0%} is taken); boards that "
+                "camera {name}: the views do not determine the focal length ({focal_px:.0f} ± "
+                "{spread_px:.0f} px; at most {most_focal_spread:.0%} is taken); boards that "
                 "are all parallel cannot: tilt the board to different sides by 20 to 45 degrees",
                 name=name,
-                focal_first=focal[0],
-                spread_first=spread[0],
+                focal_px=focal[0],
+                spread_px=spread[0],
                 most_focal_spread=MOST_FOCAL_SPREAD,
             )
         )

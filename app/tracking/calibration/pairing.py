@@ -167,9 +167,9 @@ def split_by_camera(paths: Sequence[Path]) -> tuple[Keyed, Keyed, list[Path]]:
     if len(cameras) != 2:
         raise CalibrationError(
             sentence(
-                "the names of the pictures speak of {cameras_count} camera(s); two are needed, "
+                "the names of the pictures speak of {cameras} camera(s); two are needed, "
                 "e.g. left01.png and right01.png",
-                cameras_count=len(cameras),
+                cameras=len(cameras),
             )
         )
     left, right = (
@@ -218,11 +218,11 @@ def _unique(result: Iterable[tuple[Key, Path]]) -> dict[Key, Path]:
         if key in known:
             raise CalibrationError(
                 sentence(
-                    "{known_name} and {path_name} are both number {text} of "
+                    "{known_name} and {path_name} are both number {picture_number} of "
                     "one camera; keep one of them",
                     known_name=known[key].name,
                     path_name=path.name,
-                    text=_text(key) or "(none)",
+                    picture_number=_text(key) or "(none)",
                 )
             )
         known[key] = path

@@ -80,12 +80,12 @@ def check_fit(calibration: StereoCalibration, fit: FittedBoardPose, board: Place
         raise CalibrationError(
             sentence(
                 "the corners lie {fit_rms_px:.2f} px from where they should ({limit:.2f} px is "
-                "the limit), worst in {worst_first} ({worst_second:.2f} px): did the board move "
+                "the limit), worst in {worst_picture} ({worst_px:.2f} px): did the board move "
                 "between the pictures, did a camera, or are left and right exchanged?",
                 fit_rms_px=fit.rms_px,
                 limit=limit,
-                worst_first=worst[0],
-                worst_second=worst[1],
+                worst_picture=worst[0],
+                worst_px=worst[1],
             )
         )
     up = -board.T_world_board.rotation[2, 2]

@@ -94,10 +94,10 @@ def placed_boards(
     if len(folders) != len(places) or not folders:
         raise CalibrationError(
             sentence(
-                "{folders_count} folders and {places_count} places were given; each folder needs "
+                "{folders} folders and {places} places were given; each folder needs "
                 "the place of its board: --images DIR --at x,y,z[,rx,ry,rz]",
-                folders_count=len(folders),
-                places_count=len(places),
+                folders=len(folders),
+                places=len(places),
             )
         )
     progress = progress or Progress()

@@ -47,9 +47,9 @@ def first_estimate(views: Sequence[BoardView]) -> AdjustedState:
         return min(starts, key=lambda start: start[0])[1]
     raise CalibrationError(
         sentence(
-            "no camera explains the {views_count} views; tilt the board to different sides by 20 "
+            "no camera explains the {views} views; tilt the board to different sides by 20 "
             "to 45 degrees, and check the board's counts",
-            views_count=len(views),
+            views=len(views),
         )
     )
 

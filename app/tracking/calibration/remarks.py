@@ -135,11 +135,11 @@ def stereo_remarks(
     if changed:
         notes.append(
             sentence(
-                "{changed_count} of {pairs} pairs had their corners numbered from opposite ends; "
-                "mended: {changed}",
-                changed_count=len(changed),
+                "{mended} of {pairs} pairs had their corners numbered from opposite ends; "
+                "mended: {mended_names}",
+                mended=len(changed),
                 pairs=pairs,
-                changed=", ".join(changed),
+                mended_names=", ".join(changed),
             )
         )
     notes += [
@@ -157,11 +157,11 @@ def stereo_remarks(
     if p_right[0] < 0.0:
         notes.append(
             sentence(
-                "camera {names_second} stands {p_right_first:.0f} mm to the left of camera "
-                "{names_first}: the two may be swapped",
-                names_second=names[1],
-                p_right_first=-p_right[0] * 1e3,
-                names_first=names[0],
+                "camera {right_name} stands {distance_mm:.0f} mm to the left of camera "
+                "{left_name}: the two may be swapped",
+                right_name=names[1],
+                distance_mm=-p_right[0] * 1e3,
+                left_name=names[0],
             )
         )
     return notes
@@ -175,12 +175,12 @@ def size_remarks(names: tuple[str, str], pair: tuple[BoardView, BoardView]) -> l
     (w0, h0), (w1, h1) = sizes
     return [
         sentence(
-            "pictures of different sizes, {names_first} {w0}x{h0}, {names_second} {w1}x{h1}: the "
+            "pictures of different sizes, {left_name} {w0}x{h0}, {right_name} {w1}x{h1}: the "
             "trainer takes both cameras at one size; set both to it and take the pictures again",
-            names_first=names[0],
+            left_name=names[0],
             w0=w0,
             h0=h0,
-            names_second=names[1],
+            right_name=names[1],
             w1=w1,
             h1=h1,
         )

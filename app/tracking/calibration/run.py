@@ -88,10 +88,10 @@ def calibrate_pairs(
     if len(views_left) != len(views_right):
         raise CalibrationError(
             sentence(
-                "{views_left_count} left and {views_right_count} right views; they are taken in "
+                "{left_views} left and {right_views} right views; they are taken in "
                 "pairs: give None where a camera did not see the board",
-                views_left_count=len(views_left),
-                views_right_count=len(views_right),
+                left_views=len(views_left),
+                right_views=len(views_right),
             )
         )
     both = [

@@ -127,9 +127,9 @@ class Dropped:
     def text(self) -> str:
         """One line for people."""
         return sentence(
-            "{name} = {value:.3g} ± {sd:.2g}: the views do not tell; taken as 0",
+            "{name} = {estimate:.3g} ± {sd:.2g}: the views do not tell; taken as 0",
             name=self.name,
-            value=self.value,
+            estimate=self.value,
             sd=self.sd,
         )
 

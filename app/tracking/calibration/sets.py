@@ -120,10 +120,10 @@ def stereo_set(
     if both < LEAST_PAIRS:
         raise CalibrationError(
             sentence(
-                "{both} of {pairs_count} pairs show the board to both cameras; at least "
+                "{both} of {pairs} pairs show the board to both cameras; at least "
                 "{least_pairs} are needed, 15 to 30 are good; {common_reasons}",
                 both=both,
-                pairs_count=len(pairs),
+                pairs=len(pairs),
                 least_pairs=LEAST_PAIRS,
                 common_reasons=common_reasons(read),
             )
@@ -160,8 +160,8 @@ def seen_by_both(pairs: Sequence[Pair], board: Board, estimate: StereoEstimate) 
 def none_seen(read: Sequence[Seen]) -> str:
     """Say that no picture shows the board, and the commonest reasons."""
     return sentence(
-        "the board is usable in none of {read_count} pictures (or pairs); {common_reasons}",
-        read_count=len(read),
+        "the board is usable in none of {pictures} pictures (or pairs); {common_reasons}",
+        pictures=len(read),
         common_reasons=common_reasons(read),
     )
 

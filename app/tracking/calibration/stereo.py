@@ -141,9 +141,9 @@ def estimate_stereo(
     if len(pairs) < LEAST_PAIRS:
         raise CalibrationError(
             sentence(
-                "{pairs_count} pairs show the board to both cameras; at least {least_pairs} are "
+                "{pairs} pairs show the board to both cameras; at least {least_pairs} are "
                 "needed, 15 to 30 are good",
-                pairs_count=len(pairs),
+                pairs=len(pairs),
                 least_pairs=LEAST_PAIRS,
             )
         )
@@ -260,11 +260,11 @@ def _require_agreement(
         )
     raise CalibrationError(
         sentence(
-            "the pairs do not agree on where the cameras stand: {agreement_agreeing} of "
-            "{posed_count} fit together within {agreement_near:.0f} px; pictures that were not "
+            "the pairs do not agree on where the cameras stand: {agreeing_pairs} of "
+            "{pairs} fit together within {agreement_near:.0f} px; pictures that were not "
             "taken together, cameras moved in between, or names paired wrongly do that",
-            agreement_agreeing=int(agreement.agreeing.sum()),
-            posed_count=len(posed),
+            agreeing_pairs=int(agreement.agreeing.sum()),
+            pairs=len(posed),
             agreement_near=agreement.near,
         )
     )

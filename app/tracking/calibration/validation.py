@@ -38,9 +38,8 @@ def validate(calibration: StereoCalibration, pairs: Sequence[ViewPair]) -> Valid
     if not boards:
         raise CalibrationError(
             sentence(
-                "none of {pairs_count} pairs shares {least_shared} corners; nothing can be "
-                "validated",
-                pairs_count=len(pairs),
+                "none of {pairs} pairs shares {least_shared} corners; nothing can be validated",
+                pairs=len(pairs),
                 least_shared=LEAST_SHARED,
             )
         )

@@ -90,12 +90,12 @@ class BoardView:
         if ids.size and (ids.min() < 0 or ids.max() >= self.board.count):
             raise CalibrationError(
                 sentence(
-                    "view {name!r}: corner {ids_max} is not on the board "
-                    "{board_spec}, which has {board_count}",
+                    "view {name!r}: corner {corner_number} is not on the board "
+                    "{board_spec}, which has {corners}",
                     name=self.name,
-                    ids_max=int(ids.max()),
+                    corner_number=int(ids.max()),
                     board_spec=self.board.spec,
-                    board_count=self.board.count,
+                    corners=self.board.count,
                 )
             )
         rough = None if self.unrefined is None else np.array(self.unrefined, dtype=np.float64)

@@ -126,11 +126,11 @@ def lock(capture: Capture, controls: Controls) -> tuple[DriverSetting, ...]:
     if given != (width, height):
         raise CameraError(
             sentence(
-                "the camera gives pictures of {given_first}x{given_second} where "
+                "the camera gives pictures of {given_width}x{given_height} where "
                 "{width}x{height} was asked for; set `size` in the camera settings to one that "
                 "the camera has and calibrate at it",
-                given_first=given[0],
-                given_second=given[1],
+                given_width=given[0],
+                given_height=given[1],
                 width=width,
                 height=height,
             )

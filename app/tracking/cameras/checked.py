@@ -56,14 +56,14 @@ class CheckedCamera(Camera):
             raise CameraError(
                 sentence(
                     "camera {name} ({source}) gives pictures of {width}x{height}, "
-                    "not {size_first}x{size_second} ({reason}); set `size` in the camera "
+                    "not {known_width}x{known_height} ({reason}); set `size` in the camera "
                     "settings, or calibrate again at this size",
                     name=self.name,
                     source=self.source,
                     width=width,
                     height=height,
-                    size_first=self._size[0],
-                    size_second=self._size[1],
+                    known_width=self._size[0],
+                    known_height=self._size[1],
                     reason=self._reason,
                 )
             )

@@ -76,7 +76,7 @@ def without_picture(
     absent = [name for name, frame in zip(names, frames, strict=True) if frame is None]
     if not absent:
         return fix
-    reason = sentence("no picture from the {absent_first} camera", absent_first=absent[0])
+    reason = sentence("no picture from the {side} camera", side=absent[0])
     if fix.usable:
         return replace(fix, reason=f"{reason}: depth by the other one and the needle's line")
     return replace(fix, status=FixStatus.NO_PICTURE, reason=reason)

@@ -66,8 +66,8 @@ class FolderCamera(Camera):
         if not self._loops and number - self._first >= len(self._files):
             raise CameraError(
                 sentence(
-                    "the {files_count} pictures of {folder} are over",
-                    files_count=len(self._files),
+                    "the {pictures} pictures of {folder} are over",
+                    pictures=len(self._files),
                     folder=self.folder,
                 )
             )
@@ -112,9 +112,9 @@ class FolderCamera(Camera):
         if len(files) > most:
             found.append(
                 sentence(
-                    "only the first {most} of {files_count} pictures were looked at",
+                    "only the first {most} of {pictures} pictures were looked at",
                     most=most,
-                    files_count=len(files),
+                    pictures=len(files),
                 )
             )
         return tuple(found)

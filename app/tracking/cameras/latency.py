@@ -88,10 +88,10 @@ def estimate_latency(blinks: ArrayLike, times: ArrayLike, brightness: ArrayLike)
         raise CameraError(
             sentence(
                 "the pictures do not follow the blinking (correlation {agreement:.2f}, at least "
-                "{agreement_2} is needed); put the camera close to the patch, out of other "
+                "{least_agreement} is needed); put the camera close to the patch, out of other "
                 "light, and hold its exposure",
                 agreement=agreement,
-                agreement_2=_AGREEMENT,
+                least_agreement=_AGREEMENT,
             )
         )
     return _fit(edges, t, level, coarse)
@@ -101,12 +101,12 @@ def _check(edges: FloatArray, t: FloatArray, grey: FloatArray) -> None:
     if edges.ndim != 1 or edges.size < FEWEST or t.size < 2 * FEWEST:
         raise CameraError(
             sentence(
-                "{edges_size} changes and {t_size} pictures are too few; at least {fewest} and "
-                "{fewest_2} are needed: let the test run to its end",
-                edges_size=edges.size,
-                t_size=t.size,
-                fewest=FEWEST,
-                fewest_2=2 * FEWEST,
+                "{changes} changes and {pictures} pictures are too few; at least "
+                "{fewest_changes} and {fewest_pictures} are needed: let the test run to its end",
+                changes=edges.size,
+                pictures=t.size,
+                fewest_changes=FEWEST,
+                fewest_pictures=2 * FEWEST,
             )
         )
     if not np.isfinite(edges).all() or (np.diff(edges) <= 0.0).any():
@@ -116,9 +116,10 @@ def _check(edges: FloatArray, t: FloatArray, grey: FloatArray) -> None:
         raise CameraError(
             sentence(
                 "the patch changes the picture by {contrast:.1f} grey levels, at least "
-                "{contrast_2:g} are needed; point the camera at the patch, and check its exposure",
+                "{least_contrast:g} are needed; point the camera at the patch, and check its "
+                "exposure",
                 contrast=contrast,
-                contrast_2=_CONTRAST,
+                least_contrast=_CONTRAST,
             )
         )
 

@@ -217,9 +217,9 @@ def _sides(text: str) -> dict[str, str]:
         if not equals or side not in SIDES or side in sides:
             raise CameraError(
                 sentence(
-                    "{text!r} names no cameras; give `simulated`, a settings file (.yaml), or "
+                    "{wanted!r} names no cameras; give `simulated`, a settings file (.yaml), or "
                     "left=SOURCE,right=SOURCE, for example left=usb:1-1.1,right=usb:1-1.2",
-                    text=text,
+                    wanted=text,
                 )
             )
         sides[side] = source

@@ -51,14 +51,17 @@ def parse_source(text: str) -> CameraSource:
     except ValueError as error:
         raise CameraError(
             sentence(
-                "{text!r} is no source of pictures; valid are: {forms}", text=text, forms=FORMS
+                "{source!r} is no source of pictures; valid are: {forms}", source=text, forms=FORMS
             )
         ) from error
     if (kind is SourceKind.SIMULATED) == bool(place):
         lack = "takes nothing after it" if place else "does not say where"
         raise CameraError(
             sentence(
-                "the source {text!r} {lack}; valid are: {forms}", text=text, lack=lack, forms=FORMS
+                "the source {source!r} {lack}; valid are: {forms}",
+                source=text,
+                lack=lack,
+                forms=FORMS,
             )
         )
     return CameraSource(kind, place)

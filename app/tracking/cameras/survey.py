@@ -186,9 +186,9 @@ def survey(
     if len(cameras) != len(names):
         raise CameraError(
             sentence(
-                "{cameras_count} cameras have {names_count} names",
-                cameras_count=len(cameras),
-                names_count=len(names),
+                "{cameras} cameras have {names} names",
+                cameras=len(cameras),
+                names=len(names),
             )
         )
     arrived = threading.Condition()

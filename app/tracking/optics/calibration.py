@@ -82,18 +82,17 @@ class CameraCalibration(Strict):
         if np.shape(self.covariance) != (len(names), len(names)):
             raise ValueError(
                 sentence(
-                    "covariance needs {names_count} rows of {names_count} numbers, in the order "
-                    "{names}",
-                    names_count=len(names),
+                    "covariance needs {size} rows of {size} numbers, in the order {names}",
+                    size=len(names),
                     names=names,
                 )
             )
         if self.ray_sd_px is not None and np.shape(self.ray_sd_px) != RAY_GRID:
             raise ValueError(
                 sentence(
-                    "ray_sd_px needs {ray_grid_first} rows of {ray_grid_second} numbers",
-                    ray_grid_first=RAY_GRID[0],
-                    ray_grid_second=RAY_GRID[1],
+                    "ray_sd_px needs {rows} rows of {columns} numbers",
+                    rows=RAY_GRID[0],
+                    columns=RAY_GRID[1],
                 )
             )
         if unknown := set(self.estimated) - set(names):
@@ -139,10 +138,10 @@ def require_coefficients(lens: LensModel, given: tuple[float, ...]) -> None:
     if len(given) != len(names):
         raise ValueError(
             sentence(
-                "distortion: {given_count} numbers; lens {lens} has {names_count}: ",
-                given_count=len(given),
+                "distortion: {given_numbers} numbers; lens {lens} has {needed_numbers}: ",
+                given_numbers=len(given),
                 lens=lens.value,
-                names_count=len(names),
+                needed_numbers=len(names),
             )
             + ", ".join(names)
         )
@@ -273,10 +272,10 @@ class StereoCalibration(Strict):
         if self.format != FORMAT or self.version != 1:
             raise ValueError(
                 sentence(
-                    "format {format} {version} is not {format_2} 1",
+                    "format {format} {version} is not {known_format} 1",
                     format=self.format,
                     version=self.version,
-                    format_2=FORMAT,
+                    known_format=FORMAT,
                 )
             )
         size = self._sizes[-1]

@@ -76,11 +76,12 @@ class MarkerBoard:
         if min(ids) < 0 or max(ids) >= size:
             raise PenError(
                 sentence(
-                    "the {name} needs marker {ids_max}; {dictionary} has 0 to {size}",
+                    "the {name} needs marker {marker_number}; {dictionary} has 0 to "
+                    "{largest_number}",
                     name=self.name,
-                    ids_max=max(ids),
+                    marker_number=max(ids),
                     dictionary=self.dictionary,
-                    size=size - 1,
+                    largest_number=size - 1,
                 )
             )
 

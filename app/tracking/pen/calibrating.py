@@ -87,9 +87,8 @@ def axis_by_rolling(poses: Sequence[MeasuredPose], towards: FloatArray) -> AxisC
     if len(poses) < FEWEST:
         raise PenError(
             sentence(
-                "{poses_count} poses are too few to find the shaft; roll on until there are "
-                "{fewest}",
-                poses_count=len(poses),
+                "{poses} poses are too few to find the shaft; roll on until there are {fewest}",
+                poses=len(poses),
                 fewest=FEWEST,
             )
         )

@@ -75,9 +75,8 @@ def pivot(poses: Sequence[MeasuredPose]) -> TipCalibration:
     if len(poses) < FEWEST:
         raise PenError(
             sentence(
-                "{poses_count} poses are too few to find the tip; rock the pen until there are "
-                "{fewest}",
-                poses_count=len(poses),
+                "{poses} poses are too few to find the tip; rock the pen until there are {fewest}",
+                poses=len(poses),
                 fewest=FEWEST,
             )
         )
@@ -165,10 +164,10 @@ def _require_agreement(keep: np.ndarray) -> None:
     if keep.mean() < 0.7:
         raise PenError(
             sentence(
-                "{keep} of {keep_count} poses contradict the others: the tip slipped; "
+                "{contradicting} of {poses} poses contradict the others: the tip slipped; "
                 "press it into the dimple and rock again",
-                keep=int((~keep).sum()),
-                keep_count=len(keep),
+                contradicting=int((~keep).sum()),
+                poses=len(keep),
             )
         )
 

@@ -378,8 +378,8 @@ def _status(
     twice = sorted(own & set(sightings.doubles))
     if twice:
         return FixStatus.INCONSISTENT, sentence(
-            "marker {twice_first} is in view twice: two pens, or a mirror; take one away",
-            twice_first=twice[0],
+            "marker {marker_number} is in view twice: two pens, or a mirror; take one away",
+            marker_number=twice[0],
         )
     if body.status is PoseStatus.UNSEEN:
         covered = sorted(own & set(sightings.unmeasured))

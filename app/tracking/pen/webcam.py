@@ -61,13 +61,13 @@ class Webcam:
             wide, high = self.calibration.image_size
             raise PenError(
                 sentence(
-                    "the pictures are {size_first}x{size_second}, the calibration is of "
-                    "{wide}x{high}; set the webcam to that size or calibrate it anew (`acus "
-                    "calibrate mono`)",
-                    size_first=size[0],
-                    size_second=size[1],
-                    wide=wide,
-                    high=high,
+                    "the pictures are {picture_width}x{picture_height}, the calibration is of "
+                    "{calibrated_width}x{calibrated_height}; set the webcam to that size or "
+                    "calibrate it anew (`acus calibrate mono`)",
+                    picture_width=size[0],
+                    picture_height=size[1],
+                    calibrated_width=wide,
+                    calibrated_height=high,
                 )
             )
 

@@ -226,8 +226,8 @@ def in_order(asked: Iterable[str]) -> list[str]:
     if unknown := sorted(set(names) - set(_BY_NAME)):
         raise TrackingError(
             sentence(
-                "no effect on pictures is called {unknown_first!r}; there are {by_name}",
-                unknown_first=unknown[0],
+                "no effect on pictures is called {effect_name!r}; there are {by_name}",
+                effect_name=unknown[0],
                 by_name=", ".join(_BY_NAME),
             )
         )

@@ -88,9 +88,7 @@ class Fields:
         if shape != (rows, columns):
             raise self.wrong(
                 key,
-                sentence(
-                    "{shape_first} x {shape_second}", shape_first=shape[0], shape_second=shape[1]
-                ),
+                sentence("{rows} x {columns}", rows=shape[0], columns=shape[1]),
                 sentence("{rows} rows of {columns}", rows=rows, columns=columns),
             )
         data = value["data"]

@@ -42,11 +42,11 @@ def lens_coefficients(
         valid = ", ".join(str(count) for count in counts)
         raise CalibrationError(
             sentence(
-                "{where}: {valid} coefficients{named} are possible, got {given_count}",
+                "{where}: {valid} coefficients{named} are possible, got {coefficients}",
                 where=where,
                 valid=valid,
                 named=named,
-                given_count=len(given),
+                coefficients=len(given),
             )
         )
     if lens is LensModel.FISHEYE:
@@ -54,12 +54,12 @@ def lens_coefficients(
     if any(given[12:]):
         raise CalibrationError(
             sentence(
-                "{where}: a tilted sensor (τx, τy = {given:g}, {given_2:g}) is not supported: "
+                "{where}: a tilted sensor (τx, τy = {tilt_x:g}, {tilt_y:g}) is not supported: "
                 "calibrate without CALIB_TILTED_MODEL, or the pictures with `acus calibrate "
                 "stereo`",
                 where=where,
-                given=given[12],
-                given_2=given[13],
+                tilt_x=given[12],
+                tilt_y=given[13],
             )
         )
     full = (*given, *(0.0,) * 12)[:12]

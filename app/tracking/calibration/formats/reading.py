@@ -152,14 +152,14 @@ def _section(path: Path, lines: list[str], title: str, shape: tuple[int, int]) -
     if len(rows) != shape[0] or any(len(row) != columns for row in rows):
         raise CalibrationError(
             sentence(
-                "{path}: {title} {shape_first} lines of {columns} numbers are needed, got "
-                "{rows} numbers in {rows_count} lines",
+                "{path}: {title} {needed_lines} lines of {columns} numbers are needed, got "
+                "{numbers_by_line} numbers in {found_lines} lines",
                 path=path,
                 title=title,
-                shape_first=shape[0],
+                needed_lines=shape[0],
                 columns=columns,
-                rows=[len(row) for row in rows],
-                rows_count=len(rows),
+                numbers_by_line=[len(row) for row in rows],
+                found_lines=len(rows),
             )
         )
     return np.array(rows, dtype=np.float64)
@@ -291,13 +291,12 @@ def _shaped(path: Path, key: str, value: FloatArray, shape: tuple[int, int]) -> 
     if value.size != shape[0] * shape[1]:
         raise CalibrationError(
             sentence(
-                "{path}: {key}: {shape_first} x {shape_second} numbers are needed, got "
-                "{value_shape}",
+                "{path}: {key}: {rows} x {columns} numbers are needed, got {found_shape}",
                 path=path,
                 key=key,
-                shape_first=shape[0],
-                shape_second=shape[1],
-                value_shape=value.shape,
+                rows=shape[0],
+                columns=shape[1],
+                found_shape=value.shape,
             )
         )
     return value.reshape(shape)
@@ -354,7 +353,7 @@ def length(text: str) -> float:
     if found is None:
         raise CalibrationError(
             sentence(
-                "--unit {text}: a length with its unit is needed, e.g. 1cm or 25.4mm", text=text
+                "--unit {unit}: a length with its unit is needed, e.g. 1cm or 25.4mm", unit=text
             )
         )
     return float(found[1]) * _UNITS[found[2]]
@@ -369,7 +368,7 @@ def picture_size(text: str) -> tuple[int, int]:
     found = re.fullmatch(r"(\d{2,5})[xX×](\d{2,5})", text.strip())
     if found is None:
         raise CalibrationError(
-            sentence("--size {text}: WIDTHxHEIGHT in pixels is needed, e.g. 1280x720", text=text)
+            sentence("--size {size}: WIDTHxHEIGHT in pixels is needed, e.g. 1280x720", size=text)
         )
     return int(found[1]), int(found[2])
 
@@ -408,8 +407,8 @@ def read_calibration(
     if len(files) not in (1, 2):
         raise CalibrationError(
             sentence(
-                "{files_count} files were given; {expected}",
-                files_count=len(files),
+                "{files} files were given; {expected}",
+                files=len(files),
                 expected=_EXPECTED,
             )
         )

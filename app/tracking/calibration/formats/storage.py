@@ -133,9 +133,9 @@ def matrices_in(path: Path, keys: tuple[str, ...], progress: Progress) -> Matric
         words = f"line {reason[1]}: {reason[2]}" if reason else _line(error)
         raise CalibrationError(
             sentence(
-                "it begins as a file of OpenCV's FileStorage but is damaged ({words}); write it "
+                "it begins as a file of OpenCV's FileStorage but is damaged ({fault}); write it "
                 "again",
-                words=words,
+                fault=words,
             )
         ) from error
     finally:
@@ -152,7 +152,7 @@ def _fields(node: "cv2.FileNode") -> "dict[str, cv2.FileNode]":
     names = node.keys() if node.isMap() else ()
     twice = [name for place, name in enumerate(names) if name in names[:place]]
     if twice:
-        raise ValueError(sentence("{twice_first} is given twice", twice_first=twice[0][:40]))
+        raise ValueError(sentence("{double_name} is given twice", double_name=twice[0][:40]))
     return {name: node.getNode(name) for name in names}
 
 
@@ -219,7 +219,9 @@ def _number(key: str, node: "cv2.FileNode") -> float:
     if node.isInt() and abs(value) >= _WHOLE:
         raise CalibrationError(
             sentence(
-                "{key}: a whole number is too large, got {value:.0f} or more", key=key, value=value
+                "{key}: a whole number is too large, got {length:.0f} or more",
+                key=key,
+                length=value,
             )
         )
     return value
