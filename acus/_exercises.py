@@ -75,9 +75,9 @@ def try_exercise(exercise: Exercise | str | Path, skill: str = "expert", seed: i
         AcusError: if the skill is none, or the exercise cannot be used; says why.
     """
     from app.compose.exercise_ct import read_ct
-    from app.compose.exercise_field import resolve_tissue
-    from app.compose.skill_scores import risks_of, tissues_of
-    from app.compose.trial import attempt, trial_plan
+    from app.compose.exercise_field import resolve_tissue, tissues_of, trial_plan
+    from app.compose.skill_scores import risks_of
+    from app.compose.trial import attempt
     from app.exercises.parts import LayersFrom
     from app.exercises.scene import device_of, placed_plan_of
     from app.exercises.tissue import with_tissue

@@ -21,7 +21,7 @@ from app.exercises.library import library, load_exercise
 from app.exercises.parts import TissueSource
 from app.exercises.scene import device_of, placed_plan_of
 from app.exercises.schema import Exercise
-from app.exercises.tissue_choice import choose
+from app.exercises.tissue_choice import Needles, choose
 from app.imaging.field import TissueField
 from app.imaging.volume import Volume
 from app.planning.plan import Plan
@@ -226,7 +226,7 @@ def test_what_needles_within_reach_meet_decides_between_layers_and_the_field(
     assert "the path does not" in why or "the path" in why
     same = np.ones_like(made.labels) * np.uint8(made.of_kind("organ")[0].code)  # type: ignore[arg-type]
     even = replace(made, labels=same, distance=np.full_like(made.distance, 127))
-    choice = choose(chosen, placed, profile, even)
+    choice = choose(chosen, Needles(even, placed, profile))
     assert choice.source is TissueSource.LAYERS
     assert "with the same force to 0.00 N" in choice.reason
 

@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from app.compose.exercise_field import trial_plan
 from app.compose.trainer import Rig, TrainerSetup, build_rig
-from app.compose.trial import attempt, trial_plan
+from app.compose.trial import attempt
 from app.core import state_vector as sv
 from app.core.paced_clock import PacedClock
 from app.exercises.scene import device_of, placed_plan_of

@@ -7,9 +7,10 @@ import pytest
 
 from app.compose import trial
 from app.compose.exercise_ct import load_risks
+from app.compose.exercise_field import trial_plan
 from app.compose.skill_scores import SkillOutcome, ordered_seeds, ordered_share, run_trial
 from app.compose.trainer import TrainerSetup, build_loop, pictures_of
-from app.compose.trial import Trials, attempt, trial_plan
+from app.compose.trial import Trials, attempt
 from app.core import paths
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock

@@ -29,7 +29,7 @@ import numpy as np
 
 from app.compose.cameras import AttachedCameras
 from app.compose.trainer import TrainerSetup, _context, build_loop, device_of
-from app.compose.trial import trial_plan
+from app.compose.exercise_field import trial_plan
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.exercises.library import load_exercise

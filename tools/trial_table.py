@@ -18,14 +18,14 @@ from functools import cache
 from hashlib import sha256
 from pathlib import Path
 
+from app.compose.exercise_field import tissues_of, trial_plan
 from app.compose.skill_scores import (
     SkillOutcome,
     ordered_seeds,
     outcome,
     risks_of,
-    tissues_of,
 )
-from app.compose.trial import Trials, trial_plan
+from app.compose.trial import Trials
 from app.core import paths
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from app.compose.exercise_ct import load_field, load_risks, read_ct
-from app.compose.exercise_field import resolve_tissue
-from app.compose.trial import Trials, trial_plan
+from app.compose.exercise_field import resolve_tissue, trial_plan
+from app.compose.trial import Trials
 from app.compose.trial_parts import PlayedHand, PlayedTrial
 from app.core.arrays import FloatArray
 from app.core.build import build

@@ -197,7 +197,8 @@ class Desktop:
         risks = load_risks(setup.exercise, setup.volume, progress.part(0.0, 0.1))
         plan = setup.placed.plan
         tissues = load_field(setup.exercise, setup.volume, plan, progress.part(0.1, 0.6))
-        exercise, _ = resolve_tissue(setup.exercise, setup.placed, tissues)
+        exercise = with_tissue(setup.exercise, setup.volume, plan)
+        exercise, _ = resolve_tissue(exercise, setup.placed, tissues)
         progress.report(0.6, "compiling the loop")
         seed = setup.exercise.seed if self._seed is None else self._seed
         ct = setup.ct
@@ -206,7 +207,6 @@ class Desktop:
         shows = setup.demonstrates
         skill = DEMONSTRATOR if shows else self._skill
         kept = temporary_folder("demonstration") if shows else self._sessions
-        exercise = with_tissue(exercise, setup.volume, setup.placed.plan)
         shown = ShownMotion.kept(exercise.id, exercise.version) if shows else None
         led = self._led or skill is not None
         simulated = setup.cameras is None or setup.cameras.simulated

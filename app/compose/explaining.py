@@ -12,13 +12,12 @@ from app.core.arrays import FloatArray
 from app.core.errors import AcusError
 from app.core.messages import sentence
 from app.core.units import MILLIMETRE
-from app.exercises.parts import LayersFrom, OwnPlan, TissueSource
+from app.exercises.parts import TissueSource
 from app.exercises.scene import (
     compile_exercise,
     device_of,
     law_requests,
     placed_plan_of,
-    plan_of,
 )
 from app.exercises.schema import Exercise
 from app.exercises.touching import check_touch
@@ -28,6 +27,7 @@ from app.session.pad.hand import Handle
 from app.simulation.plan import SimulationPlan
 
 if TYPE_CHECKING:
+    from app.compose.exercise_field import ExercisePatient
     from app.simulation.bound_field import BoundField
 
 _PICTURES: Final = 15  # that the time of an effect on them is the median of
@@ -41,13 +41,15 @@ def explanation(exercise: Exercise, simulated: bool = True) -> dict[str, Any]:
     Raises:
         AcusError: for a device, law, effect or parameter that there is not; names what is valid.
     """
-    profile, asked = device_of(exercise), exercise
-    exercise = _with_tissue(exercise)
-    exercise, bound, tissue = _tissue(exercise, profile)
+    from app.compose.exercise_field import ExercisePatient  # the window begins without it
+
+    patient, asked = ExercisePatient(exercise), exercise
+    profile = patient.profile
+    exercise, bound, why = patient.within(exercise)
     plan = compile_exercise(exercise, profile, declared_views(), simulated, bound=bound)
     document = _document(exercise, simulated, plan)
-    document["tissue"] = tissue
-    document |= _called_for(asked, simulated)
+    document["tissue"] = {"source": exercise.tissue.value, "why": why, **_field_facts(bound)}
+    document |= _called_for(asked, patient, plan, simulated)
     document["assistance"] = exercise.assistance
     document["laws"] = _laws(law_requests(exercise), profile)
     document["touch"] = _touch(exercise, profile)
@@ -81,51 +83,27 @@ def _touch(exercise: Exercise, profile: DeviceProfile) -> dict[str, Any] | None:
     }
 
 
-def _with_tissue(exercise: Exercise) -> Exercise:
-    """Find the layers of the exercise's CT, if it takes them from there; nobody's own plan has any.
-
-    Raises:
-        AcusError: if the CT cannot be read, or the path does not begin in it.
-    """
-    if exercise.layers_from is not LayersFrom.CT or isinstance(exercise.plan, OwnPlan):
-        return exercise
-    from app.compose.exercise_ct import read_ct
-    from app.exercises.tissue import with_tissue
-
-    return with_tissue(exercise, read_ct(exercise), plan_of(exercise))
-
-
-def _tissue(
-    exercise: Exercise, profile: DeviceProfile
-) -> tuple[Exercise, BoundField | None, dict[str, Any]]:
-    """Return the exercise with its choice made, its field, and what to say of both."""
-    if exercise.tissue is TissueSource.LAYERS:
-        return exercise, None, {"source": "layers", "why": "layers: the exercise has them"}
-    from app.compose.exercise_field import resolve_tissue
-    from app.compose.skill_scores import tissues_of
-    from app.compose.trial import trial_plan
-    from app.simulation.bound_field import BoundField
-
-    placed = placed_plan_of(exercise, profile, trial_plan(exercise))
-    field = tissues_of(exercise, placed.plan)
-    exercise, why = resolve_tissue(exercise, placed, field)
-    said: dict[str, Any] = {"source": exercise.tissue.value, "why": why}
-    if field is None or exercise.tissue is TissueSource.LAYERS:
-        return exercise, None, said
-    said |= {
+def _field_facts(bound: BoundField | None) -> dict[str, Any]:
+    """Say of a field which it is and what it holds."""
+    if bound is None:
+        return {}
+    field = bound.tissue
+    return {
         "digest": field.digest,
         "spacing_mm": float(field.spacing_mm.min()),
         "megabytes": round(field.megabytes, 1),
         "tissues": [tissue.words for tissue in field.tissues[1:]],
         "notes": list(field.notes),
     }
-    return exercise, BoundField(field, placed.T_world_patient, placed.p_target), said
 
 
-def _called_for(exercise: Exercise, simulated: bool) -> dict[str, Any]:
+def _called_for(
+    exercise: Exercise, patient: ExercisePatient, plan: SimulationPlan, simulated: bool
+) -> dict[str, Any]:
     """Return what the patient calls for, and what that which is absent would cost of a tick.
 
-    A CT that cannot be read calls for nothing, and the reason is given.
+    Absent is what the exercise lacks, whatever the device; simulated, what `plan` has. A CT that
+    cannot be read calls for nothing, and the reason is given.
 
     Raises:
         ExerciseError: if `without` names what is not called for.
@@ -135,20 +113,20 @@ def _called_for(exercise: Exercise, simulated: bool) -> dict[str, Any]:
     from app.imaging.errors import ImagingError
 
     try:
-        calls, field = calls_of(exercise)
+        calls, field = calls_of(exercise, patient=patient)
     except ImagingError as error:
         return {"called_for": [], "add": {}, "called_for_note": str(error)}
     costs: dict[str, float] = {}
     if field is not None and any(call.is_absent for call in calls):
-        whole = completed(exercise, calls)
-        profile = device_of(whole)
-        whole, bound, _ = _tissue(_with_tissue(whole), profile)
-        costs = _own_costs(compile_exercise(whole, profile, declared_views(), bound=bound))
+        whole, bound, _ = patient.within(completed(exercise, calls))
+        views = declared_views()
+        costs = _own_costs(compile_exercise(whole, patient.profile, views, simulated, bound=bound))
+    present = {kept.name for kept in plan.kept}
     rows = [
         {
             "effect": call.effect,
             "reason": call.reason,
-            "simulated": call.is_present,
+            "simulated": call.effect in present,
             "without": call.without,
             "absent": call.is_absent,
             "cost_ns": costs.get(call.effect) if call.is_absent else None,

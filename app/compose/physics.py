@@ -5,69 +5,46 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 import yaml
 
 from app.compose.declared_views import declared_views
+from app.compose.exercise_field import ExercisePatient
 from app.core.progress import Progress
 from app.exercises.called_for import Call, additions, called_for
-from app.exercises.parts import EffectPart, OwnPlan, TissueSource
-from app.exercises.scene import compile_exercise, device_of, draft_of, placed_plan_of, plan_of
-from app.planning.plan import Plan
+from app.exercises.parts import EffectPart, TissueSource
+from app.exercises.scene import compile_exercise
 from app.simulation.plan import TISSUE_FIELD
 
 if TYPE_CHECKING:
     from app.exercises.schema import Exercise
     from app.imaging.field import TissueField
-    from app.planning.placement import PlacedPlan
 
 
 def calls_of(
-    exercise: Exercise, progress: Progress | None = None
+    exercise: Exercise, progress: Progress | None = None, patient: ExercisePatient | None = None
 ) -> tuple[tuple[Call, ...], TissueField | None]:
     """Return what an exercise's patient calls for, and his field; see `exercises.called_for`.
 
     Nothing is compiled; the field is made where it is not in the cache, in up to ten seconds.
+    Present is what the simulated device simulates, which has all ports.
+
+    Args:
+        exercise: the exercise.
+        progress: of reading and making.
+        patient: of the exercise, where he has been looked at already.
 
     Raises:
         AcusError: if device, CT or plan cannot be used, or `without` names what is not called for.
         Cancelled: if `progress` was cancelled.
     """
-    from app.compose.exercise_ct import load_field, read_ct
-
-    progress = progress or Progress()
-    profile = device_of(exercise)
-    placed = placed_plan_of(exercise, profile, _plan(exercise))
+    patient = patient or ExercisePatient(exercise, progress)
     if exercise.touch is not None:
-        return called_for(exercise, placed, profile, None, ()), None
-    volume = read_ct(exercise, progress.part(0.0, 0.4))
-    field = load_field(exercise, volume, placed.plan, progress.part(0.4, 1.0))
-    simulated = _simulated(exercise, placed, field)
-    return called_for(exercise, placed, profile, field, simulated), field
-
-
-def _plan(exercise: Exercise) -> Plan:
-    """Return its plan; where the student chooses the entry, one of any entry to its target."""
-    if not isinstance(exercise.plan, OwnPlan):
-        return plan_of(exercise)
-    target = np.array(draft_of(exercise).target_mm)
-    return Plan(target - (0.0, 100.0, 0.0), target, exercise.id)
-
-
-def _simulated(
-    exercise: Exercise, placed: PlacedPlan, field: TissueField | None
-) -> tuple[str, ...]:
-    """Names of what is simulated on the simulated device, which has all ports."""
-    from app.compose.exercise_field import resolve_tissue
-    from app.simulation.bound_field import BoundField
-
-    bound = None
-    if exercise.tissue is not TissueSource.LAYERS and field is not None:
-        exercise, _ = resolve_tissue(exercise, placed, field)
-        if exercise.tissue is TissueSource.FIELD:
-            bound = BoundField(field, placed.T_world_patient, placed.p_target)
-    plan = compile_exercise(exercise, device_of(exercise), declared_views(), bound=bound)
-    return tuple(effect.name for effect in plan.kept)
+        return called_for(exercise, None, ()), None
+    needles = patient.needles
+    resolved, bound, _ = patient.within(exercise)
+    plan = compile_exercise(resolved, patient.profile, declared_views(), bound=bound)
+    present = tuple(effect.name for effect in plan.kept)
+    return called_for(exercise, needles, present), patient.field
 
 
 def completed(exercise: Exercise, calls: Sequence[Call]) -> Exercise:

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.compose.exercise_ct import load_field, load_risks, read_ct
-from app.compose.exercise_field import resolve_tissue
-from app.compose.trial import Trials, trial_plan
+from app.compose.exercise_ct import load_risks, read_ct
+from app.compose.exercise_field import resolve_tissue, tissues_of, trial_plan
+from app.compose.trial import Trials
 from app.core.progress import Progress
-from app.exercises.parts import LayersFrom, TissueSource
+from app.exercises.parts import LayersFrom
 from app.exercises.scene import device_of, placed_plan_of
 from app.exercises.tissue import with_tissue
 from app.simulation.hands import Script
@@ -21,8 +21,6 @@ from app.simulation.skills import SKILLS
 
 if TYPE_CHECKING:
     from app.exercises.schema import Exercise
-    from app.imaging.field import TissueField
-    from app.planning.plan import Plan
     from app.scoring.result import Score
     from app.session.risks import Risk
 
@@ -39,24 +37,6 @@ def risks_of(exercise: Exercise, progress: Progress | None = None) -> tuple[Risk
     progress = progress or Progress()
     volume = read_ct(exercise, progress.part(0.0, 0.6))
     return load_risks(exercise, volume, progress.part(0.6, 1.0))
-
-
-def tissues_of(
-    exercise: Exercise, plan: Plan, progress: Progress | None = None
-) -> TissueField | None:
-    """Make the tissue field of an exercise that looks into it; None where it does not.
-
-    It does where it forbids something, or does not say that its tissue lies in layers.
-
-    Raises:
-        AcusError: if the CT or a file of structures cannot be read.
-        Cancelled: if `progress` was cancelled.
-    """
-    if not exercise.rules.forbidden and exercise.tissue is TissueSource.LAYERS:
-        return None
-    progress = progress or Progress()
-    volume = read_ct(exercise, progress.part(0.0, 0.4))
-    return load_field(exercise, volume, plan, progress.part(0.4, 1.0))
 
 
 @dataclass(frozen=True, slots=True)

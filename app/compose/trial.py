@@ -37,9 +37,7 @@ from app.core.parameters import Stage
 from app.core.staleness import TRACKER_HOLD
 from app.core.units import MILLIMETRE, MILLISECOND
 from app.device.control import Loop, Table
-from app.exercises.parts import OwnPlan
-from app.exercises.scene import device_of, plan_of
-from app.planning.plan import Plan
+from app.exercises.scene import device_of
 from app.session.fixes import AGREEING, FORGOTTEN, DepthTrust
 from app.session.fusion import across_noise, depth_noise
 from app.session.inputs import LoopInputs
@@ -92,17 +90,6 @@ BEYOND: Final = 20.0 * MILLIMETRE
 
 HEARTBEATS: Final = 10
 """Looks from one sign of life of the window to the next: 0.2 s, of 1 s that the loop allows."""
-
-
-def trial_plan(exercise: Exercise) -> Plan:
-    """Return the plan that trials follow; where the student plans, the phantom's own entry.
-
-    Raises:
-        ExerciseError: if the student plans on a CT that is no phantom.
-    """
-    if isinstance(exercise.plan, OwnPlan) and exercise.ct.phantom is not None:
-        return plan_of(exercise.model_copy(update={"plan": "phantom_default"}))
-    return plan_of(exercise)
 
 
 def attempt(

@@ -15,18 +15,15 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from app.core.messages import sentence
-from app.core.units import MILLIMETRE
 from app.exercises.errors import ExerciseError
 from app.exercises.parts import OwnPlan, TipShape, TissueSource
-from app.exercises.tissue_choice import choose, met_by, ways
+from app.exercises.tissue_choice import Needles, choose
 from app.imaging.field.tissue_field import TissueKind
 from app.simulation.plan import TISSUE_FIELD
 
 if TYPE_CHECKING:
     from app.exercises.schema import Exercise
-    from app.imaging.field import FieldTissue, TissueField
-    from app.mechanisms.profile import DeviceProfile
-    from app.planning.placement import PlacedPlan
+    from app.imaging.field import FieldTissue
 
 LEAST_CONFIDENCE: Final = 0.5
 """A label less sure than this calls for nothing."""
@@ -114,25 +111,20 @@ class Reachable:
 
 
 def called_for(
-    exercise: Exercise,
-    placed: PlacedPlan,
-    profile: DeviceProfile,
-    field: TissueField | None,
-    simulated: Collection[str],
+    exercise: Exercise, needles: Needles | None, simulated: Collection[str]
 ) -> tuple[Call, ...]:
     """Return all that is called for, as it is named under Effects in docs/exercises.md.
 
     Args:
         exercise: as the library has it, with `tissue: auto` where it says so.
-        placed: its plan, or one to try it by, in the robot's frame.
-        profile: its device.
-        field: of its CT; None where there is none in Hounsfield units: it calls for nothing then.
+        needles: that its device can hold, in the field of its CT; None where there is none in
+            Hounsfield units: it calls for nothing then.
         simulated: names of the effects that the compiled exercise simulates.
 
     Raises:
         ExerciseError: if `without` names what is not called for.
     """
-    reasons = _reasons(exercise, placed, profile, field)
+    reasons = _reasons(exercise, needles)
     if strangers := [name for name in exercise.without if name not in reasons]:
         raise ExerciseError(
             sentence(
@@ -149,18 +141,15 @@ def called_for(
     )
 
 
-def within_reach(
-    exercise: Exercise, placed: PlacedPlan, profile: DeviceProfile, field: TissueField
-) -> tuple[Reachable, ...]:
+def within_reach(exercise: Exercise, needles: Needles) -> tuple[Reachable, ...]:
     """Return the tissues that a needle can meet, by the table of the field."""
     least: dict[int, float | None] = {}
+    field = needles.field
     if isinstance(exercise.plan, OwnPlan):
         least = dict.fromkeys(np.unique(field.labels).tolist(), None)
     else:
-        reach_mm = profile.depth_range[1] / MILLIMETRE
-        limit = np.radians(profile.workspace.tilt_limit_deg[profile.workspace.joint])
-        for _, way in ways(limit):
-            for part in met_by(field, placed, way, reach_mm):
+        for _, parts in needles:
+            for part in parts:
                 before = least.get(part.code)
                 if before is None or part.begin_mm < before:
                     least[part.code] = part.begin_mm
@@ -192,13 +181,11 @@ def _breathing(exercise: Exercise) -> dict[str, Any]:
     return {**({"organ": organ} if organ else {}), "parameters": values}
 
 
-def _reasons(
-    exercise: Exercise, placed: PlacedPlan, profile: DeviceProfile, field: TissueField | None
-) -> dict[str, str]:
+def _reasons(exercise: Exercise, needles: Needles | None) -> dict[str, str]:
     """Effect -> what calls for it."""
-    if exercise.touch is not None or field is None:
+    if exercise.touch is not None or needles is None:
         return {}  # a tool in a trocar moves in an inflated belly, of which the CT shows nothing
-    met = within_reach(exercise, placed, profile, field)
+    met = within_reach(exercise, needles)
     of = {kind: [one for one in met if one.tissue.kind is kind] for kind in TissueKind}
     holds = [one for one in met if one.tissue.kind in _HOLDS]
     pierced = [one for one in met if one.tissue.kind in _MEMBRANES]
@@ -221,18 +208,16 @@ def _reasons(
         reasons["breathing"] = sentence("along with the breath go {listed}", listed=listed)
     if exercise.needle.tip is TipShape.BEVEL and holds:
         reasons["bevel"] = sentence("a bevelled tip cuts a curved way")
-    if holds and (why := _field_reason(exercise, placed, profile, field)):
+    if holds and (why := _field_reason(exercise, needles)):
         reasons[TISSUE_FIELD] = why
     return reasons
 
 
-def _field_reason(
-    exercise: Exercise, placed: PlacedPlan, profile: DeviceProfile, field: TissueField
-) -> str:
+def _field_reason(exercise: Exercise, needles: Needles) -> str:
     """Return what makes layers along the path too little; empty where they are enough."""
     if isinstance(exercise.plan, OwnPlan):
         return sentence("the student chooses the entry: no layers lie along all paths")
-    choice = choose(exercise, placed, profile, field)
+    choice = choose(exercise, needles)
     if choice.source is not TissueSource.FIELD:
         return ""
     return choice.reason.removeprefix("the field: ")

@@ -24,8 +24,7 @@ from app.simulation.needles import OUTER_DIAMETER
 from app.simulation.plan import TISSUE_FIELD, SimulationPlan
 from app.simulation.plan import compile as compile_scene
 from app.simulation.scene import DEFAULT_LAYERS, EffectRequest, Needle, Scene
-from app.simulation.tissue_values import tissue_values
-from app.simulation.tissues import MODELS, PUBLISHED
+from app.simulation.tissues import MODELS, PUBLISHED, tissue_values
 
 if TYPE_CHECKING:
     from app.imaging.phantom.anatomy import Anatomy

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Final
 
 from app.exercises.parts import KILOPASCAL, LayerPart, LayersFrom, TissueSource
 from app.imaging.tissue import Tissue, tissue_along
+from app.simulation.bound_field import MOVING
 from app.simulation.scene import BONE, FAT, LIVER, LUNG, MUSCLE, SKIN, TissueLayer
+from app.simulation.tissues import MODELS, PUBLISHED, tissue_values
 
 if TYPE_CHECKING:
     from app.exercises.schema import Exercise
+    from app.imaging.field import TissueField
+    from app.imaging.field.walking import Crossed
     from app.imaging.structures.structure import Structure
     from app.imaging.volume import Volume
     from app.planning.plan import Plan
@@ -53,6 +57,51 @@ def layers_along(
     return tuple(layers)
 
 
+def with_layers_met(exercise: Exercise, field: TissueField, met: Sequence[Crossed]) -> Exercise:
+    """Return an exercise whose tissue lies in layers as a needle meets it in a field.
+
+    Each has the field's own values, and goes along with breathing where it does so in the field;
+    effects without a model take the one that goes with these values.
+
+    Args:
+        exercise: the exercise.
+        field: of its patient.
+        met: what the needle on its path meets, from the skin on; bone ends it.
+    """
+    effects = {
+        name: part.model_copy(update={"model": part.model or MODELS[PUBLISHED].get(name, "")})
+        for name, part in exercise.effects.items()
+    }
+    changes = {
+        "tissue": TissueSource.LAYERS,
+        "layers": _layers_of(field, met),
+        "layers_from": LayersFrom.CT,  # they follow from CT and path, as a score is told
+        "effects": effects,
+    }
+    return exercise.model_copy(update=changes)
+
+
+def _layers_of(field: TissueField, met: Sequence[Crossed]) -> tuple[LayerPart, ...]:
+    """Return what is met as layers: each ends where the next begins, the last beyond all reach."""
+    values = tissue_values(field.tissues)
+    runs = [part for n, part in enumerate(met) if n == 0 or part.code != met[n - 1].code]
+    begins = [0.0, *(part.begin_mm for part in runs[1:])]
+    ends = [*begins[1:], max(REACH_MM, begins[-1] + 1.0)]
+    layers: list[LayerPart] = []
+    for run, begin, end in zip(runs, begins, ends, strict=True):
+        tissue = field.tissues[run.code]
+        kind = values[run.code]
+        if kind.moves is None:
+            kind = replace(kind, moves=float(tissue.kind in MOVING))
+        name = tissue.words
+        if layers and name.strip().casefold() == "skin":  # as a layer it would be refused
+            name = f"{name} below {layers[-1].name}"
+        layers.append(_part(kind, name, end - begin))
+        if kind.rigid:
+            break
+    return tuple(layers)
+
+
 def bone_before(layers: Sequence[LayerPart], length_mm: float) -> float | None:
     """Return the depth at which bone stands in the way of a target, None where it does not [mm].
 
@@ -71,12 +120,14 @@ def bone_before(layers: Sequence[LayerPart], length_mm: float) -> float | None:
 def with_tissue(
     exercise: Exercise, volume: Volume | None, plan: Plan, structures: Sequence[Structure] = ()
 ) -> Exercise:
-    """Return an exercise with the layers of its CT, if it takes them from there.
+    """Return an exercise with the layers of its CT, if it takes them from there and has layers.
 
     Raises:
         ImagingError: if the volume is no CT, or the entry lies outside it.
     """
-    if exercise.layers_from is not LayersFrom.CT or volume is None:
+    if exercise.tissue is TissueSource.FIELD or exercise.layers_from is not LayersFrom.CT:
+        return exercise
+    if volume is None:
         return exercise
     return exercise.model_copy(update={"layers": layers_along(volume, plan, structures)})
 

@@ -8,8 +8,9 @@ what a hand tells apart. One that meets another tissue, or the same ones elsewhe
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -20,7 +21,7 @@ from app.core.units import MILLIMETRE
 from app.exercises.parts import TissueSource
 from app.simulation.needles import OUTER_DIAMETER
 from app.simulation.scene import TissueLayer
-from app.simulation.tissue_values import tissue_values
+from app.simulation.tissues import tissue_values
 
 if TYPE_CHECKING:
     from app.exercises.schema import Exercise
@@ -35,7 +36,6 @@ FELT: Final = 0.1
 _RINGS: Final = 6
 _AROUND: Final = 16
 _STEP_MM: Final = 0.5
-_BEFORE_MM: Final = 5.0  # outside the entry that a way begins
 _LEAST_MM: Final = 0.7  # shorter stretches are edges of voxels
 
 
@@ -47,21 +47,46 @@ class TissueChoice:
     reason: str
 
 
-def choose(
-    exercise: Exercise, placed: PlacedPlan, profile: DeviceProfile, field: TissueField
-) -> TissueChoice:
+class Needles:
+    """Needles that a machine can hold at an entry, each followed through a field once, when asked.
+
+    Iterates over (angle from upright [rad], what that one meets to the end of its reach).
+
+    Args:
+        field: of the patient.
+        placed: the plan that says the entry, in the robot's frame.
+        profile: of the machine.
+    """
+
+    def __init__(self, field: TissueField, placed: PlacedPlan, profile: DeviceProfile) -> None:
+        self.field, self._placed = field, placed
+        self.reach_mm = profile.depth_range[1] / MILLIMETRE
+        self._ways = ways(np.radians(profile.workspace.tilt_limit_deg[profile.workspace.joint]))
+        self._met: list[list[Crossed]] = []
+
+    @cached_property
+    def planned(self) -> list[Crossed]:
+        """Return what the needle on the plan's path meets."""
+        return met_by(self.field, self._placed, self._placed.axis, self.reach_mm)
+
+    def __iter__(self) -> Iterator[tuple[float, list[Crossed]]]:
+        """Follow one needle after the other."""
+        for number, (angle, way) in enumerate(self._ways):
+            if number == len(self._met):
+                self._met.append(met_by(self.field, self._placed, way, self.reach_mm))
+            yield angle, self._met[number]
+
+
+def choose(exercise: Exercise, needles: Needles) -> TissueChoice:
     """Return what an exercise needs on a machine; see the top of the file."""
+    field, planned = needles.field, needles.planned
     values = tissue_values(field.tissues)
     diameter = OUTER_DIAMETER[exercise.needle.gauge]
-    reach_mm = profile.depth_range[1] / MILLIMETRE
-    depths = np.arange(0.0, reach_mm, _STEP_MM)
-    planned = met_by(field, placed, placed.axis, reach_mm)
+    depths = np.arange(0.0, needles.reach_mm, _STEP_MM)
     names = [field.tissues[part.code].words for part in planned]
-    force = _force(planned, depths, values, diameter)
-    limit = np.radians(profile.workspace.tilt_limit_deg[profile.workspace.joint])
+    force = static_force(planned, depths, values, diameter)
     most = 0.0
-    for angle, way in ways(limit):
-        met = met_by(field, placed, way, reach_mm)
+    for angle, met in needles:
         others = [field.tissues[part.code].words for part in met]
         where = f"a needle {np.degrees(angle):.0f}° from upright"
         if new := [part for part in met if field.tissues[part.code].words not in names]:
@@ -71,7 +96,7 @@ def choose(
         if others != names:
             why = f"{where} meets {_listed(others)}, the path {_listed(names)}"
             return TissueChoice(TissueSource.FIELD, f"the field: {why}")
-        off = np.abs(_force(met, depths, values, diameter) - force)
+        off = np.abs(static_force(met, depths, values, diameter) - force)
         most = max(most, float(off.max()))
         if most > FELT:
             depth = depths[int(off.argmax())]
@@ -108,17 +133,21 @@ def met_by(
     return [part for part in crossed if part.length_mm >= _LEAST_MM]
 
 
-def _force(
+def static_force(
     met: Sequence[Crossed], depths: FloatArray, values: Sequence[TissueLayer], diameter: float
 ) -> FloatArray:
-    """Force along a needle that is pushed slowly, without membranes, at depths [mm] -> [N]."""
+    """Force along a needle that is pushed slowly, without membranes, at depths [mm] -> [N].
+
+    As the effects' published models have it: friction and pressing grow with the circumference.
+    """
     total = np.zeros_like(depths)
+    thick = diameter / OUTER_DIAMETER[18]  # friction and pressing are stated for 18 G
     for part in met:
         tissue = values[part.code]
         within = np.clip(depths - part.begin_mm, 0.0, part.length_mm) * MILLIMETRE
-        total += within * tissue.friction
+        total += within * tissue.friction * thick
         here = (depths >= part.begin_mm) & (depths < part.end_mm)
-        total += here * tissue.toughness * diameter
+        total += here * (tissue.toughness * diameter + tissue.pressing * thick)
     return total
 
 

@@ -174,8 +174,7 @@ def _ways(samples: Samples, rows: NDArray[np.intp], needles: _Needles) -> list[_
         spread = samples.spread[:, :2] / MILLIMETRE
     ways: list[_Way] = []
     tips = needles.tips
-    step = np.median(np.diff(samples.time)) if len(samples.time) > 1 else 0.0
-    for stay in _stays(rows, samples, float(step)):
+    for stay in _stays(rows, samples):
         corners: list[tuple[FloatArray, float, float, FloatArray]] = []
         first = stay[0]
         for place, share in zip(*needles.shaft(first), strict=True):
@@ -206,7 +205,7 @@ def _way(corners: list[tuple[FloatArray, float, float, FloatArray]]) -> _Way:
     return _Way(np.array(places), np.array(depths), np.array(times), np.array(spreads))
 
 
-def _stays(rows: NDArray[np.intp], samples: Samples, step: float) -> list[NDArray[np.intp]]:
+def _stays(rows: NDArray[np.intp], samples: Samples) -> list[NDArray[np.intp]]:
     """Part the needles where the tip was out of the body in between."""
     outside = np.cumsum(samples.valid & (samples.depth <= 0.0))
     return np.split(np.arange(len(rows)), np.flatnonzero(np.diff(outside[rows])) + 1)

@@ -55,11 +55,6 @@ class BoundField:
         object.__setattr__(self, "_lung", self._within_lung())
 
     @property
-    def digest(self) -> str:
-        """SHA-256 of the field."""
-        return self.tissue.digest
-
-    @property
     def voxel_of_world(self) -> FloatArray:
         """World [m] -> voxel (i, j, k), shape (3, 4)."""
         inverse = self.tissue.inverse_mm

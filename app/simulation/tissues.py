@@ -7,15 +7,19 @@ excludes what: resources/published.yaml, compared by `acus study published`. "Se
 stored public pages, with the words that are given.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from types import MappingProxyType
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from app.core.messages import sentence
+from app.imaging.field.tissue_field import TissueKind
 from app.simulation import scene
 from app.simulation.errors import SimulationError
 from app.simulation.scene import TissueLayer
+
+if TYPE_CHECKING:
+    from app.imaging.field import FieldTissue
 
 SKIN: Final = replace(
     scene.SKIN,
@@ -65,7 +69,8 @@ Side stiffness: shear waves, 4.74 ± 0.91 kPa in 115 and 5.10 ± 1.02 kPa in 502
 
 CIRRHOTIC_LIVER: Final = replace(LIVER, name="cirrhotic liver", side_stiffness=20e3)
 """Of 20 kPa, which elastography calls cirrhotic (above 12.5 to 15 kPa by FibroScan, Castera 2005,
-from memory, to be read again). Its other values are those of healthy liver: estimates, none found."""
+from memory, to be read again). Its other values are those of healthy liver: estimates, none
+found."""
 
 KIDNEY: Final = replace(LIVER, name="kidney", side_stiffness=6e3, puncture_force=0.6)
 """Capsule 0.3 to 1 N in vivo (Maurin 2004, kidney and liver together). All else that of liver:
@@ -134,3 +139,48 @@ def tissue(name: str, version: str = PUBLISHED) -> TissueLayer:
             )
         )
     return table[name]
+
+
+_AIR: Final = TissueLayer(
+    name="air",
+    thickness=0.0,
+    side_stiffness=0.0,
+    friction=0.0,
+    static_friction=0.0,
+    viscous_friction=0.0,
+    indentation_stiffness=0.0,
+    indentation_hardening=0.0,
+)
+"""Air holds no needle."""
+
+_BY_KIND: Final[Mapping[TissueKind, TissueLayer]] = MappingProxyType(
+    {
+        TissueKind.UNKNOWN: replace(MUSCLE, puncture_force=0.0),
+        TissueKind.AIR: _AIR,
+        TissueKind.LUNG: LUNG,
+        TissueKind.SKIN: SKIN,
+        TissueKind.FAT: FAT,
+        TissueKind.MUSCLE: MUSCLE,
+        TissueKind.ORGAN: LIVER,
+        TissueKind.VESSEL: replace(LIVER, puncture_force=0.8, toughness=240.0),
+        TissueKind.GUT: replace(LIVER, puncture_force=0.5),
+        TissueKind.HEART: replace(MUSCLE, puncture_force=1.0),
+        TissueKind.BONE: BONE,
+    }
+)
+"""What nobody labelled is as muscle without its fascia, so that it is felt and stops nothing. An
+organ is taken for liver; walls of vessel, gut and heart are estimates, none found."""
+
+
+def tissue_values(tissues: "Iterable[FieldTissue]") -> tuple[TissueLayer, ...]:
+    """Return the published values of a field's tissues by code; their thickness means nothing."""
+    return tuple(replace(_values(one), name=one.words, thickness=0.0) for one in tissues)
+
+
+def _values(tissue: "FieldTissue") -> TissueLayer:
+    """Return the values of a tissue's kind; an organ's by the longest name that its own holds."""
+    table, words = TISSUES[PUBLISHED], tissue.name.casefold()
+    named = [name for name in table if name in words and not table[name].rigid]
+    if tissue.kind is TissueKind.ORGAN and named:
+        return table[max(named, key=len)]
+    return _BY_KIND[tissue.kind]

@@ -34,7 +34,7 @@ from app.simulation.effects import declaration, parameters_of
 from app.simulation.effects.lateral_tissue import step
 from app.simulation.needles import OUTER_DIAMETER
 from app.simulation.scene import Binding, Scene, TissueLayer
-from app.simulation.tissue_values import tissue_values
+from app.simulation.tissues import tissue_values
 from app.studies.findings import Findings, Sheet, Survey
 
 DECLARATION: Final[dict[str, Any]] = {

@@ -99,7 +99,7 @@ STUDY: Final = Study(
     borrows=(
         "app.compose.trial:Trials",
         "app.compose.trial:attempt",
-        "app.compose.trial:trial_plan",
+        "app.compose.exercise_field:trial_plan",
         "app.compose.skill_scores:run_trial",
     ),
 )

@@ -31,7 +31,8 @@ assert len(library()) > 5
 """
 
 A_TRIAL = """
-from app.compose.trial import attempt, trial_plan
+from app.compose.exercise_field import trial_plan
+from app.compose.trial import attempt
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
 from app.exercises.tissue import in_layers
@@ -43,7 +44,7 @@ assert attempt(one, placed, "expert", 1).score.total > 0.0
 A_TRAINER = """
 from pathlib import Path
 from app.compose.trainer import CtFacts, TrainerSetup, build_trainer
-from app.compose.trial import trial_plan
+from app.compose.exercise_field import trial_plan
 from app.core.clock import VirtualClock
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of

@@ -73,7 +73,7 @@ def stages_of(placed: PlacedPlan, field: TissueField | None) -> list[Stage]:
     more = ("tissue_field", "bone_slide") if field is not None else ()
     bound, values = None, ()
     if field is not None:
-        from app.simulation.tissue_values import tissue_values
+        from app.simulation.tissues import tissue_values
 
         bound = BoundField(field, placed.T_world_patient, placed.p_target)
         values = tissue_values(field.tissues)

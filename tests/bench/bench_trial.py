@@ -10,9 +10,10 @@ import time
 from statistics import median
 from time import process_time
 
+from app.compose.exercise_field import trial_plan
 from app.compose.needle import measured_axis, needle_scene
 from app.compose.trainer import TrainerSetup, build_loop
-from app.compose.trial import Trials, attempt, trial_plan
+from app.compose.trial import Trials, attempt
 from app.core.clock import VirtualClock
 from app.exercises.scene import device_of, placed_plan_of
 from app.tracking.optics.rig import load_rig

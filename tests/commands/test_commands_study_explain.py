@@ -104,7 +104,6 @@ def test_what_is_absent_is_suggested_with_its_cost_and_refused_where_it_has_no_r
 
 @pytest.mark.long("journey")
 def test_explain_does_not_compile_the_loop_that_it_does_not_run() -> None:
-    pytest.xfail("known: the field is asked for by way of the trials, which import the loop")
     code = (
         "import sys; from app.exercises.library import load_exercise as load\n"
         "from app.commands.explain import explain; explain('scans-only')\n"

@@ -13,6 +13,7 @@ from app.exercises.errors import ExerciseError
 from app.exercises.library import library, load_exercise
 from app.exercises.scene import device_of, placed_plan_of
 from app.exercises.schema import Exercise
+from app.exercises.tissue_choice import Needles
 from app.imaging.field.tissue_field import FieldTissue, TissueField, TissueKind
 
 ENTRY = (0.0, -100.0, 300.0)
@@ -51,8 +52,8 @@ def patient(inner: str = "fat", block: tuple[str, slice, slice] | None = None) -
 
 def calls(chosen: Exercise, field: TissueField, *simulated: str) -> dict[str, Call]:
     profile = device_of(chosen)
-    placed = placed_plan_of(chosen, profile)
-    return {one.effect: one for one in called_for(chosen, placed, profile, field, simulated)}
+    needles = Needles(field, placed_plan_of(chosen, profile), profile)
+    return {one.effect: one for one in called_for(chosen, needles, simulated)}
 
 
 def test_a_patient_of_fat_alone_is_pierced_cut_and_rubs_and_has_neither_bone_nor_breath() -> None:

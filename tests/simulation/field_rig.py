@@ -15,7 +15,7 @@ from app.simulation.bound_field import BoundField
 from app.simulation.consumers import Consumer, DevicePort
 from app.simulation.plan import compile
 from app.simulation.scene import EffectRequest, Needle, Scene, TissueLayer
-from app.simulation.tissue_values import tissue_values
+from app.simulation.tissues import tissue_values
 
 Distance = Callable[[FloatArray], FloatArray]
 """Signed distance of points [mm], (n, 3) -> (n,), from a tissue's boundary, positive inside."""

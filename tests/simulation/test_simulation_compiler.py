@@ -13,7 +13,7 @@ from app.simulation.effects import declaration, effect_names
 from app.simulation.errors import SimulationError
 from app.simulation.plan import compile
 from app.simulation.scene import Binding, EffectRequest, Scene, TissueLayer
-from app.simulation.tissue_values import tissue_values
+from app.simulation.tissues import tissue_values
 
 ALL = tuple(EffectRequest(n) for n in ("breathing", "shaft_friction", "lateral_tissue"))
 REAL = DevicePort("icube")

@@ -27,7 +27,7 @@ from app.device.control import Loop
 from app.imaging.field import FieldTissue, TissueField, TissueKind
 from app.simulation import tissue_walk as walk
 from app.simulation.plan import compile
-from app.simulation.tissue_values import tissue_values
+from app.simulation.tissues import tissue_values
 
 POSE = RigidTransform(rotation_exp(np.array([0.3, -0.2, 0.5])), np.array([0.01, 0.02, 0.03]))
 

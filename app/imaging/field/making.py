@@ -27,7 +27,7 @@ from app.imaging.errors import ImagingError
 from app.imaging.field.errors import FieldError
 from app.imaging.field.grid import FieldGrid, grid_over
 from app.imaging.field.storing import read, write
-from app.imaging.field.tissue_field import TissueField, TissueKind
+from app.imaging.field.tissue_field import TissueField
 from app.imaging.memory import available
 from app.imaging.structures.structure import Structure
 from app.imaging.volume import Volume
@@ -185,10 +185,13 @@ def _place(
 
 @lru_cache(maxsize=1)
 def _version() -> str:
-    """Digest of the code that makes fields, so that an older one is never taken for it."""
+    """Digest of the code that makes fields, so that an older one is never taken for it.
+
+    That finds body and tissue, reads structures and paints the built-in patient, too.
+    """
     digest = hashlib.sha256()
-    here = Path(__file__).parent
-    for folder in (here, here.parent / "phantom"):
+    imaging = Path(__file__).parents[1]
+    for folder in (imaging, *(imaging / name for name in ("field", "phantom", "structures"))):
         for file in sorted(folder.glob("*.py")):
             digest.update(file.read_bytes())
     return digest.hexdigest()
@@ -213,10 +216,3 @@ def _keep(field: TissueField, place: Path) -> None:
         for old in files[:-KEPT]:
             step("remove", old)
             remove(old)
-
-
-def organ_at(field: TissueField, point_mm: Any) -> str:
-    """Return the name of the tissue at a point [mm], for the target's own organ."""
-    code = int(field.codes_at(np.asarray(point_mm, float)[None])[0])
-    tissue = field.tissues[code]
-    return tissue.words if tissue.kind is not TissueKind.UNKNOWN else ""

@@ -20,10 +20,12 @@ FORMAT: Final = "acus-attacks/1"
 
 
 def key_of(*parts: Any) -> str:
-    """Return a digest of JSON-ready values and of every file of the program."""
+    """Return a digest of JSON-ready values, of the program's files and of its profiles and rigs."""
     digest = hashlib.sha256(json.dumps(parts, sort_keys=True, default=str).encode())
     for path in sorted(plugin_folders.APP.rglob("*.py")):
         digest.update(str(path.relative_to(plugin_folders.APP)).encode() + path.read_bytes())
+    for path in sorted(paths.resources().rglob("*.yaml")):
+        digest.update(str(path.relative_to(paths.resources())).encode() + path.read_bytes())
     return digest.hexdigest()[:16]
 
 

@@ -13,7 +13,7 @@ from app.imaging.field import NOBODYS, FieldTissue, TissueField, TissueKind
 from app.simulation.bound_field import BoundField
 from app.simulation.effects import declaration, tissue_field
 from app.simulation.scene import Binding, Scene
-from app.simulation.tissue_values import tissue_values
+from app.simulation.tissues import tissue_values
 from app.studies.hard_cases.case import HardCase, analytic, answers
 
 _Way = Callable[..., Any]
