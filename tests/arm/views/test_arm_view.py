@@ -452,6 +452,8 @@ def played(window, settle):
 
 @pytest.mark.long("journey")
 def test_it_plays_to_the_end_is_scored_and_counts_for_nobody(real, settle) -> None:
+    real.editor.place(Tool.TARGET, (5.0, -5.0, 140.0), True)  # before the bone
+    assert settle(lambda: real.runs.run is not None)
     results = played(real, settle)
     assert settle(lambda: results)
     (result,) = results
