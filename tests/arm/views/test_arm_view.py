@@ -34,6 +34,7 @@ from app.views.debrief.feature import DebriefFeature
 from app.views.debrief.score_words import short_words, whose_words
 from app.views.exercise.feature import ExerciseFeature
 from app.views.shell.services import RobotChoice
+from app.views.slices.viewing import Tool
 
 
 @pytest.fixture
