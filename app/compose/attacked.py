@@ -226,4 +226,6 @@ def _bad(lengths_mm: Collection[float]) -> float:
 def _total(rows: Collection[Row]) -> float:
     """Return the total of rows, whether they are void or not."""
     weight = sum(row.weight for row in rows)
-    return 100.0 * sum(row.weight * row.counted for row in gated(rows)) / weight if weight else 0.0
+    if weight <= 0.0:
+        return 0.0
+    return 100.0 * sum(row.weight * row.counted for row in gated(tuple(rows))) / weight
