@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QLocale, QObject
+from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QWidget
 
 from app.core.errors import AcusError
@@ -17,7 +17,7 @@ from app.imaging.series import Ignored, Listing
 from app.views.kit import theme
 from app.views.kit.background import run_in_background
 from app.views.kit.progress_strip import ElidedLabel, ProgressStrip
-from app.views.kit.text import install_translation, tr
+from app.views.kit.text import tr
 from app.views.reading.layouts import BULLSEYE, CORONAL, FIVE, FOUR, ViewGrid
 from app.views.series.browser import SeriesBrowser
 from app.views.shell.message_bar import MessageBar
@@ -26,11 +26,6 @@ from app.views.shell.message_bar import MessageBar
 # --- text, theme, background -------------------------------------------------------------------
 def test_text_is_filled_in_after_translation():
     assert tr("Slice {number} / {count}", number=1, count=2) == "Slice 1 / 2"
-
-
-def test_a_missing_translation_is_said_and_changes_nothing(application, tmp_path):
-    assert not install_translation(application, QLocale("xx"), tmp_path)
-    assert tr("Entry") == "Entry"
 
 
 def test_marks_differ_in_more_than_colour():

@@ -16,7 +16,7 @@ from app.planning.patient import Patient
 from app.views.exercise.beginning import Beginning
 from app.views.kit.access import ACCESS
 from app.views.kit.background import run_in_background
-from app.views.kit.text import tr
+from app.views.kit.text import declared, tr
 from app.views.shell.feature import Context, Feature
 
 
@@ -114,10 +114,10 @@ class ExerciseFeature(Feature):
     @property
     def titles(self) -> list[tuple[str, str]]:
         """Identifiers and titles of all exercises, and of one that is taken without being kept."""
-        found = {exercise.id: exercise.title for exercise in self.exercises.values()}
+        found = {exercise.id: declared(exercise.title) for exercise in self.exercises.values()}
         taken = self._conductor.exercise
         if taken is not None and taken.id not in found:
-            found[taken.id] = tr("{title} (not kept)", title=taken.title)
+            found[taken.id] = tr("{title} (not kept)", title=declared(taken.title))
         return list(found.items())
 
     def begin(self, identifier: str) -> None:

@@ -35,7 +35,7 @@ from app.views.kit.access import ACCESS
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.progress_strip import ProgressStrip
-from app.views.kit.text import literal, tr
+from app.views.kit.text import declared, literal, tr
 from app.views.measure.editor import MeasureEditor
 from app.views.people.feature import PeopleFeature
 from app.views.plan.editor import PlanEditor
@@ -304,7 +304,7 @@ class MainWindow(QMainWindow):
         taken = conductor.exercise if patient and conductor.fits(patient) else None
         name = "" if patient is None else NAMES.shown(patient.label)
         here = tr("signed in as the instructor") if ACCESS.instructor else ""
-        parts = ("" if taken is None else taken.title, name, here, "Acus")
+        parts = ("" if taken is None else declared(taken.title), name, here, "Acus")
         self.setWindowTitle(" – ".join(filter(None, parts)))
         self.undo_action.setEnabled(self.undo.can_undo)
         self.redo_action.setEnabled(self.undo.can_redo)
