@@ -130,6 +130,7 @@ class Runs(QObject):
             self._task = None
         opened, self._open = self._open, None
         if opened is not None:
+            opened.run.trainer.abort(tr("the window was closed"))  # an attempt that runs is saved
             opened.close()
         self.closed()()
 

@@ -441,8 +441,8 @@ class MainWindow(QMainWindow):
             event.acceptProposedAction()
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        """Ask about what is unsaved, then end everything."""
-        if not self.may_go():
+        """Ask about an attempt that runs and what is unsaved, then end everything."""
+        if not (self.feature(ExerciseFeature).may_quit() and self.may_go()):
             event.ignore()
             return
         self.remembered.remember()
