@@ -158,10 +158,10 @@ def test_again_where_the_student_plans_is_no_dead_end_after_plan_anew(
     window, beginning, lesion, settle, monkeypatch
 ):
     attempted(window, settle, OWN)
-    asked = choose_answer(monkeypatch, "Plan anew")
+    asked = choose_answer(monkeypatch, "New plan")
     window.feature(DebriefFeature).page.retry.click()
     assert settle(lambda: window.pages.currentWidget() is window.workspace)
-    assert asked == ["Same plan, or plan anew?"]
+    assert asked == ["Same plan, or a new one?"]
     assert window.editor.edit.draft.entry_mm is None
     assert settle(lambda: beginning.wish is BeginWish.NOTHING)
     assert settle(lambda: "Place the entry" in line(window))

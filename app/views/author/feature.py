@@ -624,7 +624,7 @@ class AuthorFeature(Feature):
         if checked:
             self._say(words)
         else:
-            doubt = tr("Not checked yet: what the patient calls for; that is said here soon.")
+            doubt = tr("Not checked yet: what the patient calls for. The answer comes here.")
             self._say(f"{words} {doubt}", Verdict.WARNING)
         self.noted.emit(words)
         return True

@@ -192,9 +192,9 @@ class ExerciseFeature(Feature):
         answer = ask(
             self._shell.dialog_parent,
             exercise.title,
-            tr("Same plan, or plan anew?"),
+            tr("Same plan, or a new one?"),
             tr("The plan of an attempt stays in its record."),
-            (tr("Same plan"), tr("Plan anew"), tr("Cancel")),
+            (tr("Same plan"), tr("New plan"), tr("Cancel")),
             escape=2,
         )
         if answer == 0:

@@ -77,7 +77,7 @@ def status_lines(
         lines.append(_stillness(speed))
     lines.append(tip_line(pen))
     if simulated:
-        lines.append(Line(Verdict.GOOD, tr("the lens is {words}", words=known_lens_words())))
+        lines.append(Line(Verdict.GOOD, tr("the lens is {source}", source=known_lens_words())))
     elif webcam is not None:
         verdict = Verdict.WARNING if webcam.guessed else Verdict.GOOD
         text = tr("the lens is calibrated")

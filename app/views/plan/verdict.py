@@ -71,10 +71,10 @@ def _way_words(way: Way) -> tuple[str, str]:
     return "warning", "\n".join((*lines, follows))
 
 
-def _hindrance_words(one: Hindrance) -> str:
+def _hindrance_words(hindrance: Hindrance) -> str:
     """Name a tissue on the way and where it begins."""
-    tissue, depth = one.name, one.depth_mm
-    if one.is_sure:
+    tissue, depth = hindrance.name, hindrance.depth_mm
+    if hindrance.is_sure:
         return tr("{tissue} on the way at {depth:.0f} mm", tissue=tissue, depth=depth)
     return tr("perhaps {tissue} on the way at {depth:.0f} mm", tissue=tissue, depth=depth)
 
