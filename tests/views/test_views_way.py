@@ -11,7 +11,7 @@ from app.imaging.errors import ImagingError
 from app.planning.draft import DraftPlan
 from app.views.kit import theme
 from app.views.plan.feature import PlanFeature
-from app.views.plan.way import WayState
+from app.views.plan.verdict import WayState
 from app.views.slices.viewing import Tool
 
 BESIDE = (-8.0, 5.0, 140.0)

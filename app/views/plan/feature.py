@@ -28,8 +28,8 @@ from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel
 from app.views.kit.text import literal, tr
 from app.views.plan.editor import PlanEditor, PlanFiles, Point
-from app.views.plan.verdict import verdict_words
-from app.views.plan.way import Way, WayWatch
+from app.views.plan.verdict import Way, verdict_words
+from app.views.plan.way import WayWatch
 from app.views.shell.feature import Context, Feature
 from app.views.shell.settings import Recents
 from app.views.slices.viewing import Tool, Viewing

@@ -3,15 +3,40 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum, auto
 from typing import TYPE_CHECKING
 
 from app.core.units import DEGREE, MILLIMETRE
 from app.views.kit.text import tr, translated
 from app.views.plan.editor import PlanEditor
-from app.views.plan.way import Way, WayState
 
 if TYPE_CHECKING:
     from app.planning.on_the_way import Hindrance
+
+
+class WayState(Enum):
+    """What is known of the way."""
+
+    NOBODY_ASKS = auto()
+    LOOKING = auto()
+    KNOWN = auto()
+    UNKNOWN = auto()
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """What lies on the planned way.
+
+    Attributes:
+        state: what is known.
+        hindrances: on it, the first one first.
+        reason: why it is unknown; empty otherwise.
+    """
+
+    state: WayState = WayState.NOBODY_ASKS
+    hindrances: tuple[Hindrance, ...] = ()
+    reason: str = ""
+
 
 MOST_LINES = 3
 """So many hindrances on the way are named, the first ones."""

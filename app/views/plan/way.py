@@ -7,8 +7,6 @@ the attempt's.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from enum import Enum, auto
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -19,11 +17,11 @@ from app.core.progress import Progress
 from app.exercises.parts import OwnPlan
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.text import tr, translated
+from app.views.plan.verdict import Way, WayState
 
 if TYPE_CHECKING:
     from app.imaging.field import TissueField
     from app.imaging.structures.structure import Structure
-    from app.planning.on_the_way import Hindrance
     from app.views.shell.feature import Context
 
 AFTER_MS: Final = 300
@@ -31,30 +29,6 @@ AFTER_MS: Final = 300
 
 ABOUT_TARGET_MM: Final = 125.0
 """No path that is scored is longer."""
-
-
-class WayState(Enum):
-    """What is known of the way."""
-
-    NOBODY_ASKS = auto()
-    LOOKING = auto()
-    KNOWN = auto()
-    UNKNOWN = auto()
-
-
-@dataclass(frozen=True, slots=True)
-class Way:
-    """What lies on the planned way.
-
-    Attributes:
-        state: what is known.
-        hindrances: on it, the first one first.
-        reason: why it is unknown; empty otherwise.
-    """
-
-    state: WayState = WayState.NOBODY_ASKS
-    hindrances: tuple[Hindrance, ...] = ()
-    reason: str = ""
 
 
 class WayWatch(QObject):
