@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QObject
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QProgressBar, QWidget
 
 from app.core.errors import AcusError
 from app.core.progress import Progress
@@ -258,3 +258,33 @@ def test_work_whose_callback_holds_the_last_reference_to_its_owner_ends_both_onc
         check=False,
     )
     assert (done.returncode, done.stdout.split()[-1:]) == (0, ["alive"]), done.stderr
+
+
+def test_of_two_tasks_one_bar_is_seen_with_the_number_of_others_and_the_next_follows(
+    application, settle
+):
+    strip, gates = ProgressStrip(), (threading.Event(), threading.Event())
+    parent = QObject()
+    for title, gate in zip(("Reading", "Starting robot"), gates, strict=True):
+        run_in_background(
+            parent, lambda _, gate=gate: gate.wait(30.0), print, print, title=title, indicator=strip
+        )
+    try:
+        strip.show()
+
+        def seen():
+            bars = [one for one in strip.findChildren(QProgressBar) if one.isVisible()]
+            texts = [one.whole for one in strip.findChildren(ElidedLabel) if one.isVisible()]
+            return len(bars), texts
+
+        assert seen() == (1, ["Reading (and 1 more)"])
+        assert strip.count == 2
+        one_row = strip.sizeHint().height()
+        gates[0].set()
+        assert settle(lambda: strip.count == 1)
+        assert seen() == (1, ["Starting robot"])
+        assert strip.sizeHint().height() == one_row
+    finally:
+        for gate in gates:
+            gate.set()
+    assert settle(lambda: strip.isHidden())
