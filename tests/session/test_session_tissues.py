@@ -15,6 +15,7 @@ from app.scoring.result import Score, judge
 from app.scoring.rows import ScoreRules
 from app.session.recording import read_recording
 from app.session.replay import contents
+from app.session.tissue_force import feels_along
 from app.session.tissues import event_of, tissues_met, tissues_met_of
 from app.session.verify import verify
 
@@ -104,6 +105,37 @@ def test_bone_that_stops_the_tip_at_its_surface_is_touched(bench: Bench) -> None
     assert bone.entered_mm == pytest.approx(40.0, abs=0.3)
     assert bone.length_mm < 0.3
     assert bone.is_forbidden(("bone",))
+
+
+def test_the_largest_force_of_each_tissue_is_that_while_the_tip_was_in_it(bench: Bench) -> None:
+    """A ramp of 0.1 N for each mm of depth, and 20 N while the tip stands at its end, on a rib."""
+    attempt(bench, body(rib(44.1)))
+    recording = read_recording(next(bench.folder.glob("*.mcap")))
+    samples, placed, field = recording.samples, recording.placed_plan(), body(rib(44.1))
+    assert {one.force_n for one in tissues_met_of(samples, placed, field, True)} == {0.0}
+    deep = 1e3 * np.nan_to_num(samples.depth)
+    along = np.where(deep > 39.9, 20.0, 0.1 * deep)
+    pushed = replace(samples, along=along)
+    forces = {one.words: one.force_n for one in tissues_met_of(pushed, placed, field, True)}
+    assert forces["skin"] == pytest.approx(0.2, abs=0.06)
+    assert forces["fat"] == pytest.approx(1.2, abs=0.06)
+    assert forces["muscle"] == pytest.approx(2.0, abs=0.06)
+    assert forces["rib"] == 20.0
+    unfelt = tissues_met_of(pushed, placed, field)
+    assert {one.force_n for one in unfelt} == {None}
+    older = tissues_met_of(replace(samples, along=None), placed, field, True)
+    assert {one.force_n for one in older} == {None}
+
+
+def test_who_felt_the_field_is_told_by_the_head_of_the_record() -> None:
+    looked, simulated = {"tissue_field": {"digest": ""}}, {"device": {"simulated": "yes"}}
+    assert feels_along(looked | simulated, {})
+    assert not feels_along(simulated, {})
+    for renders, felt in (('["lateral"]', False), ('["lateral", "axial"]', True)):
+        device = f'{{"loop": {{"renders": {renders}}}}}'.encode()
+        assert feels_along(looked, {"device.json": device}) is felt
+    assert not feels_along(looked, {"device.json": b"[]"})
+    assert not feels_along(looked, {})
 
 
 def test_a_rib_beside_the_path_is_not_met(bench: Bench) -> None:
