@@ -50,6 +50,7 @@ def test_a_file_that_is_no_metric_cannot_be_used_and_says_why(
 
 
 LUNG = Met("lung", "", 20.0, 15.0, ((0, 0, 0), (0, 15, 0)), 0.3, 12.0, 1.0, before="muscle")
+RIB = Met("bone", "rib", 12.0, 0.0, ((0, 0, 0), (0, 0, 0)), force_n=6.0)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -60,7 +61,7 @@ def test_every_metric_is_finite_on_a_plain_attempt(name: str) -> None:
         "risks": (RiskMark("vessel", 3.0, 2.0, inside_s=0.0),),
         "clamped": np.zeros(len(base), dtype=bool),
         "touches": Touches(2, (float(base.time[-1]),)),
-        "met": (LUNG,),
+        "met": (RIB, LUNG),
     }
     trajectory = Attempt(noise=1e-4, force=1.0).trajectory(**facts)
     assert np.isfinite(value(name, trajectory))

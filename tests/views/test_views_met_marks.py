@@ -120,3 +120,15 @@ def test_an_attempt_that_met_nothing_has_no_marks_of_the_one_before(shown, settl
     assert not any(layer._places for layer in shown.views.met)
     x, y = shown.views.scene.pixels(np.array([RIB_MM]))[0]
     assert shown.views.met_scene.at(x, y) is None
+
+
+def test_published_odds_are_folded_away_until_somebody_wants_them(shown, settle):
+    odds = shown.published
+    assert odds.isVisibleTo(shown)
+    assert not odds.lines.isVisibleTo(odds)
+    odds.button.click()
+    assert odds.lines.isVisibleTo(odds)
+    assert "25.9 % of lung biopsies" in odds.lines.text()
+    assert "PMC7362905" in odds.lines.text()
+    shown.show_review(attempted(shown.views.viewing.volume))
+    assert not odds.isVisibleTo(shown)
