@@ -452,7 +452,7 @@ def _detail_lines(document: dict[str, Any], nobodys: str) -> list[str]:
         lines.append(f"  {row['label']:32} {value:>20}  {band or row['note'] or ''}")
     for risk in document["published_risks"]:
         source = f" ({risk['source']})" if risk["source"] else ""
-        lines.append(f"{'published':12} {risk['message']}{source}")
+        lines.append(f"{'published':12} {risk['statement']}{source}")
     for event in document["events"]:
         lines.append(f"  {event['time_s']:12.3f} s  {event['message']}")
     for problem in document["problems"]:

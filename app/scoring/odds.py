@@ -53,13 +53,13 @@ class PublishedRisk:
 
     Attributes:
         complication: `pneumothorax`, `bleeding`, `air embolism`; `not known` where none was found.
-        message: what was done, and what series say of it.
+        statement: what was done, and what series say of it.
         source: who says so; empty where nobody does.
         odds_ratio: of a factor that this attempt has; None where the sentence names none.
     """
 
     complication: str
-    message: str
+    statement: str
     source: str
     odds_ratio: float | None = None
 
@@ -67,14 +67,14 @@ class PublishedRisk:
     def sentence(self) -> str:
         """Say it in one line, with its source."""
         if not self.source:
-            return self.message
-        return sentence("{message} ({source})", message=self.message, source=self.source)
+            return self.statement
+        return sentence("{statement} ({source})", statement=self.statement, source=self.source)
 
     def document(self) -> dict[str, Any]:
         """Return it as JSON-ready values."""
         return {
             "complication": self.complication,
-            "message": self.message,
+            "statement": self.statement,
             "source": self.source,
             "odds_ratio": self.odds_ratio,
         }
