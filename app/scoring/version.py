@@ -10,5 +10,6 @@ KNOWN_VERSIONS: Final = (5, SCORING_VERSION)
 """Versions whose rules this program still has, so that a score is checked by its own. What changed:
 
 6: the spectral arc length takes each picture once and smooths no more than its noise asks for; what
-the rules forbid to be met fails the attempt.
+the rules forbid to be met fails the attempt; an insertion that nobody saw begin counts as unseen
+from where the needle was seen last.
 """
