@@ -13,6 +13,7 @@ from app.compose.cameras import AttachedCameras
 from app.compose.exercise_ct import load_field, read_ct
 from app.compose.exercise_field import FIELD, resolve_tissue
 from app.compose.explaining import quick_explanation
+from app.compose.loop_truth import disagreements, met_in_loop
 from app.compose.trainer import TrainerSetup, _context, build_loop, replay_recording
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
@@ -186,6 +187,27 @@ def test_the_rib_is_told_with_its_depth_and_its_force_and_fails_the_attempt(stop
     assert fail == ribs[0].sentence
     assert fail.endswith(" N")
     assert next(row.value for row in score.rows if row.name == "bone_force") == strongest
+
+
+def test_the_loops_own_state_tells_the_same_and_finds_a_judge_that_is_wrong(stopped: Any) -> None:
+    recording, rows, _, own = stopped
+    placed, walked = recording.placed_plan(), recording.trajectory().met
+    looped = met_in_loop(rows, own, placed)
+    assert looped is not None
+    assert [one.words for one in looped] == ["skin", "fat", "muscle", "rib"]
+    by_walk = {one.words: one for one in walked if one.by == "tip"}
+    for one in looped:
+        assert one.entered_mm == pytest.approx(by_walk[one.words].entered_mm, abs=1.0)
+        assert one.length_mm == pytest.approx(by_walk[one.words].length_mm, abs=1.5)
+    assert disagreements(walked, looped) == ()
+    blind = [one for one in walked if not one.is_bone]
+    assert disagreements(blind, looped) == ("rib: the loop had it, the walk had not",)
+    unfelt = [one for one in looped if one.words != "muscle"]
+    assert disagreements(walked, unfelt) == ("muscle: the walk had it, the loop had not",)
+    in_layers = rows.copy()
+    in_layers[:, [sv.TISSUE, sv.BONE_CONTACT]] = 0.0
+    assert met_in_loop(in_layers, own, placed) is None
+    assert disagreements(walked, None) == ()
 
 
 def test_a_replay_needs_no_ct_and_is_the_same_to_the_last_bit(stopped: Any) -> None:
