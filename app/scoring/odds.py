@@ -95,8 +95,8 @@ def _lung(met: Sequence[Met]) -> list[PublishedRisk]:
         PublishedRisk(
             "pneumothorax",
             sentence(
-                "Pleura crossed {crossed} times, {aerated:.0f} mm of aerated lung: in published "
-                "series {percent:g} % of lung biopsies had a pneumothorax, {drain:g} % a drain.",
+                "Pleural crossings: {crossed}; aerated lung: {aerated:.0f} mm. In published series "
+                "{percent:g} % of lung biopsies had a pneumothorax, {drain:g} % a drain.",
                 crossed=crossed,
                 aerated=aerated,
                 percent=PNEUMOTHORAX_PERCENT,
@@ -132,7 +132,7 @@ def _lung(met: Sequence[Met]) -> list[PublishedRisk]:
                 DEEP_OR,
             )
         )
-    return [*found, *_angle(met), *_patient()]
+    return [*found, *_patient(), *_angle(met)]
 
 
 def _angle(met: Sequence[Met]) -> list[PublishedRisk]:

@@ -23,8 +23,8 @@ def test_a_needle_through_lung_is_told_what_series_say_with_their_source():
     """Huo 2020, abstract: 25.9 % pneumothorax, 6.9 % drain, more than one puncture 2.43."""
     said = texts(LUNG)
     assert said[0] == (
-        "Pleura crossed 2 times, 24 mm of aerated lung: in published series 25.9 % of lung "
-        "biopsies had a pneumothorax, 6.9 % a drain. "
+        "Pleural crossings: 2; aerated lung: 24 mm. In published series 25.9 % of lung biopsies "
+        "had a pneumothorax, 6.9 % a drain. "
         "(Huo et al. 2020, Br J Radiol, PMC7362905: 36 series, 23 104 patients)"
     )
     assert not any("2.43" in line for line in said)

@@ -7,13 +7,18 @@ from PySide6.QtWidgets import QToolButton, QVBoxLayout, QWidget
 
 from app.scoring.odds import published_risks
 from app.session.review import Review
+from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
 from app.views.kit.text import tr
 
 
 def published_lines(review: Review) -> tuple[str, ...]:
-    """Say what series say of what an attempt's needle met, a line each with its source."""
-    return tuple(f"· {risk.sentence}" for risk in published_risks(review.met))
+    """Say what series say of what an attempt's needle met: a line for each source."""
+    by_source: dict[str, list[str]] = {}
+    for risk in published_risks(review.met):
+        by_source.setdefault(risk.source, []).append(risk.statement)
+    lines = ((" ".join(statements), source) for source, statements in by_source.items())
+    return tuple(f"· {words} ({source})" if source else f"· {words}" for words, source in lines)
 
 
 class PublishedOdds(QWidget):
@@ -27,8 +32,8 @@ class PublishedOdds(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.button, self.lines = QToolButton(self), PlainLabel(self)
-        self.button.setCheckable(True)
         self.button.setAutoRaise(True)
+        self._unfolded = False
         self.button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self.button.setToolTip(
             tr(
@@ -37,25 +42,26 @@ class PublishedOdds(QWidget):
             )
         )
         self.lines.setWordWrap(True)
-        self.lines.setProperty("role", "dim")
+        self.lines.setStyleSheet(f"font-size: {theme.SMALL_PX}px;")
         self.lines.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(2)
         column.addWidget(self.button)
         column.addWidget(self.lines)
-        self.button.toggled.connect(self._fold)
-        self._fold(False)
+        self.button.clicked.connect(lambda: self._unfold(not self._unfolded))
+        self._unfold(False)
         self.hide()
 
     def show_review(self, review: Review) -> None:
         """Take another attempt, folded."""
         lines = published_lines(review)
-        self.button.setText(tr("Published risks of what was met: {n}", n=len(lines)))
+        self.button.setText(tr("Published risks of what was met"))
         self.lines.setText("\n".join(lines))
-        self.button.setChecked(False)
+        self._unfold(False)
         self.setVisible(bool(lines))
 
-    def _fold(self, unfolded: bool) -> None:
+    def _unfold(self, unfolded: bool) -> None:
+        self._unfolded = unfolded
         self.button.setArrowType(Qt.ArrowType.DownArrow if unfolded else Qt.ArrowType.RightArrow)
         self.lines.setVisible(unfolded)
