@@ -251,11 +251,23 @@ def _met_on(field: TissueField, way: _Way, held: set[int], forces: FeltAlong) ->
         within = small | held if code in lung | held else small
         for part in joined(crossed, {code}, GAP_MM, within - {code}):
             met = _met(field, way, part, crossed, held)
+            if code in lung:  # a nodule does not part it, and is none of it
+                solid = _solid_mm(crossed, part, held - lung)
+                met = replace(met, length_mm=max(0.0, met.length_mm - solid))
             # Bone is left where something else is met, or the tip slid on.
             left = way.left(part.end_mm + (SLID_MM if met.is_bone else 0.0))
             force = forces.largest(met.time, left)
             found.append((part.begin_mm, replace(met, force_n=force)))
     return [met for _, met in sorted(found, key=lambda one: one[0])]
+
+
+def _solid_mm(crossed: list[Crossed], part: Crossed, codes: set[int]) -> float:
+    """Return how much of some codes lies within a stretch [mm]."""
+    return sum(
+        other.length_mm
+        for other in crossed
+        if other.code in codes and part.begin_mm <= other.begin_mm and other.end_mm <= part.end_mm
+    )
 
 
 def _touching(field: TissueField, way: _Way, crossed: list[Crossed]) -> list[Crossed]:

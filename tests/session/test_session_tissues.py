@@ -178,6 +178,16 @@ def test_lung_is_crossed_twice_at_its_pleura_with_vessels_in_it(bench: Bench) ->
     assert values["vessels_touched"] == 0.0
 
 
+def test_a_nodule_that_the_needle_goes_through_is_no_aerated_lung(bench: Bench) -> None:
+    lung = (Kind.LUNG, "", lambda points: np.abs(points[:, 1] - ENTRY[1] - 55.0) - 25.0)
+    nodule = (Kind.ORGAN, "nodule", ball(ENTRY + [0.0, 60.0, 0.0], 3.0))  # holds the target
+    result = attempt(bench, body(lung, nodule), depth=0.070)
+    values = {row.name: row.value for row in result.score.rows}
+    assert values["lung_crossed"] == pytest.approx(40.0 - 6.0, abs=0.5)
+    lengths = {one.words: one.length_mm for one in result.trajectory.met}
+    assert lengths["nodule"] == pytest.approx(6.0, abs=0.5)
+
+
 def test_without_a_field_nothing_is_told_and_nothing_asked(bench: Bench) -> None:
     result = attempt(bench, None)
     assert result.trajectory.met is None
