@@ -398,6 +398,7 @@ def test_attempts_are_kept_and_judged_by_bands_that_came_later(tmp_path, monkeyp
                 yield json.dumps(row | {"duration": 12.0, "score": score.document()})
 
     monkeypatch.setattr(trial_table, "ProcessPoolExecutor", Here)
+    monkeypatch.setattr(trial_table, "load_exercise", lambda _: exercise)
     trial_table.collect([name], 2, kept, 1)
     assert len(done) == 10
     kept.write_text(kept.read_text() + '\n{"of": "cut o')  # stopped while it wrote

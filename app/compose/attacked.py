@@ -34,7 +34,7 @@ from app.exercises.tissue import with_tissue
 from app.imaging.body import find_body, nearest_skin
 from app.scoring.met import FORBIDDEN, Met
 from app.scoring.result import TRACKING
-from app.scoring.rows import Row
+from app.scoring.rows import Row, gated
 from app.session.risks import risk_marks_of
 from app.session.tissues import tissues_met_of
 from app.simulation.trainee import tangent_basis, tangents
@@ -233,6 +233,6 @@ def _bad(lengths_mm: Collection[float]) -> float:
 def _total(rows: Collection[Row]) -> float:
     """Return the total of rows, whether they are void or not."""
     weight = sum(row.weight for row in rows)
-    return (
-        100.0 * sum(row.weight * (row.utility or 0.0) for row in rows) / weight if weight else 0.0
-    )
+    if weight <= 0.0:
+        return 0.0
+    return 100.0 * sum(row.weight * row.counted for row in gated(tuple(rows))) / weight

@@ -65,12 +65,17 @@ class RenderedTracker:
         self._next = max(self._next, until)
 
     def due(self, now: float) -> list[NeedleFix]:
-        """Take pictures if it is time, and return the fixes that are there by now."""
+        """Take pictures if they are there, and return the fixes that are there by now.
+
+        Time does not wait for a picture: a camera that is asked too early would let it go on
+        without the loop.
+        """
         if now >= self._next:
-            self._next += 1.0 / self._rig.rate_hz
             left, right = (camera.read() for camera in self._cameras)
+            latency = self._rig.latency_ms * MILLISECOND
+            self._next = max(left.time, right.time) + 1.0 / self._rig.rate_hz + latency
             fix = self._tracker.process(left, right)
-            self._late.append((now + self._rig.latency_ms * MILLISECOND + PROCESSING, fix))
+            self._late.append((fix.time + latency + PROCESSING, fix))
         there = [fix for time, fix in self._late if time <= now]
         self._late = [(time, fix) for time, fix in self._late if time > now]
         return there

@@ -13,9 +13,9 @@ from pydantic import ValidationError
 from app.core.messages import sentence
 from app.scoring.errors import ScoreFormatError, UnknownMetricError
 from app.scoring.met import Met, fails
-from app.scoring.rows import Row, ScoreRules
+from app.scoring.rows import REACHING, Row, ScoreRules, gated
 from app.scoring.tolerance import Tolerance
-from app.scoring.version import SCORING_VERSION
+from app.scoring.version import GATED, SCORING_VERSION
 
 FORMAT = "acus-score/1"
 """Name and version of the stored form."""
@@ -74,15 +74,22 @@ class Score:
 
     @property
     def losses(self) -> tuple[tuple[float, Row], ...]:
-        """Points of 100 that each row lost, one at least, the most first; none if void."""
+        """Points of 100 that each row lost, one at least, the most first; none if void.
+
+        What others lost because the target was missed, the row lost that says so.
+        """
         weight = sum(row.weight for row in self.rows)
         if self.total is None or weight <= 0.0:
             return ()
-        found = [
-            (100.0 * row.weight / weight * (1.0 - row.utility), row)
-            for row in self.rows
-            if row.utility is not None and row.weight > 0.0
-        ]
+        judged = [row for row in self.rows if row.utility is not None and row.weight > 0.0]
+        lost = {row.name: row.weight * (1.0 - (row.utility or 0.0)) for row in judged}
+        reach = [row for row in judged if row.name in REACHING]
+        if reach:
+            worst = min(reach, key=lambda row: row.utility or 0.0)
+            lost[worst.name] += sum(
+                row.weight * (row.utility or 0.0) - row.weight * row.counted for row in judged
+            )
+        found = [(100.0 * lost[row.name] / weight, row) for row in judged]
         return tuple(sorted((one for one in found if one[0] >= 1.0), key=lambda one: -one[0]))
 
     def row(self, name: str) -> Row:
@@ -106,8 +113,7 @@ class Score:
         rows = self.rows
         if tolerances is not None:
             rows = tuple(replace(row, tolerance=tolerances.get(row.name)) for row in rows)
-        judged = judge(rows, rules or self.rules, self.attempt_void, self.met)
-        return replace(judged, version=self.version)
+        return judge(rows, rules or self.rules, self.attempt_void, self.met, self.version)
 
     def document(self) -> dict[str, Any]:
         """Return the score with all its parameters as JSON-ready values; never NaN."""
@@ -168,18 +174,24 @@ def judge(
     rules: ScoreRules,
     attempt_void: str = "",
     met: tuple[Met, ...] | None = None,
+    version: int = SCORING_VERSION,
 ) -> Score:
-    """Make a score of rows whose values are known: the weighted mean of the utilities times 100."""
+    """Make a score of rows whose values are known: the weighted mean of the utilities times 100.
+
+    Each utility counts as far as the target was reached (`rows.gated`), from version `GATED` on.
+    """
+    if version >= GATED:
+        rows = gated(rows)
     void = attempt_void or _rows_void(rows, rules)
     weight = sum(row.weight for row in rows)
     if not void and weight <= 0.0:
         void = "no metric with a weight could be computed"
     if void:
-        return Score(rows, None, False, void, rules, attempt_void, met=met)
-    total = 100.0 * sum(row.weight * (row.utility or 0.0) for row in rows) / weight
+        return Score(rows, None, False, void, rules, attempt_void, version, met)
+    total = 100.0 * sum(row.weight * row.counted for row in rows) / weight
     passed = total >= rules.pass_mark and not any(row.failed for row in rows)
     passed = passed and not fails(met or (), rules.forbidden)
-    return Score(rows, total, passed, "", rules, attempt_void, met=met)
+    return Score(rows, total, passed, "", rules, attempt_void, version, met)
 
 
 def _rows_void(rows: tuple[Row, ...], rules: ScoreRules) -> str:

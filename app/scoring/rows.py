@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from math import isfinite
-from typing import Annotated, Any
+from typing import Annotated, Any, Final
 
 from pydantic import Field, field_validator
 
 from app.core.configuration import Strict
 from app.core.messages import sentence
 from app.scoring.met import FORBIDDABLE
-from app.scoring.tolerance import Band, Tolerance, band, best_within, tolerance
+from app.scoring.tolerance import PASS_UTILITY, Band, Tolerance, band, best_within, tolerance
 
 _KEPT_AT_ZERO = frozenset({"risk_breach"})
 """Metrics that are 0 wherever a limit was kept, however far off it: what is not known of the needle
 then says nothing about them, and stands beside the distance itself."""
+
+REACHING: Final = frozenset(
+    {"depth_error", "lateral_error", "planned_target_error", "target_error", "targets_touched"}
+)
+"""Metrics that say whether the needle came to its target: all others count only where it did."""
 
 
 def shown_sd(name: str, value: float | None, sd: float | None) -> float | None:
@@ -78,6 +84,7 @@ class Row:
         note: why there is no value; empty otherwise.
         tolerance: bands, weight and whether it is required; None if it is only shown.
         sd: standard deviation of the value, in its unit; 0 for what is counted, None if not known.
+        gate: share of the utility that counts, 0 ... 1: less than 1 where the target was missed.
     """
 
     name: str
@@ -87,6 +94,12 @@ class Row:
     note: str = ""
     tolerance: Tolerance | None = None
     sd: float | None = None
+    gate: float = 1.0
+
+    @property
+    def counted(self) -> float:
+        """Return the utility that counts, 0 ... 1; 0 without one."""
+        return self.gate * (self.utility or 0.0)
 
     @property
     def utility(self) -> float | None:
@@ -99,12 +112,12 @@ class Row:
 
     @property
     def utility_sd(self) -> float:
-        """Half of the range of `utility` over one `sd` to both sides; 0 where nothing is known."""
+        """Half of the range of `counted` over one `sd` to both sides; 0 where nothing is known."""
         if self.value is None or self.tolerance is None or not self.sd:
             return 0.0
         size = best_within(self.value, self.sd, self.tolerance)
         ends = (tolerance(max(0.0, size + d), self.tolerance) for d in (-self.sd, self.sd))
-        return 0.5 * abs(next(ends) - next(ends))
+        return 0.5 * self.gate * abs(next(ends) - next(ends))
 
     @property
     def band(self) -> Band | None:
@@ -126,6 +139,7 @@ class Row:
     def document(self) -> dict[str, Any]:
         """Return the row as JSON-ready values; utility and band are there for readers only."""
         limits = self.tolerance.model_dump(by_alias=True) if self.tolerance else None
+        gated = {"gate": self.gate} if self.gate < 1.0 else {}
         return {
             "name": self.name,
             "label": self.label,
@@ -136,6 +150,7 @@ class Row:
             "tolerance": limits,
             "utility": self.utility,
             "band": self.band,
+            **gated,
         }
 
     @classmethod
@@ -150,4 +165,25 @@ class Row:
             note=document["note"],
             tolerance=None if limits is None else Tolerance.model_validate(limits),
             sd=None if sd is None else float(sd),
+            gate=float(document.get("gate", 1.0)),
         )
+
+
+def gated(rows: Sequence[Row]) -> tuple[Row, ...]:
+    """Return rows that count as far as the needle came to its target, and no farther.
+
+    A way that is short, quick, straight and gentle earns nothing by ending elsewhere. The share is
+    that of the worst of the other rows that say where the needle ended: 1 up to its pass limit,
+    falling to 0 at its `zero`, so that no total jumps. Without such a row nothing is held back.
+    """
+    reach = {row.name: _reached(row) for row in rows if row.name in REACHING and row.weight > 0.0}
+    return tuple(
+        replace(
+            row, gate=min((share for name, share in reach.items() if name != row.name), default=1.0)
+        )
+        for row in rows
+    )
+
+
+def _reached(row: Row) -> float:
+    return min(1.0, (row.utility or 0.0) / PASS_UTILITY)

@@ -43,8 +43,7 @@ def score(
         row for name in names if (row := _row(metrics[name], trajectory, tolerances.get(name)))
     )
     rules = rules or ScoreRules()
-    judged = judge(rows, rules, _attempt_void(trajectory, rules), trajectory.met)
-    return replace(judged, version=version)
+    return judge(rows, rules, _attempt_void(trajectory, rules), trajectory.met, version)
 
 
 def with_shown(scored: Score, trajectory: Trajectory) -> Score:

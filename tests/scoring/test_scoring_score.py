@@ -66,6 +66,35 @@ def test_the_total_is_the_weighted_mean_of_the_rows() -> None:
     assert result.total == pytest.approx(100.0 * (weights @ utilities) / weights.sum())
 
 
+def test_doing_nothing_far_from_the_target_earns_nothing() -> None:
+    """Straight, quick, upright and 71 mm short was 70 of 100 by the rule of before."""
+    short = PERFECT.but(depth=-0.071).trajectory()
+    assert score(short, version=6).total > 70.0
+    result = score(short)
+    assert result.total == pytest.approx(0.0)
+    assert next(row.name for _, row in result.losses) == "depth_error"
+    assert sum(points for points, _ in result.losses) == pytest.approx(100.0)
+    assert Score.from_json(result.to_json()) == result
+    assert Score.from_json(result.to_json()).recomputed() == result
+
+
+@pytest.mark.parametrize("error", ["depth", "lateral"])
+def test_what_an_attempt_was_like_counts_less_the_farther_it_ended_without_a_jump(error) -> None:
+    ends = np.arange(0.0, 0.012, 0.0001)
+    totals = np.array([score(PERFECT.but(**{error: end}).trajectory()).total for end in ends])
+    before = [score(PERFECT.but(**{error: e}).trajectory(), version=6).total for e in ends]
+    within = ends <= 0.005  # the pass limit
+    np.testing.assert_allclose(totals[within], np.array(before)[within])
+    assert (np.diff(totals) <= 1e-9).all()
+    assert np.abs(np.diff(totals)).max() < 4.0
+    assert totals[-1] < 5.0
+
+
+def test_where_nothing_says_whether_the_target_was_reached_nothing_is_held_back() -> None:
+    only = {"total_time": bands(120, 200, 300)}
+    assert score(PERFECT.but(depth=-0.071).trajectory(), only).total == pytest.approx(100.0)
+
+
 def test_a_missed_target_fails_whatever_the_total() -> None:
     result = score(PERFECT.but(lateral=0.0055).trajectory())
     assert result.total is not None

@@ -338,6 +338,9 @@ def lessons(review: Review) -> tuple[str, ...]:
         return ()
     lost = score.losses
     said = [_loss(points, row) for points, row in lost[:MOST_LESSONS]]
+    if (share := min((row.gate for row in score.rows if row.weight > 0.0), default=1.0)) < 1.0:
+        words = tr("The target was missed: all else counts only {share:.0f} %.")
+        said.insert(1, words.format(share=100.0 * share))
     turn = review.correction
     if turn is not None and any(row.name in STEERED for _, row in lost):
         words = tr(
@@ -490,7 +493,7 @@ def _points(row: Row, score: Score) -> str:
     if score.total is None or row.utility is None or weight <= 0.0 or row.weight <= 0.0:
         return "–"
     most = 100.0 * row.weight / weight
-    return f"{most * row.utility:.1f} / {most:.1f}"
+    return f"{most * row.counted:.1f} / {most:.1f}"
 
 
 def _limits(row: Row) -> str:

@@ -34,6 +34,7 @@ from app.views.debrief.feature import DebriefFeature
 from app.views.debrief.score_words import short_words, whose_words
 from app.views.exercise.feature import ExerciseFeature
 from app.views.shell.services import RobotChoice
+from app.views.slices.viewing import Tool
 
 
 @pytest.fixture
@@ -452,6 +453,8 @@ def played(window, settle):
 
 @pytest.mark.long("journey")
 def test_it_plays_to_the_end_is_scored_and_counts_for_nobody(real, settle) -> None:
+    real.editor.place(Tool.TARGET, (5.0, -5.0, 140.0), True)  # before the bone
+    assert settle(lambda: real.runs.run is not None)
     results = played(real, settle)
     assert settle(lambda: results)
     (result,) = results
