@@ -291,5 +291,5 @@ def test_who_hides_the_needle_until_it_is_in_has_not_been_seen_inserting_it() ->
     assert value("tracking_valid", hidden_entry(-1.0, 40.0)) == 100.0  # never visible yet
     tube = hidden_entry(5.0, 24.0, before=0.010)  # the marker went into the tube, and came out
     assert value("tracking_valid", tube) == 100.0
-    older = replace(hidden_entry(19.0, 40.0), scoring_version=5)
+    older = replace(hidden_entry(19.0, 40.0), scoring_version=6)
     assert value("tracking_valid", older) == 100.0

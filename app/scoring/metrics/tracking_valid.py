@@ -22,7 +22,7 @@ DECLARATION: Final[dict[str, Any]] = {
 SEEN_OUTSIDE: Final = 0.002
 """A needle seen no deeper than this was out of the body [m]: from here on it counts as inserted."""
 
-COUNTED_SINCE: Final = 6
+COUNTED_SINCE: Final = 7
 """Scoring version from which an insertion that nobody saw begin counts."""
 
 
