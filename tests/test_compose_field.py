@@ -13,6 +13,7 @@ from app.compose.cameras import AttachedCameras
 from app.compose.exercise_ct import load_field, read_ct
 from app.compose.exercise_field import FIELD, resolve_tissue
 from app.compose.explaining import quick_explanation
+from app.compose.loop_truth import disagreements, met_in_loop
 from app.compose.trainer import TrainerSetup, _context, build_loop, replay_recording
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
@@ -30,6 +31,7 @@ from app.session.errors import ReplayError
 from app.session.header import TISSUE_FILE
 from app.session.recording import Recording, read_recording
 from app.session.trainer import Trainer
+from app.session.verify import verify
 from app.simulation.consumers import DevicePort
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.optics.rig import load_rig
@@ -121,7 +123,7 @@ def attempt(
         trainer.on_fix(NeedleFix(tip, 1e-9 * np.eye(3), now, FixStatus.VALID, pixels, 0.0))
 
     context = _context(setup, profile, AttachedCameras((), load_rig(chosen.rig), {}), None)
-    trainer = Trainer(loop, None, placed, chosen, context, clock, measure, dial=0.7)
+    trainer = Trainer(loop, None, placed, chosen, context, clock, measure, dial=0.7, tissues=field)
     loop.open()
     trainer.heartbeat()
     trainer.step(300)
@@ -135,6 +137,8 @@ def attempt(
     trainer.close()
     loop.close()
     assert result.record is not None
+    assert result.trajectory is not None
+    assert read_recording(result.record).trajectory().met == result.trajectory.met
     return read_recording(result.record), np.array(rows)
 
 
@@ -160,6 +164,50 @@ def test_a_needle_on_a_path_through_a_rib_is_stopped_where_the_rib_begins(stoppe
     assert np.linalg.norm(plan.target_mm - plan.entry_mm) - deepest > 40.0
     assert rows[:, sv.PUNCTURES].max() >= 1.0
     assert np.isfinite(rows).all()
+
+
+def test_the_rib_is_told_with_its_depth_and_its_force_and_fails_the_attempt(stopped: Any) -> None:
+    recording, rows, plan, own = stopped
+    from app.imaging.field.walking import walk
+
+    way = (plan.target_mm - plan.entry_mm) / np.linalg.norm(plan.target_mm - plan.entry_mm)
+    parts = walk(own, [plan.entry_mm, plan.entry_mm + 80.0 * way], 0.2)
+    begins = next(p for p in parts if own.tissues[p.code].name == "rib").begin_mm
+    ribs = [one for one in recording.trajectory().met if one.name == "rib" and one.by == "tip"]
+    assert ribs
+    assert ribs[0].entered_mm == pytest.approx(begins, abs=2.0)
+    strongest = max(one.force_n for one in ribs)
+    assert strongest == pytest.approx(rows[:, sv.AXIAL_FORCE].max(), abs=1.0)
+    soft = [one.force_n for one in recording.trajectory().met if one.kind == "fat"]
+    assert all(0.0 <= force < strongest for force in soft)
+    score = verify(recording).standing
+    assert score is not None
+    assert not score.passed
+    (fail,) = (text for text in score.hard_fails if text.startswith("rib touched at"))
+    assert fail == ribs[0].sentence
+    assert fail.endswith(" N")
+    assert next(row.value for row in score.rows if row.name == "bone_force") == strongest
+
+
+def test_the_loops_own_state_tells_the_same_and_finds_a_judge_that_is_wrong(stopped: Any) -> None:
+    recording, rows, _, own = stopped
+    placed, walked = recording.placed_plan(), recording.trajectory().met
+    looped = met_in_loop(rows, own, placed)
+    assert looped is not None
+    assert [one.words for one in looped] == ["skin", "fat", "muscle", "rib"]
+    by_walk = {one.words: one for one in walked if one.by == "tip"}
+    for one in looped:
+        assert one.entered_mm == pytest.approx(by_walk[one.words].entered_mm, abs=1.0)
+        assert one.length_mm == pytest.approx(by_walk[one.words].length_mm, abs=1.5)
+    assert disagreements(walked, looped) == ()
+    blind = [one for one in walked if not one.is_bone]
+    assert disagreements(blind, looped) == ("rib: the loop had it, the walk had not",)
+    unfelt = [one for one in looped if one.words != "muscle"]
+    assert disagreements(walked, unfelt) == ("muscle: the walk had it, the loop had not",)
+    in_layers = rows.copy()
+    in_layers[:, [sv.TISSUE, sv.BONE_CONTACT]] = 0.0
+    assert met_in_loop(in_layers, own, placed) is None
+    assert disagreements(walked, None) == ()
 
 
 def test_a_replay_needs_no_ct_and_is_the_same_to_the_last_bit(stopped: Any) -> None:

@@ -11,6 +11,7 @@ from app.compose.exercise_field import trial_plan
 from app.compose.skill_scores import SkillOutcome, ordered_seeds, ordered_share, run_trial
 from app.compose.trainer import TrainerSetup, build_loop, pictures_of
 from app.compose.trial import Trials, attempt
+from app.compose.trial_parts import PlayedHand
 from app.core import paths
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
@@ -24,6 +25,7 @@ from app.session.inputs import LoopInputs
 from app.session.motion import ShownMotion, motion
 from app.simulation.skills import SKILLS
 from app.simulation.trainee import ScriptPhase
+from app.studies.attacks.attack import Attack
 from app.tracking.fix import FixStatus
 from app.tracking.optics.rig import load_rig
 from app.tracking.simulated.cameras import simulated_cameras
@@ -228,6 +230,25 @@ def test_an_attempt_that_a_trainer_would_have_to_judge_is_done_by_one(first, mon
     found = trials.score("expert", 1)
     assert [given[2:4] for given in done] == [("expert", 1)]
     assert found.score == attempt(*first, "expert", 1).score
+
+
+@pytest.mark.long("machine")
+def test_covering_the_cameras_until_the_needle_is_in_costs_what_was_not_seen(first, trials):
+    exercise, placed = first
+    deepest = float(device_of(exercise).depth_range[1])
+    script = Attack().script(placed.axis, [(0.0, 0.0, placed.length)], deepest)
+    open_eyes = trials.play(PlayedHand(script), 1)
+    assert open_eyes.score.passed
+    depth = script.rows[:, 2]
+    enters = float(np.flatnonzero(depth > 0.0)[0]) * script.row
+    nearly = float(np.flatnonzero(depth > 0.9 * placed.length)[0]) * script.row
+    covered = trials.play(PlayedHand(script, covered=((enters - 0.7, nearly),)), 1)
+    tracked = {
+        which: next(row.value for row in played.score.rows if row.name == "tracking_valid")
+        for which, played in (("open", open_eyes), ("covered", covered))
+    }
+    assert tracked["open"] == 100.0
+    assert tracked["covered"] < 75.0
 
 
 def test_the_cameras_in_the_loop_are_as_noisy_as_the_sampled_tracker(first, trials):

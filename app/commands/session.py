@@ -349,13 +349,18 @@ def _trajectory(folder: Path, ids: list[str] | None) -> tuple[str, int]:
 
 
 def _details(recording: Any, summary: dict[str, Any]) -> dict[str, Any]:
+    from app.scoring.odds import published_risks
+    from app.session.tissues import tissues_met
+
     samples, inputs = recording.samples, recording.inputs
+    met = tissues_met(recording.events)
     radius = samples.tip_radius()
     return summary | {
         "file": str(recording.path),
         "complete": recording.complete,
         "metadata": dict(recording.metadata),
         "tip_radius_95_mm": None if radius is None else 1e3 * radius,
+        "published_risks": [risk.document() for risk in published_risks(met)],
         "attachments": sorted(recording.attachments),
         "samples": len(samples.time),
         "ticks": len(inputs.values),
@@ -453,6 +458,9 @@ def _detail_lines(document: dict[str, Any], nobodys: str) -> list[str]:
         value = "-" if row["value"] is None else f"{row['value']:.4g}{unsure} {row['unit']}"
         band = row["band"] if score.get("total") is not None else ""  # a void one is not judged
         lines.append(f"  {row['label']:32} {value:>20}  {band or row['note'] or ''}")
+    for risk in document["published_risks"]:
+        source = f" ({risk['source']})" if risk["source"] else ""
+        lines.append(f"{'published':12} {risk['statement']}{source}")
     for event in document["events"]:
         lines.append(f"  {event['time_s']:12.3f} s  {event['message']}")
     for problem in document["problems"]:

@@ -1,9 +1,10 @@
 """An exercise as the study `adversary` attacks it: plays attacks in virtual time, and tells what
 the needle truly met, whatever the cameras saw and the exercise forbids.
 
-Attempts run as those of `acus exercise trial`. Beside the score stands the truth: the tip by the
-simulated robot's own depth, walked through the patient's field; so that what is hidden from the
-judgement is not hidden from the study.
+Attempts run as those of `acus exercise trial`. Beside the score stands the truth, told twice: the
+tip by the simulated robot's own depth, walked through the patient's field as the judgement does it;
+and the tissue that the loop itself had under the tip. What is hidden from the judgement is hidden
+from neither, a wrong walk not from the second, and where the two disagree the study says so.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import numpy as np
 
 from app.compose.exercise_ct import load_field, load_risks, read_ct
 from app.compose.exercise_field import resolve_tissue, trial_plan
+from app.compose.loop_truth import disagreements, met_in_loop, tissue_key
 from app.compose.trial import Trials
 from app.compose.trial_parts import PlayedHand, PlayedTrial
 from app.core.arrays import FloatArray
@@ -141,7 +143,11 @@ class Attacked:
 
     def _verdict(self, trials: Trials, placed: PlacedPlan, played: PlayedTrial) -> AttackVerdict:
         score, true = played.score, trials.truth(played.rows)
-        met = self._forbidden(tissues_met_of(true, placed, self._field) or ())
+        walked = tissues_met_of(true, placed, self._field) or ()
+        looped = met_in_loop(played.rows, self._field, placed)
+        met = self._forbidden(walked)
+        told = {tissue_key(one) for one in met}  # is not told again; what the walk missed is
+        met += [one for one in self._forbidden(looped or ()) if tissue_key(one) not in told]
         known = self._forbidden(score.met or () if score is not None else ())
         risks = [mark for mark in risk_marks_of(true, placed, self._risks) if mark.closest_mm < 0.0]
         entered = [f"{mark.name} entered at {mark.depth_mm:.1f} mm" for mark in risks]
@@ -162,6 +168,7 @@ class Attacked:
             hidden=max(0.0, 1.0 - _bad([one.length_mm for one in known]) / bad) if met else 0.0,
             seen=seen / 100.0,
             otherwise=otherwise,
+            disagree=disagreements(walked, looped),
         )
 
     def _forbidden(self, met: Collection[Met]) -> list[Met]:

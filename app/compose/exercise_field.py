@@ -21,7 +21,7 @@ from app.planning.placement import PlacedPlan
 from app.planning.plan import Plan
 from app.session.context import RunContext
 from app.session.errors import ReplayError
-from app.session.header import TISSUE_FILE, Attachment
+from app.session.header import FIELD_FACTS, TISSUE_FILE, Attachment
 from app.session.recording import Recording
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from app.imaging.volume import Volume
     from app.simulation.bound_field import BoundField
 
-FIELD: Final = "tissue_field"
+FIELD: Final = FIELD_FACTS
 """Metadata record that says which field it is."""
 
 MEDIA_TYPE: Final = "application/x-acus-tissue-field"

@@ -37,6 +37,7 @@ from app.core.parameters import Stage
 from app.core.staleness import TRACKER_HOLD
 from app.core.units import MILLIMETRE, MILLISECOND
 from app.device.control import Loop, Table
+from app.exercises.parts import TissueSource
 from app.exercises.scene import device_of
 from app.session.fixes import AGREEING, FORGOTTEN, DepthTrust
 from app.session.fusion import across_noise, depth_noise
@@ -165,7 +166,7 @@ def attempt(
         None,
         placed,
         exercise,
-        NoRecords(seed=seed),
+        NoRecords.of(exercise, seed),
         clock,
         measure,
         risks=risks,
@@ -277,7 +278,8 @@ class Trials:
             return None
         samples = replace(samples, state=went.states, target=went.target)
         near = risk_marks_of(samples, self._placed, self._risks)
-        met = tissues_met_of(samples, self._placed, self._tissues)
+        felt = self._exercise.tissue is TissueSource.FIELD
+        met = tissues_met_of(samples, self._placed, self._tissues, felt)
         path = trajectory(samples, self._placed, risks=near, touches=went.touches, met=met)
         return Trial(self._scorer(path), float(samples.time[-1]) - begin)
 
@@ -378,6 +380,7 @@ class Trials:
             assistance=rows[:, sv.ASSISTANCE],
             spread=spread,
             clamped=rows[:, sv.LIMIT_SCALE] < 1.0,
+            along=rows[:, sv.AXIAL_FORCE],
         )
 
     def _measurements(self, rig: RigProfile) -> tuple[SampledDepth, tuple[FloatArray, FloatArray]]:

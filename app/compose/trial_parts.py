@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from app.core.arrays import FloatArray
 from app.core.units import MILLISECOND
+from app.exercises.parts import TissueSource
 from app.session.context import RunContext
+from app.session.header import FIELD_FACTS
 from app.session.recorder import Recorder
 from app.simulation.trainee import TraineeScript
 from app.tracking.optics.rig import RigProfile
@@ -16,6 +18,7 @@ from app.tracking.simulated.sampled import PROCESSING
 from app.tracking.tracker import Tracker
 
 if TYPE_CHECKING:
+    from app.exercises.schema import Exercise
     from app.scoring.result import Score
     from app.tracking.cameras.camera import Camera
     from app.tracking.fix import NeedleFix
@@ -35,6 +38,12 @@ class NoRecords(RunContext):
     def recorder(self, header: Any, loop: Any, placed: Any, clock: Any) -> Recorder:
         """Return one that writes nothing; no checkpoint is taken."""
         return _Unrecorded(self.folder, header, clock=clock)
+
+    @classmethod
+    def of(cls, exercise: Exercise, seed: int) -> NoRecords:
+        """Return that of an attempt by a simulated hand, which feels the field if there is one."""
+        looks = {FIELD_FACTS: {"digest": ""}} if exercise.tissue is TissueSource.FIELD else {}
+        return cls(seed=seed, metadata={"device": {"simulated": "yes"}, **looks})
 
 
 class RenderedTracker:

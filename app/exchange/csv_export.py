@@ -236,6 +236,7 @@ TRAJECTORY_COLUMNS: Final = (
     "felt_most_n",
     "felt_measured_n",
     "felt_source",
+    "tissue_along_n",
     "note",
 )
 """Columns of a trajectory; positions in the world frame."""
@@ -300,6 +301,7 @@ def trajectory_table(recording: Recording) -> str:
         _or_unknown(samples.felt_most, samples),
         samples.measured,
         _sources(samples),
+        _or_unknown(samples.along, samples),
     )
     lines: list[list[object]] = [list(TRAJECTORY_COLUMNS)]
     for values in zip(*(column.tolist() for column in columns), strict=True):

@@ -28,6 +28,9 @@ LEAST_MM: Final = 0.5
 LEAST_CONFIDENCE: Final = 0.5
 """A label less sure than this fails nobody."""
 
+LEAST_N: Final = 0.05
+"""A smaller force along the needle is none that is told in words [N]."""
+
 SMALL_VESSELS: Final = frozenset({"small vessel", "lung vessel"})
 """Names of vessels that a needle may meet; every other vessel is great."""
 
@@ -52,6 +55,8 @@ class Met:
         holds_target: whether the target lies in it.
         before, after: kind of tissue on either side on the way; empty where the way began or ended.
         by: `tip`, or `shaft` for what the shaft alone was pushed into.
+        force_n: largest force along the needle while the tip was in it, or stood on it [N]; None
+            where no hand felt one, or nothing of it was kept.
 
     Raises:
         TrajectoryError: if a number is not finite, or the kind is none.
@@ -70,9 +75,11 @@ class Met:
     before: str = ""
     after: str = ""
     by: str = BY_TIP
+    force_n: float | None = None
 
     def __post_init__(self) -> None:
-        numbers = (self.entered_mm, self.length_mm, self.sd_mm or 0.0, self.angle_deg, self.time)
+        unsure = (self.sd_mm or 0.0, self.force_n or 0.0)
+        numbers = (self.entered_mm, self.length_mm, self.angle_deg, self.time, *unsure)
         places = (value for point in self.points for value in point)
         if not all(map(isfinite, (*numbers, self.confidence, *places))) or self.length_mm < 0.0:
             raise TrajectoryError(
@@ -108,8 +115,11 @@ class Met:
 
     @property
     def sentence(self) -> str:
-        """Say it in one line: "rib touched at 12.0 mm"."""
-        return self._bone_sentence() if self.is_bone else self._soft_sentence()
+        """Say it in one line: "rib touched at 12.0 mm, 8.4 N"."""
+        text = self._bone_sentence() if self.is_bone else self._soft_sentence()
+        if self.force_n is None or self.force_n < LEAST_N:
+            return text
+        return sentence("{met}, {force:.1f} N", met=text, force=self.force_n)
 
     def _depth(self) -> str:
         if self.sd_mm is not None and self.sd_mm >= 0.05:
@@ -169,13 +179,14 @@ class Met:
         """
         known = {one.name: document[one.name] for one in fields(cls) if one.name in document}
         (a, b, c), (d, e, f) = ((float(v) for v in point) for point in known["points"])
-        sd = known.get("sd_mm")
+        optional = {name: known.get(name) for name in ("sd_mm", "force_n")}
         numbers = ("entered_mm", "length_mm", "angle_deg", "time", "confidence")
         known |= {name: float(known[name]) for name in numbers if name in known}
         known |= {name: str(known[name]) for name in ("kind", "name", "before", "after", "by")}
         return cls(
             **known
-            | {"points": ((a, b, c), (d, e, f)), "sd_mm": None if sd is None else float(sd)}
+            | {"points": ((a, b, c), (d, e, f))}
+            | {name: None if value is None else float(value) for name, value in optional.items()}
             | {"holds_target": bool(known.get("holds_target", False))}
         )
 

@@ -33,6 +33,7 @@ from app.session.sidecar import write_summary
 from app.session.signature import signature_file, signed
 from app.session.station import StationKey
 from app.session.summary import Summary
+from app.session.tissue_force import feels_along
 from app.session.tissues import events_of, tissues_met_of
 from app.session.touching import touches_of
 from app.session.transitions import excused, waited_for_computer
@@ -96,7 +97,9 @@ class AttemptLog:
             near = risk_marks_of(samples, self.placed, self.risks)
             for mark in near:
                 self.event(event_of(mark))
-            met = tissues_met_of(samples, self.placed, self.tissues)
+            head = self.recorder.header
+            felt = feels_along(head.metadata, {a.name: a.data for a in head.attachments})
+            met = tissues_met_of(samples, self.placed, self.tissues, felt)
             for event in events_of(met, samples):
                 self.event(event)
             path = trajectory(

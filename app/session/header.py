@@ -27,6 +27,10 @@ TISSUE_FILE: Final = "tissue-field.bin"
 """Attachment with the patient's tissue field, of an attempt that looked into it; patient data."""
 
 
+FIELD_FACTS: Final = "tissue_field"
+"""Metadata of such an attempt: the field's digest."""
+
+
 @dataclass(frozen=True, slots=True)
 class Attachment:
     """A file inside the record.

@@ -309,6 +309,7 @@ def _samples(content: FileContents, problems: list[str]) -> Samples:
         clamped=flags([bool(wrench.get("clamped")) for wrench in wrenches]),
         felt_least=known([wrench.get("felt_least") for wrench in wrenches]),
         felt_most=known([wrench.get("felt_most") for wrench in wrenches]),
+        along=known([wrench.get("along") for wrench in wrenches]),
     )
 
 

@@ -258,6 +258,7 @@ def _wrench(sample: Sample, device: DeviceState, stamp: dict[str, int]) -> dict[
         "felt_most": felt.most,
         "felt_source": "measured" if device.force_measured else "estimated",
         "measured": float(device.measured_force) if device.force_measured else None,
+        "along": float(device.axial_force),
         "clamped": bool(device.limit_scale < 1.0),
         "enabled": sample.enabled,
         "assistance": sample.assistance,

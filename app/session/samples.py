@@ -51,6 +51,9 @@ class Samples:
             have [N], shape (n,); NaN where that is not known. None in records of versions that did
             not keep them; those also said `felt` at the model's depth where no camera vouched for
             one, and called that valid.
+        along: force of the tissue along the needle as the loop has it [N], positive where it pushes
+            the tip out, shape (n,), NaN where the robot said nothing. Whether a hand feels it is
+            another matter. None in records of versions that did not keep it.
     """
 
     time: FloatArray
@@ -72,6 +75,7 @@ class Samples:
     clamped: NDArray[np.bool_] | None = None
     felt_least: FloatArray | None = None
     felt_most: FloatArray | None = None
+    along: FloatArray | None = None
 
     def tip_radius(self) -> float | None:
         """Median radius round the tip that holds the true one with 95 % [m]; None if not known."""
@@ -119,6 +123,7 @@ class SampleHistory:
             clamped=flags([s.device is not None and s.device.limit_scale < 1.0 for s in kept]),
             felt_least=known([f.least if f else None for f in felt]),
             felt_most=known([f.most if f else None for f in felt]),
+            along=known([s.device.axial_force if s.device else None for s in kept]),
         )
 
 

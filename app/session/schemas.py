@@ -103,12 +103,13 @@ WRENCH: Final = _object(
         "felt_most": _NUMBER_OR_NULL,
         "felt_source": _TEXT,
         "measured": _NUMBER_OR_NULL,
+        "along": _NUMBER_OR_NULL,
         "clamped": _FLAG,
         "enabled": _FLAG,
         "assistance": _NUMBER_OR_NULL,
         "fault": _COUNT,
     },
-    optional=("felt_source", "measured", "felt_least", "felt_most"),
+    optional=("felt_source", "measured", "felt_least", "felt_most", "along"),
 )
 QUALITY: Final = _object(
     "acus.TrackingQuality",

@@ -4,7 +4,8 @@ The tip's way is followed through the tissue field, in the tissue's own coordina
 with the target as they breathe, the wall of the body with its ribs stays. Only where the cameras
 vouched for the tip; between two such samples the way is straight. A way forwards is followed once:
 what the tip draws back through is not met again, what it then meets anew is. The shaft is looked at
-too: it may be pushed into what the tip went past.
+too: it may be pushed into what the tip went past. The force is the largest along the needle from
+where the tip came into a tissue until it left it, or was drawn back from it.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from app.scoring.errors import TrajectoryError
 from app.scoring.met import BY_SHAFT, BY_TIP, SMALL_VESSELS, Met
 from app.session.risks import different_needles, needles_seen
 from app.session.samples import Samples
+from app.session.tissue_force import FeltAlong
 from app.simulation.bound_field import BoundField
 
 KIND: Final = "tissue"
@@ -44,6 +46,9 @@ GAP_MM: Final = 0.5
 
 CONTACT_MM: Final = 0.25
 """Bone is touched so near to its surface: it stops the tip, which never lies within."""
+
+SLID_MM: Final = 1.0
+"""Bone is felt until the tip is so much further: it slides along it."""
 
 SHAFTS: Final = 200
 """So many needles at most are looked at along their shafts, evenly over the attempt."""
@@ -64,12 +69,27 @@ class _Way:
         depths: of the tip there [mm], shape (n,).
         times: monotonic [s], shape (n,).
         spreads: standard deviations along and across [mm], shape (n, 2), NaN where not known.
+        until: moment at which the tip was drawn back from its end, or nobody saw more of it [s].
     """
 
     places: FloatArray
     depths: FloatArray
     times: FloatArray
     spreads: FloatArray
+    until: float
+
+    @property
+    def along(self) -> FloatArray:
+        """Length of the way up to each corner [mm], shape (n,)."""
+        lengths = np.linalg.norm(np.diff(self.places, axis=0), axis=1)
+        return np.concatenate([[0.0], np.cumsum(lengths)])
+
+    def left(self, end_mm: float) -> float:
+        """Return the moment at which the tip left a place of the way [s]."""
+        along = self.along
+        if end_mm >= along[-1] - GAP_MM:
+            return self.until
+        return float(np.interp(end_mm, along, self.times))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -115,9 +135,12 @@ class _Needles:
 
 
 def tissues_met_of(
-    samples: Samples, placed: PlacedPlan, field: TissueField | None
+    samples: Samples, placed: PlacedPlan, field: TissueField | None, felt: bool = False
 ) -> tuple[Met, ...] | None:
-    """Return what the needle met, in order; None where there is no field to tell it by."""
+    """Return what the needle met, in order; None where there is no field to tell it by.
+
+    `felt` says that a hand felt the field along the needle: then the force is told too.
+    """
     if field is None:
         return None
     rows, lines, shift = needles_seen(samples, placed)
@@ -128,8 +151,9 @@ def tissues_met_of(
     target = placed.T_world_patient.inverse() @ placed.p_target / MILLIMETRE
     held = set(holding(field, target).tolist())
     found: list[Met] = []
+    forces = FeltAlong.of(samples, felt)
     for way in _ways(samples, rows, needles):
-        found += _met_on(field, way, held)
+        found += _met_on(field, way, held, forces)
     return (*found, *_by_shaft(field, samples, rows, needles, held, found))
 
 
@@ -193,16 +217,18 @@ def _ways(samples: Samples, rows: NDArray[np.intp], needles: _Needles) -> list[_
                 corners.append(here)
                 front = here[1]
             elif here[1] < front - BACK_MM:
-                ways.append(_way(corners))
+                ways.append(_way(corners, samples.time[rows[n]]))
                 back = here
         if back is None:
-            ways.append(_way(corners))
+            ways.append(_way(corners, samples.time[rows[stay[-1]]]))
     return ways
 
 
-def _way(corners: list[tuple[FloatArray, float, float, FloatArray]]) -> _Way:
+def _way(corners: list[tuple[FloatArray, float, float, FloatArray]], until: float) -> _Way:
     places, depths, times, spreads = zip(*corners, strict=True)
-    return _Way(np.array(places), np.array(depths), np.array(times), np.array(spreads))
+    return _Way(
+        np.array(places), np.array(depths), np.array(times), np.array(spreads), float(until)
+    )
 
 
 def _stays(rows: NDArray[np.intp], samples: Samples) -> list[NDArray[np.intp]]:
@@ -211,7 +237,7 @@ def _stays(rows: NDArray[np.intp], samples: Samples) -> list[NDArray[np.intp]]:
     return np.split(np.arange(len(rows)), np.flatnonzero(np.diff(outside[rows])) + 1)
 
 
-def _met_on(field: TissueField, way: _Way, held: set[int]) -> list[Met]:
+def _met_on(field: TissueField, way: _Way, held: set[int], forces: FeltAlong) -> list[Met]:
     """Return what was met on one way forwards."""
     crossed = _touching(field, way, walk(field, way.places))
     lung = {tissue.code for tissue in field.of_kind(TissueKind.LUNG)}
@@ -224,8 +250,24 @@ def _met_on(field: TissueField, way: _Way, held: set[int]) -> list[Met]:
         # what lies within an organ, and a lesion in it, does not part it
         within = small | held if code in lung | held else small
         for part in joined(crossed, {code}, GAP_MM, within - {code}):
-            found.append((part.begin_mm, _met(field, way, part, crossed, held)))
+            met = _met(field, way, part, crossed, held)
+            if code in lung:  # a nodule does not part it, and is none of it
+                solid = _solid_mm(crossed, part, held - lung)
+                met = replace(met, length_mm=max(0.0, met.length_mm - solid))
+            # Bone is left where something else is met, or the tip slid on.
+            left = way.left(part.end_mm + (SLID_MM if met.is_bone else 0.0))
+            force = forces.largest(met.time, left)
+            found.append((part.begin_mm, replace(met, force_n=force)))
     return [met for _, met in sorted(found, key=lambda one: one[0])]
+
+
+def _solid_mm(crossed: list[Crossed], part: Crossed, codes: set[int]) -> float:
+    """Return how much of some codes lies within a stretch [mm]."""
+    return sum(
+        other.length_mm
+        for other in crossed
+        if other.code in codes and part.begin_mm <= other.begin_mm and other.end_mm <= part.end_mm
+    )
 
 
 def _touching(field: TissueField, way: _Way, crossed: list[Crossed]) -> list[Crossed]:
@@ -233,8 +275,7 @@ def _touching(field: TissueField, way: _Way, crossed: list[Crossed]) -> list[Cro
     bones = [tissue.code for tissue in field.of_kind(TissueKind.BONE)]
     if not crossed or not bones:
         return crossed
-    lengths = np.linalg.norm(np.diff(way.places, axis=0), axis=1)
-    along = np.concatenate([[0.0], np.cumsum(lengths)])
+    along = way.along
     around = way.places[:, None, :] + CONTACT_MM * directions(_PROBES)
     codes = field.codes_at(around.reshape(-1, 3)).reshape(len(along), _PROBES)
     near = np.asarray(np.isin(codes, bones))
@@ -259,9 +300,7 @@ def _touching(field: TissueField, way: _Way, crossed: list[Crossed]) -> list[Cro
 def _met(
     field: TissueField, way: _Way, part: Crossed, crossed: list[Crossed], held: set[int]
 ) -> Met:
-    tissue = field.tissues[part.code]
-    lengths = np.linalg.norm(np.diff(way.places, axis=0), axis=1)
-    along = np.concatenate([[0.0], np.cumsum(lengths)])
+    tissue, along = field.tissues[part.code], way.along
     depth = float(np.interp(part.begin_mm, along, way.depths))
     number = min(int(np.searchsorted(along, part.begin_mm)), len(along) - 1)
     before = [one for one in crossed if one.end_mm <= part.begin_mm + 1e-9 and one is not part]
@@ -319,6 +358,7 @@ def _by_shaft(
             shares * depth,
             np.full(len(shares), samples.time[row]),
             np.broadcast_to(spread, (len(shares), 2)),
+            float(samples.time[row]),
         )
         for part in walk(field, way.places, SHAFT_STEP_MM):
             tissue = field.tissues[part.code]

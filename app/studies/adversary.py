@@ -3,7 +3,8 @@
 A search (`attacks.search`) attacks exercises: entry, path, motion, timing, withdrawals, dial, views
 and covered cameras. It is paid by the score and looks for what ought not to be paid: a needle that
 truly met bone, vessel, gut, heart or lung and passes, one that passes without reaching the target,
-points for nothing. `compose.attacked` plays the attempts in virtual time and tells the truth.
+points for nothing. `compose.attacked` plays the attempts in virtual time and tells the truth, by a
+walk and by the loop's own state; attempts about which these two differ are listed too.
 """
 
 from __future__ import annotations
@@ -37,8 +38,12 @@ SUMMARY: Final = (
     "passed",
     "best total",
     *(f"{hole}: attempts" for hole in Hole),
+    "walk and loop differ",
     "camera model",
 )
+
+DIFFERENCES: Final = ("exercise", "difference", "attempts", "first attempt")
+"""Columns of what the judgement's walk and the loop tell otherwise."""
 
 SHOWN: Final = ("exercise", "hole", "total", "met", "judged", "nearest [mm]", "attempt")
 
@@ -90,6 +95,7 @@ def attack_exercises(
     watch, names = progress or Progress(), tuple(exercise) or tuple(library().ids())
     rows: list[tuple[Cell, ...]] = []
     holes: list[tuple[Cell, ...]] = []
+    differences: list[tuple[Cell, ...]] = []
     for number, name in enumerate(names):
         part = watch.part(number / len(names), (number + 1) / len(names))
         part.report(0.0, name)
@@ -108,9 +114,13 @@ def attack_exercises(
         )
         rows.append(_summary(target, tried, min(before, len(tried))))
         holes += _holes(target.id, tried)
+        differences += _differences(target.id, tried)
     sheets = [Sheet("attempts", "What was tried", SUMMARY, tuple(rows))]
     if holes:
         sheets.append(Sheet("holes", "The best paid of each kind", SHOWN, tuple(holes)))
+    if differences:
+        title = "What the walk of the judgement and the loop tell otherwise"
+        sheets.append(Sheet("differences", title, DIFFERENCES, tuple(differences)))
     return Findings(tuple(sheets), lines=_lines(rows, holes), passed=not holes)
 
 
@@ -119,7 +129,19 @@ def _summary(target: Target, tried: Sequence[TriedAttack], before: int) -> tuple
     counts = [sum(hole in one.verdict.holes for one in tried) for hole in Hole]
     passed = sum(one.verdict.passed for one in tried)
     best = round(max(totals, default=0.0), 1)
-    return (target.id, len(tried), before, passed, best, *counts, target.cameras)
+    differ = sum(bool(one.verdict.disagree) for one in tried)
+    return (target.id, len(tried), before, passed, best, *counts, differ, target.cameras)
+
+
+def _differences(name: str, tried: Sequence[TriedAttack]) -> list[tuple[Cell, ...]]:
+    """List each difference between walk and loop, with how often and the first attempt."""
+    first: dict[str, TriedAttack] = {}
+    counts: dict[str, int] = {}
+    for one in tried:
+        for line in one.verdict.disagree:
+            first.setdefault(line, one)
+            counts[line] = counts.get(line, 0) + 1
+    return [(name, key, counts[key], first[key].attack.words()) for key in sorted(first)]
 
 
 def _holes(name: str, tried: Sequence[TriedAttack]) -> list[tuple[Cell, ...]]:

@@ -4,9 +4,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from app.scoring.errors import TrajectoryError
+from app.scoring.errors import MetricNotAskedError, TrajectoryError
 from app.scoring.met import FORBIDDEN, Met, fails
-from app.scoring.metrics import pleural_crossings
+from app.scoring.metrics import bone_force, pleural_crossings
 
 
 def met(kind, name="", entered=12.0, length=3.0, **more):
@@ -68,3 +68,24 @@ def test_it_reads_back_what_it_wrote_and_refuses_what_is_no_number():
         met("lung", entered=float("nan"))
     with pytest.raises(TrajectoryError, match="no kind of tissue"):
         met("granite")
+
+
+def test_a_force_is_told_where_one_was_felt_and_absent_is_not_zero():
+    felt = met("bone", "rib", 12.0, 0.0, force_n=8.44)
+    assert felt.sentence == "rib touched at 12.0 mm, 8.4 N"
+    assert fails((felt,), ("bone",)) == ("rib touched at 12.0 mm, 8.4 N",)
+    assert Met.of(felt.document()) == felt
+    assert met("organ", "liver", force_n=0.0).sentence == "liver at 12.0 mm: 3.0 mm"
+    older = {key: value for key, value in met("lung").document().items() if key != "force_n"}
+    assert Met.of(older).force_n is None
+    assert Met.of(older | {"force_n": None}).force_n is None
+    with pytest.raises(TrajectoryError, match="not finite"):
+        met("bone", force_n=float("inf"))
+
+
+def test_the_force_on_bone_is_the_largest_and_no_metric_where_nobody_felt_it():
+    felt = (met("bone", "rib", force_n=3.0), met("bone", "rib", force_n=9.0), met("organ", "liver"))
+    assert bone_force.compute(SimpleNamespace(tissues_met=lambda: felt)) == 9.0
+    for unfelt in ((met("bone", "rib", by="shaft"),), (met("organ", "liver", force_n=4.0),)):
+        with pytest.raises(MetricNotAskedError, match="no bone was felt"):
+            bone_force.compute(SimpleNamespace(tissues_met=lambda m=unfelt: m))

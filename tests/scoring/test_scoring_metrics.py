@@ -50,6 +50,7 @@ def test_a_file_that_is_no_metric_cannot_be_used_and_says_why(
 
 
 LUNG = Met("lung", "", 20.0, 15.0, ((0, 0, 0), (0, 15, 0)), 0.3, 12.0, 1.0, before="muscle")
+RIB = Met("bone", "rib", 12.0, 0.0, ((0, 0, 0), (0, 0, 0)), force_n=6.0)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -60,7 +61,7 @@ def test_every_metric_is_finite_on_a_plain_attempt(name: str) -> None:
         "risks": (RiskMark("vessel", 3.0, 2.0, inside_s=0.0),),
         "clamped": np.zeros(len(base), dtype=bool),
         "touches": Touches(2, (float(base.time[-1]),)),
-        "met": (LUNG,),
+        "met": (RIB, LUNG),
     }
     trajectory = Attempt(noise=1e-4, force=1.0).trajectory(**facts)
     assert np.isfinite(value(name, trajectory))
@@ -268,3 +269,27 @@ def test_without_a_robot_there_is_no_figure_of_force(name: str) -> None:
     pen = replace(base, felt=None, guide=np.zeros((len(base), 3)))
     with pytest.raises(MetricUnavailableError, match="no robot"):
         value(name, pen)
+
+
+def hidden_entry(begin, end, before=0.0):
+    """An attempt whose needle nobody sees from `begin` to `end` [s]; it enters at 20 s, 40 s long.
+
+    Out of sight it is taken for aligning, at the depth at which it was seen last.
+    """
+    base = Attempt(aligning=20.0, inserting=40.0, holding=0.0).trajectory()
+    time = np.asarray(base.time)
+    seen, out = (time < begin) | (time >= end), time < 20.0
+    depth = np.where(out, before, base.depth)
+    last = np.maximum.accumulate(np.where(seen, np.arange(len(time)), 0))
+    phase = np.where(out | ~seen, Phase.ALIGNING, base.phase)
+    return replace(base, depth=depth[last], phase=phase, depth_valid=seen)
+
+
+def test_who_hides_the_needle_until_it_is_in_has_not_been_seen_inserting_it() -> None:
+    assert value("tracking_valid", hidden_entry(19.0, 40.0)) == pytest.approx(100 * 20 / 41, abs=1)
+    assert value("tracking_valid", hidden_entry(5.0, 15.0)) == 100.0  # seen again before the skin
+    assert value("tracking_valid", hidden_entry(-1.0, 40.0)) == 100.0  # never visible yet
+    tube = hidden_entry(5.0, 24.0, before=0.010)  # the marker went into the tube, and came out
+    assert value("tracking_valid", tube) == 100.0
+    older = replace(hidden_entry(19.0, 40.0), scoring_version=6)
+    assert value("tracking_valid", older) == 100.0

@@ -113,7 +113,14 @@ RISKS = {"risk_breach", "risk_distance", "risk_time"}
 """Metrics of structures that only some exercises have."""
 
 MET = {
-    *("bone_contacts", "vessels_touched", "gut_touched", "skin_passes", "capsule_passes"),
+    *(
+        "bone_contacts",
+        "bone_force",
+        "vessels_touched",
+        "gut_touched",
+        "skin_passes",
+        "capsule_passes",
+    ),
     *("pleural_crossings", "pleural_angle", "lung_crossed", "organ_crossed"),
 }
 """Metrics of what the needle met, which need a tissue field."""

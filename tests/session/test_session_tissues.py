@@ -15,6 +15,7 @@ from app.scoring.result import Score, judge
 from app.scoring.rows import ScoreRules
 from app.session.recording import read_recording
 from app.session.replay import contents
+from app.session.tissue_force import feels_along
 from app.session.tissues import event_of, tissues_met, tissues_met_of
 from app.session.verify import verify
 
@@ -106,6 +107,37 @@ def test_bone_that_stops_the_tip_at_its_surface_is_touched(bench: Bench) -> None
     assert bone.is_forbidden(("bone",))
 
 
+def test_the_largest_force_of_each_tissue_is_that_while_the_tip_was_in_it(bench: Bench) -> None:
+    """A ramp of 0.1 N for each mm of depth, and 20 N while the tip stands at its end, on a rib."""
+    attempt(bench, body(rib(44.1)))
+    recording = read_recording(next(bench.folder.glob("*.mcap")))
+    samples, placed, field = recording.samples, recording.placed_plan(), body(rib(44.1))
+    assert {one.force_n for one in tissues_met_of(samples, placed, field, True)} == {0.0}
+    deep = 1e3 * np.nan_to_num(samples.depth)
+    along = np.where(deep > 39.9, 20.0, 0.1 * deep)
+    pushed = replace(samples, along=along)
+    forces = {one.words: one.force_n for one in tissues_met_of(pushed, placed, field, True)}
+    assert forces["skin"] == pytest.approx(0.2, abs=0.06)
+    assert forces["fat"] == pytest.approx(1.2, abs=0.06)
+    assert forces["muscle"] == pytest.approx(2.0, abs=0.06)
+    assert forces["rib"] == 20.0
+    unfelt = tissues_met_of(pushed, placed, field)
+    assert {one.force_n for one in unfelt} == {None}
+    older = tissues_met_of(replace(samples, along=None), placed, field, True)
+    assert {one.force_n for one in older} == {None}
+
+
+def test_who_felt_the_field_is_told_by_the_head_of_the_record() -> None:
+    looked, simulated = {"tissue_field": {"digest": ""}}, {"device": {"simulated": "yes"}}
+    assert feels_along(looked | simulated, {})
+    assert not feels_along(simulated, {})
+    for renders, felt in (('["lateral"]', False), ('["lateral", "axial"]', True)):
+        device = f'{{"loop": {{"renders": {renders}}}}}'.encode()
+        assert feels_along(looked, {"device.json": device}) is felt
+    assert not feels_along(looked, {"device.json": b"[]"})
+    assert not feels_along(looked, {})
+
+
 def test_a_rib_beside_the_path_is_not_met(bench: Bench) -> None:
     result = attempt(bench, body(rib(30.0, beside=5.0)))
     assert "bone" not in [one.kind for one in result.trajectory.met]
@@ -144,6 +176,16 @@ def test_lung_is_crossed_twice_at_its_pleura_with_vessels_in_it(bench: Bench) ->
     assert values["pleural_angle"] == pytest.approx(0.0, abs=3.0)
     assert values["lung_crossed"] == pytest.approx(10.0, abs=0.3)
     assert values["vessels_touched"] == 0.0
+
+
+def test_a_nodule_that_the_needle_goes_through_is_no_aerated_lung(bench: Bench) -> None:
+    lung = (Kind.LUNG, "", lambda points: np.abs(points[:, 1] - ENTRY[1] - 55.0) - 25.0)
+    nodule = (Kind.ORGAN, "nodule", ball(ENTRY + [0.0, 60.0, 0.0], 3.0))  # holds the target
+    result = attempt(bench, body(lung, nodule), depth=0.070)
+    values = {row.name: row.value for row in result.score.rows}
+    assert values["lung_crossed"] == pytest.approx(40.0 - 6.0, abs=0.5)
+    lengths = {one.words: one.length_mm for one in result.trajectory.met}
+    assert lengths["nodule"] == pytest.approx(6.0, abs=0.5)
 
 
 def test_without_a_field_nothing_is_told_and_nothing_asked(bench: Bench) -> None:

@@ -199,6 +199,27 @@ def test_the_study_names_its_camera_model_and_answers_no_where_it_shows_a_hole(t
     assert "points for nothing" in broken.lines[0]
 
 
+def test_where_walk_and_loop_differ_the_study_says_so_and_a_journal_remembers_it(tmp_path):
+    line = "rib: the loop had it, the walk had not"
+
+    class Differs(Patient):
+        def play(self, attack):
+            return replace(super().play(attack), disagree=(line,))
+
+    found = attack_exercises(None, lambda *_: Differs(), ["x"], 30, 1, tmp_path)
+    (sheet,) = (one for one in found.sheets if one.name == "differences")
+    assert sheet.rows[0][:3] == ("closed-form", line, 30)
+    assert found.sheets[0].rows[0][-2] == 30
+    assert found.passed, "what differs is told; a hole is what is paid"
+    again = Differs()
+    known = attack_exercises(None, lambda *_: again, ["x"], 30, 1, tmp_path)
+    assert again.played == 0
+    assert known.sheets[1].rows == sheet.rows
+    older = AttackVerdict(80.0, True).document()
+    del older["disagree"]
+    assert AttackVerdict.of(older) == AttackVerdict(80.0, True)
+
+
 def test_options_of_the_adversary_are_its_own():
     study = find_study("adversary")
     assert isinstance(study, Survey)
@@ -237,3 +258,23 @@ def test_what_covered_cameras_do_not_see_the_truth_tells():
     assert "hepatic vein" in open_eyes.fines[0]
     assert hidden.total is None
     assert hidden.fines == open_eyes.fines
+
+
+@pytest.mark.long("machine")
+def test_a_judge_that_is_blind_to_what_it_walks_through_is_found_by_the_loop(monkeypatch):
+    """The walk is the judgement's own: where it tells nothing, the loop's state still does."""
+    from app.compose import attacked
+
+    target, through_vein = attacked.Attacked("plan-it-yourself", 1), Attack(entry_1_mm=25.0)
+    through_vein = replace(through_vein, entry_2_mm=-25.0)
+    open_eyes = target.play(through_vein)
+    assert "hepatic vein" in open_eyes.fines[0]
+    assert open_eyes.disagree == ()
+    assert not open_eyes.passed
+    for place in ("app.compose.attacked", "app.compose.trial", "app.session.attempt_log"):
+        monkeypatch.setattr(f"{place}.tissues_met_of", lambda *_: ())
+    blind = target.play(through_vein)
+    assert blind.passed, "the judge sees nothing"
+    assert "hepatic vein" in blind.fines[0]
+    assert blind.holes == (Hole.FINED_PASS,)
+    assert "hepatic vein: the loop had it, the walk had not" in blind.disagree

@@ -4,7 +4,7 @@ from math import hypot
 from typing import Any, Final
 
 from app.imaging.field.tissue_field import TissueKind
-from app.scoring.met import BY_TIP
+from app.scoring.pleura import aerated_mm
 from app.scoring.trajectory import Trajectory
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -17,17 +17,7 @@ DECLARATION: Final[dict[str, Any]] = {
 
 def compute(trajectory: Trajectory) -> float:
     """Return the length [mm]: the sum of what lies on one way forwards, the longest of them."""
-    met = trajectory.tissues_met()
-    ways: dict[int, float] = {}
-    way, depth = 0, 0.0
-    for one in met:
-        if one.by != BY_TIP:
-            continue
-        way += one.entered_mm < depth  # drawn back, and forwards anew
-        depth = one.entered_mm
-        if one.kind == TissueKind.LUNG:
-            ways[way] = ways.get(way, 0.0) + one.length_mm
-    return max(ways.values(), default=0.0)
+    return aerated_mm(trajectory.tissues_met())
 
 
 def deviation(trajectory: Trajectory) -> float | None:

@@ -6,9 +6,8 @@
 from typing import Any, Final
 
 from app.core.messages import sentence
-from app.imaging.field.tissue_field import TissueKind
 from app.scoring.errors import MetricNotAskedError
-from app.scoring.met import BY_TIP
+from app.scoring.pleura import flattest_deg
 from app.scoring.trajectory import Trajectory
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -25,12 +24,7 @@ def compute(trajectory: Trajectory) -> float:
     Raises:
         MetricNotAskedError: if the lung was not entered.
     """
-    met = trajectory.tissues_met()
-    entered = [
-        one.angle_deg
-        for one in met
-        if one.kind == TissueKind.LUNG and one.before != "" and one.by == BY_TIP and one.counts
-    ]
-    if not entered:
+    angle = flattest_deg(trajectory.tissues_met())
+    if angle is None:
         raise MetricNotAskedError(sentence("the lung was not entered"))
-    return max(entered)
+    return angle

@@ -6,8 +6,7 @@ one into the other crosses no pleura.
 
 from typing import Any, Final
 
-from app.imaging.field.tissue_field import TissueKind
-from app.scoring.met import BY_TIP
+from app.scoring.pleura import crossings
 from app.scoring.trajectory import Trajectory
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -20,17 +19,7 @@ DECLARATION: Final[dict[str, Any]] = {
 
 def compute(trajectory: Trajectory) -> float:
     """Return how often, inwards and outwards."""
-    met = trajectory.tissues_met()
-    holding = {one.kind for one in met if one.holds_target}
-    within = holding - {TissueKind.LUNG} if TissueKind.LUNG in holding else set()
-    return float(
-        sum(
-            (side != "" and side not in within)
-            for one in met
-            if one.kind == TissueKind.LUNG and one.by == BY_TIP and one.counts
-            for side in (one.before, one.after)
-        )
-    )
+    return float(crossings(trajectory.tissues_met()))
 
 
 def deviation(trajectory: Trajectory) -> float | None:

@@ -1,8 +1,15 @@
-"""Share of the time in the body, pauses included, during which the tip's depth was measured."""
+"""Share of the time in the body, pauses included, during which the tip's depth was measured.
+
+An insertion that nobody saw begin counts from where the needle was seen last: who covers the
+cameras until the needle is in has not been seen inserting it.
+"""
 
 from typing import Any, Final
 
-from app.scoring.trajectory import Trajectory
+import numpy as np
+from numpy.typing import NDArray
+
+from app.scoring.trajectory import Phase, Trajectory, runs
 from app.scoring.uncertainty import time_sd
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -12,11 +19,17 @@ DECLARATION: Final[dict[str, Any]] = {
     "reads": (),
 }
 
+SEEN_OUTSIDE: Final = 0.002
+"""A needle seen no deeper than this was out of the body [m]: from here on it counts as inserted."""
+
+COUNTED_SINCE: Final = 7
+"""Scoring version from which an insertion that nobody saw begin counts."""
+
 
 def compute(trajectory: Trajectory) -> float:
     """Return the share [%]; of a single sample, 0 or 100."""
     trajectory.insertions()
-    inserted = trajectory.inserted | trajectory.paused
+    inserted = _inserted(trajectory)
     whole = trajectory.duration(inserted)
     if whole > 0.0:
         return 100.0 * trajectory.duration(inserted & trajectory.depth_valid) / whole
@@ -25,7 +38,34 @@ def compute(trajectory: Trajectory) -> float:
 
 def deviation(trajectory: Trajectory) -> float:
     """Return the standard deviation [%] that the time between samples leaves."""
-    inserted = trajectory.inserted | trajectory.paused
+    inserted = _inserted(trajectory)
     whole = trajectory.duration(inserted)
     seen = time_sd(trajectory, inserted & trajectory.depth_valid)
     return 100.0 * seen / whole if whole > 0.0 else 0.0
+
+
+def _inserted(trajectory: Trajectory) -> NDArray[np.bool_]:
+    """Find the samples that count as in the body, shape (n,)."""
+    inserted: NDArray[np.bool_] = trajectory.inserted | trajectory.paused
+    if trajectory.scoring_version >= COUNTED_SINCE:
+        inserted = inserted | entered_unseen(trajectory)
+    return inserted
+
+
+def entered_unseen(trajectory: Trajectory) -> NDArray[np.bool_]:
+    """Find the samples before insertions that nobody saw begin, shape (n,).
+
+    The needle was seen out of the body, then not at all, and when it was seen again it was in:
+    while nobody knew where it was, the phase stayed what it had been. A marker that was not seen
+    before, or came out of the tube as deep as it had gone in, hides nothing.
+    """
+    seen, depth = trajectory.depth_valid, trajectory.depth
+    hidden = np.zeros(len(trajectory), dtype=np.bool_)
+    waits = (trajectory.phase == Phase.ALIGNING) | trajectory.paused
+    for stay in runs(trajectory.inserted):
+        first = stay.start
+        while first > 0 and waits[first - 1] and not seen[first - 1]:
+            first -= 1
+        if first > 0 and seen[first - 1] and depth[first - 1] <= SEEN_OUTSIDE:
+            hidden[first : stay.start] = True
+    return hidden

@@ -77,6 +77,7 @@ class AttackVerdict:
         hidden: share of what is fined that the score knows nothing of.
         seen: share of the insertion that was tracked, 0 to 1.
         otherwise: the total that it would have were it not void.
+        disagree: where the walk that the judgement makes and the loop differ about what was met.
     """
 
     total: float | None
@@ -88,6 +89,7 @@ class AttackVerdict:
     hidden: float = 0.0
     seen: float = 1.0
     otherwise: float = 0.0
+    disagree: tuple[str, ...] = ()
 
     @property
     def worth(self) -> float:
@@ -111,7 +113,8 @@ class AttackVerdict:
 
     def document(self) -> dict[str, Any]:
         """Return it as JSON-ready values."""
-        return asdict(self) | {"fines": list(self.fines), "judged": list(self.judged)}
+        lists = {name: list(getattr(self, name)) for name in ("fines", "judged", "disagree")}
+        return asdict(self) | lists
 
     @classmethod
     def of(cls, document: dict[str, Any]) -> AttackVerdict:
@@ -131,6 +134,7 @@ class AttackVerdict:
             float(document["hidden"]),
             float(document["seen"]),
             float(document["otherwise"]),
+            tuple(map(str, document.get("disagree", ()))),
         )
 
 

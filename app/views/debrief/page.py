@@ -30,6 +30,7 @@ from app.session.motion import Alignment
 from app.session.next_exercise import Proposal, ProposalReason
 from app.session.review import Review
 from app.views.debrief.curves import CurvesView
+from app.views.debrief.published import PublishedOdds
 from app.views.debrief.remarks import RemarkActions, said_words
 from app.views.debrief.replay import (
     LEAP_S,
@@ -262,7 +263,7 @@ class DebriefPage(QWidget):
             PlainLabel(self),
         )
         self._problems, self.risks = PlainLabel(self), PlainLabel(self)
-        self.met = PlainLabel(self)
+        self.met, self.published = PlainLabel(self), PublishedOdds(self)
         self.ending, self.lessons, self.proposal = (
             PlainLabel(self),
             PlainLabel(self),
@@ -300,6 +301,7 @@ class DebriefPage(QWidget):
         lines = met_lines(review)
         self.met.setText("\n".join((tr("What the needle met"), *lines)))
         self.met.setVisible(bool(lines))
+        self.published.show_review(review)
         said = lessons(review)
         self.lessons.setText("\n".join(said))
         self.lessons.setVisible(bool(said))
@@ -522,6 +524,7 @@ class DebriefPage(QWidget):
         column.addWidget(self.table, 3)
         column.addWidget(self.risks)
         column.addWidget(self.met)
+        column.addWidget(self.published)
         column.addWidget(self.scans, 2)
         right = QWidget(self)
         self._inner = QSplitter(Qt.Orientation.Horizontal, right)

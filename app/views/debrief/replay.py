@@ -35,6 +35,7 @@ from app.planning.needle_overlay import NeedleOverlay
 from app.session.motion import Alignment, NeedleMotion, beside, rows_beside
 from app.session.review import Review
 from app.views.debrief.curves import Line, curves_of
+from app.views.debrief.met_marks import MetLayer, MetScene, places_of
 from app.views.debrief.path_view import PathView
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
@@ -409,6 +410,7 @@ class ReplayViews(QWidget):
         panes: the two slices.
         scene: the 3D view; None until a CT was shown.
         path: the bull's-eye.
+        met, met_scene: marks where the needle met something, over slices and 3D.
     """
 
     open_wanted = Signal()
@@ -420,6 +422,8 @@ class ReplayViews(QWidget):
         ids = (PaneId.IN_PLANE, PaneId.PROBE)
         self.panes = tuple(SlicePane(self.viewing, pane, self) for pane in ids)
         self.ghosts = tuple(GhostLayer(pane.canvas) for pane in self.panes)
+        self.met = tuple(MetLayer(pane.canvas) for pane in self.panes)
+        self.met_scene: MetScene | None = None
         self.scene: SceneView | None = None
         self.path = PathView(self)
         self.why, self.open = PlainLabel(self), QPushButton(tr("Open its CT…"), self)
@@ -482,6 +486,7 @@ class ReplayViews(QWidget):
         self.viewing.set_cursor(review.placed.plan.target_mm)
         scene.set_plan(draft)
         scene.set_tolerances(radii)
+        self._mark_met(review)
         self._look_at_path(scene)
         self._fit_due = True
         if not self.has_ct:
@@ -556,6 +561,9 @@ class ReplayViews(QWidget):
             self.scene.set_surfaces(None)
             self.scene.set_structures(())
             self.scene.set_plan(DraftPlan())
+        for marks in (*self.met, self.met_scene):
+            if marks is not None:
+                marks.set_places(())
 
     def close_views(self) -> None:
         """Stop what makes pictures; idempotent."""
@@ -581,9 +589,16 @@ class ReplayViews(QWidget):
             self.scene = SceneView(SceneRenderer(), self)
             self.scene.set_display(Display(xray=True, organs=False))
             self.scene.maximise_wanted.connect(lambda: self.grid.toggle(self._scene_place))
+            self.met_scene = MetScene(self.scene)
             self._scene_place.addWidget(self.scene)
             self.scene.installEventFilter(self)
         return self.scene
+
+    def _mark_met(self, review: Review) -> None:
+        places = places_of(review)
+        for marks in (*self.met, self.met_scene):
+            if marks is not None:
+                marks.set_places(places)
 
     def _look_at_path(self, scene: SceneView) -> None:
         """Look across the path, the entry on top, from where as much of it as can be is seen."""

@@ -44,6 +44,12 @@ class Symbol(StrEnum):
     DISC = "disc"
     DIAMOND = "diamond"
     SQUARE = "square"
+    TRIANGLE = "triangle"
+    DOWN = "down"
+    CROSS = "cross"
+    PLUS = "plus"
+    HEXAGON = "hexagon"
+    STAR = "star"
 
 
 @dataclass(frozen=True, slots=True)

@@ -102,6 +102,7 @@ class SceneView(QWidget):
         commands: what the view does by itself, by the key that asks for it.
         surfaces: skin, bone and organs as they are shown; None while there are none.
         structures: those that are shown, each in its colour.
+        overlays: draw more over the picture, with the place of any point in the pane.
     """
 
     maximise_wanted = Signal()
@@ -130,6 +131,7 @@ class SceneView(QWidget):
         self._needle: NeedleOverlay | None = None
         self._draft, self._cut = DraftPlan(), False
         self._targets: TargetMarks | None = None
+        self.overlays: list[Callable[[QPainter, SceneView], None]] = []
         self._R_world_patient = Placement().rotation
         self.commands = self._commands()
         self._button = QToolButton(self)
@@ -332,6 +334,10 @@ class SceneView(QWidget):
         if was_home:
             self.set_orbit(self._home)
 
+    def pixels(self, points_mm: FloatArray) -> FloatArray:
+        """Return where points in the patient are seen, (n, 3) -> (n, 2) [px]."""
+        return self.orbit.pixels(points_mm, self._size())
+
     def _size(self) -> tuple[int, int]:
         return self.width(), self.height()
 
@@ -411,6 +417,8 @@ class SceneView(QWidget):
         if self._targets is not None:
             places = self.orbit.pixels(self._targets.points_mm, self._size())
             draw_targets(painter, places, self._targets, display)
+        for paint in self.overlays:
+            paint(painter, self)
         draw_compass(painter, self.orbit, QPointF(50.0, self.height() - 50.0), display)
         error = self._feed.error and tr("3D view off: {why}", why=self._feed.error)
         scale, note = self._enlargement.scale, error or self.note

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
-from math import ceil
+from math import ceil, cos, sin, tau
 
 from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPixmap
@@ -157,11 +157,12 @@ def _symbol(mark: Mark, near: bool, ratio: float) -> QPixmap:
             line.setDashPattern([1.2, 1.2])
         for pen in (rim, line):
             painter.setPen(pen)
-            _draw_symbol(painter, mark, pen is line and near)
+            draw_symbol(painter, mark, pen is line and near)
     return picture
 
 
-def _draw_symbol(painter: QPainter, mark: Mark, fill: bool) -> None:
+def draw_symbol(painter: QPainter, mark: Mark, fill: bool) -> None:
+    """Draw a mark's symbol about the origin with the painter's pen; `fill` fills a disc."""
     r = MarkItem.RADIUS
     painter.setBrush(Qt.BrushStyle.NoBrush)
     if mark.symbol is Symbol.RING:
@@ -177,6 +178,21 @@ def _draw_symbol(painter: QPainter, mark: Mark, fill: bool) -> None:
         painter.drawPolygon(corners)
     elif mark.symbol is Symbol.SQUARE:
         painter.drawRect(QRectF(-0.6 * r, -0.6 * r, 1.2 * r, 1.2 * r))
+    elif mark.symbol in _STROKES:
+        for turns in _STROKES[mark.symbol]:
+            way = [QPointF(r * sin(tau * turn), -r * cos(tau * turn)) for turn in turns]
+            painter.drawPolyline(way)
+
+
+_STROKES: dict[Symbol, tuple[tuple[float, ...], ...]] = {
+    Symbol.TRIANGLE: ((0.0, 1 / 3, 2 / 3, 0.0),),
+    Symbol.DOWN: ((0.5, 5 / 6, 1 / 6, 0.5),),
+    Symbol.CROSS: ((1 / 8, 5 / 8), (3 / 8, 7 / 8)),
+    Symbol.PLUS: ((0.0, 0.5), (0.25, 0.75)),
+    Symbol.HEXAGON: (tuple(k / 6 for k in range(7)),),
+    Symbol.STAR: tuple((k / 10, k / 10 + 0.5) for k in range(5)),
+}
+"""Lines of a symbol: turns from straight up, clockwise, of their corners."""
 
 
 @lru_cache(maxsize=512)
