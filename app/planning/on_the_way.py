@@ -28,7 +28,7 @@ LEAST_CONFIDENCE: Final = 0.5
 
 
 @dataclass(frozen=True, slots=True)
-class Hindrance:
+class WayHindrance:
     """One tissue on the way.
 
     Attributes:
@@ -48,7 +48,7 @@ class Hindrance:
 
 def hindrances(
     field: TissueField, entry_mm: ArrayLike, target_mm: ArrayLike
-) -> tuple[Hindrance, ...]:
+) -> tuple[WayHindrance, ...]:
     """Return what is on the way, the first that the needle meets first.
 
     What holds the target is none: there the needle has to go.
@@ -66,7 +66,7 @@ def hindrances(
             begins.setdefault(part.code, part.begin_mm)
             lengths[part.code] = lengths.get(part.code, 0.0) + part.length_mm
     met = [
-        Hindrance(
+        WayHindrance(
             field.tissues[code].words,
             field.tissues[code].kind,
             begin,

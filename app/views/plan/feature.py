@@ -28,7 +28,7 @@ from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel
 from app.views.kit.text import literal, tr
 from app.views.plan.editor import PlanEditor, PlanFiles, Point
-from app.views.plan.verdict import Way, verdict_words
+from app.views.plan.verdict import PlannedWay, verdict_words
 from app.views.plan.way import WayWatch
 from app.views.shell.feature import Context, Feature
 from app.views.shell.settings import Recents
@@ -65,7 +65,7 @@ class PlanPanel(QWidget):
 
     def __init__(self, editor: PlanEditor, viewing: Viewing, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._editor, self._viewing, self._way = editor, viewing, Way()
+        self._editor, self._viewing, self._way = editor, viewing, PlannedWay()
         self.title = _label("heading")
         self.entry, self.target, self.length = _label(), _label(), _label("dim")
         self.left_slice = _label("dim")
@@ -120,7 +120,7 @@ class PlanPanel(QWidget):
         self._files[2].setEnabled(draft.complete)
         self._files[3].setEnabled(draft.complete)
 
-    def show_way(self, way: Way) -> None:
+    def show_way(self, way: PlannedWay) -> None:
         """Say what is known of what lies on the way."""
         self._way = way
         self.refresh()

@@ -11,7 +11,7 @@ from app.views.kit.text import tr, translated
 from app.views.plan.editor import PlanEditor
 
 if TYPE_CHECKING:
-    from app.planning.on_the_way import Hindrance
+    from app.planning.on_the_way import WayHindrance
 
 
 class WayState(Enum):
@@ -24,7 +24,7 @@ class WayState(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
+class PlannedWay:
     """What lies on the planned way.
 
     Attributes:
@@ -34,7 +34,7 @@ class Way:
     """
 
     state: WayState = WayState.NOBODY_ASKS
-    hindrances: tuple[Hindrance, ...] = ()
+    hindrances: tuple[WayHindrance, ...] = ()
     reason: str = ""
 
 
@@ -52,7 +52,7 @@ class VerdictWords:
     remedy: bool = False
 
 
-def verdict_words(editor: PlanEditor, way: Way | None = None) -> VerdictWords:
+def verdict_words(editor: PlanEditor, way: PlannedWay | None = None) -> VerdictWords:
     """Put the editor's verdict into words, and what is known of the way."""
     draft, verdict = editor.edit.draft, editor.verdict
     if verdict.problem:
@@ -70,7 +70,7 @@ def verdict_words(editor: PlanEditor, way: Way | None = None) -> VerdictWords:
         tilt=reached.tilt / DEGREE,
     )
     if reached.reachable:
-        return VerdictWords(*_way_words(way or Way()), measures)
+        return VerdictWords(*_way_words(way or PlannedWay()), measures)
     reasons = "; ".join(translated(reason.text) for reason in reached.reasons)
     text = tr("Out of reach: {reasons}.", reasons=reasons)
     if reached.remedy is None:
@@ -79,7 +79,7 @@ def verdict_words(editor: PlanEditor, way: Way | None = None) -> VerdictWords:
     return VerdictWords("bad", text, measures, remedy=True)
 
 
-def _way_words(way: Way) -> tuple[str, str]:
+def _way_words(way: PlannedWay) -> tuple[str, str]:
     """Return kind and sentence of a path that the robot can follow."""
     follows = tr("The robot can follow this path.")
     if way.state is WayState.LOOKING:
@@ -96,7 +96,7 @@ def _way_words(way: Way) -> tuple[str, str]:
     return "warning", "\n".join((*lines, follows))
 
 
-def _hindrance_words(hindrance: Hindrance) -> str:
+def _hindrance_words(hindrance: WayHindrance) -> str:
     """Name a tissue on the way and where it begins."""
     tissue, depth = hindrance.name, hindrance.depth_mm
     if hindrance.is_sure:

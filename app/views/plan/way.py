@@ -17,7 +17,7 @@ from app.core.progress import Progress
 from app.exercises.parts import OwnPlan
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.text import tr, translated
-from app.views.plan.verdict import Way, WayState
+from app.views.plan.verdict import PlannedWay, WayState
 
 if TYPE_CHECKING:
     from app.imaging.field import TissueField
@@ -47,7 +47,7 @@ class WayWatch(QObject):
         super().__init__(parent)
         self._conductor, self._editor = context.conductor, context.editors.plan
         self._book = context.editors.structures
-        self.way = Way()
+        self.way = PlannedWay()
         self._task: BackgroundTask | None = None
         self._tissues: TissueField | None = None
         self._reason = ""
@@ -70,16 +70,16 @@ class WayWatch(QObject):
         draft = self._editor.edit.draft
         if not place or draft.entry_mm is None or draft.target_mm is None:
             self._timer.stop()
-            self._tell(Way())
+            self._tell(PlannedWay())
         elif self._reason:
-            self._tell(Way(WayState.UNKNOWN, reason=self._reason))
+            self._tell(PlannedWay(WayState.UNKNOWN, reason=self._reason))
         elif self._tissues is not None:
             from app.planning.on_the_way import hindrances  # loaded with the field
 
             met = hindrances(self._tissues, draft.entry_mm, draft.target_mm)
-            self._tell(Way(WayState.KNOWN, met))
+            self._tell(PlannedWay(WayState.KNOWN, met))
         else:
-            self._tell(Way(WayState.LOOKING))
+            self._tell(PlannedWay(WayState.LOOKING))
             if self._task is None:
                 self._timer.start()
 
@@ -146,7 +146,7 @@ class WayWatch(QObject):
             self._task.drop()
             self._task = None
 
-    def _tell(self, way: Way) -> None:
+    def _tell(self, way: PlannedWay) -> None:
         if way != self.way:
             self.way = way
             self.changed.emit()
