@@ -170,21 +170,21 @@ class Desktop:
         """Open one camera; called beside the window, may take seconds."""
         with turn(progress):
             from app.compose.live_cameras import open_live
-        progress.report(0.5, "asking the camera for its first picture")
+        progress.report(0.5, sentence("asking the camera for its first picture"))
         return open_live(settings, side)
 
     def aim(self, settings: CameraSettings, device: str, progress: Progress) -> Aim:
         """Return what the cameras see of the needle's cone; called beside the window."""
         with turn(progress):  # kernels of the distortion
             from app.compose.camera_check import aim_of
-        progress.report(0.5, "computing what the cameras see of the needle's cone")
+        progress.report(0.5, sentence("computing what the cameras see of the needle's cone"))
         return aim_of(settings, device)
 
     def open_source(self, name: str, settings: object, progress: Progress) -> ShownCamera:
         """Open what the page of a needle source looks at; called beside the window."""
         with turn(progress):
             from app.compose.needle_sources import open_preview
-        progress.report(0.5, "asking the webcam for its first picture")
+        progress.report(0.5, sentence("asking the webcam for its first picture"))
         preview: ShownCamera = open_preview(name, settings)
         return preview
 
@@ -204,7 +204,7 @@ class Desktop:
         tissues = load_field(setup.exercise, setup.volume, plan, progress.part(0.1, 0.6))
         exercise = with_tissue(setup.exercise, setup.volume, plan)
         exercise, _ = resolve_tissue(exercise, setup.placed, tissues)
-        progress.report(0.6, "compiling the loop")
+        progress.report(0.6, sentence("compiling the loop"))
         seed = setup.exercise.seed if self._seed is None else self._seed
         ct = setup.ct
         if setup.volume is not None:  # by it the debrief knows the CT again
@@ -250,7 +250,7 @@ def _wait_until_alive(rig: Rig, progress: Progress) -> None:
     clock = SystemClock()  # another's time may stand until the loop ticks
     begin = clock.now()
     while (waited := clock.now() - begin) < _PATIENCE:
-        progress.report(0.8, "starting robot and cameras")
+        progress.report(0.8, sentence("starting robot and cameras"))
         rig.trainer.heartbeat()
         if rig.loop.latest().tick > 0 and rig.tracker.latest.read() is not None:
             return

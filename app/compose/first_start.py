@@ -22,6 +22,7 @@ from typing import IO, Final
 
 from app.core.child_process import environment, module_command
 from app.core.loading import ONE_AT_A_TIME
+from app.core.messages import sentence
 from app.core.progress import Progress
 
 ABOUT: Final = 300
@@ -110,7 +111,7 @@ class TrackerKernels:
         """
         while self._child is not None and self._child.poll() is None:
             share = min(self._compiled / ABOUT, 0.99)
-            progress.report(share, "the first start compiles what follows the marker")
+            progress.report(share, sentence("the first start compiles what follows the marker"))
             time.sleep(_LOOK)
 
     def load(self, progress: Progress) -> None:

@@ -73,7 +73,7 @@ def plugin_files(tried: bool = False, progress: Progress | None = None) -> tuple
             reason = reasons.get(path) or (kind.fault(path) if tried else "")
             title = "" if reason else kind.read(path).title
             found.append(PluginFile(kind.word, path, title, reason))
-    progress.report(len(kinds) / (len(kinds) + 1), "machines")
+    progress.report(len(kinds) / (len(kinds) + 1), sentence("machines"))
     found += _machines(tried)
     for folder in folders.folders():
         if not folder.is_own:

@@ -43,17 +43,17 @@ def open_bench(port: str, profile: DeviceProfile, progress: Progress) -> Bench:
         DeviceError: if nobody answers, somebody else does, or its record cannot be used.
         Cancelled: if `progress` was cancelled; nothing stays open then.
     """
-    progress.report(0.1, "loading the routines")
+    progress.report(0.1, sentence("loading the routines"))
     with ONE_AT_A_TIME:  # kernels: behind the window, not before it
         from app.device.commissioning.bench import Bench
         from app.device.links.serial_link import SerialLink
-    progress.report(0.3, "greeting the board")
+    progress.report(0.3, sentence("greeting the board"))
     bench = Bench(SerialLink(port, profile), profile)
     bench.open()
     try:
         end = bench.clock.now() + _PATIENCE
         while bench.loop.latest().row[sv.Q_TIME] == 0.0:
-            progress.report(0.6, "waiting for joint angles")
+            progress.report(0.6, sentence("waiting for joint angles"))
             if bench.clock.now() > end:
                 raise LinkError(
                     sentence(

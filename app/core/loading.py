@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from importlib import import_module
 from typing import Final
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 
 ONE_AT_A_TIME: Final = threading.RLock()
@@ -74,8 +75,11 @@ def turn(progress: Progress) -> Iterator[None]:
         waited = time.monotonic() - begin
         progress.report(
             COMPILED.share,
-            f"waiting {waited:.0f} s for the program to load (the first start after an "
-            "installation compiles, for a minute or two)",
+            sentence(
+                "waiting {waited:.0f} s for the program to load (the first start after an "
+                "installation compiles, for a minute or two)",
+                waited=waited,
+            ),
         )
     try:
         yield
@@ -96,7 +100,7 @@ def load_modules(names: Iterable[str], progress: Progress) -> None:
     """
     modules = tuple(names)
     for number, name in enumerate(modules):
-        progress.report(number / len(modules), "loading")
+        progress.report(number / len(modules), sentence("loading"))
         with ONE_AT_A_TIME:
             import_module(name)
         time.sleep(_TURN)

@@ -188,7 +188,9 @@ def pack(
         with zipfile.ZipFile(beside, "x", zipfile.ZIP_DEFLATED) as archive:
             archive.writestr(_MANIFEST, text + "\n")
             for number, (name, file) in enumerate(members.items()):
-                progress.report(0.9 + 0.1 * number / len(members), f"packing {name}")
+                progress.report(
+                    0.9 + 0.1 * number / len(members), sentence("packing {name}", name=name)
+                )
                 archive.write(file, name)
         beside.replace(path)
     except OSError as error:
@@ -537,7 +539,7 @@ def _extract(
     """Write every member below a folder, each as its digest says."""
     _require_room(archive, folder, path)
     for number, (name, wanted) in enumerate(manifest.files.items()):
-        progress.report(number / len(manifest.files), f"unpacking {name}")
+        progress.report(number / len(manifest.files), sentence("unpacking {name}", name=name))
         target = folder / name
         target.parent.mkdir(parents=True, exist_ok=True)
         found = hashlib.sha256()

@@ -111,17 +111,17 @@ def find_body(volume: Volume, progress: Progress | None = None) -> Body:
         max(1, min(round(GRID_MM / s), n))
         for s, n in zip(volume.spacing_mm, volume.size, strict=True)
     )
-    progress.report(0.0, "looking for the body")
+    progress.report(0.0, sentence("looking for the body"))
     level = _skin_level(volume, volume.hu[::k, ::j, ::i])
     tissue = volume.hu[::k, ::j, ::i] > level
     cell_mm = volume.affine_mm[:3, :3] * (i, j, k)
     opened = ndimage.binary_opening(np.pad(tissue, _PAD, mode="edge"), _ball(cell_mm))
-    progress.report(0.4, "taking the table away")
+    progress.report(0.4, sentence("taking the table away"))
     body = _largest(opened[_PAD:-_PAD, _PAD:-_PAD, _PAD:-_PAD])
-    progress.report(0.7, "filling the lungs")
+    progress.report(0.7, sentence("filling the lungs"))
     axis = 2 - nearest_axes(volume.direction)[0][2]  # array axis that runs along the patient
     body = _filled(body, axis)
-    progress.report(1.0, "body found")
+    progress.report(1.0, sentence("body found"))
     return Body(volume, (i, j, k), read_only(body), level)
 
 

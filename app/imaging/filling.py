@@ -144,7 +144,9 @@ def _copy(
     done = 0
     for count in _spread(copy, turns):
         done += count
-        progress.report(done / len(places), f"slice {done} of {len(places)}")
+        progress.report(
+            done / len(places), sentence("slice {ready} of {count}", ready=done, count=len(places))
+        )
 
 
 def _spread(copy: Any, turns: Sequence[Sequence[int]]) -> Iterator[int]:

@@ -82,7 +82,7 @@ def headers_in(path: Path, settings: Path, progress: Progress) -> tuple[SliceHea
     except NotStandardError:
         for module in _WITH_PYDICOM:
             importlib.import_module(module)
-        progress.report(0.0, "pydicom is loaded")  # its time is not the file's
+        progress.report(0.0, sentence("pydicom is loaded"))  # its time is not the file's
         return file_headers(path)
 
 

@@ -303,7 +303,9 @@ class CtLibrary:
                     discard(place)
                 publish(folder, place)
         entry = self.find(made.name)
-        progress.report(1.0, f"{made.report.files} files taken into the library")
+        progress.report(
+            1.0, sentence("{files} files taken into the library", files=made.report.files)
+        )
         return Imported(entry, made.report, again, len(before), len(given))
 
 
@@ -394,7 +396,7 @@ def _fill(
         made = shared_worker().call(DEIDENTIFY, arguments, allowed, part)
     except FileDamagedError as error:
         raise ImportFailedError(sentence("{error}; nothing was kept", error=error)) from None
-    progress.report(0.98, "checking what was written")
+    progress.report(0.98, sentence("checking what was written"))
     images, label = _found_in(folder)  # of the new files: the old ones may say more
     about = {
         "label": label,

@@ -124,7 +124,7 @@ def read_nifti(series: Series, progress: Progress | None = None) -> Volume:
         raise TooLargeError(
             sentence("{path_name} {too_large}", path_name=path.name, too_large=too_large)
         )
-    progress.report(0.0, f"reading {path.name}")
+    progress.report(0.0, sentence("reading {name}", name=path.name))
     voxels = series.size[0] * series.size[1] * series.size[2]
     seconds = for_file(size_of(path), least=PACKAGE_SECONDS).seconds
     allowed = Allowance(seconds, MEMORY_BYTES + _COPY_BYTES * voxels)
@@ -147,7 +147,7 @@ def read_nifti(series: Series, progress: Progress | None = None) -> Volume:
         values = np.ascontiguousarray(values[::-1])
         affine = affine @ _turned_over(len(values))
     unit = "HU" if read.lowest < AIR_HU else ""
-    progress.report(1.0, f"{path.name} read")
+    progress.report(1.0, sentence("{name} read", name=path.name))
     return Volume(read_only(values), affine, replace(series, unit=unit), unit=unit)
 
 

@@ -87,7 +87,7 @@ def _digest(path: Path, progress: Progress) -> str:
             with gzip.GzipFile(fileobj=file) if packed else file as stream:
                 while part := stream.read(_SLAB_BYTES):
                     found.update(part)
-                    progress.report(min(file.tell() / size, 1.0), "reading")
+                    progress.report(min(file.tell() / size, 1.0), sentence("reading"))
         except (EOFError, OSError, zlib.error) as error:
             raise FileDamagedError(sentence("it is cut off or damaged")) from error
     return found.hexdigest()
@@ -105,7 +105,9 @@ def nifti_values(path: Path, progress: Progress) -> NiftiValues:
     size = tuple(int(n) for n in image.shape[:3])
     values: NDArray[Any] = np.empty(size[::-1], np.int16)
     for start, slab in _slabs(image, size):
-        progress.report(start / size[2], f"slice {start + 1} of {size[2]}")
+        progress.report(
+            start / size[2], sentence("slice {current} of {size}", current=start + 1, size=size[2])
+        )
         if not np.isfinite(slab).all():
             raise FileDamagedError(
                 sentence("it holds values that are no numbers (NaN or infinite)")

@@ -432,7 +432,7 @@ def read_pixels(
         try:
             return _filled(series, np.dtype(np.int16), progress, factors)
         except NotExactError:
-            progress.report(0.0, "values beyond 16 bits: reading as float32")
+            progress.report(0.0, sentence("values beyond 16 bits: reading as float32"))
         _check_room(series, factors)
     return _filled(series, np.dtype(np.float32), progress, factors)
 
@@ -479,9 +479,17 @@ def _filled(
     hu = fresh_array((count // k, rows // j, columns // i), dtype)
     memory.hold(hu)
     for block in range(len(hu)):  # never more than a few slices at full size in memory
-        progress.report(block / len(hu), f"slice {block * k + 1} of {count}")
+        progress.report(
+            block / len(hu),
+            sentence("slice {current} of {count}", current=block * k + 1, count=count),
+        )
         slices = series.slices[block * k : (block + 1) * k]
         whole = filled(slices, dtype)
         hu[block] = reduced_block(whole, (i, j), _padding(slices, whole))
-    progress.report(1.0, f"{count} slices read, {i} × {j} × {k} voxels taken together")
+    progress.report(
+        1.0,
+        sentence(
+            "{count} slices read, {i} × {j} × {k} voxels taken together", count=count, i=i, j=j, k=k
+        ),
+    )
     return hu

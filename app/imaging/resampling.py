@@ -89,7 +89,10 @@ def resampled(series: Series, recipe: Recipe, progress: Progress) -> Volume:
     heights = (grid.positions_mm - grid.positions_mm[0]) @ grid.normal
     part = progress.part(0.5, 1.0)
     for k, height in enumerate(target.heights_mm):
-        part.report(k / len(hu), f"slice {k + 1} of {len(hu)} resampled")
+        part.report(
+            k / len(hu),
+            sentence("slice {current} of {count} resampled", current=k + 1, count=len(hu)),
+        )
         picture = _between(heights, float(height), gaps, sampled)
         picture = np.where(np.isnan(picture), np.float32(empty), picture)
         hu[k] = np.rint(picture) if stored.dtype.kind == "i" else picture

@@ -311,7 +311,7 @@ def scan_folder(path: Path | str, progress: Progress | None = None) -> Listing:
     ]
     series.extend(found for found in whole if isinstance(found, Series))
     ignored.extend(found for found in whole if isinstance(found, Ignored))
-    progress.report(1.0, f"{len(series)} series")
+    progress.report(1.0, sentence("{count} series", count=len(series)))
     return Listing(source.path, tuple(series), tuple(ignored), source.root, source.keeper)
 
 

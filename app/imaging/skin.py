@@ -57,7 +57,7 @@ def skin_points(
         Cancelled: if `progress` was cancelled.
     """
     progress = progress or Progress()
-    progress.report(0.0, "looking for the skin")
+    progress.report(0.0, sentence("looking for the skin"))
     coarse = body.coarse
     shell = coarse & ~ndimage.binary_erosion(coarse, border_value=1)
     cells = np.argwhere(shell)[:, ::-1]
@@ -73,7 +73,7 @@ def skin_points(
     progress.report(0.6)
     points, found = _refined(body, places, outward)
     keep = found & np.isfinite(outward).all(axis=1)
-    progress.report(1.0, "skin found")
+    progress.report(1.0, sentence("skin found"))
     return SkinPatch(read_only(points[keep]), read_only(outward[keep]), spacing_mm)
 
 

@@ -109,7 +109,10 @@ def _extract(
 ) -> list[tuple[str, str]]:
     left_out = []
     for number, member in enumerate(members):
-        progress.report(number / len(members), f"unpacking {number + 1} of {len(members)}")
+        progress.report(
+            number / len(members),
+            sentence("unpacking {current} of {count}", current=number + 1, count=len(members)),
+        )
         if reason := _refused(member):
             left_out.append((member.filename.replace("\\", "/").replace("/", "_")[:100], reason))
             continue
@@ -117,7 +120,12 @@ def _extract(
         target.parent.mkdir(parents=True, exist_ok=True)
         with archive.open(member) as packed, target.open("xb") as plain:
             while chunk := packed.read(_CHUNK):  # never more than the size that was checked
-                progress.report(number / len(members), f"unpacking {number + 1} of {len(members)}")
+                progress.report(
+                    number / len(members),
+                    sentence(
+                        "unpacking {current} of {count}", current=number + 1, count=len(members)
+                    ),
+                )
                 plain.write(chunk)
     return left_out
 
@@ -330,7 +338,7 @@ def _walk(root: Path, ignored: list[Ignored], progress: Progress) -> Iterator[Pa
 
     count = 0
     for folder, folders, names in os.walk(root, onerror=unreadable):
-        progress.report(0.0, f"{count} files found")
+        progress.report(0.0, sentence("{count} files found", count=count))
         folders.sort()
         count += len(names)
         yield from (Path(folder, name) for name in sorted(names))

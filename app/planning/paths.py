@@ -236,7 +236,7 @@ def score_paths(
     avoided = [one for one in fields if one[0].kind.is_avoided and one[0].warn_mm > 0.0]
     parts = []
     for start in range(0, max(1, len(skin)), CHUNK):
-        progress.report(start / max(1, len(skin)), "scoring paths")
+        progress.report(start / max(1, len(skin)), sentence("scoring paths"))
         part = slice(start, start + CHUNK)
         parts.append(
             _chunk(
@@ -251,7 +251,7 @@ def score_paths(
                 tissues,
             )
         )
-    progress.report(1.0, "paths scored")
+    progress.report(1.0, sentence("paths scored"))
     columns: list[Any] = [np.concatenate(column) for column in zip(*parts, strict=True)]
     score, block, length, angle, bone, *others, pleura, nearest, which = columns
     lung, vessel, gut, heart = others

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
@@ -82,7 +83,7 @@ def tried(progress: Progress | None = None, pictures: int = _PICTURES) -> list[T
     kinds = list(product(SQUARES, SLANTS, BLURS, NOISES))
     found = []
     for number, (square, slant, blur, noise) in enumerate(kinds):
-        watch.report(number / len(kinds), f"squares of {square:g} px")
+        watch.report(number / len(kinds), sentence("squares of {square:g} px", square=square))
         rng = np.random.default_rng(1000 + number)
         shots = list(
             _shots(BoardRenderer(camera, board, 2), square, slant, blur, noise, rng, pictures)

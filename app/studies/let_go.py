@@ -10,6 +10,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.core.units import MILLIMETRE
 from app.mechanisms.pantograph.profile import PantographProfile, load_pantograph
@@ -48,7 +49,9 @@ def _all_runs(progress: Progress | None) -> Runs:
         for depth in DEPTHS_MM:
             if progress is not None:
                 share = (number + DEPTHS_MM.index(depth) / len(DEPTHS_MM)) / len(PROFILES)
-                progress.report(0.7 * share, f"{name}, {depth:g} mm")
+                progress.report(
+                    0.7 * share, sentence("{name}, {depth:g} mm", name=name, depth=depth)
+                )
             at = poses(profile, depth * MILLIMETRE, POSES, AROUND)
             for rule in Rule:
                 found[name, depth, rule] = [
@@ -148,7 +151,7 @@ def _choice(progress: Progress | None) -> Sheet:
                 cells.append(f"{_median(felt):.2f} / {_median(deep):.2f}")
             rows.append(tuple(cells))
         if progress is not None:
-            progress.report(0.9, f"limits of {name}")
+            progress.report(0.9, sentence("limits of {name}", name=name))
     return Sheet(
         "choice",
         "Force upright by the limit, 20 mm outside / as deep as it goes: median [N]",

@@ -382,10 +382,10 @@ def draw(figure: Any) -> None:
 
 def _measure(progress: Progress | None) -> Findings:
     if progress is not None:
-        progress.report(0.0, "reach and cost")
+        progress.report(0.0, sentence("reach and cost"))
     overview = reach()
     if progress is not None:
-        progress.report(0.3, "by tilt")
+        progress.report(0.3, sentence("by tilt"))
     tilts = by_tilt()
     sheets = [overview, tilts]
     lines = [

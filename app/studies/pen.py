@@ -6,6 +6,7 @@ from typing import Any, Final
 import numpy as np
 
 from app.core.arrays import FloatArray, unit
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
@@ -253,10 +254,12 @@ def _measure(progress: Progress | None = None) -> Findings:
     watch = progress or Progress()
     rows, outcomes = [], []
     for number, setup in enumerate(SETUPS):
-        watch.report(0.7 * number / len(SETUPS), f"cube of {setup.edge_mm:g} mm")
+        watch.report(
+            0.7 * number / len(SETUPS), sentence("cube of {edge_mm:g} mm", edge_mm=setup.edge_mm)
+        )
         outcomes.append(rendered(setup))
         rows.append(_row(setup, outcomes[-1]))
-    watch.report(0.7, "trials")
+    watch.report(0.7, sentence("trials"))
     drawn = trials()
     sheet = Sheet(
         "workspace",

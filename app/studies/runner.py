@@ -117,7 +117,10 @@ def run(
     failures: list[Failure] = []
     for number, setting in enumerate(chosen.settings):
         if progress is not None:
-            progress.report(number / len(chosen.settings), f"{chosen.name}: {setting.name}")
+            progress.report(
+                number / len(chosen.settings),
+                sentence("{name}: {name_of_all}", name=chosen.name, name_of_all=setting.name),
+            )
         case = chosen.case(setting, *lent)
         for way in chosen.ways:
             try:

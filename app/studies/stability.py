@@ -13,6 +13,7 @@ from typing import Any, Final
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.core.units import MILLIMETRE
 from app.device.control.velocity import VelocityMethod
@@ -141,7 +142,9 @@ def regions(
     cases = cases or tuple((rate, delay) for rate in RATES for delay in DELAYS)
     for number, (rate, delay) in enumerate(cases):
         if progress is not None:
-            progress.report(number / len(cases), f"{rate:g} Hz, {delay} ticks")
+            progress.report(
+                number / len(cases), sentence("{rate:g} Hz, {delay} ticks", rate=rate, delay=delay)
+            )
         found.append(region(profile, rate, delay))
     return tuple(found)
 

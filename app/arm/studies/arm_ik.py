@@ -35,6 +35,7 @@ from app.arm.mechanics import (
 from app.arm.studies.references.programs import EaikArm, PinocchioArm
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.core.transform import RigidTransform
 from app.studies.errors import StudyError
@@ -459,7 +460,10 @@ def _near(
     for number, (kind, distance) in enumerate(product(KINDS, DISTANCES)):
         if progress is not None:
             share = number / (len(KINDS) * len(DISTANCES))
-            progress.report(0.7 + 0.3 * share, f"{kind}, {distance:g} rad")
+            progress.report(
+                0.7 + 0.3 * share,
+                sentence("{kind}, {distance:g} rad", kind=kind, distance=distance),
+            )
         poses = posed(arm, near_singular(arm, kind, distance, size.near))
         for name, way in ways.items():
             asked = poses.first(max(size.slow // 20, 5)) if name.startswith(SLOW) else poses

@@ -32,6 +32,7 @@ from app.arm.motion import (
     timed,
 )
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
@@ -305,7 +306,7 @@ def measured(size: MotionSize, progress: Progress | None = None) -> Findings:
         nonlocal done
         done += 1
         if progress is not None:
-            progress.report(0.7 * done / total, "searches")
+            progress.report(0.7 * done / total, sentence("searches"))
 
     tried = searches(arm, size, step)
     checks, insertion, profiles = _checks(arm, size), _insertions(arm), _profiles(arm, size)

@@ -122,20 +122,20 @@ def field_of_ct(
     notes: list[str] = []
     if not body.coarse.any():
         notes.append(sentence("there is no body in this CT: all of it is air"))
-    progress.report(0.1, "reading the CT on the field's grid")
+    progress.report(0.1, sentence("reading the CT on the field's grid"))
     hu = smoothed(grid.from_volume(volume.hu, volume.affine_mm))
-    progress.report(0.25, "looking for the skin")
+    progress.report(0.25, sentence("looking for the skin"))
     inside = _inside(body, hu, grid)
     depth = _skin_depth(inside, hu, grid.spacing_mm)
     labels = np.where(inside, np.uint8(_ORGAN), np.uint8(_AIR))
     skin = inside & (depth < SKIN_MM * STEPS_PER_MM)
     skin |= inside & (depth < FARTHEST) & (hu >= FAT_HU)  # no muscle lies between skin and fat
-    progress.report(0.4, "looking for lung and gut")
+    progress.report(0.4, sentence("looking for lung and gut"))
     _label_air(labels, inside & ~skin, hu, grid.spacing_mm)
-    progress.report(0.5, "looking for bone")
+    progress.report(0.5, sentence("looking for bone"))
     axis = 2 - nearest_axes(volume.direction)[0][2]
     bones = find_bones(hu, inside & ~skin, grid.spacing_mm, axis)
-    progress.report(0.6, "parting fat, muscle and organs")
+    progress.report(0.6, sentence("parting fat, muscle and organs"))
     gas = (labels == _LUNG) | (labels == _GAS)
     fat = (hu < FAT_HU) & (labels == _ORGAN) & ~grown(gas)
     labels[fat] = _FAT
@@ -146,15 +146,15 @@ def field_of_ct(
     labels[bones.unsure] = _UNSURE
     labels[skin] = _SKIN
     notes += _missing(labels, bones)
-    progress.report(0.7, "laying structures over it")
+    progress.report(0.7, sentence("laying structures over it"))
     marks = mark(labels, structures, grid, TABLE)
     notes += marks.notes
     if grid.beyond_reach is not None:
         labels[grid.beyond_reach] = UNKNOWN
-    progress.report(0.75, "placing the boundaries")
+    progress.report(0.75, sentence("placing the boundaries"))
     crossing = _crossing(labels, _Parts(hu, depth, wall), marks)
     distance = band.distances(labels, (grid.spacing_mm,) * 3, crossing)
-    progress.report(1.0, "the tissue field is made")
+    progress.report(1.0, sentence("the tissue field is made"))
     return TissueField(labels, distance, grid.affine_mm, marks.tissues, tuple(notes))
 
 

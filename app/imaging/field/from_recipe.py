@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.compiled import njit
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.field import band
 from app.imaging.field.grid import FieldGrid
@@ -105,18 +106,18 @@ def field_of_recipe(seed: int, grid: FieldGrid, progress: Progress) -> TissueFie
     level = np.empty(grid.shape, np.float32)
     for k, height in enumerate(z.tolist()):
         if k % 8 == 0:
-            progress.report(0.7 * k / len(z), "labelling the built-in patient")
+            progress.report(0.7 * k / len(z), sentence("labelling the built-in patient"))
         labels[k], level[k] = layers.slice_at(pixels, height)
     if grid.beyond_reach is not None:
         labels[grid.beyond_reach] = UNKNOWN
-    progress.report(0.75, "placing the boundaries")
+    progress.report(0.75, sentence("placing the boundaries"))
     flat = level.ravel()
 
     def crossing(first: band.Indices, second: band.Indices) -> NDArray[Any]:
         return flat[first] / np.maximum(flat[first] + flat[second], 1e-6)
 
     distance = band.distances(labels, (grid.spacing_mm,) * 3, crossing)
-    progress.report(1.0, "the tissue field is made")
+    progress.report(1.0, sentence("the tissue field is made"))
     return TissueField(labels, distance, grid.affine_mm, TABLE)
 
 

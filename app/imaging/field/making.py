@@ -73,11 +73,11 @@ def field_of(
         Cancelled: if `progress` was cancelled.
     """
     progress = progress or Progress()
-    progress.report(0.0, "looking for the tissue field in the cache")
+    progress.report(0.0, sentence("looking for the tissue field in the cache"))
     place = _place(volume, structures, entry_mm, reach_mm, spacing_mm)
     there = _cached(place)
     if there is not None:
-        progress.report(1.0, "the tissue field was there")
+        progress.report(1.0, sentence("the tissue field was there"))
         return there
     field = make(volume, structures, entry_mm, reach_mm, spacing_mm, progress, body)
     _keep(field, place)

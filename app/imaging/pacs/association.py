@@ -140,7 +140,7 @@ def association(
     made = entity(settings)
     for abstract, transfer in contexts:
         made.add_requested_context(abstract, list(transfer) or None)
-    progress.report(0.0, f"connecting to {settings.name}")
+    progress.report(0.0, sentence("connecting to {name}", name=settings.name))
     _connect(settings)
     opened = (network().evt.EVT_CONN_OPEN, lambda event: own.append(event.assoc.dul.socket.socket))
     own: list[socket.socket] = []

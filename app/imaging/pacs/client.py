@@ -267,4 +267,7 @@ class _Counter:
         known = f"of {self._total} " if self._total else ""
         share = self._done / self._total if self._total else 0.5
         with suppress(Cancelled):  # the network library would swallow it: the watcher acts on it
-            self.progress.report(min(share, 1.0), f"{self._done} {known}pictures received")
+            self.progress.report(
+                min(share, 1.0),
+                sentence("{ready} {known}pictures received", ready=self._done, known=known),
+            )

@@ -269,7 +269,7 @@ def _make(folder: Path, seed: int, slices: int, rows: int, progress: Progress) -
 
 def _write_all(folder: Path, seed: int, slices: int, rows: int, progress: Progress) -> None:
     pixel, between = _FIELD_MM / rows, MODEL_TOP / slices
-    progress.report(0.0, f"phantom patient {seed}")
+    progress.report(0.0, sentence("phantom patient {seed}", seed=seed))
     scan = Scan(make_patient(seed), rows, pixel)
     corner = -(rows - 1) / 2 * pixel
 
@@ -283,7 +283,10 @@ def _write_all(folder: Path, seed: int, slices: int, rows: int, progress: Progre
     with ThreadPoolExecutor(_THREADS) as pool:
         try:
             for done, _ in enumerate(pool.map(write, range(1, slices)), start=2):
-                progress.report(done / slices, f"phantom slice {done} of {slices}")
+                progress.report(
+                    done / slices,
+                    sentence("phantom slice {ready} of {slices}", ready=done, slices=slices),
+                )
         except BaseException:
             pool.shutdown(cancel_futures=True)
             raise

@@ -466,18 +466,23 @@ def _deidentified(
     progress: Progress,
 ) -> Deidentified:
     count = len(headers)
-    progress.report(0.0, f"file 1 of {count}")
+    progress.report(0.0, sentence("file 1 of {count}", count=count))
     check_numbers(boxes, count)
     rules = _counted(1, count, lambda: _rules(headers[0]))
     secrets, tally, digests = Secrets(rules.profile), Tally(), []
     for number, header in enumerate(headers, 1):
-        progress.report(0.7 * (number - 1) / count, f"file {number} of {count}")
+        progress.report(
+            0.7 * (number - 1) / count,
+            sentence("file {current} of {count}", current=number, count=count),
+        )
         to, drawn = staging / file_name(number), of_picture(boxes, number)
         write = _writer(header, to, rules, drawn, secrets, tally)
         digests.append(_counted(number, count, write))
     for number, digest in enumerate(digests, 1):
         share = 0.7 + 0.3 * (number - 1) / count
-        progress.report(share, f"checking file {number} of {count}")
+        progress.report(
+            share, sentence("checking file {current} of {count}", current=number, count=count)
+        )
         verify(staging / file_name(number), secrets, rules.uids.old, digest)
     return Deidentified(tally.report(), rules.study, rules.uids.new(key))
 

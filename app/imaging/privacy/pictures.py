@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.privacy.burned_in import MaskBox, blackened, of_picture
 from app.imaging.reading import read_pixels
@@ -74,7 +75,7 @@ def read_pictures(series: Series, progress: Progress) -> Pictures:
     brightest = values.min(axis=0) if inverted else values.max(axis=0)
     column, row = (series.spacing_mm or (1.0, 1.0, 1.0))[:2]
     paths = {header.path for header in series.slices}
-    progress.report(1.0, f"{len(values)} pictures read")
+    progress.report(1.0, sentence("{count} pictures read", count=len(values)))
     return Pictures(
         values,
         brightest,

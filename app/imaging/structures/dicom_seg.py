@@ -98,7 +98,10 @@ def write_seg_file(
 
     headers = []
     for number, path in enumerate(sources, 1):
-        progress.report(0.5 * number / len(sources), f"file {number} of {len(sources)}")
+        progress.report(
+            0.5 * number / len(sources),
+            sentence("file {current} of {count}", current=number, count=len(sources)),
+        )
         headers.append(_header(path, number))
     names = repr([(one.name, one.corner, one.mask.tobytes()) for one in structures])
     try:

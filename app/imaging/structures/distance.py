@@ -26,6 +26,7 @@ from scipy import ndimage
 from scipy.spatial import cKDTree
 
 from app.core.arrays import FloatArray, crosses, read_only
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.structures.inside import meeting, spans_inside
 from app.imaging.structures.structure import Structure
@@ -265,7 +266,7 @@ class SignedDistance:
             Cancelled: if `progress` was cancelled.
         """
         progress = progress or Progress()
-        progress.report(0.0, f"distances of {structure.name}")
+        progress.report(0.0, sentence("distances of {name}", name=structure.name))
         low = structure.box_mm.min(axis=0) - MARGIN_MM
         extent = structure.box_mm.max(axis=0) + MARGIN_MM - low
         spacing = np.linalg.norm(structure.affine_mm[:3, :3], axis=0)

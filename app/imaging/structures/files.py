@@ -43,7 +43,7 @@ def read_structures(path: Path, volume: Volume, progress: Progress | None = None
         Cancelled: if `progress` was cancelled.
     """
     progress = progress or Progress()
-    progress.report(0.0, f"reading {path.name}")
+    progress.report(0.0, sentence("reading {name}", name=path.name))
     numbers = tuple(float(number) for number in volume.affine_mm.ravel())
     series = volume.series
     images = dict.fromkeys(header.identity.sop_uid for header in series.slices)
@@ -65,7 +65,7 @@ def read_structures(path: Path, volume: Volume, progress: Progress | None = None
                 "{path} cannot be read: {error_strerror}", path=path, error_strerror=error.strerror
             )
         ) from error
-    progress.report(1.0, "structures placed")
+    progress.report(1.0, sentence("structures placed"))
     return StructureSet(structures, parsed.notes)
 
 

@@ -92,7 +92,10 @@ def place(
     said = [*result.notes, *_same_frame(result, volume.series.frame_of_reference, uids)]
     placed, empty = StructureSet(), 0
     for number, labelled in enumerate(result.structures):
-        progress.report(number / result.count, f"structure {number + 1} of {result.count}")
+        progress.report(
+            number / result.count,
+            sentence("structure {current} of {count}", current=number + 1, count=result.count),
+        )
         mask, note = _onto(labelled, volume)
         if note:
             said.append(note)

@@ -76,7 +76,10 @@ def read_headers(
     with closing((worker or shared_worker()).run(tasks, progress)) as run:
         for done, (number, outcome) in enumerate(run, 1):
             found[number] = _headers_or_reason(paths[number], outcome)
-            progress.report(done / len(paths), f"{done} of {len(paths)} files")
+            progress.report(
+                done / len(paths),
+                sentence("{ready} of {count} files", ready=done, count=len(paths)),
+            )
     return found
 
 
@@ -124,7 +127,10 @@ def fill_slices(
         for done, (number, outcome) in enumerate(run, 1):
             if outcome is not None:
                 raise _named(headers[number], outcome)
-            progress.report(done / len(headers), f"slice {done} of {len(headers)}")
+            progress.report(
+                done / len(headers),
+                sentence("slice {ready} of {count}", ready=done, count=len(headers)),
+            )
 
 
 def _work(header: SliceHeader) -> int:

@@ -21,6 +21,7 @@ from typing import Any, Final
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.studies.attacks.attack import Attack, honest_genes, open_tricks
 
@@ -202,7 +203,16 @@ def search(
     tried: list[TriedAttack] = []
     holes = 0
     for number in range(evaluations):
-        watch.report(number / evaluations, f"{label}: {number} of {evaluations}, {holes} holes")
+        watch.report(
+            number / evaluations,
+            sentence(
+                "{label}: {number} of {evaluations}, {holes} holes",
+                label=label,
+                number=number,
+                evaluations=evaluations,
+                holes=holes,
+            ),
+        )
         if number < FIRST:
             genes = _fresh(tricks, random) if number else honest_genes()
         else:

@@ -104,7 +104,7 @@ def adjust(
         raise CalibrationError(sentence("the first estimate puts a board behind a camera"))
     refused = not free.any()  # a board's pose alone has no such ways
     for _ in range(rounds):
-        progress.report(0.0, "adjusting")
+        progress.report(0.0, sentence("adjusting"))
         moved = problem.moved(state, system, damping)
         trial = problem.system(moved) if moved is not None else None
         rise = trial.cost - system.cost if trial is not None else np.inf

@@ -100,7 +100,7 @@ def calibrate_mono(
     given = views
     count = held_back_count(len(views)) if hold_back is None else hold_back
     held = set(choose_held_back(views, min(count, len(views) - LEAST_VIEWS)))
-    progress.report(0.1, f"{name}: first estimate")
+    progress.report(0.1, sentence("{name}: first estimate", name=name))
     views = better_corners(views, _first(views, held, progress.part(0.1, 0.2)))
     while True:
         kept = [view for i, view in enumerate(views) if i not in held]
@@ -111,7 +111,7 @@ def calibrate_mono(
             break
         views = better
     _require_determined(adjusted, name)
-    progress.report(0.9, f"{name}: views held back")
+    progress.report(0.9, sentence("{name}: views held back", name=name))
     residuals = _residuals(views, used, out, adjusted)
     camera = _calibration(name, views[0].image_size, adjusted, model)
     moved = moved_px(used, adjusted)
@@ -154,7 +154,7 @@ def _estimated(
 ) -> _Model:
     """Choose views and the model of the lens, and estimate the camera."""
     used, out, usual = _without_outliers(views, BROWN, progress.part(0.2, 0.5))
-    progress.report(0.5, f"{name}: which coefficients the views support")
+    progress.report(0.5, sentence("{name}: which coefficients the views support", name=name))
     choosing = progress.part(0.5, 0.9)
     if lens is not LensModel.BROWN:
         longer = _longer(views, used, out, usual, lens, choosing)
@@ -204,7 +204,7 @@ def _longer(
 
 def _first(views: Sequence[BoardView], held: set[int], progress: Progress) -> FloatArray:
     """Parameters of a camera from all views that are not held back, shape (9,)."""
-    progress.report(0.0, "first estimate")
+    progress.report(0.0, sentence("first estimate"))
     kept = [view for i, view in enumerate(views) if i not in held]
     return first_estimate(kept).parameters[0]
 
@@ -273,7 +273,7 @@ def _fit(
     parameters[:, :shared] = start.parameters[:, :shared]
     parameters = np.where(free | (np.arange(count) < 4), parameters, 0.0)
     seen = [SeenBoard(i, 0, view.points, view.pixels) for i, view in enumerate(views)]
-    progress.report(0.0, "adjusting")
+    progress.report(0.0, sentence("adjusting"))
     first = AdjustedState(parameters, start.T_right_left, start.poses)
     return adjust(seen, first, free, rounds=steps)
 

@@ -120,12 +120,12 @@ def read_views(
         Cancelled: if `progress` was cancelled; pictures being searched are finished first.
     """
     progress = progress or Progress()
-    progress.report(0.0, "looking for the board")
+    progress.report(0.0, sentence("looking for the board"))
     with ThreadPoolExecutor(max_workers=max(1, cpu_count() or 1)) as pool:
         jobs = {pool.submit(read_view, path, board, True, window): path for path in paths}
         try:
             for count, job in enumerate(as_completed(jobs), 1):
-                progress.report(count / len(jobs), f"read at {jobs[job].name}")
+                progress.report(count / len(jobs), sentence("read at {name}", name=jobs[job].name))
         except BaseException:
             pool.shutdown(cancel_futures=True)
             raise

@@ -54,7 +54,7 @@ def take_board(
             why = next((one.text for one in found if isinstance(one, Rejection)), why)
             if left is not None or right is not None:
                 pairs.append((left, right))
-            progress.report(len(pairs) / _PICTURES, "looking for the board")
+            progress.report(len(pairs) / _PICTURES, sentence("looking for the board"))
             if len(pairs) == _PICTURES:
                 break
     finally:

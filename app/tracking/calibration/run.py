@@ -106,7 +106,7 @@ def calibrate_pairs(
     held = set(_held(pairs, hold_back))
     kept = [pair for i, pair in enumerate(pairs) if i not in held]
     estimate = estimate_stereo(kept, alone, names, progress.part(0.0, 0.9), lens)
-    progress.report(0.9, "pairs held back")
+    progress.report(0.9, sentence("pairs held back"))
     cameras = estimate.adjusted.state.parameters
     better = [
         better_corners([pairs[i][side] for i in sorted(held)], cameras[side]) for side in (0, 1)
@@ -117,7 +117,7 @@ def calibrate_pairs(
         update = {"validation": validate(calibration, apart)}
         calibration = calibration.model_copy(update=update)
     rows = (*estimate.residuals, *(_held_row(pair, estimate) for pair in apart))
-    progress.report(1.0, "calibrated")
+    progress.report(1.0, sentence("calibrated"))
     return StereoResult(calibration, estimate, tuple(sorted(rows, key=lambda row: row.name)))
 
 

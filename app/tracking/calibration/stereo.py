@@ -156,7 +156,7 @@ def estimate_stereo(
     )
     count = len(pairs)
     pairs = list(zip(left.chosen[:count], right.chosen[:count], strict=True))
-    progress.report(0.6, "which corner is which")
+    progress.report(0.6, sentence("which corner is which"))
     posed = [_posed(pair, left, right) for pair in pairs]
     agreement = agree(posed, right.adjusted.state.parameters[0])
     _require_agreement(agreement, posed, right)

@@ -14,7 +14,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtWidgets import QProgressDialog, QWidget
 
 from app.core.progress import Cancelled, Progress
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, translated
 
 T = TypeVar("T")
 POLL_MS = 30
@@ -107,7 +107,8 @@ class BackgroundTask(QObject):
         report = self._box.report
         if report is not None and report != self._reported:
             self._reported = report
-            self.progressed.emit(*report)
+            fraction, text = report
+            self.progressed.emit(fraction, translated(text))  # a signal's text is a plain one
         if done:
             self._is_running = False
             self._timer.stop()

@@ -13,6 +13,7 @@ from scipy import ndimage
 from scipy.ndimage import gaussian_filter
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.imaging.body import Body, Mask, body_mask
 from app.imaging.phantom.anatomy import organ_fields
@@ -82,9 +83,9 @@ def extract_surfaces(
     Raises:
         Cancelled: if `progress` was cancelled.
     """
-    progress.report(0.0, "body")
+    progress.report(0.0, sentence("body"))
     mask = body_mask(volume, body)
-    progress.report(0.1, "skin")
+    progress.report(0.1, sentence("skin"))
     level = body.skin_level
     soft, affine = reduced(
         lambda k: _air_to_tissue(volume.hu[k], mask[k], level),
@@ -94,16 +95,16 @@ def extract_surfaces(
     )
     soft = _blurred(_closed(soft, level - AIR), SKIN_SIGMA)
     skin = isosurface(soft, _shifted(affine), level, SKIN_TRIANGLES, progress.part(0.2, 0.3))
-    progress.report(0.3, "bone")
+    progress.report(0.3, sentence("bone"))
     bone = bone_surface(volume, mask, progress.part(0.3, 0.8))
-    progress.report(0.8, "organs")
+    progress.report(0.8, sentence("organs"))
     organs = _organs(volume, mask, phantom_seed, progress.part(0.8, 0.95))
-    progress.report(0.95, "coarse versions")
+    progress.report(0.95, sentence("coarse versions"))
     moving = (
         coarser(skin, SKIN_MOVING, progress.part(0.95, 0.97)),
         coarser(bone, BONE_MOVING, progress.part(0.97, 1.0)),
     )
-    progress.report(1.0, "surfaces")
+    progress.report(1.0, sentence("surfaces"))
     return Surfaces(skin, moving[0], bone, moving[1], organs)
 
 
