@@ -237,5 +237,7 @@ def _tell(result: AttemptResult, script: DemonstrationScript, hurried: bool) -> 
         if score.unseen and hurried:
             typer.echo(f"  {TOO_BUSY}")
     if script.pictures is not None:
-        typer.echo(f"pictures, report and session are in {script.pictures}")
+        typer.echo(f"pictures and report are in {script.pictures}")
+        if result.record is not None:
+            typer.echo(f"session: {result.record} (`acus session show`, `replay`: by this path)")
     return void

@@ -18,6 +18,14 @@ Id = Annotated[
         metavar="ID", help="Session id, or its beginning.", autocompletion=completion.sessions
     ),
 ]
+Record = Annotated[
+    str,
+    typer.Argument(
+        metavar="ID",
+        help="Session id, or its beginning; or the path of the record.",
+        autocompletion=completion.sessions,
+    ),
+]
 FolderOption = Annotated[
     Path | None,
     typer.Option("--folder", help="Folder of the records."),
@@ -89,23 +97,23 @@ def list_(folder: FolderOption = None) -> Answer:
 
 
 def show(
-    session_id: Id,
+    session_id: Record,
     folder: FolderOption = None,
 ) -> Answer:
     """Show one attempt: score, events, what its record holds."""
     from app.session.recording import read_recording
-    from app.session.store import computed, find
+    from app.session.store import computed, find, located
 
-    place = _folder(folder)
-    recording = read_recording(find(place, session_id))
-    (summary,) = computed(place, [session_id])
+    place, name = located(session_id, folder)
+    recording = read_recording(find(place, name))
+    (summary,) = computed(place, [name])
     see([summary])
     document = _details(recording, summary.document())
     return Answer(document, _detail_lines(document, _nobodys(summary.conditions)))
 
 
 def replay(
-    session_id: Id,
+    session_id: Record,
     check: Annotated[
         bool,
         typer.Option(
@@ -117,10 +125,10 @@ def replay(
     """Say what a record holds of the robot's loop. --check computes it anew and compares."""
     from app.session.recording import read_recording
     from app.session.replay import contents
-    from app.session.store import find
+    from app.session.store import find, located
     from app.session.summary import derive
 
-    recording = read_recording(find(_folder(folder), session_id))
+    recording = read_recording(find(*located(session_id, folder)))
     see([derive(recording)])
     if not check:
         content = contents(recording)
@@ -137,7 +145,7 @@ def replay(
 
 
 def verify(
-    session_id: Id,
+    session_id: Record,
     folder: FolderOption = None,
 ) -> Answer:
     """Compute the score anew and say what differs, and what is signed.
@@ -152,10 +160,10 @@ def verify(
     from app.session.sidecar import cached, file_digest, sidecar, verify_record
     from app.session.signature import Signed, judge_whole
     from app.session.station import this_station
-    from app.session.store import find
+    from app.session.store import find, located
     from app.session.summary import derive
 
-    path = find(_folder(folder), session_id)
+    path = find(*located(session_id, folder))
     see([derive(open_recording(path))])  # nothing beside the record is written anew
     found, signed = verify_record(path), judge_whole(path, this_station())
     index, admitted = Index(path.parent).problems_of(path), admissions().get(path.stem)

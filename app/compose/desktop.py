@@ -61,6 +61,13 @@ _PATIENCE: Final = 120.0
 _LOOK: Final = 0.02
 
 
+def unusable_files() -> tuple[str, ...]:
+    """Return why files of others cannot be used, one text each, without those of whole folders."""
+    from app.compose.plugins import refused_files
+
+    return tuple(file.refused for file in refused_files() if file.kind != "folder")
+
+
 class Desktop:
     """What the window asks for (`views.services.Services`).
 
@@ -118,7 +125,7 @@ class Desktop:
         """Load what an exercise needs; called beside the window as soon as it is painted.
 
         Returns why files of the user's own (laws, effects, metrics, …) cannot be used, one line
-        each.
+        each; of whole folders the window knows by itself, before.
         """
         from app.core.temporary import sweep_temporary
         from app.imaging.errors import WorkerError, WorkerLostError
@@ -135,9 +142,7 @@ class Desktop:
             load_decoders(Progress())  # a moment, of which nobody need be told
             shared_worker().warm(2)  # a folder is read by both
         self._kernels.load(progress.part(0.5, 1.0))
-        from app.compose.plugins import refused_files
-
-        return tuple(file.refused for file in refused_files())
+        return unusable_files()
 
     def robots(self) -> tuple[RobotPort, ...]:
         """Ports at which a robot may be plugged in now."""

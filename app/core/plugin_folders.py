@@ -38,6 +38,7 @@ from types import ModuleType
 from typing import Any, Final
 
 from app.core import paths
+from app.core.messages import sentence
 from app.core.plugin_trial import import_fault
 
 APP: Final = Path(__file__).resolve().parents[1]
@@ -116,19 +117,29 @@ def _package(name: str, place: Path) -> Iterator[PluginFolder]:
         try:
             is_package = (folder / "__init__.py").is_file()
         except OSError as error:
-            refused[place] = f"{folder} cannot be read: {error.strerror or error}"
+            refused[place] = sentence(
+                "{folder} cannot be read: {reason}", folder=folder, reason=error.strerror or error
+            )
             return
         if is_package and (not place.is_absolute() or folder == place):
             yield PluginFolder(folder, name)
             return
-        taken = f": {folder} has that name" if is_package else taken
+        taken = sentence(": {folder} has that name", folder=folder) if is_package else taken
     if place.is_absolute() and not place.exists():
-        refused[place] = f"{place}: there is no such folder"
+        refused[place] = sentence("{folder}: there is no such folder", folder=place)
         return
-    refused[place] = (
-        f"{name!r} is no package that can be imported{taken}: a folder of plug-ins has an"
-        " __init__.py and a name of its own that is a Python name"
+    refused[place] = sentence(
+        "{name!r} is no package that can be imported{taken}: a folder of plug-ins has an "
+        "__init__.py and a name of its own that is a Python name",
+        name=name,
+        taken=taken,
     )
+
+
+def refused_folders() -> tuple[str, ...]:
+    """Return why folders of others cannot be used, one text each; looks for none but once."""
+    folders()
+    return tuple(reason for place, reason in sorted(refused.items()) if not place.suffix)
 
 
 def declared(body: Iterable[ast.stmt]) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from pydantic import Field, model_validator
 
 from app.core.arrays import FloatArray, read_only
 from app.core.configuration import Strict
-from app.core.messages import sentence
+from app.core.messages import joined, sentence
 from app.core.units import DEGREE, MILLIMETRE
 from app.exercises.errors import ExerciseError
 from app.exercises.parts import Triple
@@ -215,14 +215,25 @@ def check_touch(task: TouchTask | None, profile: DeviceProfile, quick: bool = Fa
         limits = replace(limits, in_workspace=lambda x, y: True)
     for number, one in enumerate(task.plans, 1):
         x, y, z = one.plan.target_mm.tolist()
-        reasons = [str(reason) for reason in reach_within(one.plan, one.placement, limits).reasons]
+        reached = reach_within(one.plan, one.placement, limits)
+        reasons = [reason.text for reason in reached.reasons]
         depth_mm = one.length / MILLIMETRE
         if depth_mm < LEAST_DEPTH:
-            reasons.append(f"it lies {depth_mm:.1f} mm from the trocar, not {LEAST_DEPTH:g} mm")
+            reasons.append(
+                sentence(
+                    "it lies {depth_mm:.1f} mm from the trocar, not {least_mm:g} mm",
+                    depth_mm=depth_mm,
+                    least_mm=LEAST_DEPTH,
+                )
+            )
         elif one.length <= task.radius:
             reasons.append(
-                f"it lies {depth_mm:.1f} mm from the trocar, within its own radius of "
-                f"{task.radius / MILLIMETRE:g} mm, where a tool that only comes in touches it"
+                sentence(
+                    "it lies {depth_mm:.1f} mm from the trocar, within its own radius of "
+                    "{radius_mm:g} mm, where a tool that only comes in touches it",
+                    depth_mm=depth_mm,
+                    radius_mm=task.radius / MILLIMETRE,
+                )
             )
         if reasons:
             raise ExerciseError(
@@ -236,7 +247,7 @@ def check_touch(task: TouchTask | None, profile: DeviceProfile, quick: bool = Fa
                     y=y,
                     z=z,
                     profile_name=profile.name,
-                    reasons="; ".join(reasons),
+                    reasons=joined("; ", reasons),
                     least_depth=LEAST_DEPTH,
                     limits_depth_limit_mm=limits.depth_limit / MILLIMETRE,
                     limits_tilt_limit_deg=limits.tilt_limit / DEGREE,

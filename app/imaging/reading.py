@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, frozen, read_only
-from app.core.messages import sentence
+from app.core.messages import joined, sentence
 from app.core.progress import Progress
 from app.core.words import counted
 from app.imaging import memory, stack
@@ -236,8 +236,17 @@ def choose(listing: Listing, series_uid: str | None = None, remedy: str = NO_REM
             usable,
         )
     if not usable:
-        reasons = "; ".join(
-            f"{series.label}: {series.reason}{offer(series)}" for series in listing.series[:4]
+        reasons = joined(
+            "; ",
+            (
+                sentence(
+                    "{label}: {reason}{offer}",
+                    label=series.label,
+                    reason=series.reason,
+                    offer=offer(series),
+                )
+                for series in listing.series[:4]
+            ),
         )
         raise SeriesRefusedError(
             sentence(

@@ -11,7 +11,7 @@ from enum import StrEnum
 import numpy as np
 
 from app.core.arrays import FloatArray, angle_between, read_only
-from app.core.messages import sentence
+from app.core.messages import joined, sentence
 from app.core.units import DEGREE, MILLIMETRE
 from app.mechanisms.profile import DeviceProfile
 from app.planning.limits import ReachLimits, tilt_of
@@ -254,8 +254,12 @@ class Reach:
                 tilt_deg=self.tilt / DEGREE,
                 depth_mm=self.depth / MILLIMETRE,
             )
-        text = sentence("out of reach: ") + "; ".join(reason.text for reason in self.reasons)
-        return f"{text}. Remedy: {self.remedy.words}" if self.remedy else text
+        reasons = joined("; ", (reason.text for reason in self.reasons))
+        if self.remedy is None:
+            return sentence("out of reach: {reasons}", reasons=reasons)
+        return sentence(
+            "out of reach: {reasons}. Remedy: {remedy}", reasons=reasons, remedy=self.remedy.words
+        )
 
 
 def reach(plan: Plan, placement: Placement, profile: DeviceProfile) -> Reach:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from app.core.messages import sentence
+from app.core.messages import joined, sentence
 from app.imaging.remedies import is_word
 from app.imaging.series import Recipe
 from app.imaging.volume import Volume
@@ -79,7 +79,7 @@ class CtFacts:
 
     def words(self) -> str:
         """Say how it was read, in one line."""
-        return "; ".join(self.made) or sentence("as its files are")
+        return joined("; ", self.made) if self.made else sentence("as its files are")
 
     def document(self) -> dict[str, Any]:
         """JSON-ready mapping; the keys stand in docs/json.md."""

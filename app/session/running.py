@@ -112,7 +112,13 @@ class RunningAttempt:
     @property
     def pause_words(self) -> str:
         """Return why the attempt waits; empty if it does not."""
-        return PAUSED_WORDS[self._pauses.cause or PauseCause.CAMERAS] if self.paused else ""
+        cause = self.pause_cause
+        return "" if cause is None else PAUSED_WORDS[cause]
+
+    @property
+    def pause_cause(self) -> PauseCause | None:
+        """Return what the attempt waits for; None if it does not."""
+        return (self._pauses.cause or PauseCause.CAMERAS) if self.paused else None
 
     def require_idle(self, what: str) -> None:
         """Refuse what is not possible during an attempt.

@@ -22,6 +22,7 @@ from app.session.machine import FINAL, State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.recorder import RecordingStatus
 from app.session.touching import TouchState
+from app.session.transitions import PauseCause
 
 if TYPE_CHECKING:
     from app.device.control.timing import Timing
@@ -77,6 +78,7 @@ class Snapshot:
         roll: of a bevelled needle [rad], clockwise seen from the hub; None where none is bevelled.
         measured_pose: the pose as measured, behind by its age; None in snapshots made by hand.
         touch: how the attempt stands with its targets; None where there is nothing to touch.
+        pause: why the attempt waits; None while it does not.
     """
 
     time: float
@@ -104,6 +106,7 @@ class Snapshot:
     breath: BreathHold | None = None
     roll: float | None = None
     touch: TouchState | None = None
+    pause: PauseCause | None = None
 
     def at_rest(self, placed: PlacedPlan) -> PlacedPlan:
         """Return the plan whose target is the present one where it rests.
@@ -205,6 +208,7 @@ class StepKind(StrEnum):
     START = "start"
     WITHDRAW = "withdraw"
     SEE = "see"
+    WAIT = "wait"
     SCAN = "scan"
     TILT = "tilt"
     INSERT = "insert"
@@ -229,6 +233,7 @@ class NextStep:
         distance: along the needle that is left, or too much [m].
         across: way of the tip to a target that is to be touched, across the path to it [m].
         touch: how the attempt stands with its targets; None where there is nothing to touch.
+        pause: what the attempt waits for that the student cannot mend with the needle; else None.
     """
 
     kind: StepKind
@@ -237,6 +242,7 @@ class NextStep:
     distance: float = 0.0
     across: float = 0.0
     touch: TouchState | None = None
+    pause: PauseCause | None = None
 
 
 CALM: Final = 0.6
@@ -276,6 +282,8 @@ class NextSteps:
             return NextStep(StepKind.START)
         if snapshot.state is State.WITHDRAWING:
             return NextStep(StepKind.WITHDRAW)
+        if snapshot.pause not in (None, PauseCause.CAMERAS):
+            return NextStep(StepKind.WAIT, pause=snapshot.pause)
         if not live:
             return NextStep(StepKind.SCAN)
         if snapshot.state is State.PAUSED or not snapshot.pose.valid:

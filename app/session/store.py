@@ -83,6 +83,36 @@ def find(folder: Path, session_id: str) -> Path:
     )
 
 
+def located(name: str, chosen: Path | None) -> tuple[Path, str]:
+    """Return the folder of a record, and what `find` knows it by there.
+
+    Args:
+        name: id of a session, or its beginning; or the path of its record, of the folder that holds
+            no other, or of a folder whose `sessions` does, as a demonstration leaves one.
+        chosen: folder of the records; None for this user's, or where `name` is a path.
+
+    Raises:
+        SessionError: if the chosen one is no folder, or cannot be read.
+        SessionNotFoundError: if a folder holds no record, or several.
+    """
+    path = Path(name)
+    if chosen is not None or not name or not path.exists():
+        return records_folder(chosen), name
+    if path.is_file():
+        return records_folder(path.parent), path.stem if path.suffix == SUFFIX else path.name
+    place = path / "sessions" if (path / "sessions").is_dir() else path
+    there = records(place)
+    if len(there) == 1:
+        return records_folder(place), there[0].stem
+    raise SessionNotFoundError(
+        sentence(
+            "{folder} holds {count} records: give the file of one of them",
+            folder=place,
+            count=len(there),
+        )
+    )
+
+
 def delete(folder: Path, session_id: str) -> Path:
     """Move a session to the trash folder; `restore` undoes it.
 

@@ -555,6 +555,7 @@ class Trainer:
             breath=None if self._breath is None else self._breath.now,
             roll=self._inputs.rolled if "bevel" in self._exercise.effects else None,
             touch=None if self._touching is None else self._touching.state,
+            pause=self._running.pause_cause,
         )
         self._latest.publish(snapshot, now)
         return snapshot

@@ -4,11 +4,13 @@ import csv
 import json
 from datetime import UTC, datetime
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from app.__main__ import main
+from app.commands import demo
 from app.core.clock import VirtualClock
 from app.core.disclaimer import DISCLAIMER
 from app.core.events import Event
@@ -205,3 +207,69 @@ def test_what_a_record_of_somebody_else_says_steers_no_terminal(
     assert not set("\x1b\x07\x9b\u202e") & set(out + err)
     if noun in ("list", "show"):
         assert r"\u001b" in out
+
+
+# --- a record by its path -------------------------------------------------------------------------
+@pytest.fixture
+def elsewhere(store: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A record in the folder that a demonstration leaves; this user's own folder is empty."""
+    kept = tmp_path / "shown" / "sessions"
+    kept.mkdir(parents=True)
+    record = kept / "20260115-100000-aaaa.mcap"
+    (store / record.name).rename(record)
+    own = tmp_path / "own"
+    own.mkdir()
+    monkeypatch.setenv("ACUS_SESSIONS", str(own))
+    return record
+
+
+@pytest.mark.parametrize("command", ["show", "replay"])
+@pytest.mark.parametrize("given", ["record", "sessions", "demonstration"])
+def test_a_record_is_known_by_its_path_and_by_the_folder_that_holds_it_alone(
+    elsewhere: Path,
+    command: str,
+    given: str,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    paths = {
+        "record": elsewhere,
+        "sessions": elsewhere.parent,
+        "demonstration": elsewhere.parents[1],
+    }
+    assert run(monkeypatch, command, str(paths[given])) == 0
+    assert capsys.readouterr().err == ""
+
+
+def test_a_relative_path_of_a_record_works_too(
+    elsewhere: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(elsewhere.parents[1])
+    assert run(monkeypatch, "show", str(elsewhere.relative_to(Path.cwd()))) == 0
+
+
+def test_a_folder_of_several_records_or_none_asks_for_a_file(
+    elsewhere: Path,
+    store: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    (elsewhere.parent / "20260116-100000-bbbb.mcap").write_bytes(b"another")
+    assert run(monkeypatch, "show", str(elsewhere.parent)) == 2
+    assert "holds 2 records: give the file of one of them" in capsys.readouterr().err
+    empty = store / "empty"
+    empty.mkdir()
+    assert run(monkeypatch, "show", str(empty)) == 2
+    assert "holds 0 records" in capsys.readouterr().err
+
+
+def test_what_a_demonstration_prints_leads_to_its_record(
+    elsewhere: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shown = SimpleNamespace(score=None, record=elsewhere)
+    demo._tell(shown, SimpleNamespace(pictures=elsewhere.parents[1]), False)
+    printed = capsys.readouterr().out
+    path = next(line for line in printed.splitlines() if line.startswith("session: "))
+    assert run(monkeypatch, "show", path.split()[1]) == 0
+    folder = printed.splitlines()[0].removeprefix("pictures and report are in ")
+    assert run(monkeypatch, "replay", folder) == 0

@@ -16,6 +16,7 @@ from app.planning.plan import Plan
 from app.session.machine import State
 from app.session.snapshot import NextSteps, StepKind
 from app.session.touching import TouchState
+from app.session.transitions import PauseCause
 
 FULCRUM = (0.0, 0.16056, 0.090)
 PLAN = Plan(np.array([-40.0, -120.0, 60.0]), np.array([-40.0, -40.0, 60.0]), "straight down")
@@ -34,6 +35,7 @@ class Moment:
     offset: object
     touch: object = None
     device: object = None
+    pause: object = None
 
 
 def moment(plan, depth, turn=None, state=State.INSERTING, measured=True, valid=True, p_target=None):
@@ -147,6 +149,18 @@ def test_a_depth_that_nobody_measures_is_not_told():
     step = steps(plan).of(moment(plan, 0.06, measured=False))
     assert (step.kind, step.distance) == (StepKind.FEEL, 0.0)
     assert steps(plan).of(moment(plan, 0.06, valid=False)).kind is StepKind.SEE
+
+
+@pytest.mark.parametrize("live", [True, False])
+@pytest.mark.parametrize("cause", list(PauseCause))
+def test_only_a_pause_for_the_cameras_asks_for_the_marker(cause, live):
+    plan = placed()
+    paused = replace(moment(plan, 0.03, state=State.PAUSED, measured=False), pause=cause)
+    step = steps(plan).of(paused, live)
+    if cause is PauseCause.CAMERAS:
+        assert (step.kind, step.pause) == (StepKind.SEE if live else StepKind.SCAN, None)
+    else:
+        assert (step.kind, step.pause) == (StepKind.WAIT, cause)
 
 
 def test_an_order_does_not_flicker_at_its_limit():

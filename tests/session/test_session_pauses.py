@@ -221,6 +221,7 @@ def test_a_busy_window_pauses_and_the_attempt_goes_on_where_it_was(
     assert before.state is state
     snapshot = _blocked(bench, 3.0)
     assert snapshot.state is State.PAUSED
+    assert (before.pause, snapshot.pause) == (None, PauseCause.WINDOW)
     assert not snapshot.armed
     assert any("window was busy" in message for message in snapshot.messages)
     assert snapshot.elapsed - before.elapsed == pytest.approx(1.0, abs=0.05)

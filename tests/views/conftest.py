@@ -85,6 +85,8 @@ def destroy() -> Iterator[Callable[[QWidget], None]]:
     kept: list[QWidget] = []
     yield kept.append
     for widget in kept:
+        if isinstance(widget, MainWindow):
+            widget.feature(ExerciseFeature).may_quit = lambda: True
         widget.close()
         widget.deleteLater()
         QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)

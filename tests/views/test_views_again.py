@@ -79,8 +79,16 @@ def end(window, settle):
     assert settle(lambda: not window.editor.locked)
 
 
-def answer(monkeypatch, button):
-    monkeypatch.setattr(QMessageBox, "question", lambda *_, **__: button)
+def choose_answer(monkeypatch, name):
+    """Answer questions by the button of this name; returns their words."""
+    asked = []
+
+    def press_button(box):
+        asked.append(box.text())
+        next(one for one in box.buttons() if one.text() == name).click()
+
+    monkeypatch.setattr(QMessageBox, "exec", press_button)
+    return asked
 
 
 # --- where the needle begins ------------------------------------------------------------------
@@ -146,13 +154,14 @@ def test_f5_while_robot_and_cameras_are_started_says_so_until_an_attempt_can_beg
 
 
 @pytest.mark.long("journey")
-def test_again_where_the_student_plans_is_no_dead_end_after_the_plan_was_discarded(
+def test_again_where_the_student_plans_is_no_dead_end_after_plan_anew(
     window, beginning, lesion, settle, monkeypatch
 ):
     attempted(window, settle, OWN)
-    answer(monkeypatch, QMessageBox.StandardButton.Discard)
+    asked = choose_answer(monkeypatch, "New plan")
     window.feature(DebriefFeature).page.retry.click()
     assert settle(lambda: window.pages.currentWidget() is window.workspace)
+    assert asked == ["Same plan, or a new one?"]
     assert window.editor.edit.draft.entry_mm is None
     assert settle(lambda: beginning.wish is BeginWish.NOTHING)
     assert settle(lambda: "Place the entry" in line(window))
@@ -169,22 +178,31 @@ def test_again_where_the_student_plans_is_no_dead_end_after_the_plan_was_discard
 
 
 @pytest.mark.long("journey")
+def test_again_with_the_same_plan_begins_on_the_plan_that_nobody_saved(
+    window, beginning, lesion, settle, monkeypatch
+):
+    attempted(window, settle, OWN)
+    planned = window.editor.edit
+    assert window.editor.dirty
+    choose_answer(monkeypatch, "Same plan")
+    window.feature(DebriefFeature).page.retry.click()
+    assert settle(lambda: state(window) is State.ALIGNING)
+    assert window.pages.currentWidget() is window.workspace
+    assert window.editor.edit == planned
+    assert window.editor.dirty, "it is still not in a file"
+
+
+@pytest.mark.long("journey")
 def test_again_twice_and_a_question_that_is_cancelled_leave_the_debrief_as_it_is(
     window, beginning, lesion, settle, monkeypatch
 ):
     attempted(window, settle, OWN)
-    asked = []
-
-    def cancel(*_, **__):
-        asked.append(1)
-        return QMessageBox.StandardButton.Cancel
-
-    monkeypatch.setattr(QMessageBox, "question", cancel)
+    asked = choose_answer(monkeypatch, "Cancel")
     debrief = window.feature(DebriefFeature).page
     debrief.retry.click()
     debrief.retry.click()
     settle(lambda: False, 0.3)
-    assert asked == [1, 1]
+    assert len(asked) == 2
     assert window.pages.currentWidget() is debrief
     assert window.editor.edit.draft.entry_mm is not None
     assert state(window) is State.ENDED

@@ -1,5 +1,6 @@
 """An exercise made in the window: the form, its messages, undo, trying, keeping, files."""
 
+import threading
 from dataclasses import replace
 
 import numpy as np
@@ -12,6 +13,7 @@ from PySide6.QtWidgets import QApplication, QCheckBox, QFileDialog, QMessageBox
 from window_rig import plan
 
 from app.core import paths
+from app.core.errors import AcusError
 from app.exchange.acusx import pack
 from app.exercises.library import folders, load_exercise, versions
 from app.exercises.parts import OwnPlan, PlanPoints
@@ -329,6 +331,60 @@ def test_effects_say_live_why_they_are_simulated_or_left_out_and_what_they_cost(
     assert not form.keep.isEnabled()
     author.editor.undo()
     assert settle(lambda: "each tick" in form.effects.cost.text())
+
+
+def kept_while_measured(form, author, services, settle, monkeypatch, explain):
+    """Keep an exercise while it is measured; returns what is said at once, and lets that end."""
+    goes_on, may_end = threading.Event(), threading.Event()
+
+    def slowly(exercise):
+        goes_on.set()
+        may_end.wait(30.0)
+        return explain(exercise)
+
+    monkeypatch.setattr(services, "explain_exercise", slowly)
+    write(form.task.name, "Lung, left")
+    author._cost_timer.setInterval(1)
+    try:
+        assert settle(goes_on.is_set)
+        QTest.mouseClick(form.keep, Qt.MouseButton.LeftButton)
+        at_once = said(form)
+    finally:
+        may_end.set()
+    return at_once
+
+
+def test_who_keeps_an_exercise_before_it_is_checked_is_told_so_and_then_what_it_lacks(
+    form, author, services, settle, monkeypatch
+):
+    call = {"effect": "bone_contact", "reason": "no needle goes through rib at 12 mm"}
+    call |= {"absent": True, "simulated": False, "without": "", "cost_ns": 20.0}
+    result = {"simulated": [], "laws": [], "called_for": [call], "add": {}}
+    words = kept_while_measured(form, author, services, settle, monkeypatch, lambda _: result)
+    assert words.startswith("▲ Kept as “lung-left”, version 1. Not checked yet")
+    assert settle(lambda: "Not checked" not in said(form))
+    lacks = "The patient calls for more: bone_contact."
+    assert said(form) == f"▲ Kept as “lung-left”, version 1. {lacks}"
+
+
+def test_an_exercise_that_cannot_be_checked_is_kept_with_the_reason(
+    form, author, services, settle, monkeypatch
+):
+    def fails(_):
+        raise AcusError("the tissue is not known")
+
+    words = kept_while_measured(form, author, services, settle, monkeypatch, fails)
+    assert "Not checked yet" in words
+    assert settle(lambda: "cannot be checked: the tissue is not known" in said(form))
+    assert form.effects.cost.text() == "It cannot be measured: the tissue is not known"
+
+
+def test_who_keeps_an_exercise_that_was_checked_hears_of_no_doubt(form, author, settle):
+    author._cost_timer.setInterval(1)
+    write(form.task.name, "Lung, left")
+    assert settle(lambda: "each tick" in form.effects.cost.text())
+    QTest.mouseClick(form.keep, Qt.MouseButton.LeftButton)
+    assert said(form).endswith("Kept as “lung-left”, version 1.")
 
 
 def test_what_the_patient_calls_for_is_listed_and_added_by_one_click(form, author):

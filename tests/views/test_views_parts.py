@@ -7,8 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QLocale, QObject
-from PySide6.QtWidgets import QWidget
+from PySide6.QtCore import QObject
+from PySide6.QtWidgets import QProgressBar, QWidget
 
 from app.core.errors import AcusError
 from app.core.progress import Progress
@@ -17,7 +17,7 @@ from app.imaging.series import Ignored, Listing
 from app.views.kit import theme
 from app.views.kit.background import run_in_background
 from app.views.kit.progress_strip import ElidedLabel, ProgressStrip
-from app.views.kit.text import install_translation, tr
+from app.views.kit.text import tr
 from app.views.reading.layouts import BULLSEYE, CORONAL, FIVE, FOUR, ViewGrid
 from app.views.series.browser import SeriesBrowser
 from app.views.shell.message_bar import MessageBar
@@ -26,11 +26,6 @@ from app.views.shell.message_bar import MessageBar
 # --- text, theme, background -------------------------------------------------------------------
 def test_text_is_filled_in_after_translation():
     assert tr("Slice {number} / {count}", number=1, count=2) == "Slice 1 / 2"
-
-
-def test_a_missing_translation_is_said_and_changes_nothing(application, tmp_path):
-    assert not install_translation(application, QLocale("xx"), tmp_path)
-    assert tr("Entry") == "Entry"
 
 
 def test_marks_differ_in_more_than_colour():
@@ -263,3 +258,33 @@ def test_work_whose_callback_holds_the_last_reference_to_its_owner_ends_both_onc
         check=False,
     )
     assert (done.returncode, done.stdout.split()[-1:]) == (0, ["alive"]), done.stderr
+
+
+def test_of_two_tasks_one_bar_is_seen_with_the_number_of_others_and_the_next_follows(
+    application, settle
+):
+    strip, gates = ProgressStrip(), (threading.Event(), threading.Event())
+    parent = QObject()
+    for title, gate in zip(("Reading", "Starting robot"), gates, strict=True):
+        run_in_background(
+            parent, lambda _, gate=gate: gate.wait(30.0), print, print, title=title, indicator=strip
+        )
+    try:
+        strip.show()
+
+        def seen():
+            bars = [one for one in strip.findChildren(QProgressBar) if one.isVisible()]
+            texts = [one.whole for one in strip.findChildren(ElidedLabel) if one.isVisible()]
+            return len(bars), texts
+
+        assert seen() == (1, ["Reading (and 1 more)"])
+        assert strip.count == 2
+        one_row = strip.sizeHint().height()
+        gates[0].set()
+        assert settle(lambda: strip.count == 1)
+        assert seen() == (1, ["Starting robot"])
+        assert strip.sizeHint().height() == one_row
+    finally:
+        for gate in gates:
+            gate.set()
+    assert settle(lambda: strip.isHidden())

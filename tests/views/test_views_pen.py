@@ -7,7 +7,7 @@ import pytest
 from pen_rig import ENTRY, PEN, camera, picture, renderer, scene, step
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QMessageBox
+from PySide6.QtWidgets import QLabel, QMessageBox
 from window_rig import FakePen, plan
 
 from app.session.machine import State
@@ -149,6 +149,23 @@ def test_size_and_lens_of_a_simulated_webcam_are_not_asked_for(page):
     assert not page.choice.lens.isEnabled()
     page.choice.source.show_source("usb:1-1")
     assert page.choice.lens.isEnabled()
+
+
+def test_the_page_says_one_thing_of_a_simulated_webcam_s_lens(page, settle):
+    def words():
+        told = [one.text() for one in page.status.lines.findChildren(QLabel)]
+        return [text for text in (page.choice.lens.currentText(), *told) if "lens" in text]
+
+    page.choice.source.show_source("simulated")
+    assert settle(lambda: any("known exactly" in text for text in words()))
+    known = "known exactly: the webcam is simulated"
+    assert page.choice.lens.currentText() == known
+    assert page.choice.lens.chosen()[0] is None
+    assert [text for text in words() if "lens" in text] == [f"✔ the lens is {known}"]
+    page.choice.source.show_source("usb:1-1")
+    assert page.choice.lens.currentText() == "guessed from the pictures' size"
+    assert page.choice.lens.count() == 2
+    assert settle(lambda: any("the lens is guessed" in text for text in words()))
 
 
 def test_the_lens_of_either_camera_of_a_pair_can_be_chosen(page, tmp_path):

@@ -21,7 +21,8 @@ from app.exercises.schema import Exercise
 from app.session.curves import offset
 from app.session.machine import State
 from app.session.shown_views import Shown
-from app.session.snapshot import NextStep, StepKind
+from app.session.snapshot import BreathHold, NextStep, StepKind
+from app.session.transitions import PauseCause
 from app.views.exercise.feature import ExerciseFeature
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.steps import step_words
@@ -292,6 +293,25 @@ def test_one_line_over_the_views_always_says_the_next_step(shows, settle):
     assert settle(lambda: line.text() == "Push by the scans: S takes one, Enter ends the attempt")
     window.conductor._detach()
     assert not line.isVisible()
+
+
+def test_an_attempt_that_waits_for_the_computer_blames_the_computer_in_large_letters(shows, settle):
+    on, _ = both(ViewName.LIVE_OVERLAY)
+    window = shows(on)
+    line, run = window.workspace.next_step, window.conductor.controller.run
+    assert settle(lambda: line.text() == "Press F5 to start the attempt")
+    waits = replace(
+        run.trainer.snapshot(),
+        state=State.PAUSED,
+        pause=PauseCause.COMPUTER,
+        breath=BreathHold(asked=True, held=True, left=3.0),
+    )
+    window.conductor.controller.snapshot_taken.emit(waits)
+    words = "Paused: this computer is too busy. Close other programs; it goes on by itself."
+    assert settle(lambda: line.text() == words)
+    assert line.fontMetrics().horizontalAdvance(words) < line.width()
+    window.conductor.controller.snapshot_taken.emit(replace(waits, pause=PauseCause.CAMERAS))
+    assert settle(lambda: line.text().endswith("Let both cameras see the marker"))
 
 
 @pytest.mark.parametrize("kind", list(StepKind))

@@ -8,6 +8,9 @@ from PySide6.QtGui import QDropEvent
 from PySide6.QtWidgets import QLabel, QMessageBox, QWidget
 from window_rig import plan
 
+from app.compose.desktop import unusable_files
+from app.compose.plugins import refused_files
+from app.core import plugin_folders
 from app.core.disclaimer import DISCLAIMER
 from app.core.events import Event
 from app.imaging import scanning
@@ -261,3 +264,34 @@ def test_an_overlay_comes_from_world_to_patient():
 def test_the_slices_are_axial_sagittal_and_coronal_in_this_order(window):
     order = [pane.pane for pane in window.workspace.panes]
     assert order == [PaneId.AXIAL, PaneId.SAGITTAL, PaneId.CORONAL]
+
+
+@pytest.fixture
+def without_folder(tmp_path, monkeypatch):
+    """A folder of plug-ins is listed and not there."""
+    gone = tmp_path / "gone_claw"
+    monkeypatch.setenv("ACUS_PLUGINS", str(gone))
+    plugin_folders.folders.cache_clear()
+    plugin_folders.refused.clear()
+    yield gone
+    monkeypatch.undo()
+    plugin_folders.folders.cache_clear()
+    plugin_folders.refused.clear()
+
+
+def test_a_folder_of_plugins_that_is_missing_is_told_as_a_folder_when_the_window_opens(
+    application, services, without_folder, destroy
+):
+    window = MainWindow(services)
+    destroy(window)
+    words = "A folder of plug-ins cannot be used"
+    assert window.message_bar.text == f"{words}: {without_folder}: there is no such folder"
+    assert not window.message_bar.isHidden()
+    assert not services.prepared.is_set(), "before anything is loaded"
+
+
+def test_the_files_that_cannot_be_used_do_not_name_the_folder_once_more(without_folder):
+    assert plugin_folders.refused_folders() == (f"{without_folder}: there is no such folder",)
+    told = [file for file in refused_files() if file.path == without_folder]
+    assert [file.kind for file in told] == ["folder"]
+    assert [one for one in unusable_files() if "gone_claw" in one] == []

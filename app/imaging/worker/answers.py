@@ -1,14 +1,15 @@
-"""What became of a task: its result, or the error that ended it, in words that both sides know."""
+"""What became of a task: its result, or the error that ended it, in sentences that both know."""
 
 from typing import Any
 
 from app.core.errors import AcusError
-from app.core.messages import sentence
+from app.core.messages import sentence, sentence_of
 from app.imaging import errors as imaging
 from app.imaging.errors import FileDamagedError, WorkerLostError, brief
 from app.imaging.privacy import errors as privacy
 from app.imaging.structures import errors as structures
 from app.imaging.worker.attachments import Attachments, AttachmentsError, opened
+from app.imaging.worker.sentences import arrived, crossing
 from app.imaging.worker.values import ForeignValueError, plain, reader
 
 DONE, FAILED, SYSTEM, PROGRESS = "done", "failed", "system", "progress"
@@ -21,7 +22,6 @@ _ERRORS: dict[str, type[Exception]] = {
 }
 """Errors that a job may end in; any other one is a file that cannot be read."""
 
-_LONGEST = 600
 Answer = list[Any]
 
 
@@ -39,15 +39,16 @@ def failed(error: BaseException, allowed: int) -> Answer:
         allowed: memory that it had [bytes].
     """
     if isinstance(error, MemoryError):
-        text = f"it needs more than {allowed >> 20} MB of memory to be read"
-        return [FAILED, FileDamagedError.__name__, text]
+        text = sentence("it needs more than {size} MB of memory to be read", size=allowed >> 20)
+        return [FAILED, FileDamagedError.__name__, crossing(text)]
     if type(error).__name__ in _ERRORS:
-        return [FAILED, type(error).__name__, str(error)]
+        return [FAILED, type(error).__name__, crossing(sentence_of(error))]
     if isinstance(error, AcusError):
-        return [FAILED, FileDamagedError.__name__, str(error)]
+        return [FAILED, FileDamagedError.__name__, crossing(sentence_of(error))]
     if isinstance(error, OSError) and error.errno:
         return [SYSTEM, error.errno, error.strerror or "error of the system"]
-    return [FAILED, FileDamagedError.__name__, f"it cannot be read ({brief(error)})"]
+    text = sentence("it cannot be read ({kind})", kind=brief(error))
+    return [FAILED, FileDamagedError.__name__, crossing(text)]
 
 
 def outcome(kind: Any, answer: Answer, descriptor: int | None) -> Any:
@@ -67,7 +68,7 @@ def outcome(kind: Any, answer: Answer, descriptor: int | None) -> Any:
         name, text = values
         return _error(word, name, text)
     except (ForeignValueError, AttachmentsError, IndexError, TypeError, ValueError):
-        return lost("talked nonsense")
+        return lost(sentence("talked nonsense"))
 
 
 def lost(reason: str) -> WorkerLostError:
@@ -81,7 +82,7 @@ def lost(reason: str) -> WorkerLostError:
 
 
 def _error(word: str, name: Any, text: Any) -> Exception:
-    shown = reader(str)(text)[:_LONGEST]
+    shown = arrived(text)
     if word == SYSTEM:
         return OSError(reader(int)(name), shown)
     return _ERRORS.get(reader(str)(name), FileDamagedError)(shown)

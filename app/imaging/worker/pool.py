@@ -13,7 +13,7 @@ from collections.abc import Generator, Iterator, Sequence
 from contextlib import closing
 from typing import Any
 
-from app.core.messages import sentence
+from app.core.messages import sentence, sentence_of
 from app.core.progress import Progress
 from app.imaging.errors import WorkerError
 from app.imaging.worker.answers import lost as lost_error
@@ -163,7 +163,7 @@ class CallChildren:
         if child.open:
             first, *others = child.open
             waiting.extendleft(reversed(others))
-            yield from self._counted(iter([(first, lost_error(str(lost)))]))
+            yield from self._counted(iter([(first, lost_error(sentence_of(lost)))]))
 
     def release(self) -> None:
         """Give the children back; what they are in the middle of is for nobody any more."""

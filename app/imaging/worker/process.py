@@ -33,13 +33,13 @@ _GRACE = 0.2
 """Nobody is looked at more closely before that [s]."""
 
 _WHY = {
-    "SIGABRT": ": it gave itself up, out of memory or in a state that cannot be",
-    "SIGSEGV": ": it crashed",
-    "SIGBUS": ": it crashed",
-    "SIGFPE": ": it crashed",
-    "SIGILL": ": it crashed",
-    "SIGKILL": ": by the system when memory ran out, or by somebody",
-    "SIGXCPU": ": it computed for longer than any file may",
+    "SIGABRT": sentence(": it gave itself up, out of memory or in a state that cannot be"),
+    "SIGSEGV": sentence(": it crashed"),
+    "SIGBUS": sentence(": it crashed"),
+    "SIGFPE": sentence(": it crashed"),
+    "SIGILL": sentence(": it crashed"),
+    "SIGKILL": sentence(": by the system when memory ran out, or by somebody"),
+    "SIGXCPU": sentence(": it computed for longer than any file may"),
 }
 """What a signal says of whoever it ended."""
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from app.core import paths as paths_of_user
-from app.core.messages import sentence
+from app.core.messages import sentence, sentence_of
 from app.core.progress import Progress
 from app.imaging.errors import FileDamagedError, NotExactError, WorkerLostError
 from app.imaging.header import SliceHeader
@@ -83,7 +83,7 @@ def read_headers(
 def _headers_or_reason(path: Path, outcome: Any) -> FileHeaders:
     """Headers or why not, with the program's own name of the file, whatever came back."""
     if isinstance(outcome, Exception):
-        return Ignored(path, str(outcome))
+        return Ignored(path, sentence_of(outcome))
     if isinstance(outcome, Ignored):
         return Ignored(path, outcome.reason)
     return tuple(replace(header, path=path) for header in outcome)
@@ -140,7 +140,7 @@ def _filling(header: SliceHeader, place: int, dtype: str) -> Task:
 
 def _named(header: SliceHeader, outcome: Exception) -> Exception:
     """Error with the file's name in it, and the decoder's where that was lost."""
-    path, text = header.path, str(outcome)
+    path, text = header.path, sentence_of(outcome)
     if isinstance(outcome, NotExactError):
         return outcome
     if isinstance(outcome, WorkerLostError):

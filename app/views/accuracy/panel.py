@@ -13,7 +13,7 @@ from app.session.snapshot import Snapshot
 from app.views.accuracy.budget import EffectCost, SceneCost, advice, in_words, lowering, too_much
 from app.views.kit import theme
 from app.views.kit.parts import button, label
-from app.views.kit.text import literal, tr, translated
+from app.views.kit.text import declared, literal, tr, translated
 from app.views.kit.verdict import Verdict, tell
 from app.views.kit.wheel import wheel_scrolls
 
@@ -141,7 +141,7 @@ class EffectRow(QFrame):
         wheel_scrolls(self.models)
         head = QHBoxLayout()
         head.addWidget(swatch)
-        head.addWidget(label(effect.title), 1)
+        head.addWidget(label(declared(effect.title)), 1)
         rows = QVBoxLayout(self)
         rows.setContentsMargins(0, 0, 0, theme.SPACING)
         rows.setSpacing(2)

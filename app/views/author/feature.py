@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
@@ -342,6 +342,8 @@ class AuthorFeature(Feature):
         self.dialog: ExerciseDialog | None = None
         self._task: BackgroundTask | None = None
         self._measuring: BackgroundTask | None = None
+        self._measured: Exercise | None = None  # of which it is known what its patient calls for
+        self._kept_unchecked = ""
         self._cost_timer = QTimer(self, singleShot=True, interval=COST_AFTER_MS)
         self._cost_timer.timeout.connect(self._measure)
         self.trial = SkillTrial(self)
@@ -606,6 +608,7 @@ class AuthorFeature(Feature):
         exercise = self._finished()
         if exercise is None:
             return False
+        checked = self._measured is not None and self._measured == _bare(self.editor.exercise)
         try:
             saved = self.editor.keep(exercise)
         except AcusError as error:
@@ -617,9 +620,30 @@ class AuthorFeature(Feature):
             plan.saved(None)  # nobody has to be asked for it any more: the exercise holds it
         self._conductor.exercises_changed.emit()
         words = tr("Kept as “{name}”, version {n}.", name=saved.id, n=saved.version)
-        self._say(words)
+        self._kept_unchecked = "" if checked else words
+        if checked:
+            self._say(words)
+        else:
+            doubt = tr("Not checked yet: what the patient calls for. The answer comes here.")
+            self._say(f"{words} {doubt}", Verdict.WARNING)
         self.noted.emit(words)
         return True
+
+    def _say_checked(self, result: Mapping[str, Any] | Exception) -> None:
+        """Say what came of the check that an exercise was kept without; nothing if of none."""
+        words, self._kept_unchecked = self._kept_unchecked, ""
+        if not words:
+            return
+        if isinstance(result, Exception):
+            doubt = tr("It cannot be checked: {reason}", reason=translated(result))
+            self._say(f"{words} {doubt}", Verdict.WARNING)
+            return
+        absent = [call["effect"] for call in result.get("called_for", ()) if call["absent"]]
+        if absent:
+            lacks = tr("The patient calls for more: {names}.", names=", ".join(absent))
+            self._say(f"{words} {lacks}", Verdict.WARNING)
+        else:
+            self._say(f"{words} " + tr("Checked: the patient calls for nothing more."))
 
     def _finished(self) -> Exercise | None:
         """Return the exercise with its structures written; None where something is wrong."""
@@ -825,8 +849,15 @@ class AuthorFeature(Feature):
 
         def done(result: Any) -> None:
             self._measuring = None
-            if self.dialog is not None and not isinstance(result, Exception):
+            if self.dialog is None:
+                return
+            if isinstance(result, Exception):
+                self.dialog.effects.show_no_cost(translated(result))
+            else:
+                self._measured = _bare(exercise)
                 self.dialog.effects.show_cost(result)
+            if _bare(exercise) == _bare(self.editor.exercise):
+                self._say_checked(result)
 
         services = self.context.services
         self._measuring = run_in_background(
@@ -883,7 +914,8 @@ class AuthorFeature(Feature):
             self._cost_timer.stop()
             self._trial_timer.stop()
             self.trial.cancel()
-            self._tried = None
+            self._tried = self._measured = None
+            self._kept_unchecked = ""
             self._draw(self._conductor.exercise)
         self.editor.changed.disconnect(dialog.follow)
         dialog.deleteLater()

@@ -736,6 +736,11 @@ class EffectsPage(Form):
         ]
         self.cost.setText("\n".join(lines))
 
+    def show_no_cost(self, reason: str) -> None:
+        """Say why neither costs nor what the patient calls for are known."""
+        self._show_calls({})
+        self.cost.setText(tr("It cannot be measured: {reason}", reason=reason))
+
     def _show_calls(self, result: Mapping[str, Any]) -> None:
         """List what the patient calls for and the exercise lacks, with the cost of each."""
         self._absent = result.get("add", {})

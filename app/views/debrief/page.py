@@ -63,7 +63,7 @@ from app.views.kit.access import ACCESS
 from app.views.kit.coordinates import axis_words
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import disclaimer, literal, tr
+from app.views.kit.text import declared, disclaimer, literal, tr
 
 _ROW_HEIGHT = 24
 _COLUMNS = 5
@@ -357,7 +357,7 @@ class DebriefPage(QWidget):
         other = proposal is not None and bool(proposal.exercise) and proposal.reason not in SAME
         self.next.setVisible(other)
         if proposal is not None and other:
-            title = proposal.title
+            title = declared(proposal.title)
             if len(title) > _AGAIN_LONGEST:
                 title = title[: _AGAIN_LONGEST - 1].rstrip() + "…"
             self.next.setText(tr("Next: {title}", title=title))

@@ -17,7 +17,7 @@ from app.session.next_exercise import Proposal, ProposalReason
 from app.session.review import Review
 from app.views.exercise.readouts import clock_text
 from app.views.kit import theme
-from app.views.kit.text import tr
+from app.views.kit.text import declared, tr
 
 
 def risk_line(mark: RiskMark, origin: float) -> str:
@@ -271,7 +271,7 @@ def row_texts(row: Row, score: Score) -> RowTexts:
     colour, symbol = BAND_LOOKS[row.band] if row.band and judged else (theme.TEXT_DIM, "–")
     band = f"{symbol} {band_word(row.band)}" if row.band and judged else "–"
     return RowTexts(
-        label=row.label + (" *" if row.tolerance and row.tolerance.required else ""),
+        label=declared(row.label) + (" *" if row.tolerance and row.tolerance.required else ""),
         value="–"
         if row.value is None
         else with_unit(row.value, row.unit, shown_sd(row.name, row.value, row.sd)),
@@ -369,7 +369,7 @@ def _loss(points: float, row: Row) -> str:
     value = "–" if row.value is None else with_unit(row.value, row.unit)
     limit = with_unit(expert, row.unit)
     cost = points_words(points)
-    return text.format(label=row.label, value=value, points=cost, expert=limit)
+    return text.format(label=declared(row.label), value=value, points=cost, expert=limit)
 
 
 def points_words(points: float) -> str:
@@ -389,7 +389,7 @@ def proposal_words(proposal: Proposal) -> str:
         if proposal.metric
         else ""
     )
-    next_one = tr("Next: {title}.", title=proposal.title)
+    next_one = tr("Next: {title}.", title=declared(proposal.title))
     words = {
         ProposalReason.COURSE: next_one
         + tr(" It follows in the course {course}.", course=proposal.course),
@@ -409,7 +409,7 @@ def proposal_words(proposal: Proposal) -> str:
             level=proposal.level,
         )
         + cost,
-        ProposalReason.YOURSELF: tr("Now you: {title}.", title=proposal.title),
+        ProposalReason.YOURSELF: tr("Now you: {title}.", title=declared(proposal.title)),
         ProposalReason.VOID: tr("The same again: this attempt has no points."),
         ProposalReason.DONE: tr("All exercises that are open to you are passed.") + cost,
         ProposalReason.CLOSED: "",
@@ -459,7 +459,7 @@ def verdict(review: Review) -> tuple[str, str, str]:
         return theme.WARNING, tr("▲ Void"), f"{why}. {remedy(score, review.conditions)}"
     if score.passed:
         return theme.GOOD, tr("✔ Passed"), ""
-    failures = ", ".join(row.label for row in score.failures)
+    failures = ", ".join(declared(row.label) for row in score.failures)
     if score.hard_fails:
         reason = "; ".join(score.hard_fails)
         reason = f"{reason[:1].upper()}{reason[1:]}"

@@ -34,7 +34,7 @@ from app.views.kit.access import ACCESS
 from app.views.kit.background import run_in_background
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.parts import button, label
-from app.views.kit.text import tr
+from app.views.kit.text import declared, tr
 from app.views.shell.feature import Context
 
 TRAINEE_DONE: Final = 9.0
@@ -220,7 +220,7 @@ class Beginning(QObject):
         fits = patient is not None and self._conductor.fits(patient, exercise)
         volume = patient.volume if fits and patient is not None else None
         folder = services.sessions()
-        titles = {name: one.title for name, one in self._exercises().items()}
+        titles = {name: declared(one.title) for name, one in self._exercises().items()}
 
         def show(portrait: Portrait | None) -> None:
             if number == self._asked and portrait is not None:

@@ -30,7 +30,7 @@ from app.scoring.tolerance import Tolerance
 from app.views.exercise.offer import BriefingOffer
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel, button, label
-from app.views.kit.text import literal, tr
+from app.views.kit.text import declared, literal, tr
 from app.views.reading.lock_words import view_title
 from app.views.shell.shortcuts import disclaimer_label
 
@@ -58,7 +58,10 @@ def scored_words(exercise: Exercise) -> list[str]:
         if (limits.weight > 0.0 or limits.required) and name in known
     ]
     counting.sort(key=lambda one: -one[1].weight)
-    said = [_limit_words(known[name].title, known[name].unit, limits) for name, limits in counting]
+    said = [
+        _limit_words(declared(known[name].title), known[name].unit, limits)
+        for name, limits in counting
+    ]
     for part in exercise.structures:
         for name, limit in part.risks.items():
             said.append(tr("{name}: stay {mm:g} mm away", name=name, mm=limit))
@@ -296,7 +299,9 @@ class BriefingPage(QWidget):
         """Show what an exercise says."""
         self.title.setText(exercise.title)
         self.kind.setText(kind_words(exercise))
-        self.description.setText(exercise.description or tr("Insert the needle to the target."))
+        self.description.setText(
+            declared(exercise.description) or tr("Insert the needle to the target.")
+        )
         self.scored.setText(_lines(scored_words(exercise)))
         self.locked.setText(_lines(locked_words(exercise)))
         self.aids.setText(_lines(aid_words(exercise)))

@@ -16,7 +16,8 @@ from app.planning.patient import Patient
 from app.views.exercise.beginning import Beginning
 from app.views.kit.access import ACCESS
 from app.views.kit.background import run_in_background
-from app.views.kit.text import tr
+from app.views.kit.question import ask
+from app.views.kit.text import declared, tr
 from app.views.shell.feature import Context, Feature
 
 
@@ -61,6 +62,23 @@ class ExerciseFeature(Feature):
         cameras.setStretchFactor(0, 3)
         cameras.setStretchFactor(1, 1)
         return cameras
+
+    # --- the end of the window ----------------------------------------------------------------
+    def may_quit(self) -> bool:
+        """Ask whether an attempt that runs may end with the window; True where none does."""
+        run, controller = self._conductor.controller.run, self._conductor.controller
+        if run is None or run.demonstrates or not controller.is_running:
+            return True
+        answers = tr("Go on with the attempt"), tr("End it and quit")
+        answer = ask(
+            self._shell.dialog_parent,
+            tr("Quit"),
+            tr("An attempt is running. End it and quit?"),
+            tr("It ends without a score; what is recorded so far stays."),
+            answers,
+            escape=0,
+        )
+        return answer == 1
 
     # --- assistance over the attempts ---------------------------------------------------------
     def _take_fading(self, _: str) -> None:
@@ -114,10 +132,10 @@ class ExerciseFeature(Feature):
     @property
     def titles(self) -> list[tuple[str, str]]:
         """Identifiers and titles of all exercises, and of one that is taken without being kept."""
-        found = {exercise.id: exercise.title for exercise in self.exercises.values()}
+        found = {exercise.id: declared(exercise.title) for exercise in self.exercises.values()}
         taken = self._conductor.exercise
         if taken is not None and taken.id not in found:
-            found[taken.id] = tr("{title} (not kept)", title=taken.title)
+            found[taken.id] = tr("{title} (not kept)", title=declared(taken.title))
         return list(found.items())
 
     def begin(self, identifier: str) -> None:
@@ -146,8 +164,7 @@ class ExerciseFeature(Feature):
                 )
                 self.show_taken()
                 return
-            if self._shell.may_go():
-                self._take_here(exercise)
+            self._take_once_asked(exercise)
             self.show_taken()
             return
         try:
@@ -162,6 +179,30 @@ class ExerciseFeature(Feature):
             self._patients.open_phantom(ct.phantom.seed)
         elif ct.folder is not None:
             self._patients.open_folder(ct.folder, ct.series, ct.remedy)
+
+    def _take_once_asked(self, exercise: Exercise) -> None:
+        """Take an exercise on the patient who is shown; the plan of the same one may stay."""
+        taken, plan = self._conductor.exercise, self._editor
+        own = isinstance(exercise.plan, OwnPlan)
+        again = taken is not None and taken.id == exercise.id and plan.edit.draft.complete
+        if not (again and (own or plan.dirty)):
+            if self._shell.may_go():
+                self._take_here(exercise)
+            return
+        answer = ask(
+            self._shell.dialog_parent,
+            exercise.title,
+            tr("Same plan, or a new one?"),
+            tr("The plan of an attempt stays in its record."),
+            (tr("Same plan"), tr("New plan"), tr("Cancel")),
+            escape=2,
+        )
+        if answer == 0:
+            if exercise.fading is None:  # else the dial of the next attempt is there already
+                self._conductor.go_on_with(exercise)
+            self._show(exercise)
+        elif answer == 1 and (own or self._shell.may_go()):
+            self._take_here(exercise)
 
     def _take_here(self, exercise: Exercise) -> None:
         if self._take(exercise):

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from PySide6.QtCore import QObject, Signal
 
 from app.core.errors import AcusError
+from app.core.messages import joined
 from app.core.progress import Progress
 from app.exercises.schema import Exercise
 from app.planning.placement import PlacedPlan
@@ -26,7 +27,7 @@ class Runs(QObject):
         gone(): there is no trainer now.
         failed(object): the error that kept one from running.
         starting(bool): one is being built, or no more.
-        unusable(str): which of the user's own files cannot be used, and why.
+        unusable(object): a sentence: which of the user's own files cannot be used, and why.
         prepared(): what an exercise needs is loaded, or cannot be.
 
     Attributes:
@@ -38,7 +39,7 @@ class Runs(QObject):
     gone = Signal()
     failed = Signal(object)
     starting = Signal(bool)
-    unusable = Signal(str)
+    unusable = Signal(object)
     prepared = Signal()
 
     def __init__(self, services: Services, indicator: Indicator, parent: QObject) -> None:
@@ -83,7 +84,7 @@ class Runs(QObject):
     def _loaded(self, unusable: tuple[str, ...]) -> None:
         self._prepared(None)
         if unusable:
-            self.unusable.emit("; ".join(unusable))
+            self.unusable.emit(joined("; ", unusable))
 
     def _prepared(self, error: Exception | None) -> None:
         self._preparation, self.is_prepared = None, True
@@ -130,6 +131,7 @@ class Runs(QObject):
             self._task = None
         opened, self._open = self._open, None
         if opened is not None:
+            opened.run.trainer.abort(tr("the window was closed"))  # an attempt that runs is saved
             opened.close()
         self.closed()()
 

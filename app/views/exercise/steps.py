@@ -11,6 +11,7 @@ from app.core.units import MILLIMETRE
 from app.session.machine import State
 from app.session.snapshot import BreathHold, NextStep, NextSteps, Snapshot, StepKind
 from app.session.touching import TouchState
+from app.session.transitions import PauseCause
 from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
@@ -151,8 +152,8 @@ def _amount(value: float) -> str:
     return f"{value:.0f}" if value >= 0.95 else f"{max(value, 0.1):.1f}"
 
 
-BEFORE: Final = (StepKind.START, StepKind.WITHDRAW)
-"""What comes before the attempt's own steps."""
+ASIDE: Final = (StepKind.START, StepKind.WITHDRAW, StepKind.WAIT)
+"""What comes before the attempt's own steps, or stops them: no breath is held for it."""
 
 
 def step_words(step: NextStep, by_mouse: bool, tip: bool = False) -> str:
@@ -183,6 +184,7 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False) -> str:
             else tr("Pull the needle out of the skin")
         ),
         StepKind.SEE: tr("Let both cameras see the marker"),
+        StepKind.WAIT: _pause_words(step.pause),
         StepKind.SCAN: tr("Push by the scans: S takes one, Enter ends the attempt"),
         StepKind.TILT: tilt.format(angle=_amount(degrees(step.angle)), sides=sides),
         StepKind.INSERT: tr("Push the needle in{how}", how=inwards),
@@ -195,6 +197,15 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False) -> str:
         StepKind.STAY: tr("Stay on the target"),
         StepKind.FINISH: tr("Press Enter: the tip is at the target"),
     }[step.kind]
+
+
+def _pause_words(cause: PauseCause | None) -> str:
+    """Say what an attempt waits for that no movement of the needle mends."""
+    if cause is PauseCause.WINDOW:
+        return tr("Paused: the window was busy; it goes on by itself.")
+    if cause is PauseCause.HAND:
+        return tr("Paused: the needle swings in the simulated hand; it goes on by itself.")
+    return tr("Paused: this computer is too busy. Close other programs; it goes on by itself.")
 
 
 def waiting_words() -> str:
@@ -380,7 +391,7 @@ class NextStepLine(PlainLabel):
             words = tr("The demonstration begins")
         elif step.kind is StepKind.START and not self._may_start:
             words = self._why_not or waiting_words()
-        elif self._snapshot.breath is not None and step.kind not in BEFORE:
+        elif self._snapshot.breath is not None and step.kind not in ASIDE:
             words = breath_words(self._snapshot.breath, words, not shows)
         words = self._told or words
         if words != self.text():

@@ -1,4 +1,8 @@
-"""The work that goes on beside the window: a thin strip with a bar and Cancel for each task."""
+"""The work that goes on beside the window: a thin strip with one bar, and Cancel.
+
+Of several tasks the oldest is shown, and how many others there are: two bars would lie over the
+picture, and tell no more.
+"""
 
 from __future__ import annotations
 
@@ -73,20 +77,23 @@ class ElidedLabel(PlainLabel):
 
 
 class ProgressStrip(QWidget):
-    """Shows every task it is given until it ends; an `Indicator` for `run_in_background`."""
+    """Shows the oldest task that it was given until it ends, then the next one.
+
+    An `Indicator` for `run_in_background`.
+    """
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._rows = QVBoxLayout(self)
         self._rows.setContentsMargins(0, 0, 0, 0)
         self._rows.setSpacing(0)
-        self._shown = 0
+        self._tasks: list[_Row] = []
         self.hide()
 
     @property
     def count(self) -> int:
-        """Tasks that are shown."""
-        return self._shown
+        """Tasks that go on."""
+        return len(self._tasks)
 
     def show_task(self, task: BackgroundTask, title: str) -> None:
         """Follow a task."""
@@ -96,21 +103,29 @@ class ProgressStrip(QWidget):
         task.progressed.connect(row.show_progress)
         task.finished.connect(lambda: self._remove(row))
         self._rows.addWidget(row)
-        self._shown += 1
-        self.show()
+        self._tasks.append(row)
+        self._show_oldest()
 
-    def _remove(self, row: QWidget) -> None:
+    def _remove(self, row: _Row) -> None:
         self._rows.removeWidget(row)
         row.hide()
         row.deleteLater()
-        self._shown -= 1
-        self.setVisible(self._shown > 0)
+        self._tasks.remove(row)
+        self._show_oldest()
+
+    def _show_oldest(self) -> None:
+        for row in self._tasks[1:]:
+            row.hide()
+        for row in self._tasks[:1]:
+            row.set_others(len(self._tasks) - 1)
+            row.show()
+        self.setVisible(bool(self._tasks))
 
 
 class _Row(QWidget):
     def __init__(self, title: str, parent: QWidget) -> None:
         super().__init__(parent)
-        self._title, self._line = title, title
+        self._title, self._line, self._others = title, title, 0
         self._text = ElidedLabel(parent=self)
         self._bar = QProgressBar(self)
         self._bar.setRange(0, 1000)
@@ -134,6 +149,11 @@ class _Row(QWidget):
         self._line = f"{self._title}: {text}" if text else self._title
         self._write()
 
+    def set_others(self, count: int) -> None:
+        """Say how many tasks go on beside this one."""
+        self._others = count
+        self._write()
+
     def say_cancelling(self) -> None:
         """Say that the wish was heard: the work ends where it can."""
         self.cancel.setEnabled(False)
@@ -141,4 +161,7 @@ class _Row(QWidget):
 
     def _write(self) -> None:
         """Write the title, without names while they are hidden."""
-        self._text.set_whole(NAMES.without_names(self._line))
+        line = self._line
+        if self._others:
+            line = tr("{work} (and {count} more)", work=line, count=self._others)
+        self._text.set_whole(NAMES.without_names(line))

@@ -2,12 +2,12 @@
 
 from collections.abc import Mapping
 from html import escape
-from pathlib import Path
+from string import Formatter
+from typing import Any
 
-from PySide6.QtCore import QCoreApplication, QLocale, QTranslator
+from PySide6.QtCore import QCoreApplication
 from PySide6.QtGui import Qt
 
-from app.core import paths
 from app.core.messages import Sentence, sentence_of
 
 CONTEXT = ""
@@ -23,7 +23,15 @@ def tr(text: str, **values: object) -> str:
     Values that are sentences or errors of the lower rooms come in the user's language as well.
     """
     pattern = QCoreApplication.translate(CONTEXT, text)
-    return pattern.format(**_shown(values)) if values else pattern
+    return _filled(pattern, _shown(values)) if values else pattern
+
+
+def declared(text: str) -> str:
+    """Return a text of a declaration or of an exercise that ships in the user's language.
+
+    `tools.translations` collects these from their files; what somebody else wrote stays as it is.
+    """
+    return QCoreApplication.translate(CONTEXT, text) if text else ""
 
 
 def translated(message: str | BaseException) -> str:
@@ -38,9 +46,39 @@ def translated(message: str | BaseException) -> str:
         return str(text)
     values = _shown(text.values)
     try:
-        return QCoreApplication.translate(CONTEXT, text.template).format(**values)
+        return _filled(QCoreApplication.translate(CONTEXT, text.template), values)
     except (LookupError, ValueError):  # a translation that names other values
         return text.template.format(**values)
+
+
+class _Local(Formatter):
+    """Fills a pattern, decimal numbers with the language's own point."""
+
+    point = "."
+
+    def format_field(self, value: Any, format_spec: str) -> Any:
+        """Format one value."""
+        text = super().format_field(value, format_spec)
+        return text.replace(".", self.point) if isinstance(value, float) else text
+
+
+_LOCAL = _Local()
+
+
+def use_decimal_point(point: str) -> None:
+    """Write decimal numbers of all texts from now on with this point."""
+    _LOCAL.point = point
+
+
+def number(value: float, form: str) -> str:
+    """Return a number by a format such as `.1f`, with the language's own decimal point."""
+    return format(value, form).replace(".", _LOCAL.point)
+
+
+def _filled(pattern: str, values: Mapping[str, object]) -> str:
+    if _LOCAL.point == ".":
+        return pattern.format(**values)
+    return _LOCAL.vformat(pattern, (), values)
 
 
 def _shown(values: Mapping[str, object]) -> dict[str, object]:
@@ -70,23 +108,3 @@ def disclaimer() -> str:
     It stands here once more, in full, because `lupdate` finds literals only; a test compares them.
     """
     return tr("Training only. Not a medical device; not for diagnosis or patient care.")
-
-
-def translations_folder() -> Path:
-    """Folder of the shipped `acus_<language>.qm` files."""
-    return paths.resources() / "translations"
-
-
-def install_translation(
-    application: QCoreApplication, locale: QLocale | None = None, folder: Path | None = None
-) -> bool:
-    """Load the translation of a locale (the system's by default) into the application.
-
-    Returns:
-        Whether one was found; English, the language of the source, needs none.
-    """
-    translator = QTranslator(application)
-    found = translator.load(
-        locale or QLocale.system(), "acus", "_", str(folder or translations_folder())
-    )
-    return found and application.installTranslator(translator)

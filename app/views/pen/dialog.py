@@ -37,7 +37,7 @@ from app.views.kit.verdict import Verdict, tell
 from app.views.pen.net_page import write_pen
 from app.views.pen.status import PenStatus
 from app.views.pen.tip_step import TipStep
-from app.views.pen.words import Line, accuracy_line, status_lines
+from app.views.pen.words import Line, accuracy_line, known_lens_words, status_lines
 
 if TYPE_CHECKING:
     from app.core.progress import Progress
@@ -48,6 +48,7 @@ if TYPE_CHECKING:
 
 _ASK = "ask"
 _GUESS = "guess"
+_KNOWN = "known"
 
 Lens = tuple[Path | None, str]
 """File of a calibration, None to guess; name of the camera in a calibration of two."""
@@ -85,6 +86,17 @@ class LensBox(QComboBox):
             return None, self._camera
         file, camera = str(data).rsplit("|", 1)
         return Path(file), camera
+
+    def set_simulated(self, on: bool) -> None:
+        """Say of a simulated webcam that its lens is known, and let nothing be chosen."""
+        self.setEnabled(not on)
+        known = self.findData(_KNOWN)
+        if on and known < 0:
+            self.addItem(known_lens_words(), _KNOWN)
+            self.setCurrentIndex(self.count() - 1)
+        elif not on and known >= 0:
+            self.setCurrentIndex(self._last)
+            self.removeItem(known)
 
     def take(self, file: Path) -> None:
         """Use a calibration's file; of a pair its first camera, the others can be chosen."""
@@ -212,8 +224,8 @@ class PenChoice(QWidget):
             simulated = self.settings().simulated
         except AcusError:
             simulated = False  # said by the page
-        for box in (self.size_box, self.lens):
-            box.setEnabled(not simulated)
+        self.size_box.setEnabled(not simulated)
+        self.lens.set_simulated(simulated)
 
     def _take_body(self) -> None:
         """Another pen: its own size."""
@@ -363,7 +375,8 @@ class PenDialog(QDialog):
             self.status.show_status(accuracy_line(None, why), status_lines(None, pen, None, 0.0))
             return
         seen, trouble = live.observed(), _trouble(live)
-        lines = status_lines(None if trouble else seen, pen, live.webcam(), live.speed())
+        simulated = self._opened is not None and self._opened.simulated
+        lines = status_lines(None if trouble else seen, pen, live.webcam(), live.speed(), simulated)
         self.status.show_status(accuracy_line(seen, trouble), lines)
 
     def closed(self) -> Callable[[], object]:

@@ -59,15 +59,26 @@ def accuracy_line(seen: PenObservation | None, trouble: str = "") -> Line:
     )
 
 
+def known_lens_words() -> str:
+    """Return where the lens of a simulated webcam is known from."""
+    return tr("known exactly: the webcam is simulated")
+
+
 def status_lines(
-    seen: PenObservation | None, pen: PenProfile, webcam: Webcam | None, speed: float
+    seen: PenObservation | None,
+    pen: PenProfile,
+    webcam: Webcam | None,
+    speed: float,
+    simulated: bool = False,
 ) -> tuple[Line, ...]:
     """Return what is seen, whether the pen is held still, and where tip and lens are known from."""
     lines = [] if seen is None else [_faces(seen, pen), *_advice(seen)]
     if seen is not None and seen.needle is not None:
         lines.append(_stillness(speed))
     lines.append(tip_line(pen))
-    if webcam is not None:
+    if simulated:
+        lines.append(Line(Verdict.GOOD, tr("the lens is {source}", source=known_lens_words())))
+    elif webcam is not None:
         verdict = Verdict.WARNING if webcam.guessed else Verdict.GOOD
         text = tr("the lens is calibrated")
         if webcam.guessed:

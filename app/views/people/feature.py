@@ -39,7 +39,7 @@ from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.parts import message_box
-from app.views.kit.text import tr
+from app.views.kit.text import declared, tr
 from app.views.people.pages import (
     GROUP_PDF,
     STUDENT_PDF,
@@ -272,7 +272,7 @@ class PeopleFeature(Feature):
         return {exercise.id: exercise for exercise in self.context.services.exercises()}
 
     def _titles(self) -> dict[str, str]:
-        return {name: exercise.title for name, exercise in self._exercises().items()}
+        return {name: declared(exercise.title) for name, exercise in self._exercises().items()}
 
     def _show_curve(self, key: str, exercise: str) -> None:
         look = self._look

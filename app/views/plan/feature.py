@@ -28,7 +28,8 @@ from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel
 from app.views.kit.text import literal, tr
 from app.views.plan.editor import PlanEditor, PlanFiles, Point
-from app.views.plan.verdict import verdict_words
+from app.views.plan.verdict import Way, verdict_words
+from app.views.plan.way import WayWatch
 from app.views.shell.feature import Context, Feature
 from app.views.shell.settings import Recents
 from app.views.slices.viewing import Tool, Viewing
@@ -64,7 +65,7 @@ class PlanPanel(QWidget):
 
     def __init__(self, editor: PlanEditor, viewing: Viewing, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._editor, self._viewing = editor, viewing
+        self._editor, self._viewing, self._way = editor, viewing, Way()
         self.title = _label("heading")
         self.entry, self.target, self.length = _label(), _label(), _label("dim")
         self.left_slice = _label("dim")
@@ -101,9 +102,10 @@ class PlanPanel(QWidget):
         self.left_slice.setVisible(bool(self.left_slice.text()))
         self.target.setText(_point_text(draft.target_mm))
         self._show_placement(placement)
-        words = verdict_words(editor)
-        self.verdict.setText(f"{theme.VERDICTS[words.kind][1]}  {words.text}")
-        self.verdict.setStyleSheet(f"color: {theme.VERDICTS[words.kind][0]};")
+        words = verdict_words(editor, self._way)
+        colour, symbol = theme.VERDICTS.get(words.kind, (theme.TEXT, "…"))
+        self.verdict.setText(f"{symbol}  {words.text}")
+        self.verdict.setStyleSheet(f"color: {colour};")
         self.length.setText(words.measures)
         self.remedy.setVisible(words.remedy)
         for widget in (
@@ -117,6 +119,11 @@ class PlanPanel(QWidget):
             widget.setEnabled(not editor.locked)
         self._files[2].setEnabled(draft.complete)
         self._files[3].setEnabled(draft.complete)
+
+    def show_way(self, way: Way) -> None:
+        """Say what is known of what lies on the way."""
+        self._way = way
+        self.refresh()
 
     def _show_placement(self, placement: Placement) -> None:
         with QSignalBlocker(self.orientation):
@@ -272,6 +279,8 @@ class PlanFeature(Feature):
         files.noted.connect(self.noted)
         self.panel = PlanPanel(self._editor, viewing)
         shell.add_panel(self.panel, tr("Plan"))
+        self.way = WayWatch(context, self)
+        self.way.changed.connect(lambda: self.panel.show_way(self.way.way))
         for signal, command in (
             (self.panel.new_wanted, files.new),
             (self.panel.open_wanted, files.ask_open),
@@ -340,3 +349,7 @@ class PlanFeature(Feature):
     def may_go(self) -> bool:
         """Ask whether unsaved changes may go, or save them; True where there are none."""
         return self.files.after_question(lambda: None)
+
+    def close(self) -> None:
+        """End what looks up the way; idempotent."""
+        self.way.close()

@@ -36,6 +36,7 @@ from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.parts import PlainLabel
 from app.views.kit.text import literal, tr
 from app.views.plan.entry_map import EntryMap, EntryMapLayer, legend
+from app.views.plan.way import ABOUT_TARGET_MM
 from app.views.shell.feature import Context, Feature
 
 if TYPE_CHECKING:
@@ -43,7 +44,6 @@ if TYPE_CHECKING:
     from app.planning.paths import PathScores
 
 
-_ABOUT_TARGET_MM = 125.0  # no path that is scored is longer
 _WIDTHS = 58, 64, 58
 """Of the columns before the last [px]."""
 
@@ -298,7 +298,7 @@ class PathsFeature(Feature):
                     patient.volume,
                     structures,
                     target,
-                    _ABOUT_TARGET_MM,
+                    ABOUT_TARGET_MM,
                     progress=progress.part(0.2, 0.7),
                     body=patient.body,
                 )

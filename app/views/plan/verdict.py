@@ -1,15 +1,50 @@
 """What the robot's verdict on a plan says to the user: can it follow, and what is missing."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+from enum import Enum, auto
+from typing import TYPE_CHECKING
 
 from app.core.units import DEGREE, MILLIMETRE
 from app.views.kit.text import tr, translated
 from app.views.plan.editor import PlanEditor
 
+if TYPE_CHECKING:
+    from app.planning.on_the_way import Hindrance
+
+
+class WayState(Enum):
+    """What is known of the way."""
+
+    NOBODY_ASKS = auto()
+    LOOKING = auto()
+    KNOWN = auto()
+    UNKNOWN = auto()
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """What lies on the planned way.
+
+    Attributes:
+        state: what is known.
+        hindrances: on it, the first one first.
+        reason: why it is unknown; empty otherwise.
+    """
+
+    state: WayState = WayState.NOBODY_ASKS
+    hindrances: tuple[Hindrance, ...] = ()
+    reason: str = ""
+
+
+MOST_LINES = 3
+"""So many hindrances on the way are named, the first ones."""
+
 
 @dataclass(frozen=True, slots=True)
 class VerdictWords:
-    """Kind (a key of `theme.VERDICTS`), sentence, measures, and whether a rotation would help."""
+    """Kind (a key of `theme.VERDICTS`, or `open`), sentence, measures, whether a rotation helps."""
 
     kind: str
     text: str
@@ -17,8 +52,8 @@ class VerdictWords:
     remedy: bool = False
 
 
-def verdict_words(editor: PlanEditor) -> VerdictWords:
-    """Put the editor's verdict into words."""
+def verdict_words(editor: PlanEditor, way: Way | None = None) -> VerdictWords:
+    """Put the editor's verdict into words, and what is known of the way."""
     draft, verdict = editor.edit.draft, editor.verdict
     if verdict.problem:
         return VerdictWords("bad", verdict.problem)
@@ -35,13 +70,38 @@ def verdict_words(editor: PlanEditor) -> VerdictWords:
         tilt=reached.tilt / DEGREE,
     )
     if reached.reachable:
-        return VerdictWords("good", tr("The robot can follow this path."), measures)
+        return VerdictWords(*_way_words(way or Way()), measures)
     reasons = "; ".join(translated(reason.text) for reason in reached.reasons)
     text = tr("Out of reach: {reasons}.", reasons=reasons)
     if reached.remedy is None:
         return VerdictWords("bad", text, measures)
     text += "\n" + tr("Remedy: {words}", words=reached.remedy.words)
     return VerdictWords("bad", text, measures, remedy=True)
+
+
+def _way_words(way: Way) -> tuple[str, str]:
+    """Return kind and sentence of a path that the robot can follow."""
+    follows = tr("The robot can follow this path.")
+    if way.state is WayState.LOOKING:
+        return "open", tr("The robot can follow; what lies on the way is being looked up…")
+    if way.state is WayState.UNKNOWN:
+        unknown = tr("What lies on the way is not known: {reason}.", reason=way.reason)
+        return "warning", f"{follows}\n{unknown}"
+    if way.state is not WayState.KNOWN:
+        return "good", follows
+    if not way.hindrances:
+        clear = tr("No bone, lung, vessel, gut or heart is on the way to the target's organ.")
+        return "good", f"{follows}\n{clear}"
+    lines = [_hindrance_words(one) for one in way.hindrances[:MOST_LINES]]
+    return "warning", "\n".join((*lines, follows))
+
+
+def _hindrance_words(hindrance: Hindrance) -> str:
+    """Name a tissue on the way and where it begins."""
+    tissue, depth = hindrance.name, hindrance.depth_mm
+    if hindrance.is_sure:
+        return tr("{tissue} on the way at {depth:.0f} mm", tissue=tissue, depth=depth)
+    return tr("perhaps {tissue} on the way at {depth:.0f} mm", tissue=tissue, depth=depth)
 
 
 def missing_words(editor: PlanEditor) -> str:

@@ -6,7 +6,7 @@ from app.exercises.guidance import Purpose
 from app.exercises.locks import Lock
 from app.exercises.parts import ViewName
 from app.exercises.schema import Exercise
-from app.views.kit.text import tr
+from app.views.kit.text import declared, tr
 
 
 def why_locked(exercise: Exercise | None, lock: Lock) -> str:
@@ -26,7 +26,7 @@ def why_locked(exercise: Exercise | None, lock: Lock) -> str:
         return tr("This attempt is a probe, without help: {what} stays as it is.", what=what)
     if lock not in (exercise.locks or ()):
         return tr("Control scans guide here: {what} stays as the exercise has it.", what=what)
-    return tr("The exercise “{title}” sets {what}.", title=exercise.title, what=what)
+    return tr("The exercise “{title}” sets {what}.", title=declared(exercise.title), what=what)
 
 
 def view_title(view: ViewName) -> str:

@@ -16,9 +16,10 @@ from app import __version__
 from app.core.errors import AcusError
 from app.core.log_file import LogFile
 from app.core.paths import resources
+from app.views.kit.language import chosen, use_language
 from app.views.kit.names import NAMES
-from app.views.kit.text import install_translation
 from app.views.kit.theme import apply_theme
+from app.views.shell.settings import open_settings
 
 SWITCH_INTERVAL: Final = 5e-4
 """How long [s] a thread may keep the interpreter when another asks for it. Painting asks for it
@@ -89,7 +90,7 @@ def start(offscreen: bool = False) -> QApplication:
     application.setDesktopFileName("acus")  # its desktop entry has the icon for Wayland
     application.setWindowIcon(icon())
     apply_theme(application)
-    install_translation(application)
+    use_language(application, chosen(open_settings()))
     _open_log(application)
     signal.signal(signal.SIGINT, lambda *_: application.quit())
     awake = QTimer(application, interval=200)  # lets Python see the signal

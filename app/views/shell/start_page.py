@@ -44,7 +44,7 @@ from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import literal, tr
+from app.views.kit.text import declared, literal, tr
 from app.views.shell.shortcuts import disclaimer_label
 
 if TYPE_CHECKING:
@@ -119,7 +119,7 @@ class ExerciseRow(QStyledItemDelegate):
     ) -> None:
         top = Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft
         painter.setFont(_font(painter, theme.FONT_PX, True))
-        title = exercise.title + ("   ▸ " + tr("next") if comes else "")
+        title = declared(exercise.title) + ("   ▸ " + tr("next") if comes else "")
         metrics = QFontMetrics(painter.font())
         painter.setPen(ink)
         painter.drawText(
@@ -130,7 +130,7 @@ class ExerciseRow(QStyledItemDelegate):
         below = box.adjusted(0, metrics.height() + 1, 0, 0)
         small = QFontMetrics(painter.font())
         lines = max(1, below.height() // (small.lineSpacing() + 1))
-        text = _fitting(exercise.description, small, below.width(), lines)
+        text = _fitting(declared(exercise.description), small, below.width(), lines)
         painter.drawText(below, top | Qt.TextFlag.TextWordWrap, text)
 
 
@@ -219,8 +219,8 @@ class StartPage(QWidget):
         chosen, known = self._chosen(), self._known()
         self.exercises.clear()
         for exercise in exercises:
-            item = QListWidgetItem(exercise.title)
-            item.setToolTip(literal(exercise.description))
+            item = QListWidgetItem(declared(exercise.title))
+            item.setToolTip(literal(declared(exercise.description)))
             item.setData(Qt.ItemDataRole.UserRole, exercise.id)
             item.setData(_EXERCISE, exercise)
             for role, value in known.get(exercise.id, {}).items():
@@ -292,7 +292,7 @@ class StartPage(QWidget):
         """Tell in words what the row draws, for those who hear it."""
         exercise = item.data(_EXERCISE)
         done, best = standing_words(item.data(_STANDING))
-        parts = [exercise.title, level_words(exercise.level)]
+        parts = [declared(exercise.title), level_words(exercise.level)]
         if done != "–":
             parts += [tr("done {n}", n=done), tr("best {points}", points=best)]
         if item.data(_NEXT):

@@ -88,6 +88,10 @@ class ViewMenu:
             changed.connect(self.refresh)
         self.refresh()
 
+    def add_menu(self, title: str) -> QMenu:
+        """Return another menu at the end of this one."""
+        return self._menu.addMenu(title)
+
     def _fill_needle(self, menu: QMenu) -> None:
         workspace = self._workspace
         menu.clear()

@@ -21,7 +21,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.core import plugin_folders
 from app.core.events import Event
+from app.core.messages import joined
 from app.planning.draft import DraftPlan
 from app.planning.patient import Patient
 from app.session.result import AttemptResult
@@ -35,7 +37,7 @@ from app.views.kit.access import ACCESS
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.progress_strip import ProgressStrip
-from app.views.kit.text import literal, tr
+from app.views.kit.text import declared, literal, tr
 from app.views.measure.editor import MeasureEditor
 from app.views.people.feature import PeopleFeature
 from app.views.plan.editor import PlanEditor
@@ -94,6 +96,9 @@ def connect_messages(
     runs.unusable.connect(
         lambda why: bar.show_until("laws", tr("A file of your own cannot be used: {why}", why=why))
     )
+    if reasons := plugin_folders.refused_folders():
+        why = joined("; ", reasons)
+        bar.show_until("folders", tr("A folder of plug-ins cannot be used: {why}", why=why))
     for signal in (runs.ready, equipment.accepted):
         signal.connect(lambda *_: bar.forget(ROBOT))
     runs.starting.connect(lambda begun: bar.forget(ROBOT) if begun else None)
@@ -304,7 +309,7 @@ class MainWindow(QMainWindow):
         taken = conductor.exercise if patient and conductor.fits(patient) else None
         name = "" if patient is None else NAMES.shown(patient.label)
         here = tr("signed in as the instructor") if ACCESS.instructor else ""
-        parts = ("" if taken is None else taken.title, name, here, "Acus")
+        parts = ("" if taken is None else declared(taken.title), name, here, "Acus")
         self.setWindowTitle(" – ".join(filter(None, parts)))
         self.undo_action.setEnabled(self.undo.can_undo)
         self.redo_action.setEnabled(self.undo.can_redo)
@@ -441,8 +446,8 @@ class MainWindow(QMainWindow):
             event.acceptProposedAction()
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        """Ask about what is unsaved, then end everything."""
-        if not self.may_go():
+        """Ask about an attempt that runs and what is unsaved, then end everything."""
+        if not (self.feature(ExerciseFeature).may_quit() and self.may_go()):
             event.ignore()
             return
         self.remembered.remember()

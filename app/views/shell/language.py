@@ -1,0 +1,110 @@
+"""Another language between two attempts: the window is built anew, patient and plan stay."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QCoreApplication, QEvent, QObject, QSettings, QTimer
+from PySide6.QtGui import QActionGroup
+from PySide6.QtWidgets import QApplication, QMenu
+
+from app.views.kit.language import choose, chosen, code_for, languages, use_language
+from app.views.kit.text import tr
+from app.views.plan.feature import PlanFeature
+from app.views.shell.window import MainWindow
+
+
+def fill_language_menu(menu: QMenu, settings: QSettings, change: Callable[[str], object]) -> None:
+    """List the languages with the one that is chosen checked, each by its own name.
+
+    Args:
+        menu: emptied first.
+        settings: where the choice is kept.
+        change: told the code of another choice, empty for the system's language.
+    """
+    menu.clear()
+    there, now = languages(), chosen(settings)
+    group = QActionGroup(menu)
+    system = tr("As this computer: {language}", language=there[code_for("")])
+    for code, title in {"": system, **there}.items():
+        action = group.addAction(menu.addAction(title))
+        action.setCheckable(True)
+        action.setChecked(code == now)
+        action.triggered.connect(lambda _=False, code=code: change(code))
+
+
+class Rebuilding(QObject):
+    """Replaces the window by one in the language that is chosen in it.
+
+    Args:
+        window: the first one.
+        make: returns another one, not shown.
+        follow: told each window that took another's place.
+
+    Attributes:
+        window: the one that stands.
+    """
+
+    def __init__(
+        self,
+        window: MainWindow,
+        make: Callable[[], MainWindow],
+        follow: Callable[[MainWindow], object],
+    ) -> None:
+        super().__init__(QApplication.instance())
+        self._make, self._follow = make, follow
+        self._attach(window)
+
+    def _attach(self, window: MainWindow) -> None:
+        self.window = window
+        menu = window.view_menu.add_menu(tr("Language"))
+        menu.aboutToShow.connect(lambda: fill_language_menu(menu, window.settings, self.change))
+
+    def _change_soon(self, code: str) -> None:
+        """Change once the menu that asks for it has closed: it goes with its window."""
+        QTimer.singleShot(0, self, lambda: self.change(code))
+
+    def change(self, code: str) -> None:
+        """Build the window anew in another language; while an attempt runs, say that it waits."""
+        window, application = self.window, QApplication.instance()
+        if code == chosen(window.settings) or not isinstance(application, QApplication):
+            return
+        if window.editor.locked:
+            window.message_bar.show_error(
+                tr("An attempt is running: end it before another language is chosen")
+            )
+            return
+        patient, exercise = window.conductor.patient, window.conductor.exercise
+        edit, path, dirty = window.editor.edit, window.editor.path, window.editor.dirty
+        page = window.pages.currentWidget() is window.start_page
+        if not all(one.may_go() for one in window.features if not isinstance(one, PlanFeature)):
+            return
+        window.editor.saved(path)  # the plan is taken along: nothing is asked of it
+        application.setQuitOnLastWindowClosed(False)
+        window.close()
+        choose(window.settings, code)
+        use_language(application, code)
+        self._attach(self._make())
+        new = self.window
+        new.show()
+        application.setQuitOnLastWindowClosed(True)
+        self._follow(new)
+        if exercise is not None:
+            new.conductor.set_exercise(exercise)
+        if patient is not None:
+            new.show_patient(patient)
+            new.editor.take(edit.draft, edit.placement)
+            if not dirty:
+                new.editor.saved(path)
+        if page:
+            new.show_start()
+        QTimer.singleShot(0, self, lambda: _destroy(window))
+
+
+def _destroy(window: MainWindow) -> None:
+    """Destroy a window while Python still holds all that belongs to it.
+
+    Qt crashes where the garbage collector takes wrappers of items in a scene before the scene goes.
+    """
+    window.deleteLater()
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)

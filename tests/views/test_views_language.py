@@ -1,0 +1,104 @@
+"""Another language between two attempts: the window is built anew, patient and plan stay."""
+
+import pytest
+from PySide6.QtWidgets import QApplication, QMenu
+from shiboken6 import isValid
+from window_rig import plan
+
+from app.views.kit import language
+from app.views.shell.language import Rebuilding, fill_language_menu
+from app.views.shell.window import MainWindow
+
+GERMAN = """<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="de_DE"><context><name></name>
+<message><source>&amp;File</source><translation>&amp;Datei</translation></message>
+<message><source>An attempt is running: end it before another language is chosen</source>
+<translation>Zuerst den Versuch beenden</translation></message>
+</context></TS>
+"""
+
+
+@pytest.fixture
+def german(tmp_path, monkeypatch, application):
+    """A folder of languages with German in it."""
+    monkeypatch.setenv("ACUS_CACHE", str(tmp_path / "cache"))
+    (tmp_path / "acus_de.ts").write_text(GERMAN)
+    monkeypatch.setattr(language, "folder", lambda: tmp_path)
+    yield
+    language.use_language(application, "en")
+
+
+@pytest.fixture
+def rebuilding(application, german, services, destroy, settle):
+    followed, first = [], MainWindow(services)
+    first.show()
+    result = Rebuilding(first, lambda: MainWindow(services), followed.append)
+    result.followed = followed
+    yield result
+    result.window.editor.saved(None)
+    destroy(result.window)
+    settle()
+    result.deleteLater()
+
+
+def menus(window):
+    return [action.text() for action in window.menuBar().actions()]
+
+
+def entries(menu):
+    return [(action.text(), action.isChecked()) for action in menu.actions()]
+
+
+def test_the_menu_lists_each_language_by_its_own_name(window, german):
+    menu, changes = QMenu(window), []
+    fill_language_menu(menu, window.settings, changes.append)
+    assert [text for text, _ in entries(menu)][1:] == ["English", "Deutsch"]
+    assert [on for _, on in entries(menu)] == [True, False, False]
+    menu.actions()[2].trigger()
+    assert changes == ["de"]
+    language.choose(window.settings, "de")
+    fill_language_menu(menu, window.settings, changes.append)
+    assert [on for _, on in entries(menu)] == [False, False, True]
+
+
+def test_another_language_keeps_patient_plan_and_exercise(patient, rebuilding, settle):
+    window = rebuilding.window
+    window.show_patient(patient)
+    plan(window)
+    drawn, taken = window.editor.edit.draft, window.conductor.exercise
+    rebuilding.change("de")
+    new = rebuilding.window
+    assert new is not window
+    assert rebuilding.followed == [new]
+    assert "&Datei" in menus(new)
+    assert new.isVisible()
+    assert new.conductor.patient is patient
+    assert new.editor.edit.draft == drawn
+    assert new.editor.dirty  # it was not saved, and still is not
+    assert new.conductor.exercise.id == taken.id
+    assert language.chosen(new.settings) == "de"
+    settle()
+    assert not isValid(window)
+    rebuilding.change("en")
+    assert "&File" in menus(rebuilding.window)
+    assert rebuilding.window.editor.edit.draft == drawn
+
+
+def test_in_an_attempt_the_language_stays_and_the_window_says_so(patient, rebuilding):
+    window = rebuilding.window
+    window.show_patient(patient)
+    plan(window)
+    window.editor.set_locked(True)
+    rebuilding.change("de")
+    assert rebuilding.window is window
+    assert "end it before another language" in window.message_bar.text
+    assert language.chosen(window.settings) == ""
+    window.editor.set_locked(False)
+
+
+def test_choosing_what_is_chosen_does_nothing(rebuilding):
+    window = rebuilding.window
+    rebuilding.change("")
+    assert rebuilding.window is window
+    assert QApplication.instance().quitOnLastWindowClosed()
