@@ -1,5 +1,7 @@
 """What the needle met: from the samples into record, score and replay."""
 
+import csv
+import io
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -10,10 +12,11 @@ from field_rig import ball, beyond, field_of_shapes
 from session_fakes import Bench
 
 from app.core.events import Event
+from app.exchange.csv_export import trajectory_table
 from app.imaging.field import TissueKind
 from app.scoring.result import Score, judge
 from app.scoring.rows import ScoreRules
-from app.session.recording import read_recording
+from app.session.recording import messages_agree, read_recording
 from app.session.replay import contents
 from app.session.tissue_force import feels_along
 from app.session.tissues import event_of, tissues_met, tissues_met_of
@@ -125,6 +128,20 @@ def test_the_largest_force_of_each_tissue_is_that_while_the_tip_was_in_it(bench:
     assert {one.force_n for one in unfelt} == {None}
     older = tissues_met_of(replace(samples, along=None), placed, field, True)
     assert {one.force_n for one in older} == {None}
+
+
+def test_the_force_along_the_needle_stands_in_the_record_and_its_table(bench: Bench) -> None:
+    attempt(bench, body())
+    recording = read_recording(next(bench.folder.glob("*.mcap")))
+    assert (recording.samples.along == 0.0).all()
+    assert messages_agree(recording) == ""
+    along = np.linspace(-1.0, 2.0, len(recording.samples.time))
+    pushed = replace(recording, samples=replace(recording.samples, along=along))
+    rows = list(csv.DictReader(io.StringIO(trajectory_table(pushed))))
+    assert [float(row["tissue_along_n"]) for row in rows] == pytest.approx(along)
+    older = replace(recording, samples=replace(recording.samples, along=None))
+    rows = list(csv.DictReader(io.StringIO(trajectory_table(older))))
+    assert {row["tissue_along_n"] for row in rows} == {""}
 
 
 def test_who_felt_the_field_is_told_by_the_head_of_the_record() -> None:
