@@ -39,6 +39,7 @@ class Missing:
         into: "fat, liver", what lies before and behind.
         thickness_mm: along the path, of the thinner of the two.
         grazing_deg: between path and the boundary's normal.
+        is_parted: whether the way meets another tissue between the two there.
     """
 
     patient: str
@@ -47,13 +48,16 @@ class Missing:
     into: str
     thickness_mm: float
     grazing_deg: float
+    is_parted: bool = False
 
     @property
     def reason(self) -> str:
         """Return what about it is hard; empty for nothing known."""
         if self.thickness_mm < THIN_MM:
             return "thin"
-        return "grazed" if self.grazing_deg > GRAZING_DEG else ""
+        if self.grazing_deg > GRAZING_DEG:
+            return "grazed"
+        return "a third between" if self.is_parted else ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -62,18 +66,21 @@ class PathErrors:
 
     Attributes:
         force: where it is compared [N].
-        places: of boundaries [mm]; `is_membrane` says which have one.
+        places: of boundaries along the path [mm]; `is_membrane` says which have one, `samples`
+            where they are in the reference.
         peaks: of membranes, share of the reference's.
-        missing: boundaries of the reference that are not there, by sample.
+        missing: boundaries of the reference that are not there, by sample; whether another tissue
+            lies between there.
         unknown: boundaries that the reference has not.
         lost: membranes that give way in one of the two only.
     """
 
     force: FloatArray
     places: FloatArray
+    samples: Codes
     is_membrane: NDArray[np.bool_]
     peaks: FloatArray
-    missing: tuple[int, ...]
+    missing: tuple[tuple[int, bool], ...]
     unknown: int
     lost: int
 
@@ -107,12 +114,19 @@ def compare(reference: Felt, felt: Felt, values: Sequence[TissueLayer]) -> PathE
     return PathErrors(
         (felt.force - reference.force)[~near],
         off,
+        np.array([wanted[n][0] for n, _ in pairs], np.intp),
         np.array(membrane, bool),
         peaks,
-        tuple(wanted[n][0] for n in range(len(wanted)) if n not in matched),
+        tuple((one[0], _is_parted(one, there)) for n, one in enumerate(wanted) if n not in matched),
         len(there) - len(pairs),
         len(first) + len(second) - 2 * len(events),
     )
+
+
+def _is_parted(one: tuple[int, int, int], there: Sequence[tuple[int, int, int]]) -> bool:
+    """Return whether a way leaves the one tissue and comes into the other there, by a third."""
+    near = [(a, b) for m, a, b in there if abs(m - one[0]) * STEP_MM < MATCHED_MM]
+    return any(a == one[1] for a, _ in near) and any(b == one[2] for _, b in near)
 
 
 def _matched(

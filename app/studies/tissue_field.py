@@ -10,7 +10,7 @@ the plan, in patients who breathe.
 
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from time import perf_counter, process_time
 from typing import Any, Final
@@ -39,7 +39,14 @@ from app.simulation.effects.lateral_tissue import step
 from app.simulation.scene import Binding, Scene, TissueLayer
 from app.simulation.tissues import tissue_values
 from app.studies import field_errors, field_paths
-from app.studies.field_errors import GRAZING_DEG, THIN_MM, CodesAt, Missing, PathErrors
+from app.studies.field_errors import (
+    GRAZING_DEG,
+    THIN_MM,
+    CodesAt,
+    Missing,
+    PathErrors,
+    describe,
+)
 from app.studies.field_paths import BEFORE_MM, STEP_MM, Codes, Felt, Hand, NeedlePath
 from app.studies.findings import Findings, Sheet, Survey
 from app.studies.references.recipe_points import RecipePoints
@@ -63,7 +70,7 @@ _QUICK: Final = 16
 _TURN: Final = np.radians(2.0)
 _REACH_MM: Final = 102.0
 _FELT: Final = 0.1  # [N]
-_PLACED_MM: Final = 0.3
+PLACED_MM: Final = 0.3
 _PEAK: Final = 0.05
 _PROBE_MM: Final = 0.3
 _LISTED: Final = 200
@@ -277,15 +284,21 @@ def _nearest(made: TissueField, points_mm: FloatArray) -> Codes:
 
 def _bent(
     subject: _Subject, count: int, report: Callable[[float, str], None]
-) -> tuple[list[PathErrors], list[Missing]]:
-    """Compare the field in use on random bent needles with breathing."""
+) -> tuple[list[PathErrors], list[Missing], list[float]]:
+    """Compare the field in use on random bent needles with breathing.
+
+    The last are of membranes that lie too far off along a path: how far that is across them [mm].
+    """
     report(0.0, f"{subject.name}: the field in use")
     made = make(subject.volume, (), subject.entry, _REACH_MM, SPACING_MM)
     bound, table, values = _bound(made, subject), _same_codes(made, subject.tissues), subject.values
     hand = Hand(tissue_values(made.tissues), bound)
     told = Hand(values, _bound(_no_field(subject), subject))
-    errors, missing = [], []
-    paths = field_paths.random_paths(subject.entry, subject.target, count, len(subject.name))
+    errors: list[PathErrors] = []
+    missing: list[Missing] = []
+    across: list[float] = []
+    seed = sum(subject.name.encode())
+    paths = field_paths.random_paths(subject.entry, subject.target, count, seed)
     back = _same_codes_back(made, subject)
     for number, path in enumerate(paths):
         report((number + 1) / (count + 1), f"{subject.name}: path {number + 1} of {count}")
@@ -298,21 +311,19 @@ def _bent(
         reference = told.told(part, codes[:length], (path.points - rest)[:length])
         found = field_errors.compare(reference, _renamed(hand.in_field(part), table), values)
         errors.append(found)
+        known = (reference, part, rest / MILLIMETRE, subject.codes_at)
+        told_of = (subject.tissues, subject.probe_mm)
         missing += [
-            field_errors.describe(
-                subject.name,
-                number,
-                sample,
-                reference,
-                part,
-                rest / MILLIMETRE,
-                subject.codes_at,
-                subject.tissues,
-                subject.probe_mm,
-            )
-            for sample in found.missing
+            replace(describe(subject.name, number, k, *known, *told_of), is_parted=parted)
+            for k, parted in found.missing
         ]
-    return errors, missing
+        far = np.flatnonzero(found.is_membrane & (found.places > PLACED_MM))
+        slant = [
+            describe(subject.name, number, int(found.samples[n]), *known, *told_of).grazing_deg
+            for n in far
+        ]
+        across += (found.places[far] * np.cos(np.radians(slant))).tolist()
+    return errors, missing, across
 
 
 def _same_codes_back(made: TissueField, subject: _Subject) -> Codes:
@@ -367,19 +378,20 @@ def _use_row(name: str, errors: Sequence[PathErrors]) -> tuple[str | float, ...]
     )
 
 
-def _goals(errors: Sequence[PathErrors]) -> tuple[list[str], bool]:
+def _goals(errors: Sequence[PathErrors], across: Sequence[float]) -> tuple[list[str], bool]:
     """Say which goals are met, and with which figures."""
     force = _spread([e.force for e in errors])[0]
     placed = np.concatenate([np.empty(0), *(e.places[e.is_membrane] for e in errors)])
     peaks = np.abs(np.concatenate([np.empty(0), *(e.peaks for e in errors)]))
-    far, high = int((placed > _PLACED_MM).sum()), int((peaks > _PEAK).sum())
+    far, high = int((placed > PLACED_MM).sum()), int((peaks > _PEAK).sum())
     lost, alike = sum(e.lost for e in errors), [e for e in errors if not e.lost]
     same = _spread([e.force for e in alike])[0]
     lines = [
         f"Force: {force:.3f} N RMS farther than 1 mm from membranes (goal {_FELT:g}):"
         f" {'met' if force <= _FELT else 'MISSED'}; {same:.3f} N on the {len(alike)} needles on"
         " which the same membranes give way.",
-        f"Place: {far} of {len(placed)} membranes lie farther than {_PLACED_MM:g} mm off:"
+        f"Place: {far} of {len(placed)} membranes lie farther than {PLACED_MM:g} mm off along the"
+        f" path, {sum(off > PLACED_MM for off in across)} across themselves:"
         f" {'MISSED' if far else 'met'}.",
         f"Peak: {high} of {len(peaks)} differ by more than {100 * _PEAK:g} %, and {lost} give way"
         f" in one of the two alone: {'MISSED' if high or lost else 'met'}.",
@@ -402,19 +414,22 @@ def _measured(
             ways.setdefault(name, []).append(way)
     errors: dict[str, list[PathErrors]] = {}
     missing: list[Missing] = []
+    across: dict[str, list[float]] = {}
     chest = _chest(report.part(0.3, 0.35))
     whom = (*patients, *((chest,) if chest is not None else ()))
     each = -(-count // len(whom))
     for number, who in enumerate(whom):
         part = report.part(*(0.35 + 0.65 * (number + n) / len(whom) for n in (0, 1)))
         subject = who if isinstance(who, _Subject) else _built_in(who)
-        errors[subject.name], lost = _bent(subject, each, part.report)
+        errors[subject.name], lost, across[subject.name] = _bent(subject, each, part.report)
         missing += lost
     built_in = [e for name, some in errors.items() if name != "chest" for e in some]
     rows = [_use_row(name, some) for name, some in errors.items()]
     rows.append(_use_row("built-in, all", built_in))
     joined = {name: _joined(some) for name, some in ways.items()}
-    lines, met = _goals(built_in)
+    lines, met = _goals(
+        built_in, [off for name, some in across.items() if name != "chest" for off in some]
+    )
     lines = [
         f"{len(built_in)} bent needles with breathing through {len(patients)} built-in patients,"
         f" field of {SPACING_MM:g} mm:",
@@ -424,7 +439,7 @@ def _measured(
         lines.append("No chest: ACUS_TEST_DATA names the folder of the shared data.")
     else:
         lines.append(f"{each} through a chest whose labels are steps of whole voxels:")
-        lines += _goals(errors["chest"])[0]
+        lines += _goals(errors["chest"], across["chest"])[0]
     listed = sorted(missing, key=lambda one: (one.thickness_mm, -one.grazing_deg))
     lines += [_of_missing("built-in", [m for m in listed if m.patient != "chest"])]
     lines += [_of_missing("chest", [m for m in listed if m.patient == "chest"])]
@@ -459,16 +474,18 @@ def _joined(ways: Sequence[_Way]) -> _Way:
 def _of_missing(name: str, missing: Sequence[Missing]) -> str:
     thin = sum(one.reason == "thin" for one in missing)
     grazed = sum(one.reason == "grazed" for one in missing)
-    neither = len(missing) - thin - grazed
+    parted = sum(one.reason == "a third between" for one in missing)
+    neither = len(missing) - thin - grazed - parted
     return (
         f"Boundaries not there, {name}: {len(missing)}; {thin} of tissue thinner than {THIN_MM:g}"
-        f" mm, {grazed} met at more than {GRAZING_DEG:g}° from their normal, {neither} neither."
+        f" mm, {grazed} met at more than {GRAZING_DEG:g}° from their normal, {parted} with"
+        f" a third tissue between, {neither} for no such reason."
     )
 
 
 def _missing_row(one: Missing) -> tuple[str | float, ...]:
     what = (one.patient, one.path, one.at_mm, one.into, one.thickness_mm, one.grazing_deg)
-    return (*what, one.reason or "neither")
+    return (*what, one.reason or "none known")
 
 
 def _all(progress: Progress | None = None, paths: int = PATHS, full: bool = False) -> Findings:
