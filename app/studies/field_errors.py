@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
 from app.imaging.field import FieldTissue, TissueKind
+from app.imaging.field.naming import SMALL_VESSEL
 from app.imaging.field.walking import directions
 from app.simulation.scene import TissueLayer
 from app.studies.field_paths import STEP_MM, Codes, Felt, NeedlePath
@@ -57,7 +58,9 @@ class Missing:
             return "thin"
         if self.grazing_deg > GRAZING_DEG:
             return "grazed"
-        return "a third between" if self.is_parted else ""
+        if self.is_parted:
+            return "a third between"
+        return "small vessel" if SMALL_VESSEL in self.into else ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -117,16 +120,19 @@ def compare(reference: Felt, felt: Felt, values: Sequence[TissueLayer]) -> PathE
         np.array([wanted[n][0] for n, _ in pairs], np.intp),
         np.array(membrane, bool),
         peaks,
-        tuple((one[0], _is_parted(one, there)) for n, one in enumerate(wanted) if n not in matched),
+        tuple(
+            (edge[0], _is_parted(edge, there)) for n, edge in enumerate(wanted) if n not in matched
+        ),
         len(there) - len(pairs),
         len(first) + len(second) - 2 * len(events),
     )
 
 
-def _is_parted(one: tuple[int, int, int], there: Sequence[tuple[int, int, int]]) -> bool:
+def _is_parted(wanted: tuple[int, int, int], there: Sequence[tuple[int, int, int]]) -> bool:
     """Return whether a way leaves the one tissue and comes into the other there, by a third."""
-    near = [(a, b) for m, a, b in there if abs(m - one[0]) * STEP_MM < MATCHED_MM]
-    return any(a == one[1] for a, _ in near) and any(b == one[2] for _, b in near)
+    sample, before, code = wanted
+    near = [(a, b) for m, a, b in there if abs(m - sample) * STEP_MM < MATCHED_MM]
+    return any(a == before for a, _ in near) and any(b == code for _, b in near)
 
 
 def _matched(

@@ -2,7 +2,7 @@
 
 A needle advances by `STEP_MM` a tick on a path that is given, at 10 mm/s. What lies at its tip is
 looked up by the loop's own stage in a field of tissue (`in_field`), or is told from elsewhere
-(`told`); membranes, cutting, pressing and friction then follow by the same effects, so that two
+(`by_codes`); membranes, cutting, pressing and friction then follow by the same effects, so that two
 ways differ by what they say lies where. All tissue counts as fresh: whether the tip was there
 before is the same rule in both, and no label. Coordinates are the patient's, in metres.
 """
@@ -141,7 +141,7 @@ class Hand:
         """Push through the field."""
         return self._pushed(path, None, path.breath)
 
-    def told(self, path: NeedlePath, codes: Codes, carried: FloatArray) -> Felt:
+    def by_codes(self, path: NeedlePath, codes: Codes, carried: FloatArray) -> Felt:
         """Push through what is told: the code at every tick, and how far that was carried [m]."""
         return self._pushed(path, codes, carried)
 

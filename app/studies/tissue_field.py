@@ -63,7 +63,7 @@ PATIENTS: Final = (1, 3, 6, 11, 17, 1001, 1004)
 _COMPARED: Final = (1, 6, 1001)
 _PATHS: Final = 12
 PATHS: Final = 400
-"""Random paths where nobody says how many: about two minutes on one core."""
+"""Random paths where nobody says how many: two minutes of processor time."""
 
 _MANY: Final = 10_000
 _QUICK: Final = 16
@@ -230,7 +230,7 @@ def _straight(
     paths = field_paths.straight_paths(subject.entry, subject.target, _PATHS, PATIENTS[0])
     values, still = subject.values, np.zeros_like(paths[0].points)
     told, fresh = Hand(values, _bound(_no_field(subject), subject)), _fresh(values)
-    references = [told.told(path, subject.world_codes(path.points), still) for path in paths]
+    references = [told.by_codes(path, subject.world_codes(path.points), still) for path in paths]
     counts = [field_errors.until_bone(felt.codes, subject.tissues) for felt in references]
     ways: dict[str, _Way] = {}
 
@@ -247,7 +247,7 @@ def _straight(
     start = process_time()
     along = _layers(subject, len(still))
     made_in = process_time() - start
-    add("layers along the plan", [told.told(p, along, still) for p in paths], 0, 0, made_in, 0)
+    add("layers along the plan", [told.by_codes(p, along, still) for p in paths], 0, 0, made_in, 0)
     for number, spacing in enumerate(spacings):
         report(number / len(spacings), f"{subject.name}: field of {spacing:g} mm")
         start = process_time()
@@ -264,7 +264,7 @@ def _straight(
         add(f"field of {spacing:g} mm", felt, cost, made.megabytes, made_in, loaded)
         if spacing == SPACING_MM:
             nearest = [
-                told.told(path, table[_nearest(made, path.points / MILLIMETRE)], still)
+                told.by_codes(path, table[_nearest(made, path.points / MILLIMETRE)], still)
                 for path in paths
             ]
             add(f"field of {spacing:g} mm, nearest voxel", nearest, 0, 0.5 * made.megabytes, 0, 0)
@@ -308,7 +308,7 @@ def _bent(
         codes = subject.world_codes(rest)
         length = field_errors.until_bone(codes, subject.tissues)
         part = NeedlePath(path.points[:length], path.ways[:length], path.breath[:length])
-        reference = told.told(part, codes[:length], (path.points - rest)[:length])
+        reference = told.by_codes(part, codes[:length], (path.points - rest)[:length])
         found = field_errors.compare(reference, _renamed(hand.in_field(part), table), values)
         errors.append(found)
         known = (reference, part, rest / MILLIMETRE, subject.codes_at)
@@ -440,11 +440,13 @@ def _measured(
     else:
         lines.append(f"{each} through a chest whose labels are steps of whole voxels:")
         lines += _goals(errors["chest"], across["chest"])[0]
-    listed = sorted(missing, key=lambda one: (one.thickness_mm, -one.grazing_deg))
+    listed = sorted(missing, key=lambda one: (one.patient == "chest", -one.thickness_mm))
     lines += [_of_missing("built-in", [m for m in listed if m.patient != "chest"])]
     lines += [_of_missing("chest", [m for m in listed if m.patient == "chest"])]
     if len(listed) > _LISTED:
-        lines.append(f"Of {len(listed)} that are not there the {_LISTED} thickest are listed.")
+        lines.append(
+            f"Of {len(listed)} that are not there the {_LISTED} are listed, the thickest first."
+        )
     sheets = (
         Sheet("ways", "What needles meet, by each way", _WAYS, tuple(map(_way_row, *_zip(joined)))),
         Sheet("in_use", "The field in use on bent needles, with breathing", _IN_USE, tuple(rows)),
@@ -452,7 +454,7 @@ def _measured(
             "missing",
             "Boundaries that it has not",
             _MISSING,
-            tuple(map(_missing_row, listed[-_LISTED:])),
+            tuple(map(_missing_row, listed[:_LISTED])),
         ),
     )
     return Findings(sheets, lines=tuple(lines), passed=met)
@@ -472,20 +474,21 @@ def _joined(ways: Sequence[_Way]) -> _Way:
 
 
 def _of_missing(name: str, missing: Sequence[Missing]) -> str:
-    thin = sum(one.reason == "thin" for one in missing)
-    grazed = sum(one.reason == "grazed" for one in missing)
-    parted = sum(one.reason == "a third between" for one in missing)
-    neither = len(missing) - thin - grazed - parted
+    reasons = ("thin", "grazed", "a third between", "small vessel", "")
+    thin, grazed, parted, small, neither = (
+        sum(one.reason == reason for one in missing) for reason in reasons
+    )
     return (
         f"Boundaries not there, {name}: {len(missing)}; {thin} of tissue thinner than {THIN_MM:g}"
-        f" mm, {grazed} met at more than {GRAZING_DEG:g}° from their normal, {parted} with"
-        f" a third tissue between, {neither} for no such reason."
+        f" mm, {grazed} met at more than {GRAZING_DEG:g}° from their normal, {parted} with a third"
+        f" tissue between, {small} of vessels of less than 2 mm, {neither} for no such reason."
     )
 
 
-def _missing_row(one: Missing) -> tuple[str | float, ...]:
-    what = (one.patient, one.path, one.at_mm, one.into, one.thickness_mm, one.grazing_deg)
-    return (*what, one.reason or "none known")
+def _missing_row(missing: Missing) -> tuple[str | float, ...]:
+    place = (missing.patient, missing.path, missing.at_mm, missing.into)
+    hard = (missing.thickness_mm, missing.grazing_deg, missing.reason or "none known")
+    return (*place, *hard)
 
 
 def _all(progress: Progress | None = None, paths: int = PATHS, full: bool = False) -> Findings:
