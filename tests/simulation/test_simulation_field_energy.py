@@ -182,10 +182,10 @@ def test_pushes_pulls_and_tilts_give_out_no_more_than_was_stored_and_breathing_s
 
 @pytest.mark.long("statistics")
 @settings(
-    max_examples=600, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck)
+    max_examples=200, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck)
 )
 @given(SEGMENTS)
-def test_six_hundred_hands_get_out_no_more_than_was_stored(
+def test_two_hundred_hands_get_out_no_more_than_was_stored(
     segments: list[tuple[str, float, float, float, float]],
 ) -> None:
     assert is_passive(gone(segments))
