@@ -67,9 +67,16 @@ def study(
     seed: Annotated[
         int | None, typer.Option(min=0, help="`adversary`: of search and noise")
     ] = None,
+    needles: Annotated[
+        int | None, typer.Option("--paths", min=1, help="`tissue_field`: random needles")
+    ] = None,
+    full: Annotated[
+        bool, typer.Option("--full", help="`tissue_field`: 10 000 random needles, half an hour")
+    ] = False,
 ) -> Answer:
     """Run a study, or `all`, or `list` them: error against time."""
-    options = {"exercise": exercise, "evaluations": evaluations, "seed": seed}
+    options = {"exercise": exercise, "evaluations": evaluations, "seed": seed, "paths": needles}
+    options["full"] = full or None
     asked = {key: value for key, value in options.items() if value is not None}
     _refuse_options(name, asked)
     if name == "list":

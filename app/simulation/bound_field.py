@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import weakref
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
@@ -18,6 +18,8 @@ from app.imaging.field import FieldTissue, TissueField, TissueKind
 from app.imaging.field.walking import holding as holding_codes
 from app.simulation.errors import SimulationError
 from app.simulation.scene import TissueLayer
+
+CodesOf = Callable[[FloatArray], NDArray[np.intp]]
 
 MOVING: Final = frozenset(
     {TissueKind.ORGAN, TissueKind.VESSEL, TissueKind.GUT, TissueKind.HEART, TissueKind.LUNG}
@@ -115,26 +117,31 @@ class BoundField:
             ]
         )
 
-    def at_rest(self, p_world: FloatArray, breath: FloatArray) -> FloatArray:
+    def at_rest(
+        self, p_world: FloatArray, breath: FloatArray, codes_of: CodesOf | None = None
+    ) -> FloatArray:
         """Return where the tissue at points rests, as `tissue_walk` looks it up in the loop.
 
         Args:
             p_world: points [m], shape (n, 3).
             breath: displacement of what goes along with all of breathing [m], shape (n, 3).
+            codes_of: tells the codes of tissues at rest at points [m], (n, 3) -> (n,); None for
+                the field itself. A reference knows better.
         """
+        look = codes_of or self._codes
         resting = p_world.copy()
         moved = np.flatnonzero(breath.any(axis=1))
-        moved = moved[self._moves[self._codes(p_world[moved])]]
+        moved = moved[self._moves[look(p_world[moved])]]
         points, way = p_world[moved], breath[moved]
         share = np.zeros(len(moved))
         held = np.zeros(len(moved), bool)  # halved: it came to what stays
         for _ in range(_TURNS):
-            codes = self._codes(points - share[:, None] * way)
+            codes = look(points - share[:, None] * way)
             lies = self._moves[codes]
             now = self._shares(codes, points - share[:, None] * way)
             share = np.where(lies, np.where(held, share, now), 0.5 * share)
             held |= ~lies
-        lies = self._moves[self._codes(points - share[:, None] * way)]
+        lies = self._moves[look(points - share[:, None] * way)]
         resting[moved] -= np.where(lies, share, 0.0)[:, None] * way
         return resting
 

@@ -9,17 +9,28 @@ stored public pages, with the words that are given.
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from math import log, pi
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Final
 
 from app.core.messages import sentence
 from app.imaging.field.tissue_field import TissueKind
 from app.simulation import scene
+from app.simulation.along_needle import GAUGE_18
 from app.simulation.errors import SimulationError
 from app.simulation.scene import TissueLayer
 
 if TYPE_CHECKING:
     from app.imaging.field import FieldTissue
+
+HELD_AT: Final = 0.05
+"""How far from the needle an organ is held [m], for the next; half the width of a liver."""
+
+MODULUS_PER_STIFFNESS: Final = 3.0 * (log(HELD_AT / (0.5 * GAUGE_18)) - 1.0) / (4.0 * pi)
+"""Young's modulus over side stiffness, 0.80 for 18 G.
+
+A rod of radius a pushed sideways in an incompressible medium that is held at R meets, a length,
+k = 4πG / (ln(R/a) - 1), and E = 3G. It is 0.59 for R of 20 mm and 0.97 for 100 mm."""
 
 SKIN: Final = replace(
     scene.SKIN,
@@ -37,8 +48,10 @@ friction force per unit length"."""
 FAT: Final = replace(scene.FAT, side_stiffness=3.3e3, toughness=1000.0, relaxation_share=0.4)
 """J: published are 4100 J/m² of porcine fat (same table), which is 5.2 N for 18 G, more than skin,
 fat and muscle together take in vivo (2 to 3 N, Maurin 2004); both cannot hold, and the low end is
-taken, 1.3 N. Side stiffness: breast fat 3.25 ± 0.91 kPa (Samani 2007, from memory, to be read
-again). All else: estimates, none found: searched "subcutaneous fat needle insertion force"."""
+taken, 1.3 N. Side stiffness k is E = 2.7 kPa by `MODULUS_PER_STIFFNESS`: fat and gland of the
+breast are 3.04 ± 1.17 kPa in seven volunteers (suction), 3.2 ± 0.4 to 8.8 ± 1.1 kPa indented ex
+vivo (Teixeira 2023), fat of the buttocks G = 0.75 kPa undeformed (ten women, magnetic resonance).
+All else: estimates, none found: searched "subcutaneous fat needle insertion force"."""
 
 MUSCLE: Final = replace(
     scene.MUSCLE,
@@ -63,14 +76,14 @@ is 0.9 N at 60 mm and 3 mm/s where he measured 1.63 N, his cutting being 0.94 N;
 sources and his total is a measurement too, so what is left, 0.8 N, is what the tip presses on
 without cutting. Barnett (2015: tearing 61, spreading 18, friction 21 %) would have it the other way
 round; his shares are of his specimen, cut by his needles, and friction here is 0.4 of the whole.
-Side stiffness: shear waves, 4.74 ± 0.91 kPa in 115 and 5.10 ± 1.02 kPa in 502 healthy people; k =
-4πG / (ln(R/a) - 1), E = 3G, is 2.4 to 9 kPa. Relaxation: liver's force halves and more
-(PMC7595329); three decades from 0.5 s."""
+Side stiffness: shear waves, 4.74 ± 0.91 kPa in 115 and 5.10 ± 1.02 kPa in 502 healthy people; k is
+E = 3.8 kPa by `MODULUS_PER_STIFFNESS`. Relaxation: an estimate; three decades from 0.5 s. Indented
+tissue that is said to fall below half (PMC7595329) is not followed: resources/published.yaml."""
 
 CIRRHOTIC_LIVER: Final = replace(LIVER, name="cirrhotic liver", side_stiffness=20e3)
-"""Of 20 kPa, which elastography calls cirrhotic (above 12.5 to 15 kPa by FibroScan, Castera 2005,
-from memory, to be read again). Its other values are those of healthy liver: estimates, none
-found."""
+"""Of k = 20 kPa, which is E = 16 kPa by `MODULUS_PER_STIFFNESS`: elastography calls it cirrhotic
+from 9.6 kPa (best cut-off) or 12.2 kPa (most specific) on (246 patients, PMC3542745). Its other
+values are those of healthy liver: estimates, none found."""
 
 KIDNEY: Final = replace(LIVER, name="kidney", side_stiffness=6e3, puncture_force=0.6)
 """Capsule 0.3 to 1 N in vivo (Maurin 2004, kidney and liver together). All else that of liver:

@@ -153,9 +153,9 @@ def toughness(version: str, protocol: Protocol) -> float:
     return _tissue(version, protocol).toughness
 
 
-def side_stiffness(version: str, protocol: Protocol) -> float:
-    """Return it [kPa]."""
-    return _tissue(version, protocol).side_stiffness / 1e3
+def young_modulus(version: str, protocol: Protocol) -> float:
+    """Return Young's modulus that the side stiffness of 18 G is [kPa]."""
+    return tissues.MODULUS_PER_STIFFNESS * _tissue(version, protocol).side_stiffness / 1e3
 
 
 def friction_before_puncture(version: str, protocol: Protocol) -> float:
@@ -278,7 +278,7 @@ EXPERIMENTS: Final[Mapping[str, Callable[[str, Protocol], float]]] = {
         dimple_by_speed,
         second_cut,
         toughness,
-        side_stiffness,
+        young_modulus,
         friction_before_puncture,
         friction_slope,
         friction_by_speed,
@@ -296,3 +296,6 @@ EXPERIMENTS: Final[Mapping[str, Callable[[str, Protocol], float]]] = {
     )
 }
 """Name in a case -> the experiment."""
+
+PARAMETERS: Final = frozenset({"toughness", "young_modulus"})
+"""Experiments that read a value of a tissue, and drive nothing."""

@@ -3,7 +3,8 @@
 The cases stand in resources/published.yaml: what was measured of needles in tissue, how, by whom,
 and the range that holds it. Each is driven along its protocol (`insertions`), by today's values and
 models and by those of before, and held against its range. Where measurements exclude each other
-both are shown; the one that is not followed says why.
+both are shown; the one that is not followed says why. Where ours is a value that was set by such
+numbers, or where it is so by definition, agreeing is no finding: that is counted apart.
 """
 
 from collections.abc import Mapping
@@ -21,7 +22,7 @@ from app.simulation.needles import OUTER_DIAMETER
 from app.simulation.tissues import FIRST, PUBLISHED, TISSUES
 from app.studies.errors import StudyError
 from app.studies.findings import Findings, Sheet, Survey
-from app.studies.insertions import EXPERIMENTS
+from app.studies.insertions import EXPERIMENTS, PARAMETERS
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Published: needles in tissue, measured and ours",
@@ -105,6 +106,11 @@ class PublishedCase:
         if self.means == "middle of the range":
             return f"{self.least:g} to {self.most:g}"
         return f"{self.value:g}" if self.means == "mean" else f"{self.means} {self.value:g}"
+
+    @property
+    def is_definition(self) -> bool:
+        """Return whether it holds because the value or the effect was made so."""
+        return self.chosen and (self.kind == "definition" or self.drive in PARAMETERS)
 
     def ours(self, version: str = PUBLISHED) -> float:
         """Return what the program's values and models of a version give [unit]."""
@@ -229,7 +235,7 @@ def _check_names(where: str, row: Mapping[str, Any]) -> None:
 
 def _verdict(case: PublishedCase, ours: float) -> str:
     if case.holds(ours):
-        return "within"
+        return "definition" if case.is_definition else "within"
     return "OUTSIDE" if case.chosen else "not followed"
 
 
@@ -259,10 +265,14 @@ def measure(progress: Progress | None = None) -> Findings:
         rows.append(_row(case, found, case.ours(FIRST)))
         if case.chosen and not case.holds(found):
             outside.append(case.name)
-    followed = sum(case.chosen for case in cases())
+    definitions = sum(case.is_definition for case in cases())
+    driven = [case.name for case in cases() if case.chosen and not case.is_definition]
+    hold = len(driven) - len(set(driven) & set(outside))
     lines = [
-        f"{followed - len(outside)} of {followed} measurements that are followed hold;"
-        f" {len(cases()) - followed} are not followed."
+        f"{hold} of {len(driven)} measurements that effects are driven along and that are followed"
+        f" hold. {definitions} more are definitions: a value beside the numbers that it was set by,"
+        f" or so by the effect's own rule. {sum(not case.chosen for case in cases())} are not"
+        " followed."
     ]
     lines += [f"OUTSIDE {name}" for name in outside]
     lines += [f"{case.name}: {' '.join(case.choice.split())}" for case in cases() if case.choice]

@@ -209,13 +209,31 @@ def test_tissue_that_breathes_past_a_tip_that_stands_is_told() -> None:
     rows = go(stages, stands, axis=(0.0, 0.0, -1.0), before=breathe)
     assert set(rows[:, sv.TISSUE]) == {2.0, 3.0}  # the liver comes up to the tip, and goes again
     met = rows[rows[:, sv.WALL] < 0.0]
-    assert met[:, sv.TISSUE].tolist() == [3.0, 2.0]
+    assert met[:, sv.TISSUE].tolist() == [3.0]  # going away from the tip is the tip's going back
     np.testing.assert_allclose(
         rows[:, sv.CARRIED_Z], rows[:, sv.CARRIED_SHARE] * rows[:, sv.BREATH_Z]
     )
 
 
 DOWN = (("skin", 2.0), ("organ", 100.0))
+
+
+@pytest.mark.parametrize("tissue_speed", [-8.0, 3.0, 6.0])
+def test_a_wall_that_breathes_along_does_not_hold_up_the_walk(tissue_speed: float) -> None:
+    """Tissue goes along the needle [mm/s] that goes in at 10 mm/s: its wall is met once."""
+    field = field_of(layered(("organ", 20.0), ("vessel", 100.0)))
+    stages = stages_in(scene_in(field, "tissue_field"))
+
+    def breathe(k: int, state: FloatArray) -> None:
+        state[sv.BREATH_Z] = -1e-6 * tissue_speed * k
+
+    rows = go(stages, straight(0.01, 0.045, 1e-5), axis=(0.0, 0.0, -1.0), before=breathe)
+    codes = rows[:, sv.TISSUE]
+    changes = np.flatnonzero(np.diff(codes)) + 1
+    assert codes[changes].tolist() == [3.0]
+    share = rows[changes[0], sv.CARRIED_SHARE]
+    wall = 0.020 + share * 1e-6 * tissue_speed * changes[0]
+    assert rows[changes[0], sv.DEPTH] == pytest.approx(wall, abs=6e-5)
 
 
 def test_what_was_cut_is_a_channel_to_its_end_and_what_lies_beside_is_fresh() -> None:

@@ -5,6 +5,7 @@ import os
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import yaml
 
@@ -12,7 +13,14 @@ from app.simulation import scene, tissues
 from app.simulation.effects import declaration, effect_names
 from app.simulation.errors import SimulationError
 from app.studies.errors import StudyError
-from app.studies.published import KINDS, PublishedCase, cases, cases_file, read_cases
+from app.studies.published import (
+    KINDS,
+    PublishedCase,
+    cases,
+    cases_file,
+    measure,
+    read_cases,
+)
 from tools import published_page
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -157,6 +165,24 @@ def test_tissues_are_had_by_name_and_version() -> None:
         tissues.tissue("jelly")
     with pytest.raises(SimulationError, match="called 'newest'; there are first, published"):
         tissues.tissue("liver", "newest")
+
+
+def test_what_only_reads_a_value_is_called_a_definition_and_not_counted_as_holding() -> None:
+    verdicts = {row[0]: row[9] for row in measure().sheets[0].rows}
+    for name in ("liver-J", "fat-J", "liver-E", "fat-E", "liver-capsule-total"):
+        assert verdicts[name] == "definition"
+    assert verdicts["okamura-60mm"] == "within"
+    assert verdicts["hold-relaxation"] == "not followed"
+    driven = [case for case in cases() if case.chosen and not case.is_definition]
+    assert f"{len(driven)} of {len(driven)} measurements" in measure().lines[0]
+    assert not any("memory" in case.read for case in cases())
+
+
+def test_young_modulus_of_a_side_stiffness_is_that_of_a_rod_in_an_organ() -> None:
+    """k = 4πG / (ln(R/a) - 1), E = 3G: 18 G in an organ held at 50 mm, by hand."""
+    shear = 4.7 * (np.log(50.0 / 0.635) - 1.0) / (4.0 * np.pi)
+    by_name = {case.name: case for case in cases()}
+    assert by_name["liver-E"].ours() == pytest.approx(3.0 * shear, rel=1e-9)
 
 
 def test_the_page_is_what_the_study_prints() -> None:

@@ -7,11 +7,12 @@ computed from what is met here. A tick moves a bent tip by hundredths of a milli
 line.
 
 The way of the tip since the tick before is walked through the field (`tissue_walk`), in steps that
-no boundary lies within, or of a quarter of a voxel. At the first wall the walk ends: TISSUE is what
-lies behind it, WALL negative: how far back it was met; what is left of the way is walked in the
-next tick. So no wall is jumped over, and several in one tick are told one a tick. Going back tells
-none: what was pierced stays pierced. Where the tissue moves past a tip that stands, the wall that
-passes is told in the same way.
+no boundary lies within, or of a quarter of a voxel. It begins where the tissue that the tip was in
+has gone since with breathing: a wall that moves cannot hold the walk up. At the first wall it ends:
+TISSUE is what lies behind it, WALL negative: how far back it was met; what is left of the way is
+walked in the next tick. So no wall is jumped over, and several in one tick are told one a tick.
+Going back tells none: what was pierced stays pierced. Where the tissue moves past a tip that
+stands, the wall that passes is told in the same way.
 
 Otherwise WALL is the way to the first wall ahead, 1 for none within `ahead`. In what is rigid it is
 the surface behind the tip, as far as distances reach.
@@ -89,7 +90,8 @@ _SIDEWAYS: Final = -0.5  # cosine between way and needle below which the tip goe
 class _MemoryPlaces(NamedTuple):
     """Constants; the place walked to, its tissue and share, the bend, the end of the cut; points.
 
-    `ready` is 1 once there is a place, `enabled` what ENABLED was; `points` were made so far.
+    `breath_*` is BREATH when the place was walked to; `ready` is 1 once there is one, `enabled`
+    what ENABLED was; `points` were made so far.
     """
 
     ahead: int
@@ -99,6 +101,9 @@ class _MemoryPlaces(NamedTuple):
     z: int = 0
     code: int = 0
     share: int = 0
+    breath_x: int = 0
+    breath_y: int = 0
+    breath_z: int = 0
     ready: int = 0
     enabled: int = 0
     bent_x: int = 0
@@ -298,6 +303,31 @@ def _is_far(p: FloatArray, tip: Any) -> bool:
 
 
 @njit
+def _begin(p: FloatArray, labels: Any, distance: Any, breath: Any) -> Any:
+    """Return where the walk begins: the place walked to, gone on with its tissue; what lies there.
+
+    Where that is another tissue, as along a wall that stays, it begins at the place as it was.
+    """
+    near, code = p[_AT.share], p[_AT.code]
+    x, y, z = p[_AT.x], p[_AT.y], p[_AT.z]
+    dx, dy, dz = (
+        breath[0] - p[_AT.breath_x],
+        breath[1] - p[_AT.breath_y],
+        breath[2] - p[_AT.breath_z],
+    )
+    if near != 0.0 and (dx != 0.0 or dy != 0.0 or dz != 0.0):
+        mx, my, mz = x + near * dx, y + near * dy, z + near * dz
+        moved = tissue_at(p, labels, distance, mx, my, mz, breath, near)
+        if moved[0] == code:
+            return mx, my, mz, moved
+        seen = tissue_at(p, labels, distance, x, y, z, breath, near)
+        if seen[0] != code:
+            return mx, my, mz, moved
+        return x, y, z, seen
+    return x, y, z, tissue_at(p, labels, distance, x, y, z, breath, near)
+
+
+@njit
 def _walk(state: FloatArray, p: FloatArray, tip: Any, depth: float) -> None:
     """Go from the place of the tick before towards the tip, and tell what is met and lies there."""
     labels, distance, breath = labels_of(p), distances_of(p), _breath_of(state)
@@ -307,14 +337,14 @@ def _walk(state: FloatArray, p: FloatArray, tip: Any, depth: float) -> None:
         p[_AT.x], p[_AT.y], p[_AT.z] = tip
         p[_AT.code] = tissue_at(p, labels, distance, tip[0], tip[1], tip[2], breath, near)[0]
         p[_AT.ready] = 1.0
-    x, y, z = p[_AT.x], p[_AT.y], p[_AT.z]
+        p[_AT.breath_x], p[_AT.breath_y], p[_AT.breath_z] = breath
+    x, y, z, seen = _begin(p, labels, distance, breath)
     dx, dy, dz = tip[0] - x, tip[1] - y, tip[2] - z
     length = np.sqrt(dx * dx + dy * dy + dz * dz)
     along = dx * way[0] + dy * way[1] + dz * way[2]
     met, code = False, int(p[_AT.code])
     goes_back = length > 0.0 and along < _SIDEWAYS * length
     if not goes_back:
-        seen = tissue_at(p, labels, distance, x, y, z, breath, near)
         if seen[0] != code:  # it has moved past a tip that stood
             met = True
         elif length > 0.0:
@@ -329,6 +359,7 @@ def _walk(state: FloatArray, p: FloatArray, tip: Any, depth: float) -> None:
         x, y, z = tip
     seen = tissue_at(p, labels, distance, x, y, z, breath, near)
     p[_AT.x], p[_AT.y], p[_AT.z], p[_AT.code], p[_AT.share] = x, y, z, seen[0], seen[6]
+    p[_AT.breath_x], p[_AT.breath_y], p[_AT.breath_z] = breath
     share = seen[6]
     dimple = p[_AT.dimple]
     rx = x - share * breath[0] - dimple * way[0]
