@@ -52,9 +52,8 @@ def run(
     from app.tracking.cameras.settings import parse_cameras
     from app.tracking.cameras.source import parse_source
     from app.views.shell.application import start
-    from app.views.shell.collector import collect_for
     from app.views.shell.language import Rebuilding
-    from app.views.shell.window import MainWindow, open_window
+    from app.views.shell.window import open_window
 
     if pen is not None:
         needle_sources.KIND.find("pen")
@@ -63,28 +62,21 @@ def run(
     tell_folder()
     application = start()
     services = Desktop()
-    window = open_window(services)
+    rebuilding = Rebuilding(lambda: open_window(services))
+    window = rebuilding.window
     if device is not None:
         window.equipment.take(device)
     if chosen is not None:
         window.equipment.take_cameras(chosen)
     if pen is not None:
         window.equipment.take_pen(pen)
-    collectors = [collect_for(window)]
-
-    def follow(new: MainWindow) -> None:
-        collectors.pop().close()
-        collectors.append(collect_for(new))
-
-    rebuilding = Rebuilding(window, lambda: open_window(services), follow)
     window.show()
     if exercise:
         window.begin_exercise(exercise)
     if ct is not None:
         window.open_ct.open_folder(ct)
     code = application.exec()
-    collectors.pop().close()
-    del rebuilding
+    rebuilding.close()
     raise typer.Exit(code)
 
 

@@ -18,7 +18,7 @@ from app.imaging.field import FieldTissue, TissueKind
 from app.imaging.field.naming import SMALL_VESSEL
 from app.imaging.field.walking import directions
 from app.simulation.scene import TissueLayer
-from app.studies.field_paths import STEP_MM, Codes, Felt, NeedlePath
+from app.studies.field_paths import STEP_MM, Codes, NeedleFeel, NeedlePath
 
 NEAR_MM: Final = 1.0
 MATCHED_MM: Final = 3.0
@@ -100,7 +100,7 @@ def until_bone(codes: Codes, tissues: Sequence[FieldTissue]) -> int:
     return int(np.argmax(bone)) + 1 if bone.any() else len(codes)
 
 
-def compare(reference: Felt, felt: Felt, values: Sequence[TissueLayer]) -> PathErrors:
+def compare(reference: NeedleFeel, felt: NeedleFeel, values: Sequence[TissueLayer]) -> PathErrors:
     """Hold what was felt against the reference, both of one length."""
     wanted, there = boundaries(reference.codes), boundaries(felt.codes)
     pairs = _matched(wanted, there)
@@ -155,7 +155,7 @@ def _matched(
     return sorted(pairs)
 
 
-def _given_way(felt: Felt) -> list[tuple[int, float]]:
+def _given_way(felt: NeedleFeel) -> list[tuple[int, float]]:
     """Return when membranes give way, and with which force [N]."""
     ticks = np.flatnonzero(np.diff(felt.punctures) > 0.0) + 1
     events, before = [], 0
@@ -170,7 +170,7 @@ def describe(
     patient: str,
     number: int,
     sample: int,
-    reference: Felt,
+    reference: NeedleFeel,
     path: NeedlePath,
     rest: FloatArray,
     codes_at: CodesAt,

@@ -53,7 +53,7 @@ class NeedlePath:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Felt:
+class NeedleFeel:
     """What a needle met and felt, arrays of length n.
 
     Attributes:
@@ -116,7 +116,7 @@ def _path(
     return NeedlePath(points, ways, share[:, None] * breath)
 
 
-class Hand:
+class PushingHand:
     """Pushes needles along paths through tissues of given values.
 
     Args:
@@ -137,15 +137,15 @@ class Hand:
             stages.append((load(declared).step, array))
         return stages
 
-    def in_field(self, path: NeedlePath) -> Felt:
+    def in_field(self, path: NeedlePath) -> NeedleFeel:
         """Push through the field."""
         return self._pushed(path, None, path.breath)
 
-    def by_codes(self, path: NeedlePath, codes: Codes, carried: FloatArray) -> Felt:
+    def by_codes(self, path: NeedlePath, codes: Codes, carried: FloatArray) -> NeedleFeel:
         """Push through what is told: the code at every tick, and how far that was carried [m]."""
         return self._pushed(path, codes, carried)
 
-    def _pushed(self, path: NeedlePath, codes: Codes | None, carried: FloatArray) -> Felt:
+    def _pushed(self, path: NeedlePath, codes: Codes | None, carried: FloatArray) -> NeedleFeel:
         (look, field), *along = self._stages(("tissue_field", *ALONG))
         state, none, count = sv.empty_state(), np.zeros(1), len(path.points)
         state[sv.DT], state[sv.DEPTH_SOURCE] = _TICK, 1.0
@@ -171,4 +171,4 @@ class Hand:
                     forces[k, 1] = state[sv.AXIAL_FORCE]
             met[k] = state[sv.TISSUE]
             forces[k, 0], forces[k, 2] = state[sv.AXIAL_FORCE], state[sv.PUNCTURES]
-        return Felt(met, forces[:, 0], forces[:, 1], forces[:, 2])
+        return NeedleFeel(met, forces[:, 0], forces[:, 1], forces[:, 2])

@@ -47,7 +47,7 @@ from app.studies.field_errors import (
     PathErrors,
     describe,
 )
-from app.studies.field_paths import BEFORE_MM, STEP_MM, Codes, Felt, Hand, NeedlePath
+from app.studies.field_paths import BEFORE_MM, STEP_MM, Codes, NeedleFeel, NeedlePath, PushingHand
 from app.studies.findings import Findings, Sheet, Survey
 from app.studies.references.recipe_points import RecipePoints
 from app.studies.references.voxel_labels import VoxelLabels
@@ -119,7 +119,7 @@ class _Subject:
 
 
 @dataclass(slots=True, eq=False)
-class _Way:
+class _FieldWay:
     """What came of a way, and its costs."""
 
     errors: list[PathErrors] = field(default_factory=list)
@@ -219,23 +219,23 @@ def _look_up_ns(bound: BoundField, points: FloatArray) -> float:
     return 1e9 * min(times) / len(points)
 
 
-def _cut(felt: Felt, count: int) -> Felt:
-    return Felt(*(getattr(felt, name)[:count] for name in Felt.__slots__))
+def _cut(felt: NeedleFeel, count: int) -> NeedleFeel:
+    return NeedleFeel(*(getattr(felt, name)[:count] for name in NeedleFeel.__slots__))
 
 
 def _straight(
     subject: _Subject, spacings: Sequence[float], report: Callable[[float, str], None]
-) -> dict[str, _Way]:
+) -> dict[str, _FieldWay]:
     """Compare every way on straight needles without breathing, by its name."""
     paths = field_paths.straight_paths(subject.entry, subject.target, _PATHS, PATIENTS[0])
     values, still = subject.values, np.zeros_like(paths[0].points)
-    told, fresh = Hand(values, _bound(_no_field(subject), subject)), _fresh(values)
+    told, fresh = PushingHand(values, _bound(_no_field(subject), subject)), _fresh(values)
     references = [told.by_codes(path, subject.world_codes(path.points), still) for path in paths]
     counts = [field_errors.until_bone(felt.codes, subject.tissues) for felt in references]
-    ways: dict[str, _Way] = {}
+    ways: dict[str, _FieldWay] = {}
 
-    def add(name: str, felt_by: Sequence[Felt], *costs: float) -> None:
-        way = ways[name] = _Way()
+    def add(name: str, felt_by: Sequence[NeedleFeel], *costs: float) -> None:
+        way = ways[name] = _FieldWay()
         way.costs.append((costs[0], costs[1], costs[2], costs[3]))
         for felt, reference, count in zip(felt_by, references, counts, strict=True):
             one, other = _cut(felt, count), _cut(reference, count)
@@ -258,7 +258,7 @@ def _straight(
         from_bytes(content, check=False)
         loaded = perf_counter() - start
         bound, table = _bound(made, subject), _same_codes(made, subject.tissues)
-        hand = Hand(tissue_values(made.tissues), bound)
+        hand = PushingHand(tissue_values(made.tissues), bound)
         felt = [_renamed(hand.in_field(path), table) for path in paths]
         cost = _look_up_ns(bound, np.concatenate([path.points for path in paths]))
         add(f"field of {spacing:g} mm", felt, cost, made.megabytes, made_in, loaded)
@@ -271,8 +271,8 @@ def _straight(
     return ways
 
 
-def _renamed(felt: Felt, table: Codes) -> Felt:
-    return Felt(table[felt.codes], felt.force, felt.membrane, felt.punctures)
+def _renamed(felt: NeedleFeel, table: Codes) -> NeedleFeel:
+    return NeedleFeel(table[felt.codes], felt.force, felt.membrane, felt.punctures)
 
 
 def _nearest(made: TissueField, points_mm: FloatArray) -> Codes:
@@ -292,8 +292,8 @@ def _bent(
     report(0.0, f"{subject.name}: the field in use")
     made = make(subject.volume, (), subject.entry, _REACH_MM, SPACING_MM)
     bound, table, values = _bound(made, subject), _same_codes(made, subject.tissues), subject.values
-    hand = Hand(tissue_values(made.tissues), bound)
-    told = Hand(values, _bound(_no_field(subject), subject))
+    hand = PushingHand(tissue_values(made.tissues), bound)
+    told = PushingHand(values, _bound(_no_field(subject), subject))
     errors: list[PathErrors] = []
     missing: list[Missing] = []
     across: list[float] = []
@@ -340,7 +340,7 @@ def _spread(values: Sequence[FloatArray]) -> tuple[float, float, float]:
     return float((every**2).mean() ** 0.5), float(np.percentile(every, 95.0)), float(every.max())
 
 
-def _way_row(name: str, way: _Way) -> tuple[str | float, ...]:
+def _way_row(name: str, way: _FieldWay) -> tuple[str | float, ...]:
     force, places = _spread([e.force for e in way.errors]), _spread([e.places for e in way.errors])
     total = sum(len(e.places) + len(e.missing) for e in way.errors)
     lost = sum(len(e.missing) for e in way.errors)
@@ -407,7 +407,7 @@ def _measured(
     progress: Progress | None,
 ) -> Findings:
     report = progress or Progress()
-    ways: dict[str, list[_Way]] = {}
+    ways: dict[str, list[_FieldWay]] = {}
     for number, seed in enumerate(compared):
         part = report.part(0.3 * number / len(compared), 0.3 * (number + 1) / len(compared))
         for name, way in _straight(_built_in(seed), spacings, part.report).items():
@@ -460,12 +460,12 @@ def _measured(
     return Findings(sheets, lines=tuple(lines), passed=met)
 
 
-def _zip(joined: dict[str, _Way]) -> tuple[Sequence[str], Sequence[_Way]]:
+def _zip(joined: dict[str, _FieldWay]) -> tuple[Sequence[str], Sequence[_FieldWay]]:
     return tuple(joined), tuple(joined.values())
 
 
-def _joined(ways: Sequence[_Way]) -> _Way:
-    return _Way(
+def _joined(ways: Sequence[_FieldWay]) -> _FieldWay:
+    return _FieldWay(
         [error for way in ways for error in way.errors],
         max(way.side for way in ways),
         max(way.tip for way in ways),

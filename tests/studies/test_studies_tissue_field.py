@@ -12,7 +12,7 @@ from app.imaging.phantom.series import phantom_series
 from app.imaging.reading import load_ct
 from app.simulation.scene import TissueLayer
 from app.studies import field_errors, field_paths, tissue_field
-from app.studies.field_paths import STEP_MM, Felt
+from app.studies.field_paths import STEP_MM, NeedleFeel
 from app.studies.references.recipe_points import RecipePoints
 
 SOFT = TissueLayer("soft", 0.0)
@@ -24,9 +24,9 @@ def recipe() -> RecipePoints:
     return RecipePoints(1001)
 
 
-def felt(codes: list[int], force: float = 0.0) -> Felt:
+def felt(codes: list[int], force: float = 0.0) -> NeedleFeel:
     count = len(codes)
-    return Felt(np.array(codes), np.full(count, force), np.zeros(count), np.zeros(count))
+    return NeedleFeel(np.array(codes), np.full(count, force), np.zeros(count), np.zeros(count))
 
 
 def test_the_reference_has_each_organ_where_the_anatomy_says() -> None:

@@ -31,11 +31,10 @@ def german(tmp_path, monkeypatch, application):
 
 @pytest.fixture
 def rebuilding(application, german, services, destroy, settle):
-    followed, first = [], MainWindow(services)
-    first.show()
-    result = Rebuilding(first, lambda: MainWindow(services), followed.append)
-    result.followed = followed
+    result = Rebuilding(lambda: MainWindow(services))
+    result.window.show()
     yield result
+    result.close()
     result.window.editor.saved(None)
     destroy(result.window)
     settle()
@@ -70,7 +69,6 @@ def test_another_language_keeps_patient_plan_and_exercise(patient, rebuilding, s
     rebuilding.change("de")
     new = rebuilding.window
     assert new is not window
-    assert rebuilding.followed == [new]
     assert "&Datei" in menus(new)
     assert new.isVisible()
     assert new.conductor.patient is patient

@@ -206,9 +206,9 @@ def search(
         watch.report(
             number / evaluations,
             sentence(
-                "{label}: {number} of {evaluations}, {holes} holes",
+                "{label}: {current} of {evaluations}, {holes} holes",
                 label=label,
-                number=number,
+                current=number,
                 evaluations=evaluations,
                 holes=holes,
             ),

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QApplication, QMenu
 from app.views.kit.language import choose, chosen, code_for, languages, use_language
 from app.views.kit.text import tr
 from app.views.plan.feature import PlanFeature
+from app.views.shell.collector import collect_for
 from app.views.shell.window import MainWindow
 
 
@@ -37,26 +38,23 @@ class Rebuilding(QObject):
     """Replaces the window by one in the language that is chosen in it.
 
     Args:
-        window: the first one.
-        make: returns another one, not shown.
-        follow: told each window that took another's place.
+        make: returns a window, not shown.
 
     Attributes:
         window: the one that stands.
     """
 
-    def __init__(
-        self,
-        window: MainWindow,
-        make: Callable[[], MainWindow],
-        follow: Callable[[MainWindow], object],
-    ) -> None:
+    def __init__(self, make: Callable[[], MainWindow]) -> None:
         super().__init__(QApplication.instance())
-        self._make, self._follow = make, follow
-        self._attach(window)
+        self._make = make
+        self._attach(make())
+
+    def close(self) -> None:
+        """Let Python collect by itself again; idempotent."""
+        self._collector.close()
 
     def _attach(self, window: MainWindow) -> None:
-        self.window = window
+        self.window, self._collector = window, collect_for(window)
         menu = window.view_menu.add_menu(tr("Language"))
         menu.aboutToShow.connect(lambda: fill_language_menu(menu, window.settings, self.change))
 
@@ -82,13 +80,13 @@ class Rebuilding(QObject):
         window.editor.saved(path)  # the plan is taken along: nothing is asked of it
         application.setQuitOnLastWindowClosed(False)
         window.close()
+        self._collector.close()
         choose(window.settings, code)
         use_language(application, code)
         self._attach(self._make())
         new = self.window
         new.show()
         application.setQuitOnLastWindowClosed(True)
-        self._follow(new)
         if exercise is not None:
             new.conductor.set_exercise(exercise)
         if patient is not None:
