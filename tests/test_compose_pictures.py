@@ -5,6 +5,7 @@ import pytest
 
 from app.compose import trial
 from app.compose.effect_models import with_model
+from app.compose.exercise_field import trial_plan
 from app.compose.explaining import explanation
 from app.compose.trainer import pictures_of
 from app.core import state_vector as sv
@@ -136,7 +137,7 @@ def test_in_the_loop_a_lost_picture_hides_and_a_dim_one_is_noisier():
 
 def test_a_trial_is_what_it_was_without_them_and_another_with_them():
     def score(exercise):
-        placed = placed_plan_of(exercise, device_of(exercise), trial.trial_plan(exercise))
+        placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
         return trial.Trials(exercise, placed).score("competent", 2)
 
     plain, dim = score(asking()), score(asking(camera_light={"level": 0.35}))
