@@ -993,7 +993,7 @@ class PartsBox(QWidget):
         value: Any = text
         if text.strip():
             try:
-                value = float(text)
+                value = float(text.replace(",", "."))
             except ValueError:
                 value = text  # the reader says what is wrong with it
         else:

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QWidget
 from app.core import state_vector
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
+from app.core.messages import sentence
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.exercises.errors import ExerciseError
@@ -260,7 +261,7 @@ class Conductor(QObject):
         self._demonstrates = self._lent = False
         self._leaving = True  # no run may be wanted for a plan that is about to go
         try:
-            self.runs.abort(tr("another patient was opened"))
+            self.runs.abort(sentence("another patient was opened"))
             self.patient = None
             self._editor.set_locked(False)
             self._editor.set_keeps_target(False)

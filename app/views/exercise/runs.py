@@ -8,7 +8,7 @@ from collections.abc import Callable
 from PySide6.QtCore import QObject, Signal
 
 from app.core.errors import AcusError
-from app.core.messages import joined
+from app.core.messages import joined, sentence
 from app.core.progress import Progress
 from app.exercises.schema import Exercise
 from app.planning.placement import PlacedPlan
@@ -109,7 +109,8 @@ class Runs(QObject):
     def abort(self, reason: str) -> None:
         """Want no trainer; an attempt that runs ends at once without force, saved with `reason`.
 
-        Scoring and writing go on beside the window.
+        The reason stands in the record: it is English, whatever the window's language. Scoring and
+        writing go on beside the window.
         """
         self._wanted = None
         if self._task is None:
@@ -131,7 +132,7 @@ class Runs(QObject):
             self._task = None
         opened, self._open = self._open, None
         if opened is not None:
-            opened.run.trainer.abort(tr("the window was closed"))  # an attempt that runs is saved
+            opened.run.trainer.abort(sentence("the window was closed"))  # what runs is saved
             opened.close()
         self.closed()()
 
