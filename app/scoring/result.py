@@ -13,7 +13,7 @@ from pydantic import ValidationError
 from app.core.messages import sentence
 from app.scoring.errors import ScoreFormatError, UnknownMetricError
 from app.scoring.met import Met, fails
-from app.scoring.rows import REACHING, Row, ScoreRules, gated
+from app.scoring.rows import REACHING, Row, ScoreRules, gated, gates
 from app.scoring.tolerance import Tolerance
 from app.scoring.version import GATED, SCORING_VERSION
 
@@ -51,11 +51,30 @@ class Score:
 
     @property
     def total_sd(self) -> float | None:
-        """Standard deviation of `total`, of those of the rows, as if they were independent."""
+        """Standard deviation of `total`, of those of the rows, as if they were independent.
+
+        Each row is moved by its deviation to both sides, and what it holds back of the others with
+        it.
+        """
         weight = sum(row.weight for row in self.rows)
         if self.total is None or weight <= 0.0:
             return None
-        return 100.0 * hypot(*(row.weight * row.utility_sd for row in self.rows)) / weight
+        utilities = {row.name: row.utility for row in self.rows if row.utility is not None}
+        parts = []
+        for row in self.rows:
+            ends = row.utility_ends
+            if ends is not None:
+                lower, upper = (self._points({**utilities, row.name: end}) for end in ends)
+                parts.append(0.5 * (upper - lower))
+        return 100.0 * hypot(*parts) / weight
+
+    def _points(self, utilities: Mapping[str, float]) -> float:
+        """Return the weighted sum of utilities, each as far as it counts."""
+        shares = gates(self.rows, utilities) if self.version >= GATED else {}
+        return sum(
+            row.weight * shares.get(row.name, 1.0) * utilities.get(row.name, 0.0)
+            for row in self.rows
+        )
 
     @property
     def unseen(self) -> bool:
@@ -82,13 +101,14 @@ class Score:
         if self.total is None or weight <= 0.0:
             return ()
         judged = [row for row in self.rows if row.utility is not None and row.weight > 0.0]
-        lost = {row.name: row.weight * (1.0 - (row.utility or 0.0)) for row in judged}
+        lost = {row.name: row.weight * (1.0 - row.counted) for row in judged}
         reach = [row for row in judged if row.name in REACHING]
         if reach:
             worst = min(reach, key=lambda row: row.utility or 0.0)
-            lost[worst.name] += sum(
-                row.weight * (row.utility or 0.0) - row.weight * row.counted for row in judged
-            )
+            for row in judged:
+                held = row.weight * ((row.utility or 0.0) - row.counted)
+                lost[row.name] -= held
+                lost[worst.name] += held
         found = [(100.0 * lost[row.name] / weight, row) for row in judged]
         return tuple(sorted((one for one in found if one[0] >= 1.0), key=lambda one: -one[0]))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isfinite
 from typing import Annotated, Any, Final
@@ -111,13 +111,13 @@ class Row:
         return tolerance(best_within(self.value, self.sd, self.tolerance), self.tolerance)
 
     @property
-    def utility_sd(self) -> float:
-        """Half of the range of `counted` over one `sd` to both sides; 0 where nothing is known."""
+    def utility_ends(self) -> tuple[float, float] | None:
+        """Return the utilities one `sd` to both sides; None where nothing is known of it."""
         if self.value is None or self.tolerance is None or not self.sd:
-            return 0.0
+            return None
         size = best_within(self.value, self.sd, self.tolerance)
-        ends = (tolerance(max(0.0, size + d), self.tolerance) for d in (-self.sd, self.sd))
-        return 0.5 * self.gate * abs(next(ends) - next(ends))
+        lower, upper = (tolerance(max(0.0, size + d), self.tolerance) for d in (-self.sd, self.sd))
+        return lower, upper
 
     @property
     def band(self) -> Band | None:
@@ -169,21 +169,32 @@ class Row:
         )
 
 
-def gated(rows: Sequence[Row]) -> tuple[Row, ...]:
-    """Return rows that count as far as the needle came to its target, and no farther.
+def gates(rows: Sequence[Row], utilities: Mapping[str, float]) -> dict[str, float]:
+    """Return by name how far each row counts: as far as the needle came to its target.
 
     A way that is short, quick, straight and gentle earns nothing by ending elsewhere. The share is
     that of the worst of the other rows that say where the needle ended: 1 up to its pass limit,
-    falling to 0 at its `zero`, so that no total jumps. Without such a row nothing is held back.
+    falling to 0 at its `zero`, so that no total jumps; 0 where it could not be measured. Rows that
+    neither count nor are required hold nothing back.
+
+    Args:
+        rows: of one attempt.
+        utilities: of those that have one, by name.
     """
-    reach = {row.name: _reached(row) for row in rows if row.name in REACHING and row.weight > 0.0}
-    return tuple(
-        replace(
-            row, gate=min((share for name, share in reach.items() if name != row.name), default=1.0)
-        )
+    reach = {
+        row.name: min(1.0, utilities.get(row.name, 0.0) / PASS_UTILITY)
         for row in rows
-    )
+        if row.name in REACHING
+        and row.tolerance
+        and (row.tolerance.weight or row.tolerance.required)
+    }
+    return {
+        row.name: min((share for name, share in reach.items() if name != row.name), default=1.0)
+        for row in rows
+    }
 
 
-def _reached(row: Row) -> float:
-    return min(1.0, (row.utility or 0.0) / PASS_UTILITY)
+def gated(rows: Sequence[Row]) -> tuple[Row, ...]:
+    """Return rows that count as far as `gates` says."""
+    shares = gates(rows, {row.name: row.utility for row in rows if row.utility is not None})
+    return tuple(replace(row, gate=shares[row.name]) for row in rows)

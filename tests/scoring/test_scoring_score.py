@@ -1,5 +1,6 @@
 import json
 import math
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -9,7 +10,7 @@ from scoring_attempts import Attempt
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import ScoreFormatError, ToleranceError, UnknownMetricError
 from app.scoring.metrics import available
-from app.scoring.result import Score
+from app.scoring.result import Score, judge
 from app.scoring.rows import ScoreRules
 from app.scoring.score import score
 from app.scoring.tolerance import Band, Tolerance
@@ -80,14 +81,55 @@ def test_doing_nothing_far_from_the_target_earns_nothing() -> None:
 
 @pytest.mark.parametrize("error", ["depth", "lateral"])
 def test_what_an_attempt_was_like_counts_less_the_farther_it_ended_without_a_jump(error) -> None:
-    ends = np.arange(0.0, 0.012, 0.0001)
+    ends = np.arange(0.0, 0.012, 0.00002)
     totals = np.array([score(PERFECT.but(**{error: end}).trajectory()).total for end in ends])
     before = [score(PERFECT.but(**{error: e}).trajectory(), version=6).total for e in ends]
     within = ends <= 0.005  # the pass limit
     np.testing.assert_allclose(totals[within], np.array(before)[within])
     assert (np.diff(totals) <= 1e-9).all()
-    assert np.abs(np.diff(totals)).max() < 4.0
+    assert np.abs(np.diff(totals)).max() < 0.8  # of 0.02 mm
     assert totals[-1] < 5.0
+
+
+@pytest.mark.parametrize("short", [0.0058, 0.0072, 0.0091])
+def test_the_totals_deviation_holds_what_a_missed_target_holds_back(short) -> None:
+    """Against totals of depths drawn around the measured one."""
+    result = score(PERFECT.but(depth=-short).trajectory())
+    rows = tuple(replace(row, sd=0.3 if row.name == "depth_error" else None) for row in result.rows)
+    drawn = np.random.default_rng(3).normal(0.0, 0.3, 4000)
+    totals = []
+    for shift in drawn:
+        moved = [
+            replace(row, value=row.value + shift, sd=None) if row.name == "depth_error" else row
+            for row in rows
+        ]
+        totals.append(judge(tuple(moved), result.rules).total)
+    # the points are those of the best depth within one deviation: the slope is that one's
+    own = judge(rows, result.rules)
+    at = judge(tuple(replace(r, sd=None) for r in rows), result.rules)
+    assert own.total > at.total
+    assert own.total_sd == pytest.approx(np.std(totals), rel=0.3)
+
+
+@pytest.mark.parametrize("required", [False, True])
+def test_a_needle_drawn_out_at_the_end_earns_nothing_by_it(required) -> None:
+    limits = {
+        "target_error": bands(0.6, 1.9, 2.7, weight=4.0),
+        "path_ratio": bands(1.1, 1.3, 1.6),
+        "total_time": bands(120, 200, 300),
+    }
+    if required:  # and weightless
+        limits["target_error"] = bands(0.6, 1.9, 2.7, weight=0.0, required=True)
+    missed = score(PERFECT.but(depth=-0.071).trajectory(), limits)
+    assert missed.total == pytest.approx(0.0)
+    if not required:
+        rows = [
+            replace(row, value=None, sd=None) if row.name == "target_error" else row
+            for row in missed.rows
+        ]
+        out = judge(tuple(rows), missed.rules)
+        assert out.total == pytest.approx(0.0)
+        assert sum(points for points, _ in out.losses) == pytest.approx(100.0)
 
 
 def test_where_nothing_says_whether_the_target_was_reached_nothing_is_held_back() -> None:
