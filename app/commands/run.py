@@ -3,7 +3,7 @@
 import errno
 import os
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -62,14 +62,20 @@ def run(
     tell_folder()
     application = start()
     services = Desktop()
-    rebuilding = Rebuilding(lambda: open_window(services))
+
+    def make() -> Any:
+        """Return a window with what the command line asks for: another language keeps it."""
+        made = open_window(services)
+        if device is not None:
+            made.equipment.take(device)
+        if chosen is not None:
+            made.equipment.take_cameras(chosen)
+        if pen is not None:
+            made.equipment.take_pen(pen)
+        return made
+
+    rebuilding = Rebuilding(make)
     window = rebuilding.window
-    if device is not None:
-        window.equipment.take(device)
-    if chosen is not None:
-        window.equipment.take_cameras(chosen)
-    if pen is not None:
-        window.equipment.take_pen(pen)
     window.show()
     if exercise:
         window.begin_exercise(exercise)

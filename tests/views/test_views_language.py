@@ -95,6 +95,29 @@ def test_in_an_attempt_the_language_stays_and_the_window_says_so(patient, rebuil
     window.editor.set_locked(False)
 
 
+def test_whoever_says_no_to_unsaved_work_keeps_window_plan_and_language(
+    patient, rebuilding, monkeypatch
+):
+    window = rebuilding.window
+    window.show_patient(patient)
+    plan(window)
+    monkeypatch.setattr(window.features[-1], "may_go", lambda: False)
+    rebuilding.change("de")
+    assert rebuilding.window is window
+    assert window.isVisible()
+    assert window.editor.dirty
+    assert language.chosen(window.settings) == ""
+    assert QApplication.instance().quitOnLastWindowClosed()
+
+
+def test_each_is_asked_once_about_unsaved_work(patient, rebuilding, monkeypatch):
+    asked = []
+    feature = rebuilding.window.features[-1]
+    monkeypatch.setattr(feature, "may_go", lambda: not asked.append(1))
+    rebuilding.change("de")
+    assert asked == [1]
+
+
 def test_choosing_what_is_chosen_does_nothing(rebuilding):
     window = rebuilding.window
     rebuilding.change("")

@@ -56,7 +56,9 @@ class Rebuilding(QObject):
     def _attach(self, window: MainWindow) -> None:
         self.window, self._collector = window, collect_for(window)
         menu = window.view_menu.add_menu(tr("Language"))
-        menu.aboutToShow.connect(lambda: fill_language_menu(menu, window.settings, self.change))
+        menu.aboutToShow.connect(
+            lambda: fill_language_menu(menu, window.settings, self._change_soon)
+        )
 
     def _change_soon(self, code: str) -> None:
         """Change once the menu that asks for it has closed: it goes with its window."""
@@ -77,9 +79,8 @@ class Rebuilding(QObject):
         page = window.pages.currentWidget() is window.start_page
         if not all(one.may_go() for one in window.features if not isinstance(one, PlanFeature)):
             return
-        window.editor.saved(path)  # the plan is taken along: nothing is asked of it
         application.setQuitOnLastWindowClosed(False)
-        window.close()
+        window.leave()  # the plan is taken along: nothing is asked of it
         self._collector.close()
         choose(window.settings, code)
         use_language(application, code)

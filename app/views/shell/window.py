@@ -197,7 +197,7 @@ class MainWindow(QMainWindow):
     ) -> None:
         super().__init__(parent)
         self.services = services
-        self.settings = open_settings()
+        self.settings, self._asked = open_settings(), False
         self.editors = Editors(PlanEditor(self), MeasureEditor(self), StructureBook(self))
         self.editor = self.editors.plan
         self.message_bar, self.progress = MessageBar(self), ProgressStrip(self)
@@ -424,6 +424,11 @@ class MainWindow(QMainWindow):
             feature.suit_room()
         self.refresh()
 
+    def leave(self) -> None:
+        """Close without a question: whoever calls this has asked."""
+        self._asked = True
+        self.close()
+
     # --- events -------------------------------------------------------------------------------
     def showEvent(self, event: QShowEvent) -> None:
         """Begin to load what an exercise needs, behind the window."""
@@ -447,7 +452,7 @@ class MainWindow(QMainWindow):
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Ask about an attempt that runs and what is unsaved, then end everything."""
-        if not (self.feature(ExerciseFeature).may_quit() and self.may_go()):
+        if not (self._asked or (self.feature(ExerciseFeature).may_quit() and self.may_go())):
             event.ignore()
             return
         self.remembered.remember()
