@@ -13,9 +13,6 @@ from app.core.arrays import FloatArray
 from app.core.compiled import njit
 from app.simulation.scene import Binding
 
-GAUGE_18: Final = 1.270e-3
-"""Outer diameter that the puncture forces of layers belong to [m]."""
-
 FASTEST: Final = 10.0  # [m/s]; faster is a jump of the measurement
 SNAP: Final = 1e-12
 """What decays becomes 0 below this: subnormal numbers cost 20 times more."""

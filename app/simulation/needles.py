@@ -11,6 +11,9 @@ OUTER_DIAMETER: Final = MappingProxyType(
 )
 """Gauge -> outer diameter [m]."""
 
+GAUGE_18: Final = OUTER_DIAMETER[18]
+"""Outer diameter that the puncture forces of layers belong to [m]."""
+
 
 def bending_stiffness(outer: float, inner: float = 0.0) -> float:
     """EI of a round tube [N·m²]; with its stylet in place a needle bends like a solid rod."""

@@ -33,7 +33,6 @@ from app.core.arrays import FloatArray
 from app.core.compiled import njit
 from app.core.parameters import numbered, packed
 from app.simulation.along_needle import (
-    GAUGE_18,
     approach,
     in_tissue,
     layer_at,
@@ -41,6 +40,7 @@ from app.simulation.along_needle import (
     smoothing_of,
     tissue_rows,
 )
+from app.simulation.needles import GAUGE_18
 from app.simulation.scene import Binding, TissueLayer
 from app.simulation.standing import BRANCHES, branch_time, stretched
 

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Final
 from app.core.messages import sentence
 from app.imaging.field.tissue_field import TissueKind
 from app.simulation import scene
-from app.simulation.along_needle import GAUGE_18
 from app.simulation.errors import SimulationError
+from app.simulation.needles import GAUGE_18
 from app.simulation.scene import TissueLayer
 
 if TYPE_CHECKING:

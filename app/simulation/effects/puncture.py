@@ -34,7 +34,8 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
 from app.core.parameters import numbered, packed
-from app.simulation.along_needle import GAUGE_18, approach, keep_memory
+from app.simulation.along_needle import approach, keep_memory
+from app.simulation.needles import GAUGE_18
 from app.simulation.rupture import held_energy, membranes, most_energy, push_membranes
 from app.simulation.scene import Binding
 

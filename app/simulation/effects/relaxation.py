@@ -36,7 +36,6 @@ from app.core.compiled import njit, stage
 from app.core.messages import sentence
 from app.core.parameters import numbered, packed
 from app.simulation.along_needle import (
-    GAUGE_18,
     SNAP,
     approach,
     in_tissue,
@@ -46,6 +45,7 @@ from app.simulation.along_needle import (
     tissue_row,
     tissue_rows,
 )
+from app.simulation.needles import GAUGE_18
 from app.simulation.scene import Binding, TissueLayer
 from app.simulation.standing import BRANCHES, branch_time, pressed
 

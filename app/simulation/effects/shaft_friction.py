@@ -53,7 +53,6 @@ from app.core.compiled import njit, stage
 from app.core.messages import sentence
 from app.core.parameters import numbered, packed
 from app.simulation.along_needle import (
-    GAUGE_18,
     SNAP,
     in_tissue,
     keep_memory,
@@ -65,6 +64,7 @@ from app.simulation.along_needle import (
 from app.simulation.channel import BIN, bins_of
 from app.simulation.dry_friction import DAHL, KIKUUWE, LUGRE, dahl, kikuuwe, stribeck
 from app.simulation.inserted import ROW, SUM, go_to
+from app.simulation.needles import GAUGE_18
 from app.simulation.scene import Binding
 from app.simulation.standing import BRANCHES, branch_time, slipping
 
