@@ -33,6 +33,7 @@ class Owned:
         self._now = EVERYBODY
         self._roles: dict[QAction, frozenset[Role]] = {}
         self._order: dict[QWidget, list[QAction]] = {}  # of what holds actions that several share
+        self._menus: dict[QMenu, frozenset[Role]] = {}
         self._widgets: dict[QWidget, frozenset[Role]] = {}
         self._page_roles: dict[QWidget, frozenset[Role]] = {}
         self._panels: list[frozenset[Role]] = []
@@ -52,6 +53,10 @@ class Owned:
     def holds(self, holder: QWidget) -> None:
         """Watch the actions of a menu, a menu bar or a window that several share."""
         self._order.setdefault(holder, [])
+
+    def keep_menu(self, menu: QMenu) -> None:
+        """Show a menu to the roles for whom things are made now, whatever is in it."""
+        self._menus[menu] = self._now
 
     def add_panel(self) -> None:
         """Remember for whom the panel is that was added last."""
@@ -94,6 +99,8 @@ class Owned:
         """Return whether the role has an action; a shared menu where it has anything in it."""
         menu = action.menu()
         if isinstance(menu, QMenu) and menu in self._order:
+            if self.role not in self._menus.get(menu, EVERYBODY):
+                return False
             return any(self._has(one) for one in self._order[menu] if not one.isSeparator())
         return self.role in self._roles.get(action, STAFF)
 

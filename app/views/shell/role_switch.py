@@ -63,6 +63,7 @@ class RoleSwitch(QObject):
         self.button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextOnly)
         self.button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.button.setAutoRaise(True)
+        self.button.setProperty("role", "notice")
         self._menu = QMenu(self.button)
         self._group = QActionGroup(self)
         self.actions = {role: self._entry(role) for role in Role}
@@ -137,7 +138,7 @@ class RoleSwitch(QObject):
     def _show_chosen(self) -> None:
         title = role_title(self.role)
         self.actions[self.role].setChecked(True)
-        self.button.setText(f"{title} ▾")
+        self.button.setText(title)
         self.button.setAccessibleName(tr("Role: {role}", role=title))
         self.button.setToolTip(
             tr("Who sits here: it decides what the window has ({key})", key=ROLE_KEY)

@@ -384,6 +384,8 @@ class MainWindow(QMainWindow):
             ],
         )
         self.addActions((self.undo_action, self.redo_action))  # their keys are everybody's
+        with shell.made_for(STAFF):
+            shell.owned.keep_menu(shell.menu(tr("&Edit")))
         add_entries(shell.menu(tr("&Sessions")), [(tr("Workspace"), "F6", self.show_workspace)])
 
     def _end_menus(self, shell: Shell) -> None:
