@@ -18,6 +18,7 @@ from app.views.exercise.offer import BriefingOffer
 from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.menu_entries import add_entries
+from app.views.kit.roles import STAFF, Role
 from app.views.kit.text import literal, tr, translated
 from app.views.shell.feature import Context, Feature
 
@@ -43,6 +44,7 @@ class ArmFeature(Feature):
     """
 
     topic: ClassVar[str] = "arm"
+    roles: ClassVar[frozenset[Role]] = STAFF
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
@@ -103,6 +105,7 @@ class ArmFeature(Feature):
             key=Qt.Key.Key_W,
             suits=lambda one: one.purpose is Purpose.PRACTICE and one.touch is None,
             watch=self.watch,
+            roles=self.roles,
         )
 
     @property

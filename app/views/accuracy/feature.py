@@ -21,6 +21,7 @@ from app.views.accuracy.budget import SceneCost
 from app.views.accuracy.panel import EffectsPanel
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.menu_entries import add_entries
+from app.views.kit.roles import TECHNICIANS, Role
 from app.views.kit.text import tr
 from app.views.reading.lock_words import why_locked
 from app.views.shell.feature import Context, Feature
@@ -49,6 +50,7 @@ class AccuracyFeature(Feature):
 
     topic: ClassVar[str] = "accuracy"
     place: ClassVar[int] = 160
+    roles: ClassVar[frozenset[Role]] = TECHNICIANS
     help: ClassVar[str] = "user-guide.md#what-accuracy-costs"
     measured = Signal()
 

@@ -80,6 +80,7 @@ from app.views.kit.field_words import problem_words
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.parts import button, label
+from app.views.kit.roles import STAFF, Role
 from app.views.kit.side_panel import scrolled
 from app.views.kit.text import literal, tr, translated
 from app.views.kit.verdict import Verdict
@@ -329,10 +330,11 @@ class SkillTrial(QObject):
 
 
 class AuthorFeature(Feature):
-    """Menu entries, the button on the plan's page, the form, files of exercises."""
+    """Menu entries, the form, files of exercises."""
 
     topic: ClassVar[str] = "author"
     place: ClassVar[int] = 50
+    roles: ClassVar[frozenset[Role]] = STAFF
     help: ClassVar[str] = "authoring.md"
 
     def __init__(self, context: Context) -> None:
@@ -354,9 +356,6 @@ class AuthorFeature(Feature):
         self._trial_timer.timeout.connect(self._try_skills)
         self.editor.changed.connect(self._follow)
         context.editors.structures.stepped.connect(lambda _: self._redraw())
-        self.button = button(tr("Make an exercise from this…"))
-        self.button.clicked.connect(self.make)
-        self._shell.add_panel(self.button, below=tr("Plan"))
         self._actions = add_entries(
             self._shell.menu(tr("&File"), tr("Exercise")),
             [
@@ -372,7 +371,6 @@ class AuthorFeature(Feature):
 
     def _allow(self) -> None:
         """Close all of it to students once an instructor's password is set."""
-        self.button.setEnabled(ACCESS.may_manage)
         for action in self._actions:
             action.setEnabled(ACCESS.may_manage)
 

@@ -33,6 +33,7 @@ from app.views.kit import theme
 from app.views.kit.background import run_in_background
 from app.views.kit.parts import PlainLabel, size_dialog
 from app.views.kit.progress_strip import ProgressStrip
+from app.views.kit.roles import TECHNICIANS, Role
 from app.views.kit.text import literal, tr, translated
 from app.views.shell.feature import Context, Feature
 
@@ -176,6 +177,7 @@ class CamerasFeature(Feature):
 
     topic: ClassVar[str] = "cameras"
     place: ClassVar[int] = 80
+    roles: ClassVar[frozenset[Role]] = TECHNICIANS
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

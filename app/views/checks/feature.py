@@ -18,6 +18,7 @@ from app.planning.registration.check import RegistrationAgreement
 from app.session.snapshot import Snapshot
 from app.views.exercise.run import ExerciseRun
 from app.views.kit.menu_entries import add_entries
+from app.views.kit.roles import TECHNICIANS, Role
 from app.views.kit.text import tr, translated
 from app.views.kit.verdict import StatusItem, Verdict
 from app.views.shell.feature import Context, Feature
@@ -79,6 +80,7 @@ class ChecksFeature(Feature):
 
     topic: ClassVar[str] = "checks"
     place: ClassVar[int] = 100
+    roles: ClassVar[frozenset[Role]] = TECHNICIANS
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

@@ -10,10 +10,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Final
 
 from PySide6.QtCore import QObject, QStandardPaths, QTimer, Signal, SignalInstance
+from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
     QApplication,
     QDialog,
     QFileDialog,
+    QMenu,
     QMessageBox,
     QVBoxLayout,
     QWidget,
@@ -54,6 +56,7 @@ from app.views.kit.background import BackgroundTask, Indicator, run_in_backgroun
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.parts import message_box, size_dialog
+from app.views.kit.roles import EVERYBODY, STAFF, Role
 from app.views.kit.text import tr, translated
 from app.views.shell.feature import Context, Feature
 from app.views.structures.layer import draw_in
@@ -690,6 +693,7 @@ class DebriefFeature(Feature):
 
     topic: ClassVar[str] = "debrief"
     place: ClassVar[int] = 170
+    roles: ClassVar[frozenset[Role]] = EVERYBODY
     begin_wanted = Signal(str)
 
     def __init__(self, context: Context) -> None:
@@ -731,20 +735,24 @@ class DebriefFeature(Feature):
         context.conductor.controller.finished.connect(self.show_result)
         menu = shell.menu(tr("&Sessions"))
         add_entries(menu, [(tr("Past sessions"), "F7", self.show_sessions)])
-        self.gathering = Gathering(menu, folder, shell.dialog_parent, self.sessions.refresh)
+        with shell.made_for(STAFF):
+            self.gathering = Gathering(menu, folder, shell.dialog_parent, self.sessions.refresh)
+            self._choices = self._add_choices(menu)
         self.gathering.noted.connect(self.noted)
         self.gathering.failed.connect(self.failed)
-        self._choices = add_entries(
+        menu.aboutToShow.connect(self._offer_choices)
+        for signal in (ACCESS.changed, self._controller.shown):
+            signal.connect(self._offer_choices)
+        self._offer_choices()
+
+    def _add_choices(self, menu: QMenu) -> list[QAction]:
+        return add_entries(
             menu,
             [
                 (tr("Show this attempt as the demonstration"), "", self.choose_demonstration),
                 (tr("Let the scripted expert show it again"), "", self.choose_expert),
             ],
         )
-        menu.aboutToShow.connect(self._offer_choices)
-        for signal in (ACCESS.changed, self._controller.shown):
-            signal.connect(self._offer_choices)
-        self._offer_choices()
 
     def over(self) -> tuple[SignalInstance, ...]:
         """Return what ends a message of this feature."""

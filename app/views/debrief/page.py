@@ -63,6 +63,7 @@ from app.views.kit.access import ACCESS
 from app.views.kit.coordinates import axis_words
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel
+from app.views.kit.roles import Role
 from app.views.kit.text import declared, disclaimer, literal, tr
 
 _ROW_HEIGHT = 24
@@ -163,15 +164,24 @@ class ScoreTable(QTableWidget):
         header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         header.setHighlightSections(False)
+        self._score: Score | None = None
+        self._detailed = True
+
+    def set_detailed(self, detailed: bool) -> None:
+        """Show what does not count as well, or only what the score is made of."""
+        if detailed != self._detailed:
+            self._detailed = detailed
+            self.show_score(self._score)
 
     def show_score(self, score: Score | None) -> None:
         """Fill the table; None empties it."""
+        self._score = score
         self.setRowCount(0)
         self.verticalHeader().setDefaultSectionSize(theme.px(_ROW_HEIGHT))
         self._leave_out()
         if score is None:
             return
-        for row in (*counting(score), *shown_only(score)):
+        for row in (*counting(score), *(shown_only(score) if self._detailed else ())):
             texts = row_texts(row, score)
             index = self.rowCount()
             self.insertRow(index)
@@ -271,6 +281,8 @@ class DebriefPage(QWidget):
         )
         self.held, self.comment = PlainLabel(self), PlainLabel(self)
         self.table = ScoreTable(self)
+        self.details = QPushButton(tr("Details"), self)
+        self.details.setCheckable(True)
         self.scans = ScanList(self)
         self.replayer = Replayer(self)
         self.views, self.curves = ReplayViews(self), CurvesView(self)
@@ -285,6 +297,9 @@ class DebriefPage(QWidget):
         self._style()
         self._lay_out()
         self._connect()
+        self.details.toggled.connect(lambda _: self.follow_role())
+        ACCESS.changed.connect(self.follow_role)
+        self.follow_role()
         self.show_proposal(None)
 
     def show_review(self, review: Review) -> None:
@@ -323,6 +338,13 @@ class DebriefPage(QWidget):
         self._review, self._waits = review, waits
         self._show_words(review)
         self.follow_access()
+
+    def follow_role(self) -> None:
+        """Fold away what does not count, and what only leaves the station, for a student."""
+        student = ACCESS.role is Role.STUDENT
+        self.details.setVisible(student)
+        self.export.setVisible(not student)
+        self.table.set_detailed(not student or self.details.isChecked())
 
     def follow_access(self) -> None:
         """Offer what may be said of the attempt by who is here."""
@@ -522,6 +544,7 @@ class DebriefPage(QWidget):
         ):
             column.addWidget(widget)
         column.addWidget(self.table, 3)
+        column.addWidget(self.details)
         column.addWidget(self.risks)
         column.addWidget(self.met)
         column.addWidget(self.published)

@@ -17,6 +17,8 @@ from app.session.next_exercise import Proposal, ProposalReason
 from app.session.review import Review
 from app.views.exercise.readouts import clock_text
 from app.views.kit import theme
+from app.views.kit.access import ACCESS
+from app.views.kit.roles import Role
 from app.views.kit.text import declared, tr
 
 
@@ -265,13 +267,26 @@ def shown_only(score: Score) -> tuple[Row, ...]:
     return tuple(row for row in score.rows if row.tolerance is None)
 
 
+def metric_title(row: Row) -> str:
+    """Return the name of a metric; in a student's words for a student, who has the others in the
+    page of help.
+    """
+    plain = {
+        "log_dimensionless_jerk": tr("Smoothness"),
+        "frechet_distance": tr("Largest distance from the path"),
+        "dtw_distance": tr("Mean distance from the path"),
+    }
+    student = ACCESS.role is Role.STUDENT
+    return plain.get(row.name, declared(row.label)) if student else declared(row.label)
+
+
 def row_texts(row: Row, score: Score) -> RowTexts:
     """Texts of one row; a void attempt is not judged, so that no row of it has band or points."""
     judged = row.band is not None and score.total is not None
     colour, symbol = BAND_LOOKS[row.band] if row.band and judged else (theme.TEXT_DIM, "–")
     band = f"{symbol} {band_word(row.band)}" if row.band and judged else "–"
     return RowTexts(
-        label=declared(row.label) + (" *" if row.tolerance and row.tolerance.required else ""),
+        label=metric_title(row) + (" *" if row.tolerance and row.tolerance.required else ""),
         value="–"
         if row.value is None
         else with_unit(row.value, row.unit, shown_sd(row.name, row.value, row.sd)),
@@ -369,7 +384,7 @@ def _loss(points: float, row: Row) -> str:
     value = "–" if row.value is None else with_unit(row.value, row.unit)
     limit = with_unit(expert, row.unit)
     cost = points_words(points)
-    return text.format(label=declared(row.label), value=value, points=cost, expert=limit)
+    return text.format(label=metric_title(row), value=value, points=cost, expert=limit)
 
 
 def points_words(points: float) -> str:
@@ -459,7 +474,7 @@ def verdict(review: Review) -> tuple[str, str, str]:
         return theme.WARNING, tr("▲ Void"), f"{why}. {remedy(score, review.conditions)}"
     if score.passed:
         return theme.GOOD, tr("✔ Passed"), ""
-    failures = ", ".join(declared(row.label) for row in score.failures)
+    failures = ", ".join(metric_title(row) for row in score.failures)
     if score.hard_fails:
         reason = "; ".join(score.hard_fails)
         reason = f"{reason[:1].upper()}{reason[1:]}"

@@ -469,13 +469,9 @@ class Beginning(QObject):
         self._conductor.exercise_wanted.connect(self.brief)
         self._conductor.offered.connect(page.add_offer)
         self._conductor.runs.failed.connect(lambda _: self.give_up())
-        add_entries(
-            self._shell.menu(tr("&Sessions")),
-            [
-                (tr("Briefing of this exercise"), "Shift+F5", self.again),
-                (tr("Show me this exercise"), "Ctrl+F5", self.show_taken),
-            ],
-        )
+        briefing = (tr("Briefing of this exercise"), "Shift+F5", self.again)
+        add_entries(self._shell.menu(tr("&Sessions")), [briefing])
+        self._shell.add_keys([(tr("Show me this exercise"), "Ctrl+F5", self.show_taken)])
 
     def _is_begun(self) -> None:
         """Want nothing more: whoever was faster has begun it, with F5 or Start."""

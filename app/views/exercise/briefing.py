@@ -29,6 +29,7 @@ from app.scoring.metrics import available
 from app.scoring.tolerance import Tolerance
 from app.views.exercise.offer import BriefingOffer
 from app.views.kit import theme
+from app.views.kit.access import ACCESS
 from app.views.kit.parts import PlainLabel, button, label
 from app.views.kit.text import declared, literal, tr
 from app.views.reading.lock_words import view_title
@@ -315,7 +316,7 @@ class BriefingPage(QWidget):
         self.show_me.setEnabled(not own)
         for offer, widget in self.offers.values():
             widget.setEnabled(not own)
-            widget.setVisible(offer.suits(exercise))
+            widget.setVisible(ACCESS.role in offer.roles and offer.suits(exercise))
         self.why_not.setText(
             tr("You choose the entry here, so there is nothing to show before you have.")
             if own

@@ -17,6 +17,7 @@ from app.views.exercise.beginning import Beginning
 from app.views.kit.access import ACCESS
 from app.views.kit.background import run_in_background
 from app.views.kit.question import ask
+from app.views.kit.roles import EVERYBODY, TECHNICIANS, Role
 from app.views.kit.text import declared, tr
 from app.views.shell.feature import Context, Feature
 
@@ -30,6 +31,7 @@ class ExerciseFeature(Feature):
     """
 
     place: ClassVar[int] = 60
+    roles: ClassVar[frozenset[Role]] = EVERYBODY
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
@@ -41,7 +43,8 @@ class ExerciseFeature(Feature):
         self._asked = 0
         self.exercises = {exercise.id: exercise for exercise in context.services.exercises()}
         self._shell.add_panel(self._panel, tr("Exercise"))
-        self._shell.add_panel(self._cameras(), tr("Cameras"), scrolls=False)
+        with self._shell.made_for(TECHNICIANS):
+            self._shell.add_panel(self._cameras(), tr("Cameras"), scrolls=False)
         self._panel.set_exercises(self.titles)
         self._panel.buttons.watch(self._shell.dialog_parent)
         self._panel.exercise_chosen.connect(self.begin)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from PySide6.QtCore import Qt
 
 from app.exercises.schema import Exercise
+from app.views.kit.roles import STAFF, Role
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -21,6 +22,7 @@ class BriefingOffer:
         key: that presses it.
         suits: whether it is offered in an exercise.
         watch: begins it, as soon as patient and robot are there.
+        roles: to whom it is offered.
     """
 
     name: str
@@ -29,3 +31,4 @@ class BriefingOffer:
     key: Qt.Key
     suits: Callable[[Exercise], bool]
     watch: Callable[[], None]
+    roles: frozenset[Role] = STAFF

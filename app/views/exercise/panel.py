@@ -352,6 +352,10 @@ class ExercisePanel(QWidget):
         self._signed_in, self._typed = False, ""
         self.exercise = QComboBox(self)
         self.student = QLineEdit(self)
+        self._title = PlainLabel(self)
+        self._title.setProperty("role", "heading")
+        self._title.setWordWrap(True)
+        self._title.hide()
         self.assistance = AssistanceDial(self)
         self._dial_title = PlainLabel(tr("Assistance"), self)
         self._note = PlainLabel(self)
@@ -408,6 +412,13 @@ class ExercisePanel(QWidget):
             for identifier, title in exercises:
                 self.exercise.addItem(title, identifier)
             self.exercise.setCurrentIndex(max(0, self.exercise.findData(chosen)))
+        self._title.setText(self.exercise.currentText())
+
+    def set_chosen_elsewhere(self, elsewhere: bool) -> None:
+        """Name the exercise only, where it and the student are chosen on the start page."""
+        self._title.setVisible(elsewhere)
+        for row in (self.exercise, self.student):
+            self._form.setRowVisible(row, not elsewhere)
 
     def set_student(self, pseudonym: str) -> None:
         """Fill in the pseudonym."""
@@ -530,6 +541,7 @@ class ExercisePanel(QWidget):
         column = QVBoxLayout(self)
         column.setContentsMargins(theme.MARGIN, theme.SPACING, theme.MARGIN, theme.SPACING)
         column.setSpacing(theme.SPACING - 2)  # with every part shown it still fits 768 lines
+        column.addWidget(self._title)
         column.addLayout(form)
         for widget in (
             self.steps,
@@ -549,6 +561,7 @@ class ExercisePanel(QWidget):
         column.addStretch(1)
 
     def _connect(self) -> None:
+        self.exercise.currentTextChanged.connect(self._title.setText)
         self.exercise.activated.connect(
             lambda index: self.exercise_chosen.emit(self.exercise.itemData(index))
         )

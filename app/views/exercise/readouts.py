@@ -32,6 +32,7 @@ class ForceBar(QWidget):
         super().__init__(parent)
         self._force, self._limit, self._measured, self._at_most = 0.0, 5.0, False, False
         self._guidance: GuidanceLimit | None = None
+        self._detailed = True
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setMinimumHeight(_HEIGHT)
         self._explain()
@@ -69,6 +70,12 @@ class ForceBar(QWidget):
         self.setAccessibleName(self.words)
         self.update()
 
+    def set_detailed(self, detailed: bool) -> None:
+        """Say how much guidance there is here, and why, or only show it."""
+        self._detailed = detailed
+        self._explain()
+        self.update()
+
     @property
     def words(self) -> str:
         """Force and where it comes from, or that it is a bound, as written under the bar."""
@@ -76,7 +83,7 @@ class ForceBar(QWidget):
 
     def _explain(self) -> None:
         line = tr("The line is the largest force the device may give now.")
-        here = f" {self.guidance}." if self._guidance is not None else ""
+        here = f" {self.guidance}." if self._guidance is not None and self._detailed else ""
         self.setToolTip(literal(f"{origin_help(self._measured, self._at_most)} {line}{here}"))
 
     @property
@@ -134,7 +141,7 @@ class ForceBar(QWidget):
         painter.setPen(QColor(theme.TEXT_DIM))
         limit = tr("limit {limit:g} N", limit=self._limit)
         painter.drawText(below, Qt.AlignmentFlag.AlignRight, limit)
-        if self._guidance is not None:
+        if self._guidance is not None and self._detailed:
             painter.setPen(QColor(theme.VERDICTS["warning"][0]))
             words = painter.fontMetrics().elidedText(
                 self.words_of_guidance, Qt.TextElideMode.ElideRight, self.width()
@@ -143,6 +150,9 @@ class ForceBar(QWidget):
 
 
 _EMPTY = "–"
+
+DETAILS: Final = frozenset({"radius", "bending"})
+"""Read-outs that say how well the needle is known."""
 
 OFFSETS: Final = frozenset({"angle", "lateral", "to_target"})
 """Read-outs that say what the bull's-eye shows."""
@@ -157,7 +167,7 @@ class AttemptReadouts(QWidget):
         self._titles: dict[str, QLabel] = {}
         self.force = ForceBar(self)
         self._telling: frozenset[str] | None = None
-        self._offsets = self._forceful = True
+        self._offsets = self._forceful = self._detailed = True
         self._grid = QGridLayout(self)
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setVerticalSpacing(3)
@@ -193,6 +203,12 @@ class AttemptReadouts(QWidget):
         self._show_rows()
         self._show_force_bar()
 
+    def set_detailed(self, detailed: bool) -> None:
+        """Show how well the tip is known, and what limits the guidance, or leave that out."""
+        self._detailed = detailed
+        self.force.set_detailed(detailed)
+        self._show_rows()
+
     def set_offsets(self, shown: bool) -> None:
         """Say how far the needle is off the path, or not."""
         self._offsets = shown
@@ -201,6 +217,7 @@ class AttemptReadouts(QWidget):
     def _show_rows(self) -> None:
         for key, value in self._values.items():
             told = self._telling is None or key in self._telling
+            told = told and (self._detailed or key not in DETAILS)
             for label in (value, self._titles[key]):
                 label.setVisible(told and (self._offsets or key not in OFFSETS))
 

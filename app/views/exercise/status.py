@@ -112,6 +112,7 @@ class RobotLight(QAbstractButton):
         self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Preferred)
         self.toggled.connect(lambda _: self.updateGeometry())
+        self.toggled.connect(lambda _: self._explain())
 
     @property
     def item(self) -> StatusItem | None:
@@ -131,10 +132,17 @@ class RobotLight(QAbstractButton):
             return
         self._item = item
         self.setAccessibleName(item.title)
-        click = tr("Click: with details, or without")
-        self.setToolTip(literal(f"{item.title}\n\n{item.help}\n\n{click}"))
+        self._explain()
         self.updateGeometry()
         self.update()
+
+    def _explain(self) -> None:
+        """Say to whoever points there what the light stands for: all of it with the details."""
+        if self._item is None:
+            return
+        help_text = f"{self._item.help}\n\n" if self.isChecked() else ""
+        click = tr("Click: with details, or without")
+        self.setToolTip(literal(f"{self._item.title}\n\n{help_text}{click}"))
 
     def sizeHint(self) -> QSize:
         """Room for light and words; for the light alone beside the details."""
@@ -254,7 +262,11 @@ class StatusStrip(QWidget):
 
     def _show(self) -> None:
         detailed = self.is_detailed
-        shown = [item for item in self._items if detailed or not item.detail]
+        shown = [
+            item
+            for item in self._items
+            if detailed or not (item.detail or item.verdict is Verdict.IDLE)
+        ]
         while len(self._cells) < len(shown):
             self._keep(StatusCell(self))
         for i, cell in enumerate(self._cells):
@@ -317,11 +329,11 @@ class StatusCell(QWidget):
             )
         self._item = item
         self._title.set_whole(f"{symbol} {item.title}")
-        well = plain and item.verdict is Verdict.GOOD and bool(item.plain)
-        self._text.set_whole(item.plain if well else item.text)
+        text = item.plain if plain and item.plain else item.text
+        self._text.set_whole(text)
         self._grow()
-        self.setToolTip(literal(f"{item.title}: {item.text}\n\n{item.help}"))
-        self.setAccessibleName(f"{item.title}: {item.text}")
+        self.setToolTip(literal(f"{item.title}: {text}\n\n{item.help}"))
+        self.setAccessibleName(f"{item.title}: {text}")
 
     @property
     def item(self) -> StatusItem | None:

@@ -109,8 +109,18 @@ def tracker_item(rate: float, valid_share: float, age: float, problem: str) -> S
             "the last such fix. If the marker is out of view, bring it back between the cameras; "
             "look at the camera pictures for dirt, light or something in the way."
         ),
-        plain=tr("see the marker"),
+        plain=_seen_words(verdict, problem),
     )
+
+
+def _seen_words(verdict: Verdict, problem: str) -> str:
+    """Say in a student's words how the cameras are."""
+    if problem:
+        return problem
+    return {
+        Verdict.GOOD: tr("see the marker"),
+        Verdict.WARNING: tr("see the marker now and then"),
+    }.get(verdict, tr("do not see the marker"))
 
 
 def depth_item(source: str, age: float) -> StatusItem:
@@ -123,6 +133,7 @@ def depth_item(source: str, age: float) -> StatusItem:
         "none": (Verdict.BAD, tr("unknown")),
     }
     verdict, text = known.get(source, known["none"])
+    plain = {"tracked": tr("measured"), "held": tr("measured a moment ago")}
     return StatusItem(
         verdict,
         tr("Depth"),
@@ -134,7 +145,7 @@ def depth_item(source: str, age: float) -> StatusItem:
             "held back for the worst depth that the needle can have. Wait until the cameras see "
             "the marker again."
         ),
-        plain=tr("measured"),
+        plain=plain.get(source, text),
     )
 
 

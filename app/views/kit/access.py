@@ -1,4 +1,4 @@
-"""Who is signed in at this window: every part that hides or records asks (`session.access`)."""
+"""Who is at this window, and as what: every part that hides or records asks (`session.access`)."""
 
 from __future__ import annotations
 
@@ -9,14 +9,15 @@ from PySide6.QtCore import QObject, Signal
 from app.session.access import Known, Visitor
 from app.session.people import Person
 from app.session.roster import looks_like_a_key
+from app.views.kit.roles import Role
 from app.views.kit.text import tr
 
 
 class Access(QObject):
-    """Who is signed in.
+    """Who is signed in, and in which role somebody sits here.
 
     Signals:
-        changed(): somebody signed in or out, or more is known of people.
+        changed(): somebody signed in or out, more is known of people, or the role is another.
     """
 
     changed = Signal()
@@ -24,6 +25,18 @@ class Access(QObject):
     def __init__(self) -> None:
         super().__init__()
         self._visitor = Visitor()
+        self._role = Role.TECHNICIAN
+
+    @property
+    def role(self) -> Role:
+        """Return the role; without a window that chooses one, the one that has everything."""
+        return self._role
+
+    def take_role(self, role: Role) -> None:
+        """Somebody sits here in another role."""
+        if role is not self._role:
+            self._role = role
+            self.changed.emit()
 
     @property
     def student(self) -> Person | None:
@@ -41,11 +54,16 @@ class Access(QObject):
         return self._visitor.known.guarded
 
     @property
+    def has_students(self) -> bool:
+        """Return whether somebody can sign in as a student."""
+        return bool(self._visitor.known.pseudonyms)
+
+    @property
     def may_manage(self) -> bool:
         """Return whether people, courses, all results, deleting and exports are open to who is
         here.
         """
-        return self._visitor.may_manage
+        return self._visitor.may_manage and self._role is not Role.STUDENT
 
     @property
     def why_not_manage(self) -> str:
@@ -53,7 +71,7 @@ class Access(QObject):
         return (
             ""
             if self.may_manage
-            else tr("Only the instructor does that: Sessions ▸ Sign in as the instructor.")
+            else tr("Only the instructor does that: change the role at the top right.")
         )
 
     def sign_in(self, student: Person | None, instructor: bool = False) -> None:
@@ -85,6 +103,8 @@ class Access(QObject):
 
     def may_see(self, recorded: str) -> bool:
         """Return whether attempts of whom a record names are open to who is here."""
+        if self._role is Role.STUDENT and self.student is None:
+            return not self.owner(recorded)
         return self._visitor.may_see(recorded)
 
     def refusal(self, exercise: str) -> str:
@@ -96,7 +116,7 @@ class Access(QObject):
             return ""
         return tr(
             "it is an assessment of the course {course}. Sign in as a student who takes it "
-            "(Sessions ▸ Sign in as a student…), or as the instructor",
+            "(Sessions ▸ Sign in as a student…), or as the instructor (role, at the top right)",
             course=course,
         )
 

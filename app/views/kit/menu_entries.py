@@ -25,13 +25,17 @@ def add_entries(menu: QMenu, entries: Sequence[Entry | None]) -> list[QAction]:
         if entry is None:
             menu.addSeparator()
             continue
-        text, keys, command = entry
-        action = menu.addAction(text)
-        if keys:
-            action.setShortcuts([QKeySequence(key) for key in keys.split(" | ")])
-        action.triggered.connect(lambda _=False, command=command: command())
-        actions.append(action)
+        actions.append(keyed(menu.addAction(entry[0]), entry))
     return actions
+
+
+def keyed(action: QAction, entry: Entry) -> QAction:
+    """Give an action the keys and the command of an entry."""
+    _, keys, command = entry
+    if keys:
+        action.setShortcuts([QKeySequence(key) for key in keys.split(" | ")])
+    action.triggered.connect(lambda _=False: command())
+    return action
 
 
 def add_recent(

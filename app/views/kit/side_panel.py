@@ -35,6 +35,8 @@ class SidePanel(QWidget):
         super().__init__(parent)
         self._buttons = QButtonGroup(self)
         self._buttons.idClicked.connect(self.setCurrentIndex)
+        self._there: list[int] | None = None  # None: all of them
+        self._named = True
         self._names = QGridLayout()
         self._names.setSpacing(0)
         self._panels = QStackedWidget(self)
@@ -43,6 +45,7 @@ class SidePanel(QWidget):
         column.setSpacing(0)
         column.addLayout(self._names)
         column.addWidget(self._panels, 1)
+        self._column = column
 
     def addTab(self, panel: QWidget, name: str, scrolls: bool = False) -> int:
         """Take one more panel; returns its index.
@@ -67,12 +70,35 @@ class SidePanel(QWidget):
 
     def _spread(self) -> None:
         """Share the names among as few rows as they need, as evenly as they go."""
-        rows = -(-self.count() // IN_A_ROW)
-        columns = -(-self.count() // rows)
+        there = self.there
+        rows = max(1, -(-len(there) // IN_A_ROW))
+        columns = -(-len(there) // rows)
         for index, button in enumerate(self._buttons.buttons()):
-            self._names.addWidget(button, index // columns, index % columns)
+            self._names.removeWidget(button)
+            button.setVisible(self._named and index in there)
+            if index in there:
+                place = there.index(index)
+                self._names.addWidget(button, place // columns, place % columns)
         for column in range(IN_A_ROW):
             self._names.setColumnStretch(column, 1 if column < columns else 0)
+
+    @property
+    def there(self) -> list[int]:
+        """Return the indices of the panels that can be shown."""
+        return list(range(self.count())) if self._there is None else self._there
+
+    def set_there(self, there: list[int], named: bool = True) -> None:
+        """Let only these panels be shown, with their names or without."""
+        if there == self.there and named == self._named:
+            return
+        self._there, self._named = there, named
+        self._spread()
+        if there and self.currentIndex() not in there:
+            self.setCurrentIndex(there[0])
+
+    def end_with(self, widget: QWidget) -> None:
+        """Let a widget stand below the panels, whichever is shown."""
+        self._column.addWidget(widget)
 
     def count(self) -> int:
         """Return the number of panels."""
@@ -96,18 +122,22 @@ class SidePanel(QWidget):
         """Show a panel that was added, or the one that it is in."""
         for index in range(self.count()):
             there = self._panels.widget(index)
-            if there is not None and (there is panel or there.isAncestorOf(panel)):
+            holds = there is not None and (there is panel or there.isAncestorOf(panel))
+            if holds and index in self.there:
                 self.setCurrentIndex(index)
 
     def names(self) -> tuple[str, ...]:
         """Names of the panels in their order."""
-        return tuple(button.text() for button in self._buttons.buttons())
+        buttons = self._buttons.buttons()
+        return tuple(buttons[index].text() for index in self.there) if self._named else ()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Go to the next or the previous panel with Ctrl and the Page keys."""
         step = {Qt.Key.Key_PageDown: 1, Qt.Key.Key_PageUp: -1}.get(Qt.Key(event.key()), 0)
         if step and event.modifiers() & Qt.KeyboardModifier.ControlModifier:
-            self.setCurrentIndex((self.currentIndex() + step) % self.count())
+            there = self.there if self._named else []
+            if self.currentIndex() in there:
+                self.setCurrentIndex(there[(there.index(self.currentIndex()) + step) % len(there)])
         else:
             super().keyPressEvent(event)
 

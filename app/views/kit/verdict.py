@@ -33,7 +33,7 @@ class StatusItem:
         title: what it is.
         text: its value in words.
         help: what that means, and what to do.
-        plain: what a student is told instead of the value while all is well; empty for the value.
+        plain: what is told instead of the value without details; empty for the value.
         detail: whether a student is told of it by the one light of the robot alone.
     """
 

@@ -29,6 +29,7 @@ from app.exchange.csv_export import write_measurements
 from app.planning.measurements import KINDS, Measurement
 from app.views.kit import theme
 from app.views.kit.menu_entries import add_entries
+from app.views.kit.roles import STAFF, Role
 from app.views.kit.text import literal, tr
 from app.views.measure.editor import MeasureEditor, MeasureTool
 from app.views.measure.layer import MeasureGrip, MeasureLayer
@@ -203,6 +204,7 @@ class MeasureFeature(Feature):
 
     topic: ClassVar[str] = "measure"
     place: ClassVar[int] = 110
+    roles: ClassVar[frozenset[Role]] = STAFF
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
@@ -217,8 +219,6 @@ class MeasureFeature(Feature):
         panel.jump_wanted.connect(self._jump)
         panel.export_wanted.connect(self.export)
         self.menu = MeasureMenu(context.shell.menu(tr("&Measure")), self)
-        slicer = context.shell.menu(tr("&File"), tr("3D Slicer"))
-        add_entries(slicer, [(tr("Export measurements (.mrk.json)…"), "", self.export)])
 
     def over(self) -> tuple[SignalInstance, ...]:
         """Return what ends a message of this feature."""

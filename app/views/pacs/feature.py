@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QWidget
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.views.kit.background import BackgroundTask, Indicator, run_in_background
+from app.views.kit.roles import STAFF, Role
 from app.views.kit.text import tr
 from app.views.pacs.panel import PacsPanel
 from app.views.pacs.settings import PacsSettingsDialog
@@ -100,6 +101,7 @@ class PacsFeature(Feature):
     """Two ways into the library of CTs; its messages are those of opened CTs."""
 
     place: ClassVar[int] = 20
+    roles: ClassVar[frozenset[Role]] = STAFF
     help: ClassVar[str] = "reading.md#opening-a-ct"
 
     def __init__(self, context: Context) -> None:

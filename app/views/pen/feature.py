@@ -9,6 +9,7 @@ from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu
 
 from app.core.errors import AcusError
+from app.views.kit.roles import TECHNICIANS, Role
 from app.views.kit.text import tr
 from app.views.shell.feature import Context, Feature
 
@@ -30,6 +31,7 @@ class PenFeature(Feature):
     changed = Signal()
     topic: ClassVar[str] = "pen"
     place: ClassVar[int] = 90
+    roles: ClassVar[frozenset[Role]] = TECHNICIANS
     help: ClassVar[str] = "pen.md#in-the-window"
 
     def __init__(self, context: Context) -> None:

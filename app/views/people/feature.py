@@ -39,6 +39,7 @@ from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.parts import message_box
+from app.views.kit.roles import EVERYBODY, STAFF, Role
 from app.views.kit.text import declared, tr
 from app.views.people.pages import (
     GROUP_PDF,
@@ -86,6 +87,7 @@ class PeopleFeature(Feature):
 
     topic: ClassVar[str] = "people"
     place: ClassVar[int] = 180
+    roles: ClassVar[frozenset[Role]] = EVERYBODY
     attempts_wanted = Signal(str, str, str)
     attempt_wanted = Signal(str)
 
@@ -101,15 +103,22 @@ class PeopleFeature(Feature):
         self.page = PeoplePage()
         self._shell.add_page(self.page)
         menu = self._shell.menu(tr("&Sessions"))
-        entries = (
-            None,
-            (tr("Progress, students and courses"), "Shift+F7", self.show),
-            (tr("Sign in as a student…"), "", self.sign_in_student),
-            (tr("Sign in as the instructor…"), "", self.sign_in_instructor),
-            (tr("Sign out"), "", lambda: ACCESS.sign_in(None)),
-            (tr("Back up everything…"), "", self.back_up),
+        show, student = add_entries(
+            menu,
+            (
+                None,
+                (tr("Progress, students and courses"), "Shift+F7", self.show),
+                (tr("Sign in as a student…"), "", self.sign_in_student),
+            ),
         )
-        self._actions = add_entries(menu, entries)
+        with self._shell.made_for(STAFF):
+            instructor = add_entries(
+                menu, ((tr("Sign in as the instructor…"), "", self.sign_in_instructor),)
+            )[0]
+        leave = add_entries(menu, ((tr("Sign out"), "", lambda: ACCESS.sign_in(None)),))[0]
+        with self._shell.made_for(STAFF):
+            save = add_entries(menu, ((tr("Back up everything…"), "", self.back_up),))[0]
+        self._actions = show, student, instructor, leave, save
         self._connect()
         ACCESS.changed.connect(self._follow)
         self._follow()
@@ -569,7 +578,16 @@ class PeopleFeature(Feature):
         show, student, instructor, leave, save = self._actions
         here = ACCESS.student is not None or ACCESS.instructor
         show.setEnabled(ACCESS.may_manage or ACCESS.student is not None)
+        show.setText(
+            tr("Progress, students and courses")
+            if ACCESS.may_manage
+            else tr("Progress and courses")
+        )
         student.setEnabled(not here)
+        alone = ACCESS.role is Role.STUDENT  # who sees what he can do, and nothing that he cannot
+        show.setVisible(show.isEnabled() or not alone)
+        student.setVisible(ACCESS.has_students and not here if alone else True)
+        leave.setVisible(here or not alone)
         instructor.setEnabled(not ACCESS.instructor)
         leave.setEnabled(here)
         save.setEnabled(ACCESS.may_manage)

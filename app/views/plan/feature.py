@@ -8,12 +8,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import ClassVar
 
-from PySide6.QtCore import QSignalBlocker, Signal, SignalInstance
+from PySide6.QtCore import QSignalBlocker, SignalInstance
 from PySide6.QtWidgets import (
     QComboBox,
     QDoubleSpinBox,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QPushButton,
     QVBoxLayout,
@@ -26,6 +25,7 @@ from app.views.kit.coordinates import lps_words
 from app.views.kit.menu_entries import add_entries, add_recent
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel
+from app.views.kit.roles import EVERYBODY, STAFF, Role
 from app.views.kit.text import literal, tr
 from app.views.plan.editor import PlanEditor, PlanFiles, Point
 from app.views.plan.verdict import PlannedWay, verdict_words
@@ -52,16 +52,7 @@ def left_slice_words(editor: PlanEditor, viewing: Viewing) -> str:
 
 
 class PlanPanel(QWidget):
-    """Shows the editor's plan and turns clicks into edits.
-
-    Signals:
-        new_wanted(), open_wanted(), save_wanted(), save_as_wanted().
-    """
-
-    new_wanted = Signal()
-    open_wanted = Signal()
-    save_wanted = Signal()
-    save_as_wanted = Signal()
+    """Shows the editor's plan and turns clicks into edits; its files are in the menu."""
 
     def __init__(self, editor: PlanEditor, viewing: Viewing, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -79,9 +70,6 @@ class PlanPanel(QWidget):
         self.verdict = PlainLabel(self)
         self.verdict.setWordWrap(True)
         self.remedy = _button(tr("Apply suggested rotation"))
-        self._files = tuple(
-            _button(text) for text in (tr("New"), tr("Open…"), tr("Save"), tr("Save as…"))
-        )
         self._lay_out()
         self._connect()
         self.refresh()
@@ -114,11 +102,8 @@ class PlanPanel(QWidget):
             self.remedy,
             self.orientation,
             *self.turns,
-            *self._files[:2],
         ):
             widget.setEnabled(not editor.locked)
-        self._files[2].setEnabled(draft.complete)
-        self._files[3].setEnabled(draft.complete)
 
     def show_way(self, way: PlannedWay) -> None:
         """Say what is known of what lies on the way."""
@@ -158,9 +143,6 @@ class PlanPanel(QWidget):
         for box in self.turns:
             box.valueChanged.connect(lambda _: self._placement_wanted())
         self.remedy.clicked.connect(self._editor.apply_remedy)
-        wanted = (self.new_wanted, self.open_wanted, self.save_wanted, self.save_as_wanted)
-        for button, signal in zip(self._files, wanted, strict=True):
-            button.clicked.connect(signal)
 
     # --- layout -------------------------------------------------------------------------------
     def _lay_out(self) -> None:
@@ -168,11 +150,6 @@ class PlanPanel(QWidget):
         column.setContentsMargins(theme.MARGIN, theme.SPACING, theme.MARGIN, theme.SPACING)
         column.setSpacing(theme.SPACING)
         column.addWidget(self.title)
-        files = QHBoxLayout()
-        files.setSpacing(4)
-        for button in self._files:
-            files.addWidget(button)
-        column.addLayout(files)
         column.addLayout(self._points())
         column.addWidget(self.left_slice)
         column.addWidget(self.length)
@@ -269,6 +246,7 @@ class PlanFeature(Feature):
 
     topic: ClassVar[str] = "plan"
     place: ClassVar[int] = 30
+    roles: ClassVar[frozenset[Role]] = EVERYBODY
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
@@ -281,14 +259,18 @@ class PlanFeature(Feature):
         shell.add_panel(self.panel, tr("Plan"))
         self.way = WayWatch(context, self)
         self.way.changed.connect(lambda: self.panel.show_way(self.way.way))
-        for signal, command in (
-            (self.panel.new_wanted, files.new),
-            (self.panel.open_wanted, files.ask_open),
-            (self.panel.save_wanted, files.save),
-            (self.panel.save_as_wanted, files.save_as),
-        ):
-            signal.connect(command)
-        menu = shell.menu(tr("&File"))
+        with shell.made_for(STAFF):
+            self._add_files(recents)
+        shell.add_keys(
+            [
+                (tr("Place entry"), "E", lambda: viewing.set_tool(Tool.ENTRY)),
+                (tr("Place target"), "T", lambda: viewing.set_tool(Tool.TARGET)),
+            ]
+        )
+
+    def _add_files(self, recents: Recents) -> None:
+        """Add what opens and saves plans to the menu of files."""
+        menu, files = self.context.shell.menu(tr("&File")), self.files
         add_entries(
             menu,
             [
@@ -302,20 +284,6 @@ class PlanFeature(Feature):
             [
                 (tr("Save plan"), "Ctrl+S", files.save),
                 (tr("Save plan as…"), "Ctrl+Shift+S", files.save_as),
-            ],
-        )
-        add_entries(
-            shell.menu(tr("&File"), tr("3D Slicer")),
-            [
-                (tr("Open plan (.mrk.json)…"), "", files.ask_open),
-                (tr("Save plan as (.mrk.json)…"), "", files.save_as),
-            ],
-        )
-        add_entries(
-            shell.menu(tr("&Edit")),
-            [
-                (tr("Place entry"), "E", lambda: viewing.set_tool(Tool.ENTRY)),
-                (tr("Place target"), "T", lambda: viewing.set_tool(Tool.TARGET)),
             ],
         )
 

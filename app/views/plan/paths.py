@@ -34,6 +34,7 @@ from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.parts import PlainLabel
+from app.views.kit.roles import EVERYBODY, Role
 from app.views.kit.text import literal, tr
 from app.views.plan.entry_map import EntryMap, EntryMapLayer, legend
 from app.views.plan.way import ABOUT_TARGET_MM
@@ -201,6 +202,7 @@ class PathsFeature(Feature):
 
     topic: ClassVar[str] = "paths"
     place: ClassVar[int] = 40
+    roles: ClassVar[frozenset[Role]] = EVERYBODY
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

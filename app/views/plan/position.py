@@ -20,6 +20,7 @@ from app.exchange.errors import TransformError
 from app.exchange.transforms import read_tfm, write_tfm
 from app.planning.placement import placement_of
 from app.views.kit.menu_entries import add_entries
+from app.views.kit.roles import STAFF, Role
 from app.views.kit.text import tr
 from app.views.shell.feature import Context, Feature
 
@@ -33,6 +34,7 @@ class PositionFeature(Feature):
 
     topic: ClassVar[str] = "plan"
     place: ClassVar[int] = 140
+    roles: ClassVar[frozenset[Role]] = STAFF
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

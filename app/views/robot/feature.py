@@ -26,6 +26,7 @@ from app.views.exercise.energy_gauge import GaugeMode
 from app.views.kit import theme
 from app.views.kit.background import run_in_background
 from app.views.kit.parts import PlainLabel
+from app.views.kit.roles import TECHNICIANS, Role
 from app.views.kit.text import tr
 from app.views.robot.health_panel import HealthPanel
 from app.views.robot.settings import RobotSettings
@@ -151,6 +152,7 @@ class RobotFeature(Feature):
     changed = Signal()
     topic: ClassVar[str] = "robot"
     place: ClassVar[int] = 70
+    roles: ClassVar[frozenset[Role]] = TECHNICIANS
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

@@ -12,6 +12,7 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMenu
 
 from app.planning.needle_planes import NeedleFrame, follow, frame_of, in_plane
+from app.views.kit.roles import EVERYBODY, Role
 from app.views.kit.text import literal, tr
 from app.views.scene.display import Display, Section
 from app.views.scene.view import PRESETS, SceneView
@@ -30,6 +31,7 @@ class SceneFeature(Feature):
 
     topic: ClassVar[str] = "scene"
     place: ClassVar[int] = 130
+    roles: ClassVar[frozenset[Role]] = EVERYBODY
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

@@ -19,6 +19,7 @@ from app.imaging.series import Listing, Series
 from app.views.kit.background import BackgroundTask, Indicator, run_in_background
 from app.views.kit.menu_entries import add_entries, add_recent
 from app.views.kit.names import NAMES
+from app.views.kit.roles import STAFF, Role
 from app.views.kit.text import tr
 from app.views.series.browser import SeriesBrowser
 from app.views.series.intake import Candidate, SeriesIntake
@@ -125,6 +126,7 @@ class SeriesFeature(Feature):
 
     topic: ClassVar[str] = "ct"
     place: ClassVar[int] = 10
+    roles: ClassVar[frozenset[Role]] = STAFF
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

@@ -17,6 +17,7 @@ from PySide6.QtCore import QObject, Signal, SignalInstance
 from app.views.exercise.conductor import Conductor
 from app.views.exercise.equipment import Equipment
 from app.views.exercise.runs import Runs
+from app.views.kit.roles import STAFF, Role
 from app.views.reading.editors import Editors
 from app.views.reading.patient_views import PatientViews
 from app.views.series.open_ct import OpenCt
@@ -67,6 +68,8 @@ class Feature(QObject):
         topic: name of its messages; one of a topic replaces the last one.
         place: where its panel stands, and its entries in menus that several share.
         help: page and heading about the widgets of its folder.
+        roles: for whom it exists: its menu entries, panels and pages are not there for others.
+            A part of it that is for fewer is added within `Shell.made_for`.
     """
 
     failed = Signal(object)
@@ -74,6 +77,7 @@ class Feature(QObject):
     topic: ClassVar[str] = ""
     place: ClassVar[int] = 1000
     help: ClassVar[str] = ""
+    roles: ClassVar[frozenset[Role]] = STAFF
 
     def __init__(self, context: Context) -> None:
         super().__init__(context.shell.dialog_parent)

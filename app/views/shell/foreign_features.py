@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from app.core import plugin_folders
+from app.views.kit.roles import Role
 from app.views.shell.feature import Context, Feature
 
 _ANSWERS: Final[dict[str, object]] = {
@@ -34,10 +35,12 @@ def made(features: tuple[type[Feature], ...], context: Context) -> tuple[Feature
     result = []
     for feature in features:
         if feature.__module__.startswith(f"{plugin_folders.APP.name}."):
-            result.append(feature(context))
+            with context.shell.made_for(feature.roles):
+                result.append(feature(context))
             continue
         try:
-            foreign = feature(context)
+            with context.shell.made_for(_roles(feature)):
+                foreign = feature(context)
         except KeyboardInterrupt:
             raise
         except BaseException as error:  # whatever somebody's file does
@@ -47,6 +50,16 @@ def made(features: tuple[type[Feature], ...], context: Context) -> tuple[Feature
             setattr(foreign, method, _answered(foreign, method, answer))
         result.append(foreign)
     return tuple(result)
+
+
+def _roles(feature: type[Feature]) -> frozenset[Role]:
+    """Return for whom somebody else's feature exists; those of a feature that does not say it where
+    what it says names no roles.
+    """
+    try:
+        return frozenset(Role(str(role)) for role in feature.roles)
+    except (TypeError, ValueError):
+        return Feature.roles
 
 
 def _answered(feature: Feature, method: str, answer: Any) -> Callable[..., Any]:

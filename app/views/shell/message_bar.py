@@ -72,14 +72,16 @@ class Notices(QWidget):
         bar = self._window.menuBar()
         ends = [bar.actionGeometry(action).right() for action in bar.actions()]
         left = max(ends, default=0) + GAP_PX
-        if self._window.width() - left < NARROWEST_PX:
-            left = 0
-        top, needed = 0, self._needed(self._window.width() - left)
+        corner = bar.cornerWidget()
+        width = self._window.width() - left - (0 if corner is None else corner.width())
+        if width < NARROWEST_PX:
+            left, width = 0, self._window.width()
+        top, needed = 0, self._needed(width)
         if self._clear is not None and self._clear.isVisible() and needed > bar.height():
-            corner = self._clear.mapTo(self._window, self._clear.rect().bottomLeft())
-            left, top = corner.x(), corner.y() + 1
-            needed = self._needed(self._window.width() - left)
-        self.setGeometry(left, top, self._window.width() - left, max(bar.height(), needed))
+            below = self._clear.mapTo(self._window, self._clear.rect().bottomLeft())
+            left, top, width = below.x(), below.y() + 1, self._window.width() - below.x()
+            needed = self._needed(width)
+        self.setGeometry(left, top, width, max(bar.height(), needed))
         self.raise_()
 
     def _needed(self, width: int) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Final
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import (
@@ -19,16 +20,23 @@ from PySide6.QtWidgets import (
 
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
+from app.views.kit.roles import STAFF, Role
 from app.views.kit.text import disclaimer, tr
 from app.views.slices.bindings import Scheme, key_rows, mouse_rows
 
 _AROUND_PX = 40
 
+ROLE_KEY: Final = "Ctrl+Alt+R"
+"""Opens the choice of roles."""
+
 Group = tuple[str, list[tuple[str, str]]]
 
 
 def groups(
-    scheme: Scheme, watching: Mapping[str, str] | None = None, pen: bool = False
+    scheme: Scheme,
+    watching: Mapping[str, str] | None = None,
+    pen: bool = False,
+    role: Role = Role.TECHNICIAN,
 ) -> list[Group]:
     """Headings with what to press and what it does.
 
@@ -36,8 +44,9 @@ def groups(
         scheme: of mouse and keys in the slices.
         watching: keys of features by which an exercise is watched, and who shows it.
         pen: whether a pen can stand in for the robot.
+        role: whose keys.
     """
-    watched = watching or {}
+    watched, staff = watching or {}, role in STAFF
     return [
         (tr("Slices: mouse ({scheme})", scheme=scheme.title), mouse_rows(scheme)),
         (
@@ -51,10 +60,9 @@ def groups(
                 (tr("Drag a mark"), tr("move it")),
                 (tr("Esc"), tr("stop placing")),
                 ("Ctrl+Z, Ctrl+Y", tr("undo, redo")),
-                ("Ctrl+S, Ctrl+Shift+S", tr("save plan, save as")),
-                (measure_keys(scheme), tr("measure: distance, angle, HU, region")),
+                *(_of_staff(scheme) if staff else []),
                 *([("F4", tr("pen and webcam: a needle without a robot"))] if pen else []),
-                ("Ctrl+O, Ctrl+Shift+O", tr("open CT folder, open plan")),
+                (ROLE_KEY, tr("who sits here: student, instructor, technician")),
             ],
         ),
         (
@@ -95,6 +103,14 @@ def groups(
     ]
 
 
+def _of_staff(scheme: Scheme) -> list[tuple[str, str]]:
+    return [
+        ("Ctrl+S, Ctrl+Shift+S", tr("save plan, save as")),
+        (measure_keys(scheme), tr("measure: distance, angle, HU, region")),
+        ("Ctrl+O, Ctrl+Shift+O", tr("open CT folder, open plan")),
+    ]
+
+
 def measure_keys(scheme: Scheme) -> str:
     """Keys of the measuring tools."""
     return ", ".join(scheme.menu_keys[name] for name in ("distance", "angle", "probe", "region"))
@@ -109,12 +125,13 @@ class ShortcutSheet(QDialog):
         parent: QWidget | None = None,
         watching: Mapping[str, str] | None = None,
         pen: bool = False,
+        role: Role = Role.TECHNICIAN,
     ) -> None:
         super().__init__(parent)
         self.setWindowTitle(tr("Keys and mouse"))
         columns = QHBoxLayout()
         columns.setSpacing(4 * theme.SPACING)
-        mouse, keys, plan, scene, attempt = groups(scheme, watching, pen)
+        mouse, keys, plan, scene, attempt = groups(scheme, watching, pen, role)
         for part in ((mouse, plan, scene), (keys, attempt)):
             column = QVBoxLayout()
             for group in part:

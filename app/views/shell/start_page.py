@@ -16,11 +16,20 @@ from PySide6.QtCore import (
     QPersistentModelIndex,
     QRect,
     QRectF,
+    QRegularExpression,
     QSize,
     Qt,
     Signal,
 )
-from PySide6.QtGui import QColor, QFont, QFontMetrics, QKeySequence, QPainter, QShortcut
+from PySide6.QtGui import (
+    QColor,
+    QFont,
+    QFontMetrics,
+    QKeySequence,
+    QPainter,
+    QRegularExpressionValidator,
+    QShortcut,
+)
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
@@ -39,11 +48,13 @@ from app.core.progress import Progress
 from app.exercises.portrait import Portrait, kept_portrait
 from app.exercises.schema import Exercise
 from app.views.exercise.briefing import level_words, paint_portrait
+from app.views.exercise.panel import PSEUDONYM
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel
+from app.views.kit.roles import Role
 from app.views.kit.text import declared, literal, tr
 from app.views.shell.shortcuts import disclaimer_label
 
@@ -161,16 +172,14 @@ class StartPage(QWidget):
 
     Signals:
         exercise_chosen(str): identifier of the exercise to begin.
-        open_wanted(): a CT folder shall be asked for.
         recent_chosen(object): path of a CT that was opened before.
-        sessions_wanted(): past attempts.
+        named(str): the name under which who is here practises.
         tour_wanted(bool): whether the tour that is offered shall begin, or not be offered again.
     """
 
     exercise_chosen = Signal(str)
-    open_wanted = Signal()
     recent_chosen = Signal(object)
-    sessions_wanted = Signal()
+    named = Signal(str)
     tour_wanted = Signal(bool)
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -186,8 +195,7 @@ class StartPage(QWidget):
         self.whose.setProperty("role", "dim")
         self.begin = QPushButton(tr("Begin exercise"), self)
         self.begin.setProperty("role", "primary")
-        self.open = QPushButton(tr("Open CT folder…"), self)
-        self.sessions = QPushButton(tr("Past sessions"), self)
+        self.who = NameLine(self)
         self.exercises.setItemDelegate(ExerciseRow(self.exercises))
         self.exercises.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.exercises.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOn)
@@ -208,8 +216,7 @@ class StartPage(QWidget):
         self.exercises.itemActivated.connect(self._begin)
         start = QShortcut(QKeySequence(Qt.Key.Key_F5), self)
         start.activated.connect(self._begin)
-        self.open.clicked.connect(self.open_wanted)
-        self.sessions.clicked.connect(self.sessions_wanted)
+        self.who.line.editingFinished.connect(lambda: self.named.emit(self.who.line.text()))
         self.recents.itemActivated.connect(
             lambda item: self.recent_chosen.emit(item.data(Qt.ItemDataRole.UserRole))
         )
@@ -261,7 +268,7 @@ class StartPage(QWidget):
             item.setData(Qt.ItemDataRole.UserRole, path)
             self.recents.addItem(item)
         if not paths:
-            hint = QListWidgetItem(tr("CTs that you open are listed here."))
+            hint = QListWidgetItem(tr("CTs that you open are listed here: File ▸ Open CT folder…"))
             hint.setFlags(Qt.ItemFlag.NoItemFlags)
             self.recents.addItem(hint)
 
@@ -351,21 +358,48 @@ class StartPage(QWidget):
                     ColumnTitles(self),
                     self.exercises,
                     self.hint,
+                    self.who,
                     self.whose,
                     self.begin,
                 ),
             ),
             1,
         )
-        own = _card(tr("Your own CT"), (self.recents, self.open, self.sessions))
-        own.setFixedWidth(OWN_WIDTH)
-        row.addWidget(own)
+        self.own = _card(tr("Your own CT"), (self.recents,))
+        self.own.setFixedWidth(OWN_WIDTH)
+        row.addWidget(self.own)
         page = QVBoxLayout(self)
         page.setContentsMargins(3 * theme.MARGIN, theme.MARGIN, 3 * theme.MARGIN, 0)
         page.setSpacing(theme.SPACING)
         page.addLayout(head)
         page.addLayout(row, 1)
         page.addWidget(disclaimer_label(self))
+
+
+class NameLine(QWidget):
+    """Asks under which name somebody practises who does not sign in.
+
+    Attributes:
+        line: where it is typed.
+    """
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.line = QLineEdit(self)
+        self.line.setPlaceholderText(tr("any name: your progress is kept under it"))
+        self.line.setAccessibleName(tr("Your name"))
+        self.line.setMaximumWidth(theme.px(OWN_WIDTH))
+        self.line.setValidator(
+            QRegularExpressionValidator(QRegularExpression(f"^{PSEUDONYM}$"), self.line)
+        )
+        self.line.setToolTip(
+            tr("A pseudonym, never a name: it goes into every record. Letters, digits, . _ -")
+        )
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(PlainLabel(tr("You practise as"), self))
+        row.addWidget(self.line, 1)
+        row.addStretch(1)
 
 
 class ColumnTitles(QWidget):
@@ -432,6 +466,8 @@ class StartFacts(QObject):
         """Read what was done so far; pictures that are missing follow."""
         exercises, folder = self._services.exercises(), self._services.sessions()
         student, manages = ACCESS.student, ACCESS.may_manage
+        own = ACCESS.role is Role.STUDENT and student is None
+        name = self._page.who.line.text() if own else ""
         if self._standings is not None:
             self._standings.drop()
 
@@ -439,7 +475,9 @@ class StartFacts(QObject):
             from app.session.board import standings  # SQLAlchemy: beside the window
             from app.session.next_exercise import comes_next
 
-            found = standings(folder, exercises, student, ACCESS.may_see)
+            found = standings(
+                folder, exercises, student, (lambda one: one == name) if name else ACCESS.may_see
+            )
             passed = {name for name, standing in found.items() if standing.passed}
             return found, comes_next(passed, exercises, student, ACCESS.refusal)
 
@@ -449,7 +487,11 @@ class StartFacts(QObject):
                 if student is None
                 else tr("Done and best: {name}.", name=NAMES.shown(student.pseudonym))
             )
-            if student is None and not manages:
+            if name:
+                whose = tr("Done and best: {name}.", name=NAMES.shown(name))
+            elif own and not ACCESS.guarded:
+                whose = tr("Done and best: everybody at this station.")
+            elif student is None and not manages:
                 whose = tr("Sign in as a student to see what you have done.")
             self._page.set_standings(*result, whose)
             self._done()

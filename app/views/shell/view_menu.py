@@ -11,12 +11,14 @@ from PySide6.QtWidgets import QMenu
 from app.exercises.locks import Lock
 from app.exercises.parts import ViewName
 from app.views.exercise.conductor import Conductor
+from app.views.kit.roles import STAFF
 from app.views.kit.text import literal, tr
 from app.views.plan.editor import PlanEditor
 from app.views.reading.layouts import LAYOUTS, layout_title
 from app.views.reading.lock_words import view_title, why_locked
 from app.views.reading.workspace import WorkspacePage
 from app.views.shell.projector import Projector
+from app.views.shell.shell import Shell
 from app.views.slices.bindings import SCHEMES
 from app.views.slices.needle_source import fill_needle_menu
 from app.views.slices.pane import SlicePane, fill_windows
@@ -37,13 +39,14 @@ class ViewMenu:
 
     def __init__(
         self,
-        menu: QMenu,
+        shell: Shell,
         workspace: WorkspacePage,
         conductor: Conductor,
         editor: PlanEditor,
         projector: Projector,
     ) -> None:
-        self._menu, self._workspace, self._conductor = menu, workspace, conductor
+        self._menu = menu = shell.menu(tr("&View"))
+        self._workspace, self._conductor = workspace, conductor
         self._editor, self._projector = editor, projector
         menu.setToolTipsVisible(True)
         viewing = workspace.viewing
@@ -51,8 +54,11 @@ class ViewMenu:
         self.layouts = self._layout_menu(menu.addMenu(tr("Layout")))
         presets = menu.addMenu(tr("Window presets"))
         presets.aboutToShow.connect(lambda: self._fill_presets(presets))
-        self._linked = self._switch(tr("One window for all panes"), "", self._greys.set_linked)
-        self._locked = self._switch(tr("Lock window and level"), "Ctrl+L", self._greys.set_locked)
+        with shell.made_for(STAFF):
+            self._linked = self._switch(tr("One window for all panes"), "", self._greys.set_linked)
+            self._locked = self._switch(
+                tr("Lock window and level"), "Ctrl+L", self._greys.set_locked
+            )
         self._inverted = self._switch(tr("Invert grey"), "", self._greys.set_inverted)
         menu.addSeparator()
         self.follow = self._switch(tr("Slices follow the needle tip"), "", viewing.set_follows_tip)
@@ -62,18 +68,16 @@ class ViewMenu:
         self.legend = self._switch(
             tr("Legend of the bull's-eye"), "", workspace.bullseye.legend.setChecked
         )
-        self.hub = self._switch(
-            tr("The hand moves the hub, not the tip"), "", workspace.bullseye.source.set_moves_hub
-        )
-        self.details = self._switch(
-            tr("Details of the robot (technician's strip)"), "", workspace.status.set_detailed
-        )
+        moves_hub = workspace.bullseye.source.set_moves_hub
+        with shell.made_for(STAFF):
+            self.hub = self._switch(tr("The hand moves the hub, not the tip"), "", moves_hub)
         self.shown = self._shown_menu(menu.addMenu(tr("Shown by the exercise")))
         self._entry(tr("Crosshair to target"), "", self.cursor_to_target)
-        needle = menu.addMenu(tr("Needle's planes"))
-        needle.aboutToShow.connect(lambda: self._fill_needle(needle))
-        self._entry(tr("Straighten all planes"), "", lambda: straighten(viewing))
-        self.operator = self._operator_menu(menu.addMenu(tr("Operator's side")))
+        with shell.made_for(STAFF):
+            needle = menu.addMenu(tr("Needle's planes"))
+            needle.aboutToShow.connect(lambda: self._fill_needle(needle))
+            self._entry(tr("Straighten all planes"), "", lambda: straighten(viewing))
+            self.operator = self._operator_menu(menu.addMenu(tr("Operator's side")))
         menu.addSeparator()
         self.schemes = self._scheme_menu(menu.addMenu(tr("Mouse and keys")))
         self._screen_entries()
@@ -229,7 +233,6 @@ class ViewMenu:
             (self._left_handed, workspace.is_left_handed),
             (self.legend, workspace.bullseye.legend.isChecked()),
             (self.hub, workspace.bullseye.source.moves_hub),
-            (self.details, workspace.status.is_detailed),
             (self._linked, greys.is_linked),
             (self._locked, greys.is_locked),
             (self._inverted, greys.is_inverted),

@@ -37,10 +37,12 @@ from app.views.kit.access import ACCESS
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.progress_strip import ProgressStrip
+from app.views.kit.roles import EVERYBODY, STAFF, Role
 from app.views.kit.text import declared, literal, tr
 from app.views.measure.editor import MeasureEditor
 from app.views.people.feature import PeopleFeature
 from app.views.plan.editor import PlanEditor
+from app.views.plan.feature import PlanFeature
 from app.views.reading.editors import Editors, UndoOrder
 from app.views.reading.workspace import WorkspacePage
 from app.views.series.open_ct import OpenCt
@@ -51,11 +53,13 @@ from app.views.shell.help import ProblemReport, about, page_of, show_help
 from app.views.shell.message_bar import PAUSE, REFUSAL, ROBOT, START, MessageBar, Notices
 from app.views.shell.projector import Projector
 from app.views.shell.remembered import Remembered
+from app.views.shell.role_switch import RoleSwitch
 from app.views.shell.services import Services
 from app.views.shell.settings import Recents, open_settings
 from app.views.shell.shell import Shell
 from app.views.shell.shortcuts import ShortcutSheet
 from app.views.shell.start_page import StartFacts, StartPage
+from app.views.shell.student_side import StudentSide
 from app.views.shell.tour import Tour
 from app.views.shell.view_menu import ViewMenu
 from app.views.structures.book import StructureBook
@@ -232,11 +236,26 @@ class MainWindow(QMainWindow):
             self.open_ct,
             shell,
         )
-        self._begin_menus(shell)
+        with shell.made_for(EVERYBODY):
+            self._begin_menus(shell)
         self.features = made(features, self.context)
-        self._end_menus(shell)
+        with shell.made_for(EVERYBODY):
+            self._end_menus(shell)
+            self._connect()
+        self.roles = RoleSwitch(
+            self.menuBar(),
+            shell,
+            self.conductor.controller,
+            self.feature(PeopleFeature).sign_in_instructor,
+            self,
+        )
+        plan = self.feature(PlanFeature).panel
+        self.student_side = StudentSide(self.workspace, self.conductor, plan, self)
+        shell.owned.leave = self.show_start
+        for follow in (self.student_side.follow, self.refresh, self._follow_role):
+            self.roles.changed.connect(follow)
+            follow()
         self.notices = Notices(self, (self.progress, self.message_bar), self.workspace.next_step)
-        self._connect()
         self.remembered = Remembered(
             self, self.settings, self.workspace, self.conductor, self.projector
         )
@@ -284,8 +303,9 @@ class MainWindow(QMainWindow):
 
     def show_shortcuts(self) -> None:
         """Open the sheet of keys."""
-        keys = {key: words for one in self.features for key, words in one.watching().items()}
-        sheet = ShortcutSheet(self.workspace.viewing.scheme, self, keys, self.equipment.offers_pen)
+        keys = {key: words for one in self._here() for key, words in one.watching().items()}
+        pen = self.equipment.offers_pen and self.roles.role is Role.TECHNICIAN
+        sheet = ShortcutSheet(self.workspace.viewing.scheme, self, keys, pen, self.roles.role)
         sheet.finished.connect(sheet.deleteLater)
         sheet.open()
 
@@ -301,7 +321,11 @@ class MainWindow(QMainWindow):
 
     def open_dropped(self, path: Path) -> None:
         """Offer what was dropped to the features, from the last to the first."""
-        any(feature.opens(path) for feature in reversed(self.features))
+        any(feature.opens(path) for feature in reversed(self._here()))
+
+    def _here(self) -> list[Feature]:
+        """Return the features that the present role has."""
+        return [feature for feature in self.features if self.roles.role in feature.roles]
 
     def refresh(self) -> None:
         """Write the title and enable what can be done."""
@@ -309,6 +333,8 @@ class MainWindow(QMainWindow):
         taken = conductor.exercise if patient and conductor.fits(patient) else None
         name = "" if patient is None else NAMES.shown(patient.label)
         here = tr("signed in as the instructor") if ACCESS.instructor else ""
+        student = ACCESS.student
+        here = here if student is None else NAMES.shown(student.pseudonym)
         parts = ("" if taken is None else declared(taken.title), name, here, "Acus")
         self.setWindowTitle(" – ".join(filter(None, parts)))
         self.undo_action.setEnabled(self.undo.can_undo)
@@ -317,6 +343,23 @@ class MainWindow(QMainWindow):
     def may_go(self) -> bool:
         """Ask about everything that is unsaved; return whether all of it may go."""
         return all(feature.may_go() for feature in self.features)
+
+    def _take_name(self, name: str) -> None:
+        """Let attempts and progress be those of a name, which is remembered."""
+        panel = self.workspace.exercise_panel
+        self.start_page.who.line.setText(name)
+        if ACCESS.student is None and panel.student.text() != name:
+            panel.set_student(name)
+            panel.student.editingFinished.emit()
+        self.settings.setValue("student/name", name)
+        if self.isVisible():
+            self.start_facts.refresh()
+
+    def _follow_role(self) -> None:
+        """Ask for a name where somebody practises who does not sign in."""
+        own = ACCESS.role is Role.STUDENT and ACCESS.student is None
+        self.start_page.who.setVisible(own)
+        self.start_page.who.line.setText(self.workspace.exercise_panel.student.text())
 
     # --- set-up -------------------------------------------------------------------------------
     def _lay_out(self) -> None:
@@ -338,9 +381,11 @@ class MainWindow(QMainWindow):
             [
                 (tr("Undo"), "Ctrl+Z", self.undo.undo),
                 (tr("Redo"), "Ctrl+Y | Ctrl+Shift+Z", self.undo.redo),
-                None,
             ],
         )
+        self.addActions((self.undo_action, self.redo_action))  # their keys are everybody's
+        with shell.made_for(STAFF):
+            shell.owned.keep_menu(shell.menu(tr("&Edit")))
         add_entries(shell.menu(tr("&Sessions")), [(tr("Workspace"), "F6", self.show_workspace)])
 
     def _end_menus(self, shell: Shell) -> None:
@@ -348,7 +393,7 @@ class MainWindow(QMainWindow):
         (leave,) = add_entries(shell.menu(tr("&File")), [None, (tr("Quit"), "Ctrl+Q", self.close)])
         leave.setShortcutContext(Qt.ShortcutContext.ApplicationShortcut)  # from a page of its own
         self.view_menu = ViewMenu(
-            shell.menu(tr("&View")), self.workspace, self.conductor, self.editor, self.projector
+            shell, self.workspace, self.conductor, self.editor, self.projector
         )
         add_entries(
             shell.menu(tr("&Help")),
@@ -388,12 +433,15 @@ class MainWindow(QMainWindow):
         self.tour = tour = Tour(self.context, start, self.workspace, debrief, exercises.take_first)
         start.offer_tour(tour.is_wanted)
         start.tour_wanted.connect(lambda yes: tour.begin() if yes else tour.decline())
-        start.open_wanted.connect(open_ct.ask)
         start.recent_chosen.connect(open_ct.open_folder)
+        start.named.connect(self._take_name)
+        with self.context.shell.made_for(STAFF):
+            self.context.shell.owned.keep(start.own)
+        self._take_name(str(self.settings.value("student/name", "")))
+        ACCESS.changed.connect(self._follow_role)
         self.feature(DebriefFeature).begin_wanted.connect(
             self.feature(ExerciseFeature).beginning.go_on
         )
-        start.sessions_wanted.connect(lambda: self.feature(DebriefFeature).show_sessions())
 
     def _connect_people(self) -> None:
         """Let the board lead to the attempts of a student, and back."""

@@ -34,6 +34,7 @@ from app.core.units import MILLIMETRE
 from app.session.machine import State
 from app.session.snapshot import Snapshot
 from app.views.kit.background import run_in_background
+from app.views.kit.roles import EVERYBODY, Role
 from app.views.kit.text import literal, tr, translated
 from app.views.kit.verdict import StatusItem, Verdict
 from app.views.shell.feature import Context, Feature
@@ -286,6 +287,7 @@ class SoundsFeature(Feature):
 
     topic: ClassVar[str] = "sounds"
     place: ClassVar[int] = 150
+    roles: ClassVar[frozenset[Role]] = EVERYBODY
 
     make_speaker: ClassVar[Callable[[], Speaker]] = MixerSpeaker
     """Opens the sound card; may take a while."""

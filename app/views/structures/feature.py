@@ -26,6 +26,7 @@ from app.imaging.volume import Volume
 from app.planning.clearance import PathClearance
 from app.planning.draft import DraftPlan
 from app.views.kit.background import BackgroundTask, Indicator, run_in_background
+from app.views.kit.roles import STAFF, Role
 from app.views.kit.text import tr, translated
 from app.views.shell.feature import Context, Feature
 from app.views.structures.book import StructureBook
@@ -175,6 +176,7 @@ class StructuresFeature(Feature):
 
     topic: ClassVar[str] = "structures"
     place: ClassVar[int] = 120
+    roles: ClassVar[frozenset[Role]] = STAFF
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

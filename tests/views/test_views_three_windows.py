@@ -1,0 +1,333 @@
+"""Student, instructor and technician: for each of them only what is his exists in the window."""
+
+import contextlib
+import re
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QComboBox,
+    QLabel,
+    QListWidget,
+    QMenu,
+    QTableWidget,
+    QWidget,
+)
+from views_exercise_attempts import review
+from window_rig import plan
+
+from app.session.people import People
+from app.session.roster import RosterLine
+from app.views.checks.feature import ChecksFeature
+from app.views.debrief.feature import DebriefFeature
+from app.views.exercise.feature import ExerciseFeature
+from app.views.exercise.readouts import ForceBar
+from app.views.kit.access import ACCESS
+from app.views.kit.roles import EVERYBODY, STAFF, Role
+from app.views.people.feature import PeopleFeature
+from app.views.robot.feature import RobotFeature
+from app.views.shell.feature import Feature
+from app.views.shell.features import FEATURES
+from app.views.shell.window import MainWindow
+
+FORBIDDEN = re.compile(
+    r"encoder|heartbeat|fréchet|LDLJ|\bDTW\b|guidance limited to|held, \d+ ms old", re.IGNORECASE
+)
+
+MENUS = {
+    Role.STUDENT: ["File", "View", "Sessions", "Help"],
+    Role.INSTRUCTOR: ["File", "Edit", "View", "Measure", "Sessions", "Help"],
+    Role.TECHNICIAN: [
+        "File", "Edit", "View", "Measure", "Robot", "Cameras", "Pen", "Checks", "Sessions", "Help",
+    ],
+}  # fmt: skip
+PANELS = {
+    Role.STUDENT: (),
+    Role.INSTRUCTOR: ("Plan", "Exercise", "Measure", "Structures"),
+    Role.TECHNICIAN: ("Plan", "Exercise", "Cameras", "Robot", "Measure", "Structures", "Effects"),
+}
+TECHNICAL = ["Daily check…", "Cost of accuracy…", "Commissioning…", "Calibrate…", "Robot's health"]
+AUTHORING = [
+    "Open CT folder…", "Make an exercise from the open patient…", "Back up everything…",
+    "Show this attempt as the demonstration", "Lock window and level", "List of measurements",
+    "Watch the arm do my plan",
+]  # fmt: skip
+PRACTICE = ["Start page", "Briefing of this exercise", "Past sessions", "Help on this part", "Quit"]
+
+
+@pytest.fixture(autouse=True)
+def nobody_is_signed_in():
+    yield
+    ACCESS.take_role(Role.TECHNICIAN)
+
+
+@pytest.fixture
+def student(window):
+    window.roles.choose(Role.STUDENT)
+    return window
+
+
+def text_of(action):
+    return re.sub(r"&(?=\S)", "", action.text()).split("\t")[0]
+
+
+def menus(window):
+    return [text_of(one) for one in window.menuBar().actions() if one.isVisible()]
+
+
+def reachable(window):
+    """Texts of all entries that can be reached from the menu bar."""
+    found, open_menus = [], [one.menu() for one in window.menuBar().actions() if one.isVisible()]
+    while open_menus:
+        for action in open_menus.pop().actions():
+            inner = action.menu()
+            if isinstance(inner, QMenu):
+                open_menus.append(inner)
+            elif not action.isSeparator() and action.isVisible():
+                found.append(text_of(action))
+    return found
+
+
+def words(root):
+    """All that is to be read on a widget: texts, entries, cells, what it paints."""
+    for widget in (root, *root.findChildren(QWidget)):
+        if not widget.isVisible():
+            continue
+        yield widget.toolTip()
+        yield widget.accessibleName()
+        if isinstance(widget, QLabel | QAbstractButton):
+            yield widget.text()
+        elif isinstance(widget, QComboBox):
+            yield from (widget.itemText(n) for n in range(widget.count()))
+        elif isinstance(widget, QListWidget):
+            yield from (
+                f"{i.text()} {i.toolTip()}" for i in map(widget.item, range(widget.count()))
+            )
+        elif isinstance(widget, QTableWidget):
+            cells = [(r, c) for r in range(widget.rowCount()) for c in range(widget.columnCount())]
+            yield from (item.text() for cell in cells if (item := widget.item(*cell)) is not None)
+
+
+def forbidden(window):
+    return sorted({text for text in words(window) if FORBIDDEN.search(text)})
+
+
+@pytest.mark.parametrize("role", list(Role))
+def test_each_role_has_its_menus_and_panels(window, role):
+    window.roles.choose(role)
+    assert menus(window) == MENUS[role]
+    assert window.workspace.side.names() == PANELS[role]
+
+
+@pytest.mark.parametrize("role", list(Role))
+def test_a_walk_over_all_entries_meets_only_those_of_the_role(window, role):
+    everything = reachable(window)
+    window.roles.choose(role)
+    there = reachable(window)
+    assert set(there) <= set(everything)
+    assert all(text in there for text in PRACTICE)
+    assert all((text in there) == (role is Role.TECHNICIAN) for text in TECHNICAL)
+    assert all((text in there) == (role in STAFF) for text in AUTHORING if text in everything)
+    window.roles.choose(Role.TECHNICIAN)
+    assert reachable(window) == everything, "all of it is back, in its order"
+
+
+@pytest.mark.parametrize("role", list(Role))
+def test_keys_of_what_a_role_does_not_have_do_nothing(window, role, settle, monkeypatch):
+    pressed = []
+    for action in window.findChildren(QAction):
+        with contextlib.suppress(SystemError, RuntimeError):
+            action.triggered.disconnect()
+        action.triggered.connect(lambda _=False, action=action: pressed.append(text_of(action)))
+        action.setEnabled(True)
+    window.roles.choose(role)
+    window.show_workspace()
+    window.activateWindow()
+    settle()
+    for key, modifiers in ((Qt.Key.Key_F9, Qt.KeyboardModifier.NoModifier),
+                           (Qt.Key.Key_F8, Qt.KeyboardModifier.NoModifier),
+                           (Qt.Key.Key_O, Qt.KeyboardModifier.ControlModifier),
+                           (Qt.Key.Key_F1, Qt.KeyboardModifier.NoModifier),
+                           (Qt.Key.Key_E, Qt.KeyboardModifier.NoModifier),
+                           (Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)):  # fmt: skip
+        QTest.keyClick(window.workspace.panes[0].canvas, key, modifiers)
+    technical = ["Daily check…", "Robot's health"] if role is Role.TECHNICIAN else []
+    staff = ["Open CT folder…"] if role in STAFF else []
+    assert pressed == [*technical, *staff, "Help on this part", "Place entry", "Undo"]
+
+
+def test_a_student_has_at_most_four_menus_and_no_tabs(student):
+    assert len(menus(student)) <= 4
+    student.show_workspace()
+    side = student.workspace.side
+    names = [one for one in side.findChildren(QAbstractButton) if one.objectName() == "side-name"]
+    assert names
+    assert not [one.text() for one in names if one.isVisible()]
+
+
+def test_no_technical_word_meets_a_student_on_his_way(student, patient, settle):
+    assert forbidden(student) == []
+    student.show_patient(patient)
+    plan(student)
+    assert settle(lambda: student.runs.run is not None)
+    student.show_workspace()
+    settle(timeout=0.3)
+    assert forbidden(student) == []
+    assert not any(bar._detailed for bar in student.findChildren(ForceBar))
+    student.workspace.exercise_panel.buttons.start.click()
+    settle(timeout=0.3)
+    assert student.conductor.controller.is_running
+    assert forbidden(student) == []
+    student.conductor.controller.abort()
+    student.feature(DebriefFeature)._controller._show(review(), "")
+    settle()
+    assert student.feature(DebriefFeature).page.isVisible()
+    assert forbidden(student) == []
+
+
+def test_the_details_show_a_student_what_the_words_leave_out(student, patient, settle):
+    student.show_patient(patient)
+    plan(student)
+    assert settle(lambda: student.runs.run is not None)
+    student.show_workspace()
+    student.workspace.status.set_detailed(True)
+    settle(timeout=0.3)
+    assert any("Encoder" in text for text in forbidden(student))
+
+
+def test_the_table_of_a_debrief_is_whole_in_its_details(student):
+    page = student.feature(DebriefFeature).page
+    page.show_review(review())
+    counted = page.table.rowCount()
+    page.details.setChecked(True)
+    whole = page.table.rowCount()
+    student.roles.choose(Role.INSTRUCTOR)
+    assert counted <= whole == page.table.rowCount()
+    assert not page.details.isVisibleTo(page)
+
+
+def test_the_role_is_refused_in_an_attempt_with_a_sentence(window, patient, settle):
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None)
+    window.feature(ExerciseFeature).beginning.trust(window.conductor.exercise.id)
+    window.workspace.exercise_panel.buttons.start.click()
+    assert window.conductor.controller.is_running
+    window.roles.choose(Role.STUDENT)
+    assert window.roles.role is Role.TECHNICIAN
+    assert "An attempt is running" in window.message_bar.text
+    assert window.roles.actions[Role.TECHNICIAN].isChecked()
+    window.conductor.controller.abort()
+
+
+def test_the_role_is_remembered_where_no_password_is_set(application, services, destroy, window):
+    window.roles.choose(Role.INSTRUCTOR)
+    window.editor.saved(None)
+    window.close()
+    other = MainWindow(services)
+    destroy(other)
+    assert other.roles.role is Role.INSTRUCTOR
+
+
+def test_who_chose_nothing_is_a_student(application, services, destroy, monkeypatch):
+    monkeypatch.delenv("ACUS_ROLE")
+    window = MainWindow(services)
+    destroy(window)
+    assert window.roles.role is Role.STUDENT
+    assert not ACCESS.may_manage
+
+
+def test_a_password_opens_the_other_roles_and_they_close_behind_the_instructor(window, settle):
+    people, feature = People(), window.feature(PeopleFeature)
+    people.set_instructor("correct horse")
+    feature.look()
+    assert settle(lambda: ACCESS.guarded)
+    assert window.roles.role is Role.STUDENT
+    window.roles.choose(Role.TECHNICIAN)
+    assert window.roles.role is Role.STUDENT, "the password is asked first"
+    (line,) = feature.dialog.lines
+    line.setText("correct horse")
+    feature.dialog.save()
+    assert settle(lambda: window.roles.role is Role.TECHNICIAN)
+    window.roles.choose(Role.STUDENT)
+    assert not ACCESS.instructor
+    assert window.roles.role is Role.STUDENT
+    feature.close()
+
+
+def test_who_signs_in_as_a_student_is_one(window, settle):
+    ada, _ = People().add(RosterLine("Ada"))
+    ACCESS.sign_in(ada)
+    assert window.roles.role is Role.STUDENT
+    assert not window.start_page.who.isVisibleTo(window.start_page)
+    ACCESS.sign_in(None)
+    assert window.roles.role is Role.TECHNICIAN
+
+
+def test_a_name_of_ones_choice_is_recorded_and_remembered(student):
+    line = student.start_page.who.line
+    assert line.isVisible()
+    line.setText("Kestrel")
+    line.editingFinished.emit()
+    assert student.workspace.exercise_panel.student.text() == "Kestrel"
+    assert student.settings.value("student/name") == "Kestrel"
+
+
+def test_the_keyboard_reaches_the_role(window, settle):
+    assert window.roles.button.focusPolicy() is Qt.FocusPolicy.StrongFocus
+    (key,) = [one for one in window.actions() if text_of(one) == "Role"]
+    assert key.shortcut().toString() == "Ctrl+Alt+R"
+    assert window.roles.button.isVisible()
+    assert window.roles.button.menu().actions()[0].text().startswith("Student")
+
+
+def test_a_page_that_the_role_does_not_have_is_left_and_not_shown(window):
+    accuracy = QWidget()
+    with window.context.shell.made_for(frozenset({Role.TECHNICIAN})):
+        window.context.shell.add_page(accuracy)
+    window.context.shell.show_page(accuracy)
+    assert window.pages.currentWidget() is accuracy
+    window.roles.choose(Role.STUDENT)
+    assert window.pages.currentWidget() is window.start_page
+    window.context.shell.show_page(accuracy)
+    assert window.pages.currentWidget() is window.start_page
+
+
+def test_every_feature_says_for_whom_it_is_and_a_foreign_one_is_not_a_students():
+    assert Feature.roles == STAFF
+    own = [one for one in FEATURES if one.__module__.startswith("app.")]
+    assert [one.__name__ for one in own if "roles" not in vars(one)] == []
+    assert all(one.roles <= EVERYBODY for one in own)
+    assert RobotFeature.roles == ChecksFeature.roles == {Role.TECHNICIAN}
+
+
+def test_a_feature_that_declares_nothing_is_there_for_instructor_and_technician(
+    application, services, destroy
+):
+    class Foreign(Feature):
+        def __init__(self, context):
+            super().__init__(context)
+            context.shell.menu("&Foreign").addAction("Do it")
+            context.shell.add_panel(QWidget(), "Foreign")
+
+    Foreign.__module__ = "acus_foreign.features.it"
+    window = MainWindow(services, (*FEATURES, Foreign))
+    destroy(window)
+    for role in Role:
+        window.roles.choose(role)
+        assert ("Foreign" in menus(window)) == (role in STAFF)
+        assert ("Foreign" in window.workspace.side.names()) == (role in STAFF)
+
+
+def test_a_students_window_opens_no_dropped_ct(student, monkeypatch):
+    opened = []
+    monkeypatch.setattr(student.open_ct, "open_folder", opened.append)
+    student.open_dropped(Path("somewhere"))
+    assert opened == []
+    student.roles.choose(Role.INSTRUCTOR)
+    student.open_dropped(Path("somewhere"))
+    assert opened == [Path("somewhere")]
