@@ -1,6 +1,7 @@
 """From a snapshot of the trainer to what the widgets show. Pure; nothing here judges anything."""
 
 from collections.abc import Sequence
+from math import inf
 from typing import Final
 
 import numpy as np

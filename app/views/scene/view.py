@@ -428,7 +428,7 @@ class SceneView(QWidget):
         scale, note = self._enlargement.scale, error or self.note
         legend = (*self._robot_legend, *self.legend, *self._organ_legend())
         if self.width() < LEGEND_FROM_PX * theme.scale():  # it would lie on the body
-            legend, scale = (), 1.0
+            legend, scale = (), 0.0
         button = self._button.geometry()
         draw_words(painter, self.rect(), display, scale, legend, note, button)
 
