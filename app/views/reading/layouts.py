@@ -257,6 +257,10 @@ class ViewGrid(QWidget):
     def arrange(self, layout: Layout) -> None:
         """Put panes into the layout's cells and hide the rest."""
         self._layout, self._maximised = layout, None
+        # All of them leave before the first comes back: a grid that is laid out with some panes in
+        # the columns of the layout before, while those are taken away, ends the program.
+        for pane in self._panes.values():
+            self._grid.removeWidget(pane)
         self._rows = max(self._rows, layout.rows)
         for row in range(self._rows):
             self._grid.setRowStretch(row, 1 if row < layout.rows else 0)
@@ -265,9 +269,9 @@ class ViewGrid(QWidget):
             self._grid.setColumnStretch(column, 1 if column < layout.columns else 0)
         cells = dict(layout.cells)
         for name, pane in self._panes.items():
-            self._grid.removeWidget(pane)
             if name in cells:
                 self._grid.addWidget(pane, *cells[name])
+        for name, pane in self._panes.items():
             pane.setVisible(name in cells)
         self._set_tab_order(layout)
 
