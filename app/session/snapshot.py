@@ -250,6 +250,9 @@ class NextStep:
 CALM: Final = 0.6
 """Share of a limit below which what was asked for is done: an order does not flicker."""
 
+CALM_SIGMA: Final = 2.0
+"""And below the limit by so many standard deviations of what it is measured by."""
+
 SECOND_SIDE: Final = 0.4
 """A side is named beside another where the way towards it is this share of the other's."""
 
@@ -295,9 +298,13 @@ class NextSteps:
             return self._to_touch(snapshot, snapshot.touch)
         if snapshot.device is not None and snapshot.device.row[sv.BONE_CONTACT] > 0.0:
             return NextStep(StepKind.BONE)  # whoever pushed on would bend the needle, or turn it
-        across, along = self._limits(pose, offset)
+        sigma_across, sigma_along = spread(pose.covariance, offset.path)
+        across = max(self._across, CERTAIN * sigma_across)
+        along = max(self._along, CERTAIN * sigma_along)
         held = snapshot.state is State.HOLDING  # it counts as there: nothing smaller is asked for
-        if pose.measured and -offset.remaining > self._within(StepKind.BACK, along, held):
+        if pose.measured and -offset.remaining > self._within(
+            StepKind.BACK, along, sigma_along, held
+        ):
             return NextStep(StepKind.BACK, distance=-offset.remaining)
         # The hub goes to the side that the line passes on; the dot of the bull's-eye stands there.
         length = self._placed.length
@@ -305,13 +312,13 @@ class NextSteps:
             pose.axis, offset.path, offset.across, pose.depth, length, measured=pose.measured
         )
         miss = float(np.linalg.norm(wrong))
-        if miss > self._within(StepKind.TILT, across, held):
+        if miss > self._within(StepKind.TILT, across, sigma_across, held):
             return NextStep(StepKind.TILT, miss / length, self._sides(wrong), across=miss)
         if not pose.measured:
             return NextStep(StepKind.FEEL)
         if pose.depth <= 0.0:
             return NextStep(StepKind.INSERT, distance=offset.remaining)
-        if offset.remaining > self._within(StepKind.DEEPER, along, held):
+        if offset.remaining > self._within(StepKind.DEEPER, along, sigma_along, held):
             return NextStep(StepKind.DEEPER, distance=offset.remaining)
         return NextStep(StepKind.FINISH if snapshot.state is State.HOLDING else StepKind.HOLD)
 
@@ -335,16 +342,13 @@ class NextSteps:
             touch=touch,
         )
 
-    def _limits(self, pose: NeedlePose, offset: Offset) -> tuple[float, float]:
-        """Return from where something is asked for across and along the path [m]: beyond what
-        counts as there, and beyond what the needle is known by.
+    def _within(self, kind: StepKind, limit: float, sigma: float, held: bool) -> float:
+        """Return the limit of a quantity [m]: a smaller one while it is being mended, by more than
+        the noise of what it is measured by, unless it is `held`.
         """
-        across, along = spread(pose.covariance, offset.path)
-        return max(self._across, CERTAIN * across), max(self._along, CERTAIN * along)
-
-    def _within(self, kind: StepKind, limit: float, held: bool = False) -> float:
-        """Limit of a quantity: a smaller one while it is being mended, unless it is `held`."""
-        return limit * (CALM if self._last is kind and not held else 1.0)
+        if held or self._last is not kind:
+            return limit
+        return min(CALM * limit, limit - CALM_SIGMA * sigma)
 
     def _sides(self, way: FloatArray) -> str:
         """Sides of the patient towards which a way in the world leads."""

@@ -35,7 +35,7 @@ from app.views.kit.verdict import StatusItem, Verdict
 WIDEST_SHARE: Final = 0.17
 """Of the window's width, at most: the pictures have the rest."""
 
-WIDEST_PX: Final = 320
+WIDEST_PX: Final = 352
 """On large screens, with text of the usual size."""
 
 GRID: Final = 8
@@ -43,6 +43,9 @@ GRID: Final = 8
 
 ORDER_LINES: Final = 5
 """Lines of the order, in the largest letters: the block below never moves."""
+
+LONGEST: Final = "88.8 mm"
+"""What a number of the rail is as wide as."""
 
 _DISC: Final = 8.0
 
@@ -172,7 +175,7 @@ def _font(pixels: int, bold: bool = False) -> QFont:
 class RailFigures(QWidget):
     """Time, depth, the way left and the scans: small names, large numbers, two in a row."""
 
-    SHOWN: Final = ("elapsed", "depth", "to_target", "scans")
+    SHOWN: Final = ("elapsed", "scans", "depth", "to_target")
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -197,7 +200,7 @@ class RailFigures(QWidget):
             grid.addWidget(value, row + 1, column)
             grid.setColumnStretch(column, 1)
             self._titles[key], self._values[key] = title, value
-        self.suit_room()
+        self.suit_width(0)
 
     def show_figures(self, figures: LiveFigures | None) -> None:
         """Show a moment; None empties them."""
@@ -215,12 +218,14 @@ class RailFigures(QWidget):
             for label in (value, self._titles[key]):
                 label.setVisible(told and (offsets or key not in OFFSETS))
 
-    def suit_room(self) -> None:
-        """Take another size of text or other colours."""
+    def suit_width(self, width: int) -> None:
+        """Take the largest letters in which two numbers stand side by side in a width [px]."""
+        longest = QFontMetrics(_font(theme.TITLE_PX, bold=True)).horizontalAdvance(LONGEST)
+        pixels = theme.TITLE_PX if longest <= (width - GRID) // 2 else theme.FONT_PX
         for label in self._titles.values():
             label.setStyleSheet(f"font-size: {theme.SMALL_PX}px; color: {theme.TEXT_DIM};")
         for label in self._values.values():
-            label.setStyleSheet(f"font-size: {theme.TITLE_PX}px; font-weight: 600;")
+            label.setStyleSheet(f"font-size: {pixels}px; font-weight: 600;")
 
 
 class AttemptRail(QWidget):
@@ -290,7 +295,7 @@ class AttemptRail(QWidget):
         """Take the width that belongs to a window's [px], and what depends on it."""
         self.setFixedWidth(rail_width(width))
         self.order.fit(self.width() - 2 * GRID)
-        self.figures.suit_room()
+        self.figures.suit_width(self.width() - 2 * GRID)
 
     def _lay_out(self) -> None:
         inner = QWidget(self)

@@ -176,29 +176,33 @@ class ScanPanel(QWidget):
 
     def set_narrow(self, narrow: bool) -> None:
         """Suit a rail, or a panel of the usual width."""
-        self._grid.addWidget(self.here, *((2, 1, 1, 2) if narrow else (1, 2)))
-        self._grid.addWidget(self.range, *((4, 0, 1, 3) if narrow else (3, 2)))
+        grid = self._grid
+        grid.removeItem(self._table_row)
+        self._table_row.setParent(None)
+        grid.addLayout(self._table_row, *((2, 0, 1, 3) if narrow else (1, 1, 1, 1)))
+        grid.addWidget(self.here, *((1, 1, 1, 2) if narrow else (1, 2, 1, 1)))
+        grid.addWidget(self.range, *((4, 0, 1, 3) if narrow else (3, 2, 1, 1)))
         for label in (self.range, self.count):
             label.setWordWrap(narrow)
 
     def _lay_out(self) -> None:
-        table = QHBoxLayout()
+        self._table_row = table = QHBoxLayout()
         table.setSpacing(4)
         for widget, stretch in ((self.feet, 0), (self.table, 1), (self.head, 0)):
             table.addWidget(widget, stretch)
-        title = PlainLabel(tr("Control scan"), self)
-        title.setProperty("role", "heading")
         self._grid = grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setVerticalSpacing(4)
+        title = PlainLabel(tr("Control scan"), self)
+        title.setProperty("role", "heading")
         grid.addWidget(title, 0, 0, 1, 3)
         grid.addWidget(PlainLabel(tr("Table"), self), 1, 0)
-        grid.addLayout(table, 1, 1)
         grid.addWidget(PlainLabel(tr("Slices"), self), 3, 0)
         grid.addWidget(self.slices, 3, 1)
         grid.addWidget(self.count, 5, 0, 1, 3)
         grid.addWidget(self.progress, 6, 0, 1, 3)
         grid.setColumnStretch(1, 1)
+        grid.addLayout(table, 1, 1)
         self.set_narrow(False)
 
 
