@@ -54,6 +54,7 @@ def run(
     from app.views.shell.application import start
     from app.views.shell.collector import collect_for
     from app.views.shell.language import Rebuilding
+    from app.views.shell.remembered import show_as_remembered
     from app.views.shell.window import MainWindow, open_window
 
     if pen is not None:
@@ -77,7 +78,7 @@ def run(
         collectors.append(collect_for(new))
 
     rebuilding = Rebuilding(window, lambda: open_window(services), follow)
-    window.show()
+    show_as_remembered(window, window.settings)
     if exercise:
         window.begin_exercise(exercise)
     if ct is not None:

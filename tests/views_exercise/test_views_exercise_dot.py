@@ -104,7 +104,7 @@ def test_an_order_does_not_flicker_in_the_noise_of_what_is_measured():
             tilt = (away / plan.length + noise[0] / plan.length, noise[1] / plan.length)
             kinds.append(steps.of(moment(plan, 0.5 * plan.length, tilt, sigma=sigma)).kind)
         changes = sum(one is not other for one, other in pairwise(kinds))
-        assert changes <= 30, away  # of 200 pictures with noise of their own; was 90
+        assert changes <= 30, away  # of 200 noisy pictures; was 46
 
 
 def test_nothing_below_the_measuring_error_is_ordered():
@@ -160,9 +160,9 @@ def test_in_an_attempt_the_bullseye_says_one_figure_and_no_other_word(pad, qt):
     pad.set_plain(True)
     pad.show_step(SimpleNamespace(kind=StepKind.TILT, across=0.0042, distance=0.0))
     qt.processEvents()
-    assert pad._one.text() == "4 mm off"
-    assert pad._one.isVisible()
+    assert pad._figure.text() == "4 mm off"
+    assert pad._figure.isVisible()
     assert not any(label.isVisible() for label in (*pad._words, pad._marks, pad.source))
     pad.set_plain(False)
-    assert not pad._one.isVisible()
+    assert not pad._figure.isVisible()
     assert pad._remaining.isVisible()

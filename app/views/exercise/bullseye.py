@@ -234,9 +234,9 @@ class Bullseye(QWidget):
         self._in_plane = _label(theme.FONT_PX + 1)
         self._out_of_plane = _label(theme.FONT_PX + 1)
         self._source = _label(theme.SMALL_PX, theme.WARNING)
-        self._one = _label(theme.TITLE_PX)
-        self._one.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self._one.hide()
+        self._figure = _label(theme.TITLE_PX)
+        self._figure.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self._figure.hide()
         self._plain = False
         self._lateral, self._angles = _label(theme.SMALL_PX), _label(theme.SMALL_PX)
         self._words = (
@@ -279,7 +279,7 @@ class Bullseye(QWidget):
             button.set_brief(plain)
         self.source.setVisible(not plain)
         self.legend.setVisible(not plain)
-        self._one.setVisible(plain and not self._hides_needle)
+        self._figure.setVisible(plain and not self._hides_needle)
         for label in self._words:
             label.setVisible(not (plain or self._hides_needle))
         self._fit_words()
@@ -287,15 +287,15 @@ class Bullseye(QWidget):
     def show_step(self, step: NextStep) -> None:
         """Say the one figure that belongs to the order: nothing here speaks for itself."""
         words = figure_of(step)
-        if words != self._one.text():
-            self._one.setText(words)
+        if words != self._figure.text():
+            self._figure.setText(words)
 
     def _fit_plain(self) -> None:
         self._marks.hide()
         self.pad.setMinimumSize(SMALLEST_PAD, SMALLEST_PAD)
         self.depth_bar.setMinimumHeight(SMALLEST_PAD // 2)
-        self._one.setStyleSheet(_label_style(theme.TITLE_PX, theme.TEXT))
-        self._one.setFixedHeight(QFontMetrics(_font_of(theme.TITLE_PX)).height() + theme.SPACING)
+        self._figure.setStyleSheet(_label_style(theme.TITLE_PX, theme.TEXT))
+        self._figure.setFixedHeight(QFontMetrics(_font_of(theme.TITLE_PX)).height() + theme.SPACING)
 
     def _fit_words(self) -> None:
         """Say as much as there is room for: in full, without the legend, without the angles,
@@ -392,7 +392,7 @@ class Bullseye(QWidget):
         self.source.set_interactive(interactive, depth_only)
         for button in (self._pull, self._push):
             button.setVisible(interactive)
-        for label in (*self._words, self._one):
+        for label in (*self._words, self._figure):
             label.clear()
         self._fit_words()
 
@@ -416,7 +416,7 @@ class Bullseye(QWidget):
         self.depth_bar.setVisible(not hidden)
         for label in self._words:
             label.setVisible(not (hidden or self._plain))
-        self._one.setVisible(self._plain and not hidden)
+        self._figure.setVisible(self._plain and not hidden)
         self._fit_words()
 
     def show_view(self, view: PadView) -> None:
@@ -534,7 +534,7 @@ class Bullseye(QWidget):
         grid.addWidget(self.pad, 0, 0)
         grid.addLayout(depth, 0, 1)
         grid.addLayout(said, 1, 0, 1, 2)
-        grid.addWidget(self._one, 2, 0, 1, 2)
+        grid.addWidget(self._figure, 2, 0, 1, 2)
         grid.addWidget(self._marks, 3, 0, 1, 2)
         grid.addLayout(hand, 4, 0, 1, 2)
         grid.setRowStretch(0, 1)

@@ -206,7 +206,7 @@ class ScanWall(QWidget):
 
     @property
     def captions(self) -> tuple[str, ...]:
-        """Which scans are in sight, the newest first."""
+        """Return the captions of the scans in sight, the newest first."""
         return tuple(head.text() for head in self._heads if head.text())
 
     # --- inside -----------------------------------------------------------------------------------
