@@ -13,12 +13,15 @@ from pathlib import Path
 import numpy as np
 
 from app.compose.desktop import Desktop
+from app.compose.exercise_ct import load_field
+from app.compose.exercise_field import resolve_tissue
 from app.compose.trainer import Rig, TrainerSetup, build_rig
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.core.progress import Progress
 from app.exercises.guidance import GuidanceMode
 from app.exercises.schema import Exercise
+from app.exercises.tissue import with_tissue
 from app.planning.placement import PlacedPlan
 from app.session.pad.view import rings
 from app.session.shown_views import Shown
@@ -49,22 +52,26 @@ class StillTrainer(Trainer):
 class StillRun:
     """A trainer in virtual time for the window (`views.services.OpenRun`)."""
 
-    def __init__(self, setup: RunSetup, sessions: Path) -> None:
-        clock = VirtualClock(START)
+    def __init__(self, setup: RunSetup, sessions: Path, progress: Progress) -> None:
+        clock, plan = VirtualClock(START), setup.placed.plan
         self._setup = setup
+        tissues = load_field(setup.exercise, setup.volume, plan, progress)
+        exercise = with_tissue(setup.exercise, setup.volume, plan)
+        exercise, _ = resolve_tissue(exercise, setup.placed, tissues)
         self._rig: Rig = build_rig(
             TrainerSetup(
-                setup.exercise,
+                exercise,
                 setup.placed,
                 setup.ct,
                 "novice",
                 setup.exercise.seed,
                 sessions,
                 clock,
+                tissues=tissues,
             )
         )
         self.trainer = StillTrainer(
-            self._rig.loop, None, setup.placed, setup.exercise, None, clock, self._measure
+            self._rig.loop, None, setup.placed, exercise, None, clock, self._measure
         )
         self._rig.loop.open()
         self.trainer.go_on(lambda now: now.pose.measured)  # a depth is believed after some pictures
@@ -113,4 +120,4 @@ class StillDesktop(Desktop):
 
     def open_run(self, setup: RunSetup, progress: Progress) -> StillRun:  # type: ignore[override]
         """Build a trainer in virtual time."""
-        return StillRun(setup, self.sessions())
+        return StillRun(setup, self.sessions(), progress)

@@ -53,6 +53,7 @@ def run(
     from app.tracking.cameras.source import parse_source
     from app.views.shell.application import start
     from app.views.shell.language import Rebuilding
+    from app.views.shell.remembered import show_as_remembered
     from app.views.shell.window import open_window
 
     if pen is not None:
@@ -76,7 +77,7 @@ def run(
 
     rebuilding = Rebuilding(make)
     window = rebuilding.window
-    window.show()
+    show_as_remembered(window, window.settings)
     if exercise:
         window.begin_exercise(exercise)
     if ct is not None:

@@ -51,8 +51,13 @@ HARMLESS: Final = (
     sv.LET_GO,
     sv.ARMING,
     sv.FAULT,
+    sv.BREATH_X,
+    sv.BREATH_Y,
+    sv.BREATH_Z,
 )
-"""Slots of the loop's state that tell how the robot is, and nothing of where the needle is."""
+"""Slots of the loop's state that tell how robot and patient are, and nothing of where the needle
+is: a belt round the body tells the breath in any room.
+"""
 
 HIDDEN_STATES: Final = (State.ALIGNING, State.INSERTING, State.HOLDING)
 """States that the program reads from the needle's place; shown as one."""

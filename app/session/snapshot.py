@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from math import atan2, hypot, isfinite
+from math import hypot, isfinite
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -20,6 +20,7 @@ from app.planning.off_path import Offset
 from app.planning.placement import PlacedPlan
 from app.session.machine import FINAL, State
 from app.session.needle import DepthSource, NeedlePose
+from app.session.pad.aim import CERTAIN, passes, spread
 from app.session.recorder import RecordingStatus
 from app.session.touching import TouchState
 from app.session.transitions import PauseCause
@@ -231,7 +232,8 @@ class NextStep:
         angle: by which the needle is to be tilted [rad].
         towards: sides of the patient to which the hub goes, the larger part first, of `LRAPSI`.
         distance: along the needle that is left, or too much [m].
-        across: way of the tip to a target that is to be touched, across the path to it [m].
+        across: way of the tip to a target that is to be touched, across the path to it [m]; of a
+            needle to be tilted, how far from the target its line passes.
         touch: how the attempt stands with its targets; None where there is nothing to touch.
         pause: what the attempt waits for that the student cannot mend with the needle; else None.
     """
@@ -247,6 +249,9 @@ class NextStep:
 
 CALM: Final = 0.6
 """Share of a limit below which what was asked for is done: an order does not flicker."""
+
+CALM_SIGMA: Final = 2.0
+"""And below the limit by so many standard deviations of what it is measured by."""
 
 SECOND_SIDE: Final = 0.4
 """A side is named beside another where the way towards it is this share of the other's."""
@@ -293,22 +298,28 @@ class NextSteps:
             return self._to_touch(snapshot, snapshot.touch)
         if snapshot.device is not None and snapshot.device.row[sv.BONE_CONTACT] > 0.0:
             return NextStep(StepKind.BONE)  # whoever pushed on would bend the needle, or turn it
-        if pose.measured and -offset.remaining > self._within(StepKind.BACK, self._along):
+        sigma_across, sigma_along = spread(pose.covariance, offset.path)
+        across = max(self._across, CERTAIN * sigma_across)
+        along = max(self._along, CERTAIN * sigma_along)
+        held = snapshot.state is State.HOLDING  # it counts as there: nothing smaller is asked for
+        if pose.measured and -offset.remaining > self._within(
+            StepKind.BACK, along, sigma_along, held
+        ):
             return NextStep(StepKind.BACK, distance=-offset.remaining)
-        wrong = pose.axis - offset.path  # the hub goes to the side that the tip is on
-        sine = float(np.linalg.norm(np.cross(pose.axis, offset.path)))
-        angle = atan2(sine, float(pose.axis @ offset.path))
-        if angle > self._within(StepKind.TILT, atan2(self._across, self._placed.length)):
-            return NextStep(StepKind.TILT, angle, self._sides(wrong))
+        # The hub goes to the side that the line passes on; the dot of the bull's-eye stands there.
+        length = self._placed.length
+        wrong = passes(
+            pose.axis, offset.path, offset.across, pose.depth, length, measured=pose.measured
+        )
+        miss = float(np.linalg.norm(wrong))
+        if miss > self._within(StepKind.TILT, across, sigma_across, held):
+            return NextStep(StepKind.TILT, miss / length, self._sides(wrong), across=miss)
         if not pose.measured:
             return NextStep(StepKind.FEEL)
         if pose.depth <= 0.0:
             return NextStep(StepKind.INSERT, distance=offset.remaining)
-        if offset.remaining > self._along * (CALM if self._last is StepKind.DEEPER else 1.0):
+        if offset.remaining > self._within(StepKind.DEEPER, along, sigma_along, held):
             return NextStep(StepKind.DEEPER, distance=offset.remaining)
-        if offset.lateral > self._within(StepKind.TILT, self._across):  # a bent needle
-            angle = atan2(offset.lateral, hypot(pose.depth, self._along))
-            return NextStep(StepKind.TILT, angle, self._sides(offset.across))
         return NextStep(StepKind.FINISH if snapshot.state is State.HOLDING else StepKind.HOLD)
 
     def _to_touch(self, snapshot: Snapshot, touch: TouchState) -> NextStep:
@@ -331,9 +342,13 @@ class NextSteps:
             touch=touch,
         )
 
-    def _within(self, kind: StepKind, limit: float) -> float:
-        """Limit of a quantity: a smaller one while it is being mended."""
-        return limit * (CALM if self._last is kind else 1.0)
+    def _within(self, kind: StepKind, limit: float, sigma: float, held: bool) -> float:
+        """Return the limit of a quantity [m]: a smaller one while it is being mended, by more than
+        the noise of what it is measured by, unless it is `held`.
+        """
+        if held or self._last is not kind:
+            return limit
+        return min(CALM * limit, limit - CALM_SIGMA * sigma)
 
     def _sides(self, way: FloatArray) -> str:
         """Sides of the patient towards which a way in the world leads."""

@@ -47,7 +47,7 @@ def moment(plan, depth, turn=None, state=State.INSERTING, measured=True, valid=T
         axis = axis / np.linalg.norm(axis)
     tip = plan.p_entry + depth * axis
     target = plan.p_target if p_target is None else p_target
-    pose = SimpleNamespace(axis=axis, depth=depth, measured=measured, valid=valid)
+    pose = SimpleNamespace(axis=axis, depth=depth, measured=measured, valid=valid, covariance=None)
     return Moment(state, pose, offset(tip, axis, plan, target))
 
 

@@ -33,7 +33,7 @@ def test_begin_on_the_start_page_shows_the_briefing_and_enter_begins_the_attempt
     press(window, Qt.Key.Key_Return)
     assert settle(lambda: state(window) is State.ALIGNING)
     assert window.pages.currentWidget() is window.workspace
-    assert window.workspace.has_bullseye
+    assert "bullseye" in window.workspace.grid.shown.panes
     assert beginning.wish is BeginWish.NOTHING
 
 

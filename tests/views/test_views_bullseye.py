@@ -126,7 +126,7 @@ def test_the_legend_is_hidden_and_shown_and_the_choice_outlives_the_window(at_wo
     bullseye.legend.click()
     assert not bullseye._marks.isVisible()
     assert not bullseye.source._help.isVisible()
-    assert "tip" in bullseye.legend.toolTip()
+    assert "dot" in bullseye.legend.toolTip()
     assert not menu.legend.isChecked()
     menu.hub.trigger()
     menu.details.trigger()

@@ -15,7 +15,7 @@ from app.core.arrays import angle_between
 from app.device.state import DeviceState
 from app.session.pad.hand import HandPose
 from app.views.exercise.bullseye import Bullseye
-from app.views.exercise.pad_canvas import PadArea, free_corner, is_inside, spring
+from app.views.exercise.pad_canvas import PadArea, free_corner, is_inside
 from app.views.exercise.readings import hand_pose, pad_view
 from app.views.kit import theme
 
@@ -199,14 +199,6 @@ def test_places_beyond_the_rim_are_drawn_on_it():
     assert np.hypot(far.x(), far.y()) == pytest.approx(area.radius)
 
 
-def test_a_spring_without_length_is_a_point_and_others_end_where_they_should():
-    start, end = QPointF(10, 10), QPointF(60, 30)
-    assert spring(start, start, 5.0).count() == 2
-    zigzag = spring(start, end, 5.0)
-    assert zigzag.first() == start
-    assert zigzag.last() == end
-
-
 def test_a_blind_bullseye_tells_neither_offset_nor_angles(pad):
     pad.hide_needle(True)
     assert not any(label.isVisibleTo(pad) for label in pad._words)
@@ -259,7 +251,7 @@ def test_sizes_of_rings_without_room_are_in_the_tooltip(pad, qt):
     pad.pad.setMinimumSize(60, 60)
     pad.pad.resize(100, 100)
     pad.pad.grab()
-    assert "30°" in pad.pad.toolTip()
+    assert "40 mm" in pad.pad.toolTip()
     pad.pad.resize(400, 400)
     pad.pad.grab()
     assert pad.pad.toolTip() == ""

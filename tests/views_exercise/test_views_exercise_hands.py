@@ -659,10 +659,11 @@ def test_the_orders_name_the_end_that_the_hand_moves(pad):
 
 
 def test_an_order_for_the_tip_is_the_opposite_of_the_one_for_the_hub():
-    step = NextStep(StepKind.TILT, 0.05, "IL", 0.0)
-    assert step_words(step, True) == "Tilt the hub 3° towards the feet and the patient's left"
+    step = NextStep(StepKind.TILT, 0.05, "IL", across=0.003)
+    hub = "Tilt the hub towards the feet and the patient's left: 3 mm off the target"
+    assert step_words(step, True) == hub
     words = step_words(step, True, tip=True)
-    assert words == "Tilt the tip 3° towards the head and the patient's right"
+    assert words == "Aim 3 mm further towards the head and the patient's right"
 
 
 @pytest.mark.parametrize("hub", [False, True])

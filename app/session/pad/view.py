@@ -12,6 +12,7 @@ from app.exercises.schema import Exercise
 from app.planning.off_path import Offset
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.tolerance import Bands
+from app.session.pad.aim import passes
 from app.session.pad.geometry import PadScale, PathFrame, path_frame
 from app.session.pad.hand import Handle, HandLimits, HandPose, PadHand
 
@@ -83,6 +84,37 @@ class PadView:
         if float(np.abs(self.offset.path - scene.frame.axis).max()) < SAME_PATH:
             return scene.frame
         return path_frame(self.offset.path, scene.frame.R_world_patient)
+
+    def miss(self, scene: PadScene) -> FloatArray:
+        """Return how far from the target, as it is now, the needle's line passes [m], shape (3,).
+
+        Of a tool that touches targets it is where the tip is: there the tip is led, not a line.
+        """
+        if scene.handle is not None:
+            return self.offset.across
+        length = scene.scale.length
+        return passes(
+            self.direction,
+            self.offset.path,
+            self.offset.across,
+            self.depth,
+            length,
+            measured=self.measured,
+        )
+
+    def dot(self, scene: PadScene, hub: bool = False) -> FloatArray:
+        """Place of the dot on the pad, shape (2,), the target in the middle: where the needle's
+        line passes it, on the pad's scale.
+
+        Args:
+            scene: of the path.
+            hub: whether the hub is what is moved: the dot is then on the other side, so that it
+                goes where the hub goes.
+        """
+        frame, miss = self.frame(scene), self.miss(scene)
+        sign = -1.0 if hub else 1.0
+        way = sign * np.array([miss @ frame.right, miss @ frame.up])
+        return scene.scale.place(way / scene.scale.length)
 
     def place(self, scene: PadScene, across: FloatArray) -> FloatArray:
         """Place on the pad of what lies so far off the path [m], (3,) -> (2,).

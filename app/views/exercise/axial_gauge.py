@@ -55,6 +55,10 @@ def bone_crossed_mm(snapshot: Snapshot) -> float | None:
     return way if isfinite(way) else None
 
 
+WORDS_FROM_PX: Final = 320
+"""In a narrower gauge number and bar stand alone."""
+
+
 class AxialGauge(QWidget):
     """A large number and a bar from its middle: to the right the tissue pushes the needle out."""
 
@@ -121,7 +125,7 @@ class AxialGauge(QWidget):
         """Draw number, words and bar."""
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        large, height = round(NUMBER_PX * theme.scale()), self.height()
+        large, height = self._letters(), self.height()
         left = _NUMBER_WIDTH * 0.6 * large
         painter.setFont(_font(painter, large, bold=True))
         painter.setPen(QColor(theme.TEXT))
@@ -130,6 +134,8 @@ class AxialGauge(QWidget):
         self._paint_bar(
             painter, QRectF(left + 12, height - _BAR - 3, self.width() - left - 16, _BAR)
         )
+        if self.width() < WORDS_FROM_PX * theme.scale():
+            return  # cut off they would say nothing; the side of the bar says the same
         painter.setFont(_font(painter, theme.SMALL_PX))
         painter.setPen(QColor(theme.TEXT))
         above = QRectF(left + 12, 0, self.width() - left - 16, height - _BAR - 4)
@@ -151,6 +157,10 @@ class AxialGauge(QWidget):
         )
         painter.setPen(QPen(QColor(theme.IMAGE_LINE), 2.0))
         painter.drawLine(QPointF(middle, bar.top() - 2), QPointF(middle, bar.bottom() + 2))
+
+    def _letters(self) -> int:
+        narrow = self.width() < WORDS_FROM_PX * theme.scale()
+        return theme.TITLE_PX if narrow else round(NUMBER_PX * theme.scale())
 
     def _height(self) -> int:
         return round(NUMBER_PX * theme.scale()) + 12

@@ -5,22 +5,17 @@ from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import (
-    QColor,
     QFont,
     QFontMetrics,
-    QPainter,
-    QPaintEvent,
-    QPen,
-    QPolygonF,
     QResizeEvent,
 )
 from PySide6.QtWidgets import (
+    QApplication,
     QGridLayout,
     QHBoxLayout,
     QLabel,
-    QSizePolicy,
     QToolButton,
     QVBoxLayout,
     QWidget,
@@ -30,138 +25,16 @@ from app.planning.off_path import Offset
 from app.session.pad.geometry import PathFrame
 from app.session.pad.hand import HandPose, PadHand
 from app.session.pad.view import PadScene, PadView
+from app.session.snapshot import NextStep, StepKind
+from app.views.exercise.depth_bar import DepthBar
 from app.views.exercise.hands.chooser import HandChooser
 from app.views.exercise.hands.feed import FeedButton
 from app.views.exercise.hands.source import HandChange
 from app.views.exercise.pad_canvas import PadCanvas
+from app.views.exercise.steps import amount
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
 from app.views.kit.text import literal, tr
-
-_COLUMN = 26
-_TOP, _BOTTOM = 18, 14
-
-
-class DepthBar(QWidget):
-    """Depth along the path, the skin on top; drawn to one scale, marks told apart by shape."""
-
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self._scene: PadScene | None = None
-        self._depth: float | None = None
-        self._hand: float | None = None
-        self._measured = True
-        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
-        self.setAccessibleName(tr("Depth bar"))
-
-    def sizeHint(self) -> QSize:
-        """Preferred size: the bar with the longest of its labels."""
-        font = QFont(self.font())
-        font.setPixelSize(theme.SMALL_PX)
-        label = tr("Target {mm:.0f}", mm=1000)
-        return QSize(24 + _COLUMN + QFontMetrics(font).horizontalAdvance(label), 300)
-
-    def set_scene(self, scene: PadScene | None) -> None:
-        """Take a new path; None clears the bar."""
-        self._scene, self._depth, self._hand = scene, None, None
-        self.update()
-
-    def retarget(self, scene: PadScene) -> None:
-        """Take the path to another target; the needle stays where it is."""
-        self._scene = scene
-        self.update()
-
-    def show_depth(self, depth: float, measured: bool, hand: float | None) -> None:
-        """Draw a depth [m], whether it is a fresh measurement, and the depth the hand wants."""
-        self._depth, self._measured, self._hand = depth, measured, hand
-        self.update()
-
-    @property
-    def span(self) -> tuple[float, float]:
-        """Shallowest and deepest depth on the bar [m]."""
-        scene = self._scene
-        if scene is None:
-            return -0.03, 0.1
-        return max(-0.03, scene.limits.shallowest), max(scene.stop_depth, scene.target_depth) * 1.15
-
-    def pixel(self, depth: float) -> float:
-        """Height on the widget [px] of a depth [m], kept on the bar."""
-        low, high = self.span
-        share = min(1.0, max(0.0, (depth - low) / (high - low)))
-        return _TOP + share * (self.height() - _TOP - _BOTTOM)
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        """Draw the bar."""
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        font = QFont(painter.font())
-        font.setPixelSize(theme.SMALL_PX)
-        painter.setFont(font)
-        low, high = self.span
-        top, bottom = self.pixel(low), self.pixel(high)
-        painter.setPen(QPen(QColor(theme.BORDER), 1.0))
-        painter.setBrush(QColor("#0e1114"))
-        painter.drawRect(QRectF(10, top, _COLUMN, bottom - top))
-        if self._scene is not None:
-            self._paint_depth(painter)
-            self._paint_marks(painter, self._scene)
-
-    def _paint_depth(self, painter: QPainter) -> None:
-        if self._depth is None:
-            return
-        if self._measured:  # a guess is never drawn as if the needle were there
-            self._paint_needle(painter, self.pixel(self._depth))
-        if self._hand is not None:
-            self._paint_hand(painter, self.pixel(self._hand))
-
-    def _paint_needle(self, painter: QPainter, tip: float) -> None:
-        skin, top = self.pixel(0.0), self.pixel(self.span[0])
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(theme.NEEDLE.qcolor(0.35))
-        painter.drawRect(QRectF(10 + _COLUMN / 2 - 2, top, 4, min(skin, tip) - top))
-        painter.setBrush(theme.NEEDLE.qcolor(0.85))
-        painter.drawRect(QRectF(10 + _COLUMN / 2 - 5, skin, 10, max(0.0, tip - skin)))
-        painter.setPen(theme.NEEDLE_TIP.pen(2.0))
-        painter.setBrush(theme.NEEDLE_TIP.qcolor())
-        at = QPointF(10 + _COLUMN / 2, tip)
-        painter.drawPolygon(QPolygonF([at + QPointF(-8, -8), at + QPointF(8, -8), at]))
-
-    def _paint_hand(self, painter: QPainter, y: float) -> None:
-        painter.setPen(QPen(QColor(theme.TEXT), 1.5))
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-        painter.drawPolygon(QPolygonF([QPointF(0, y - 6), QPointF(9, y), QPointF(0, y + 6)]))
-
-    def _paint_marks(self, painter: QPainter, scene: PadScene) -> None:
-        band = scene.depth_tolerance
-        first, last = (self.pixel(scene.target_depth + sign * band) for sign in (-1, 1))
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(theme.TARGET.qcolor(0.35))
-        painter.drawRect(QRectF(10, first, _COLUMN, max(2.0, last - first)))
-        target, stop = self.pixel(scene.target_depth), self.pixel(scene.stop_depth)
-        # The two labels keep a line's height apart even when the marks lie closer.
-        label = max(stop, target + 16)
-        self._mark(painter, self.pixel(0.0), self.pixel(0.0), theme.SKIN.colour, tr("Skin"))
-        self._mark(
-            painter,
-            target,
-            target,
-            theme.TARGET.colour,
-            tr("Target {mm:.0f}", mm=1e3 * scene.target_depth),
-        )
-        self._mark(
-            painter, stop, label, theme.BAD, tr("Stop {mm:.0f}", mm=1e3 * scene.stop_depth), 4.0
-        )
-
-    @staticmethod
-    def _mark(
-        painter: QPainter, y: float, label_y: float, colour: str, text: str, width: float = 2.0
-    ) -> None:
-        painter.setPen(QPen(QColor(colour), width))
-        painter.drawLine(QPointF(8, y), QPointF(12 + _COLUMN, y))
-        painter.setPen(QPen(QColor(theme.now(colour)), 1.0))
-        painter.drawLine(QPointF(12 + _COLUMN, y), QPointF(18 + _COLUMN, label_y))
-        painter.drawText(QPointF(21 + _COLUMN, label_y + 5), text)
-
 
 STRAIGHT_DEG = 0.1
 """Corrections below this [°] are not asked for: five encoder counts."""
@@ -224,27 +97,14 @@ def _correction(
     return words.format(name=name, angle=abs(angle_deg), where=where)
 
 
-def lateral(frame: PathFrame, offset: Offset, short: bool = False) -> str:
-    """Return how far the tip is off the path, and to which side.
-
-    Args:
-        frame: of the path to the target as it is now.
-        offset: of the tip from it.
-        short: without the sides.
+def lateral(offset: Offset, short: bool = False) -> str:
+    """Return how far the tip is off the path; not to which side: before the skin it is on the other
+    one than the needle leads to, and would speak against the dot.
     """
     length = 1e3 * offset.lateral
     if short:
         return tr("{length:.1f} mm off path", length=length)
-    if length < 0.05:
-        return tr("off the path: 0.0 mm")
-    right, up = 1e3 * float(offset.across @ frame.right), 1e3 * float(offset.across @ frame.up)
-    left_letters, right_letters, top, bottom = frame.letters
-    parts = (
-        (abs(right), right_letters if right > 0.0 else left_letters),
-        (abs(up), top if up > 0.0 else bottom),
-    )
-    sides = "  ".join(f"{letters} {size:.1f}" for size, letters in parts if size >= 0.05)
-    return tr("off the path: {length:.1f} mm  ({sides})", length=length, sides=sides)
+    return tr("off the path: {length:.1f} mm", length=length)
 
 
 STEEPEST_DEG: Final = 85.0
@@ -326,8 +186,8 @@ _GAP: Final = 4
 def marks_words() -> str:
     """Say what the pad's marks mean."""
     return tr(
-        "● target, rings: tolerance  ·  ◆ tip  ·  □ hub  ·  ✕ where the needle is heading: "
-        "bring it onto ●  ·  ○ your hand, its spring pulls the needle"
+        "The dot is where the needle will pass the target: bring it into the middle. "
+        "Rings: how far off, the inner two are the tolerance"
     )
 
 
@@ -374,6 +234,10 @@ class Bullseye(QWidget):
         self._in_plane = _label(theme.FONT_PX + 1)
         self._out_of_plane = _label(theme.FONT_PX + 1)
         self._source = _label(theme.SMALL_PX, theme.WARNING)
+        self._figure = _label(theme.TITLE_PX)
+        self._figure.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self._figure.hide()
+        self._plain = False
         self._lateral, self._angles = _label(theme.SMALL_PX), _label(theme.SMALL_PX)
         self._words = (
             self._remaining,
@@ -405,10 +269,41 @@ class Bullseye(QWidget):
         self.source.suit_text()
         self._fit_words()
 
+    def set_plain(self, plain: bool) -> None:
+        """Show pad, depth bar and one figure alone, as in an attempt, or all words again."""
+        if plain is self._plain:
+            return
+        self._plain = plain
+        self.depth_bar.set_narrow(plain)
+        for button in (self._pull, self._push):
+            button.set_brief(plain)
+        self.source.setVisible(not plain)
+        self.legend.setVisible(not plain)
+        self._figure.setVisible(plain and not self._hides_needle)
+        for label in self._words:
+            label.setVisible(not (plain or self._hides_needle))
+        self._fit_words()
+
+    def show_step(self, step: NextStep) -> None:
+        """Say the one figure that belongs to the order: nothing here speaks for itself."""
+        words = figure_of(step)
+        if words != self._figure.text():
+            self._figure.setText(words)
+
+    def _fit_plain(self) -> None:
+        self._marks.hide()
+        self.pad.setMinimumSize(SMALLEST_PAD, SMALLEST_PAD)
+        self.depth_bar.setMinimumHeight(SMALLEST_PAD // 2)
+        self._figure.setStyleSheet(_label_style(theme.TITLE_PX, theme.TEXT))
+        self._figure.setFixedHeight(QFontMetrics(_font_of(theme.TITLE_PX)).height() + theme.SPACING)
+
     def _fit_words(self) -> None:
         """Say as much as there is room for: in full, without the legend, without the angles,
         smaller, or in short.
         """
+        if self._plain:
+            self._fit_plain()
+            return
         for brevity in Brevity:
             if brevity is Brevity.LEGEND and not self.legend.isChecked():
                 continue
@@ -497,7 +392,7 @@ class Bullseye(QWidget):
         self.source.set_interactive(interactive, depth_only)
         for button in (self._pull, self._push):
             button.setVisible(interactive)
-        for label in self._words:
+        for label in (*self._words, self._figure):
             label.clear()
         self._fit_words()
 
@@ -520,7 +415,8 @@ class Bullseye(QWidget):
         self.setMaximumWidth(NARROW_WIDTH if hidden and beside_scan else QWIDGETSIZE_MAX)
         self.depth_bar.setVisible(not hidden)
         for label in self._words:
-            label.setVisible(not hidden)
+            label.setVisible(not (hidden or self._plain))
+        self._figure.setVisible(self._plain and not hidden)
         self._fit_words()
 
     def show_view(self, view: PadView) -> None:
@@ -552,7 +448,9 @@ class Bullseye(QWidget):
     # --- inside -----------------------------------------------------------------------------------
     def _show(self, scene: PadScene, view: PadView) -> None:
         hand = self._hand
-        self.pad.show_view(view, hand.tilts if hand and not self._depth_only else None)
+        # A tool's tip goes against the hand: that is what is learnt, and the dot is the tip.
+        hub = scene.handle is None and (self.source.moves_hub or self._held_at_hub)
+        self.pad.show_view(view, hub)
         self.depth_bar.show_depth(view.depth, view.measured, hand.pose.depth if hand else None)
         self._write(scene, view)
 
@@ -570,8 +468,8 @@ class Bullseye(QWidget):
         distance = remaining(view.offset, scene.rings[0], scene.depth_tolerance)
         # A guess is never said as if it were known.
         self._remaining.setText(distance if view.measured else "–")
-        beside = lateral(frame, view.offset)
-        said_beside = lateral(frame, view.offset, short)
+        beside = lateral(view.offset)
+        said_beside = lateral(view.offset, short)
         self._lateral.setText(said_beside if view.measured else "–")
         self._lateral.setToolTip(literal(beside if view.measured and short else ""))
         guessed = tr("◇ depth not measured now")
@@ -636,10 +534,32 @@ class Bullseye(QWidget):
         grid.addWidget(self.pad, 0, 0)
         grid.addLayout(depth, 0, 1)
         grid.addLayout(said, 1, 0, 1, 2)
-        grid.addWidget(self._marks, 2, 0, 1, 2)
-        grid.addLayout(hand, 3, 0, 1, 2)
+        grid.addWidget(self._figure, 2, 0, 1, 2)
+        grid.addWidget(self._marks, 3, 0, 1, 2)
+        grid.addLayout(hand, 4, 0, 1, 2)
         grid.setRowStretch(0, 1)
         grid.setColumnStretch(0, 1)
+
+
+def figure_of(step: NextStep) -> str:
+    """Return the one figure of an order, in millimetres; a tick where there is nothing to do."""
+    across, along = 1e3 * step.across, 1e3 * abs(step.distance)
+    return {
+        StepKind.TILT: tr("{mm} mm off", mm=amount(across)),
+        StepKind.TOUCH: tr("{mm} mm off", mm=amount(across)),
+        StepKind.INSERT: tr("▼ {mm} mm", mm=amount(along)),
+        StepKind.DEEPER: tr("▼ {mm} mm", mm=amount(along)),
+        StepKind.BACK: tr("▲ {mm} mm", mm=amount(along)),
+        StepKind.HOLD: tr("✔ hold"),
+        StepKind.STAY: tr("✔ hold"),
+        StepKind.FINISH: tr("✔ hold"),
+    }.get(step.kind, "")
+
+
+def _font_of(pixels: int) -> QFont:
+    font = QFont(QApplication.font())
+    font.setPixelSize(pixels)
+    return font
 
 
 def _label(pixels: int, colour: str = "") -> QLabel:

@@ -219,7 +219,8 @@ class Conductor(QObject):
         self.controller.attached.connect(self._begin_steps)
         self.controller.snapshot_taken.connect(self._workspace.next_step.show_snapshot)
         self.controller.beginning.connect(self._as_the_exercise_says)
-        self.controller.began.connect(lambda _: self._workspace.show_exercise())
+        self.controller.began.connect(lambda _: self._begin_attempt())
+        self.controller.attached.connect(self._workspace.room.end)
         self.patient_changed.connect(self._workspace.scan_view.clear)
         self.scans.failed.connect(self.failed)
 
@@ -354,6 +355,11 @@ class Conductor(QObject):
         why = why_locked(self.exercise, Lock.VIEWS)
         self._workspace.show_views(self.shown, run is None or run.interactive, why)
         self.views_changed.emit()
+
+    def _begin_attempt(self) -> None:
+        exercise, run = self.exercise, self.controller.run
+        own = None if exercise is None else exercise.reading.layout
+        self._workspace.room.begin(own or "", run is None or run.shown.live)
 
     def _begin_steps(self) -> None:
         self._workspace.next_step.begin(self.controller.run)
@@ -550,6 +556,8 @@ class Conductor(QObject):
         running = snapshot.state in RUNNING
         if running != self._editor.locked:
             self._editor.set_locked(running)
+            if not running:
+                self._workspace.room.end()
             self.views_changed.emit()
 
     def close(self) -> None:

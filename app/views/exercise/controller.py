@@ -97,6 +97,8 @@ class ExerciseDisplay:
         self._views.panel.set_guidance(None if live else run.guidance, run.placed.plan)
         if run.touches:  # its phases are those of one insertion; here there are many targets
             self._views.panel.steps.set_brief(True)
+            self._views.panel.rail.stage.set_brief(True)
+        self._views.panel.rail.breath.begin(run.rings[0])
         self._views.panel.set_offsets(shows(ViewName.BULLSEYE))
 
     def take_hand(self, snapshot: Snapshot) -> None:
@@ -148,6 +150,7 @@ class ExerciseDisplay:
         views.panel.withdrawal.show_snapshot(snapshot)
         commands = interactive and snapshot.state in RUNNING
         views.panel.breath.show_breath(snapshot.breath, commands)
+        views.panel.rail.breath.show_snapshot(snapshot)
         views.panel.bevel.show_roll(snapshot.roll, commands)
         views.panel.touch.show_touch(snapshot, run.profile.needle_length)
         views.bullseye.pad.rolls = commands and snapshot.roll is not None

@@ -1,10 +1,14 @@
-"""The bull's-eye pad: rings, letters, needle, aim, hand and its spring; mouse and keys move the
-hand.
+"""The bull's-eye pad: the target in the middle, its rings, and one dot that the pointer moves.
+
+The dot stands where the needle's line passes the target (`session.pad.aim`), on the side that the
+order speaks of, and leaves a trace of its last second: a hand that trembles is seen to.
 """
 
+from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import atan2, copysign, hypot, radians
+from time import monotonic
 from typing import Final
 
 import numpy as np
@@ -24,27 +28,29 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from app.core.arrays import FloatArray
 from app.session.pad.view import PadScene, PadView
 from app.views.exercise.hands.feed import DEPTH_STEP, FINE_DEPTH_STEP, GONE, SPEED, Feed
 from app.views.kit import theme
 from app.views.kit.text import literal, tr
 
-_ANGLES_DEG: Final = (10, 30)
-HAND_COLOUR: Final = "#ffffff"
+_FAR_MM: Final = (10, 40)
+"""Radii of the rings beyond the tolerance [mm]: in the unit of all others."""
+
+DOT_PX: Final = 7.0
+"""Radius of the dot [px]."""
+
+TRACE_S: Final = 1.0
+"""So long the dot leaves a trace [s]."""
+
 _DIAGONALS: Final = ((0.7071, -0.7071), (0.7071, 0.7071), (-0.7071, 0.7071), (-0.7071, -0.7071))
 """Where a ring's size may stand, to the right and downwards from the middle, in its radius."""
-
-RING_POINTS: Final = 48
-"""Corners of a ring that is drawn beside the middle."""
 
 SMALLEST_PX: Final = 10
 """Smallest letters within the rim."""
 
 _BESIDE: Final = 7
 """From the rim to the letters beside it [px]."""
-
-_LEAD: Final = radians(0.15)
-"""Below this angle between hand and needle no spring is drawn [rad]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,13 +91,8 @@ def paint_hidden(painter: QPainter, area: PadArea, words: str) -> None:
             return
 
 
-def paint_background(
-    painter: QPainter, area: PadArea, scene: PadScene, view: PadView | None = None
-) -> list[str]:
-    """Rim, rings with their sizes, cross, letters, target.
-
-    With a `view` whose target has moved, target and rings stand where it is now: the rings as the
-    ovals that the pad's scale makes of circles beside its middle.
+def paint_background(painter: QPainter, area: PadArea, scene: PadScene) -> list[str]:
+    """Rim, rings with their sizes, cross, letters, target: always in the middle, as it is now.
 
     Returns:
         Sizes of rings for which there is no room.
@@ -102,37 +103,23 @@ def paint_background(
     _cross(painter, area)
     taken: list[QRectF] = []
     unnamed: list[str] = []
-    moved = view if view is not None and view.frame(scene) is not scene.frame else None
     for i, ring in reversed(list(enumerate(scene.rings))):
-        if moved is not None:
-            painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.setPen(QPen(QColor(theme.TARGET.colour), 2.5 if i == 0 else 1.6))
-            painter.drawPolygon(moved_ring(area, scene, moved, ring))
-            continue
         radius = scene.scale.radius(atan2(ring, scene.scale.length))
         _ring(painter, area, radius, theme.TARGET.colour, 2.5 if i == 0 else 1.6)
         name = tr("{mm:g} mm", mm=1e3 * ring)
         if not _ring_name(painter, area, radius, theme.TARGET.colour, name, taken):
             unnamed.append(name)
-    for angle_deg in _ANGLES_DEG:
-        radius = scene.scale.radius(radians(angle_deg))
+    for far_mm in _FAR_MM:
+        radius = scene.scale.radius(atan2(1e-3 * far_mm, scene.scale.length))
         _ring(painter, area, radius, theme.IMAGE_LINE, 1.0)
-        if not _ring_name(painter, area, radius, theme.IMAGE_DIM, f"{angle_deg}°", taken):
-            unnamed.append(f"{angle_deg}°")
+        name = tr("{mm:g} mm", mm=far_mm)
+        if not _ring_name(painter, area, radius, theme.IMAGE_DIM, name, taken):
+            unnamed.append(name)
     _letters(painter, area, scene.frame.letters)
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(theme.TARGET.qcolor())
-    at = area.centre if moved is None else area.point(moved.place(scene, np.zeros(3)))
-    painter.drawEllipse(at, 3.5, 3.5)
+    painter.drawEllipse(area.centre, 3.5, 3.5)
     return unnamed
-
-
-def moved_ring(area: PadArea, scene: PadScene, view: PadView, radius: float) -> QPolygonF:
-    """Ring of `radius` [m] round the target as it is now, on the pad."""
-    frame = view.frame(scene)
-    turns = np.linspace(0.0, 2.0 * np.pi, RING_POINTS, endpoint=False)
-    around = radius * (np.cos(turns)[:, None] * frame.right + np.sin(turns)[:, None] * frame.up)
-    return QPolygonF([area.point(view.place(scene, across)) for across in around])
 
 
 def paint_needle(painter: QPainter, area: PadArea, scene: PadScene, view: PadView) -> None:
@@ -155,39 +142,26 @@ def paint_needle(painter: QPainter, area: PadArea, scene: PadScene, view: PadVie
     _tip_mark(painter, tip, view.measured)
 
 
-def paint_hand(
-    painter: QPainter, area: PadArea, scene: PadScene, view: PadView, hand_tilts: ArrayLike
+def paint_dot(
+    painter: QPainter, area: PadArea, places: Sequence[FloatArray], measured: bool
 ) -> None:
-    """Draw the hand's ghost, and the spring to the needle while the hand leads it.
+    """Draw the dot where it is, and the trace of where it was; hollow while nobody measures it.
 
-    The spring is as long as the lead, and the thicker and wider the stronger it pulls.
+    Args:
+        painter: of the widget.
+        area: of the pad.
+        places: on the pad, the newest last, shape (2,) each; at least one.
+        measured: whether the depth is known.
     """
-    needle = scene.frame.tilts(view.direction)
-    tilts = np.asarray(hand_tilts, dtype=np.float64)
-    ghost = area.point(scene.scale.place(tilts))
-    if hypot(*(tilts - needle)) > _LEAD:
-        share = min(1.0, view.force / view.force_limit) if view.force_limit > 0.0 else 0.0
-        aim = area.point(scene.scale.place(needle))
-        painter.setPen(QPen(QColor(HAND_COLOUR), 1.4 + 3.0 * share))
-        painter.drawPolyline(spring(aim, ghost, 5.0 + 6.0 * share))
-    pen = QPen(QColor(HAND_COLOUR), 2.0)
-    painter.setPen(pen)
-    painter.setBrush(QColor(255, 255, 255, 40))
-    painter.drawEllipse(ghost, 11.0, 11.0)
-
-
-def spring(start: QPointF, end: QPointF, amplitude: float, coils: int = 6) -> QPolygonF:
-    """Zigzag line [px] between two points; straight ends, `coils` teeth between."""
-    along = end - start
-    length = hypot(along.x(), along.y())
-    if length < 1e-6:
-        return QPolygonF([start, end])
-    across = QPointF(-along.y(), along.x()) * (min(amplitude, length / 4) / length)
-    points = [start, start + along * 0.1]
-    for i in range(2 * coils):
-        side = 1 if i % 2 == 0 else -1
-        points.append(start + along * (0.1 + 0.8 * (i + 0.5) / (2 * coils)) + across * side)
-    return QPolygonF([*points, start + along * 0.9, end])
+    at = area.point(places[-1])
+    painter.setPen(QPen(QColor(theme.IMAGE_DIM), 1.0))
+    painter.drawLine(at, area.centre)  # the way that it is to go
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.setPen(theme.NEEDLE_TIP.pen(1.5, 0.55))
+    painter.drawPolyline(QPolygonF([area.point(place) for place in places]))
+    painter.setPen(theme.NEEDLE_TIP.pen(2.5))
+    painter.setBrush(theme.NEEDLE_TIP.qcolor() if measured else QColor(theme.IMAGE_GROUND))
+    painter.drawEllipse(at, DOT_PX, DOT_PX)
 
 
 def _cross(painter: QPainter, area: PadArea) -> None:
@@ -362,7 +336,8 @@ class PadCanvas(QWidget):
         super().__init__(parent)
         self._scene: PadScene | None = None
         self._view: PadView | None = None
-        self._hand: ArrayLike | None = None
+        self._dots: deque[tuple[float, FloatArray]] = deque()
+        self._hub = False
         self._last: QPointF | None = None
         self._wheel = 0
         self._hides_needle = False
@@ -383,12 +358,14 @@ class PadCanvas(QWidget):
         """Take a new path; None clears the pad."""
         self.setToolTip("")  # of what was shown before
         self.let_go()
-        self._scene, self._view, self._hand = scene, None, None
+        self._scene, self._view = scene, None
+        self._dots.clear()
         self.update()
 
     def retarget(self, scene: PadScene) -> None:
         """Take the path to another target; a drag and what is held go on."""
         self._scene, self._view = scene, None
+        self._dots.clear()
         self.update()
 
     def hide_needle(self, hidden: bool) -> None:
@@ -396,10 +373,24 @@ class PadCanvas(QWidget):
         self._hides_needle = hidden
         self.update()
 
-    def show_view(self, view: PadView, hand_tilts: ArrayLike | None) -> None:
-        """Draw a new moment; `hand_tilts` [rad] is None when no simulated hand holds."""
-        self._view, self._hand = view, hand_tilts
+    def show_view(self, view: PadView, hub: bool = False) -> None:
+        """Draw a new moment; `hub`: whether the dot goes where the hub goes, not the tip."""
+        if self._scene is None:
+            return
+        if hub is not self._hub:
+            self._hub = hub
+            self._dots.clear()
+        now = monotonic()
+        self._view = view
+        self._dots.append((now, view.dot(self._scene, hub)))
+        while now - self._dots[0][0] > TRACE_S:
+            self._dots.popleft()
         self.update()
+
+    @property
+    def dot(self) -> FloatArray | None:
+        """Place of the dot on the pad, shape (2,), 1 being the rim; None before there is one."""
+        return self._dots[-1][1] if self._dots else None
 
     @property
     def area(self) -> PadArea:
@@ -408,7 +399,7 @@ class PadCanvas(QWidget):
         return PadArea.inside(self.width(), self.height(), margin)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Draw background, needle, hand."""
+        """Draw background and dot."""
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         if self._scene is None:
@@ -420,12 +411,11 @@ class PadCanvas(QWidget):
             self.setToolTip(literal(words))
             paint_hidden(painter, self.area, words)
             return
-        unnamed = paint_background(painter, self.area, self._scene, self._view)
+        unnamed = paint_background(painter, self.area, self._scene)
         self.setToolTip(literal(tr("Rings: {sizes}", sizes=", ".join(unnamed)) if unnamed else ""))
         if self._view is not None:
-            paint_needle(painter, self.area, self._scene, self._view)
-            if self._hand is not None:
-                paint_hand(painter, self.area, self._scene, self._view, self._hand)
+            places = [place for _, place in self._dots]
+            paint_dot(painter, self.area, places, self._view.measured)
 
     def let_go(self) -> None:
         """End a drag and what is held to push or pull; idempotent."""

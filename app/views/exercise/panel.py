@@ -29,6 +29,7 @@ from app.session.machine import RUNNING, State
 from app.session.pad.hand import Handle
 from app.session.snapshot import BreathHold, Snapshot
 from app.views.exercise.assistance_dial import AssistanceDial
+from app.views.exercise.attempt_rail import AttemptRail
 from app.views.exercise.enable_switch import EnableSwitch
 from app.views.exercise.energy_gauge import EnergyGauge
 from app.views.exercise.live import LiveFigures
@@ -104,12 +105,21 @@ class AttemptActions(QWidget):
             shortcut.setEnabled(button.isEnabled())
 
     def _lay_out(self) -> None:
-        grid = QGridLayout(self)
+        self._grid = grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.addWidget(self.start, 0, 0, 1, 2)
-        grid.addWidget(self.scan, 1, 0)
-        grid.addWidget(self.end, 1, 1)
-        grid.addWidget(self.abort, 2, 0, 1, 2)
+        self.set_narrow(False)
+
+    def set_narrow(self, narrow: bool) -> None:
+        """Put the buttons below each other and leave Start out, as a rail wants them, or not."""
+        self.start.setVisible(not narrow)
+        places = {
+            self.scan: (1, 0, 1, 2 if narrow else 1),
+            self.end: (2, 0, 1, 2) if narrow else (1, 1, 1, 1),
+            self.abort: (3 if narrow else 2, 0, 1, 2),
+        }
+        for button, place in places.items():
+            self._grid.addWidget(button, *place)
 
     def _connect(self) -> None:
         for button, signal, keys in (
@@ -279,7 +289,7 @@ class BreathCommand(QWidget):
         self.button = _button("", tr("Breathe in, breathe out, hold: until you let him breathe"))
         self._words = PlainLabel(self)
         self._wish = False
-        row = QHBoxLayout(self)
+        self._row = row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.addWidget(self.button)
         row.addWidget(self._words, 1)
@@ -288,6 +298,11 @@ class BreathCommand(QWidget):
         self._key.setAutoRepeat(False)
         self._key.activated.connect(self.button.click)
         self.show_breath(None, False)
+
+    def set_narrow(self, narrow: bool) -> None:
+        """Put the words below the button, or beside it."""
+        way = QHBoxLayout.Direction
+        self._row.setDirection(way.TopToBottom if narrow else way.LeftToRight)
 
     def listen(self, page: QWidget) -> None:
         """Let the key work wherever `page` is shown."""
@@ -325,6 +340,45 @@ TELLING_NOTHING: Final = frozenset({"elapsed", "scans"})
 """Read-outs that say nothing of where the needle is."""
 
 
+class AttemptTools(QWidget):
+    """What is pressed and answered in an attempt: beside the rest of the panel, or in the rail.
+
+    Attributes:
+        buttons, withdrawal, enable, breath, bevel, touch, scan: from the top.
+    """
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.buttons = AttemptActions(self)
+        self.withdrawal = WithdrawalNote(self)
+        self.enable = EnableSwitch(self)
+        self.breath = BreathCommand(self)
+        self.bevel = BevelNote(self)
+        self.bevel.hide()
+        self.touch = TouchNote(self)
+        self.scan = ScanPanel(self)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(theme.SPACING - 2)
+        for widget in (
+            self.withdrawal,
+            self.buttons,
+            self.enable,
+            self.breath,
+            self.bevel,
+            self.touch,
+            self.scan,
+        ):
+            column.addWidget(widget)
+
+    def set_narrow(self, narrow: bool) -> None:
+        """Suit a rail, or a panel of the usual width."""
+        self.buttons.set_narrow(narrow)
+        self.breath.set_narrow(narrow)
+        self.scan.set_narrow(narrow)
+        self.bevel.setWordWrap(narrow)
+
+
 class ExercisePanel(QWidget):
     """Everything around the pad; holds no state of the attempt.
 
@@ -350,6 +404,8 @@ class ExercisePanel(QWidget):
         self._state: State | None = None
         self._start: tuple[bool, str] = False, ""
         self._signed_in, self._typed = False, ""
+        self._telling: frozenset[str] | None = None
+        self._offsets = self._forceful = True
         self.exercise = QComboBox(self)
         self.student = QLineEdit(self)
         self._title = PlainLabel(self)
@@ -360,14 +416,11 @@ class ExercisePanel(QWidget):
         self._dial_title = PlainLabel(tr("Assistance"), self)
         self._note = PlainLabel(self)
         self.steps = Steps(self)
-        self.buttons = AttemptActions(self)
-        self.withdrawal = WithdrawalNote(self)
-        self.enable = EnableSwitch(self)
-        self.breath = BreathCommand(self)
-        self.bevel = BevelNote(self)
-        self.bevel.hide()
-        self.touch = TouchNote(self)
-        self.scan = ScanPanel(self)
+        self.tools, self.rail = AttemptTools(self), AttemptRail(self)
+        tools = self.tools
+        self.buttons, self.withdrawal, self.enable = tools.buttons, tools.withdrawal, tools.enable
+        self.breath, self.bevel, self.touch = tools.breath, tools.bevel, tools.touch
+        self.scan = tools.scan
         self.readouts = AttemptReadouts(self)
         self.energy = EnergyGauge(self)
         self.exercise.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
@@ -455,21 +508,42 @@ class ExercisePanel(QWidget):
         """Let control scans guide, with the table about the plan's middle; None shows all live."""
         self.scan.set_guidance(guidance, plan)
         self.steps.set_brief(guidance is not None)
-        self.readouts.set_telling(None if guidance is None else TELLING_NOTHING)
+        self._telling = None if guidance is None else TELLING_NOTHING
+        self.readouts.set_telling(self._telling)
+        self.rail.stage.set_brief(guidance is not None)
+        self._tell_rail()
         self.buttons.set_pedal(guidance is not None)
+
+    def lend_tools(self, lent: bool) -> None:
+        """Let the rail have what is pressed in an attempt, or take it back to its place."""
+        self.tools.set_narrow(lent)
+        if lent:
+            self.rail.take(self.tools)
+        else:
+            self._column.insertWidget(self._column.indexOf(self._note) + 1, self.tools)
+            self.tools.show()
 
     def set_offsets(self, shown: bool) -> None:
         """Say how far the needle is off the path, or not where the bull's-eye may not either."""
         self.readouts.set_offsets(shown)
+        self._offsets = shown
+        self._tell_rail()
+
+    def _tell_rail(self) -> None:
+        self.rail.figures.set_telling(self._telling, self._offsets)
+        self.rail.force.setVisible(self._telling is None and self._forceful)
 
     def set_forceful(self, forceful: bool) -> None:
         """Show the dial and the force felt, or neither where there is nothing that could push."""
         self._form.setRowVisible(self.assistance, forceful)
         self.readouts.set_forceful(forceful)
+        self._forceful = forceful
+        self._tell_rail()
 
     def show_figures(self, figures: LiveFigures | None) -> None:
         """Show a moment of the attempt; None without one."""
         self.readouts.show_figures(figures)
+        self.rail.show_figures(figures)
         state = figures.state if figures else None
         self.steps.show_state(state)
         if state is not self._state:
@@ -538,7 +612,7 @@ class ExercisePanel(QWidget):
         add_row(form, tr("Exercise"), self.exercise)
         add_row(form, tr("Student"), self.student)
         form.addRow(self._dial_title, self.assistance)
-        column = QVBoxLayout(self)
+        self._column = column = QVBoxLayout(self)
         column.setContentsMargins(theme.MARGIN, theme.SPACING, theme.MARGIN, theme.SPACING)
         column.setSpacing(theme.SPACING - 2)  # with every part shown it still fits 768 lines
         column.addWidget(self._title)
@@ -546,13 +620,7 @@ class ExercisePanel(QWidget):
         for widget in (
             self.steps,
             self._note,
-            self.withdrawal,
-            self.buttons,
-            self.enable,
-            self.breath,
-            self.bevel,
-            self.touch,
-            self.scan,
+            self.tools,
             _line(),
             self.readouts,
             self.energy,

@@ -28,6 +28,7 @@ from app.views.exercise.status_items import (
     encoder_item,
     heartbeat_item,
     loop_item,
+    no_cameras_item,
     recorder_item,
     robot_item,
     tracker_item,
@@ -149,7 +150,7 @@ def tracker_status(snapshot: Snapshot) -> StatusItem:
     """Health of the cameras."""
     statistics: TrackerStatistics | None = snapshot.tracker
     if statistics is None:
-        return tracker_item(0.0, 0.0, inf, tr("no cameras"))
+        return no_cameras_item()
     age = inf if statistics.age is None else statistics.age
     return tracker_item(statistics.rate, statistics.valid_share, age, problem(statistics))
 

@@ -182,7 +182,7 @@ class AttemptReadouts(QWidget):
 
     def show_figures(self, figures: LiveFigures | None) -> None:
         """Show a moment; None empties the read-outs."""
-        texts = dict.fromkeys(self._values, _EMPTY) if figures is None else _texts(figures)
+        texts = dict.fromkeys(self._values, _EMPTY) if figures is None else figure_texts(figures)
         for key, text in texts.items():
             if self._values[key].text() != text:
                 self._values[key].setText(text)
@@ -269,7 +269,8 @@ def _rows() -> dict[str, tuple[str, str]]:
     }
 
 
-def _texts(figures: LiveFigures) -> dict[str, str]:
+def figure_texts(figures: LiveFigures) -> dict[str, str]:
+    """Return each read-out's text, by its key."""
     if figures.hidden:
         said = {"elapsed": clock_text(figures.elapsed), "scans": str(figures.scans)}
         return dict.fromkeys(_rows(), _EMPTY) | said

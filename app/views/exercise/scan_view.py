@@ -11,6 +11,7 @@ from PySide6.QtWidgets import (
     QGridLayout,
     QHBoxLayout,
     QProgressBar,
+    QPushButton,
     QSpinBox,
     QStackedLayout,
     QToolButton,
@@ -24,6 +25,7 @@ from app.imaging.volume import Volume
 from app.imaging.window import to_grey
 from app.planning.plan import Plan
 from app.session.control_scan import TEACHING_ESTIMATE, ControlScan
+from app.views.exercise.scan_wall import ScanWall, Shot
 from app.views.kit import theme
 from app.views.kit.coordinates import axis_words
 from app.views.kit.parts import PlainLabel
@@ -172,25 +174,36 @@ class ScanPanel(QWidget):
         self.set_busy(False)
         self._show_count(0)
 
+    def set_narrow(self, narrow: bool) -> None:
+        """Suit a rail, or a panel of the usual width."""
+        grid = self._grid
+        grid.removeItem(self._table_row)
+        self._table_row.setParent(None)
+        grid.addLayout(self._table_row, *((2, 0, 1, 3) if narrow else (1, 1, 1, 1)))
+        grid.addWidget(self.here, *((1, 1, 1, 2) if narrow else (1, 2, 1, 1)))
+        grid.addWidget(self.range, *((4, 0, 1, 3) if narrow else (3, 2, 1, 1)))
+        for label in (self.range, self.count):
+            label.setWordWrap(narrow)
+
     def _lay_out(self) -> None:
-        table = QHBoxLayout()
+        self._table_row = table = QHBoxLayout()
         table.setSpacing(4)
-        for widget, stretch in ((self.feet, 0), (self.table, 1), (self.head, 0), (self.here, 0)):
+        for widget, stretch in ((self.feet, 0), (self.table, 1), (self.head, 0)):
             table.addWidget(widget, stretch)
-        title = PlainLabel(tr("Control scan"), self)
-        title.setProperty("role", "heading")
-        grid = QGridLayout(self)
+        self._grid = grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setVerticalSpacing(4)
+        title = PlainLabel(tr("Control scan"), self)
+        title.setProperty("role", "heading")
         grid.addWidget(title, 0, 0, 1, 3)
         grid.addWidget(PlainLabel(tr("Table"), self), 1, 0)
-        grid.addLayout(table, 1, 1, 1, 2)
-        grid.addWidget(PlainLabel(tr("Slices"), self), 2, 0)
-        grid.addWidget(self.slices, 2, 1)
-        grid.addWidget(self.range, 2, 2)
-        grid.addWidget(self.count, 3, 0, 1, 3)
-        grid.addWidget(self.progress, 4, 0, 1, 3)
-        grid.setColumnStretch(2, 1)
+        grid.addWidget(PlainLabel(tr("Slices"), self), 3, 0)
+        grid.addWidget(self.slices, 3, 1)
+        grid.addWidget(self.count, 5, 0, 1, 3)
+        grid.addWidget(self.progress, 6, 0, 1, 3)
+        grid.setColumnStretch(1, 1)
+        grid.addLayout(table, 1, 1)
+        self.set_narrow(False)
 
 
 THUMB_PX, LEAST_THUMB_PX = 76, 28
@@ -201,7 +214,17 @@ WORDS_PX = 30
 
 
 class ScanView(QWidget):
-    """Shows a scan until the next one; scrolling, zoom, window and read-outs as in every slice."""
+    """Shows a scan until the next one: all slices side by side, or one as every slice is shown.
+
+    Signals:
+        arrived(): a new scan is shown.
+
+    Attributes:
+        wall: the slices side by side, the scan before them below.
+        pane: one slice alone; scrolling, zoom, window and read-outs as everywhere.
+    """
+
+    arrived = Signal()
 
     def __init__(self, planning: Viewing, parent: QWidget | None = None) -> None:
         """Make an empty view; its window follows that of the `planning` CT, and leads it."""
@@ -212,6 +235,11 @@ class ScanView(QWidget):
         self.scan: ControlScan | None = None
         self._planning = planning
         self._caption, self._nothing = PlainLabel(self), PlainLabel(self)
+        self.wall = ScanWall(self)
+        self.wall.slice_wanted.connect(self._show_alone)
+        self._all = QPushButton(tr("All slices"))
+        self._all.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self._all.clicked.connect(self.show_all)
         self._strip = QVBoxLayout()
         self._thumbs = QButtonGroup(self)
         self._thumbs.idClicked.connect(self._go_to)
@@ -220,12 +248,14 @@ class ScanView(QWidget):
         planning.cursor_changed.connect(self._follow_crosshair)
         self.viewing.window_changed.connect(lambda: planning.set_window(self.viewing.window))
         self.viewing.window_changed.connect(self._draw_thumbs)
+        self.viewing.window_changed.connect(lambda: self.wall.set_window(self.viewing.window))
         self.viewing.cursor_changed.connect(self._check_thumb)
         self.clear()
 
     def clear(self) -> None:
         """Show that there is no scan yet; nothing of the last one is kept."""
         self.scan = None
+        self.wall.clear()
         self._caption.clear()
         self._drop_thumbs()
         self._stack.setCurrentIndex(0)
@@ -244,8 +274,21 @@ class ScanView(QWidget):
         self._make_thumbs(picture)
         self._follow_crosshair()
         self._go_to(picture.size[2] // 2)
-        self._stack.setCurrentIndex(1)
+        self.wall.set_window(self.viewing.window)
+        self.wall.look_at(self._planning.draft)
+        self.wall.add(Shot(picture, caption(scan, origin)))
+        self.show_all()
         self.pane.canvas.fit()
+        self.arrived.emit()
+
+    def show_all(self) -> None:
+        """Show all slices side by side, if there is a scan."""
+        if self.scan is not None:
+            self._stack.setCurrentWidget(self.wall)
+
+    def _show_alone(self, number: int) -> None:
+        self._go_to(number)
+        self._stack.setCurrentWidget(self._page)
 
     # --- inside -----------------------------------------------------------------------------------
     def _go_to(self, number: int) -> None:
@@ -329,15 +372,19 @@ class ScanView(QWidget):
         row.setContentsMargins(0, 0, 0, 0)
         row.addWidget(self.pane, 1)
         row.addLayout(self._strip)
-        page = QWidget(self)
+        self._page = page = QWidget(self)
         column = QVBoxLayout(page)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(2)
         column.addLayout(row, 1)
-        column.addWidget(self._caption)
+        below = QHBoxLayout()
+        below.addWidget(self._caption, 1)
+        below.addWidget(self._all)
+        column.addLayout(below)
         self._stack = QStackedLayout(self)
         self._stack.addWidget(self._nothing)
         self._stack.addWidget(page)
+        self._stack.addWidget(self.wall)
 
 
 def caption(scan: ControlScan, origin: float) -> str:

@@ -213,9 +213,11 @@ class StatusStrip(QWidget):
 
     Signals:
         detailed(bool): the user wants all details, or no longer.
+        shown(items, robot): what is shown now, of the parts and of the robot (None: no light).
     """
 
     detailed = Signal(bool)
+    shown = Signal(object, object)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -246,6 +248,7 @@ class StatusStrip(QWidget):
         if robot is not None:
             self.light.show_item(robot)
         self._show()
+        self.shown.emit(self._items, robot)
 
     @property
     def is_detailed(self) -> bool:

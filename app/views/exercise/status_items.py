@@ -123,6 +123,16 @@ def _seen_words(verdict: Verdict, problem: str) -> str:
     }.get(verdict, tr("do not see the marker"))
 
 
+def no_cameras_item() -> StatusItem:
+    """Return what is said where there are no cameras: nothing of theirs can be amiss."""
+    return StatusItem(
+        Verdict.IDLE,
+        tr("Cameras"),
+        tr("no cameras"),
+        tr("There are no cameras here: the depth comes from elsewhere, or from nowhere."),
+    )
+
+
 def depth_item(source: str, age: float) -> StatusItem:
     """Say where the shown depth comes from: one of `session.needle.DepthSource`."""
     known = {

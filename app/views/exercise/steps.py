@@ -1,9 +1,8 @@
 """What is done, what comes: the attempt's states in a row, and the next step in one line."""
 
-from math import degrees
 from typing import Final
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QApplication, QSizePolicy, QWidget
 
@@ -147,7 +146,7 @@ def side_word(letter: str) -> str:
 OTHER_SIDE: Final = str.maketrans("LRAPSI", "RLPAIS")
 
 
-def _amount(value: float) -> str:
+def amount(value: float) -> str:
     """Write a way to go: whole numbers, and below one tenths, so that nobody overshoots by them."""
     return f"{value:.0f}" if value >= 0.95 else f"{max(value, 0.1):.1f}"
 
@@ -172,9 +171,9 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False) -> str:
     towards = step.towards.translate(OTHER_SIDE) if tip else step.towards
     sides = tr(" and ").join(side_word(letter) for letter in towards)
     tilt = (
-        tr("Tilt the tip {angle}° towards {sides}")
+        tr("Aim {mm} mm further towards {sides}")
         if tip
-        else tr("Tilt the hub {angle}° towards {sides}")
+        else tr("Tilt the hub towards {sides}: {mm} mm off the target")
     )
     return {
         StepKind.START: tr("Press F5 to start the attempt"),
@@ -186,12 +185,12 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False) -> str:
         StepKind.SEE: tr("Let both cameras see the marker"),
         StepKind.WAIT: _pause_words(step.pause),
         StepKind.SCAN: tr("Push by the scans: S takes one, Enter ends the attempt"),
-        StepKind.TILT: tilt.format(angle=_amount(degrees(step.angle)), sides=sides),
+        StepKind.TILT: tilt.format(mm=amount(step.across / MILLIMETRE), sides=sides),
         StepKind.INSERT: tr("Push the needle in{how}", how=inwards),
         StepKind.FEEL: tr("Push slowly{how}: the cameras do not see the depth", how=inwards),
         StepKind.BONE: tr("The tip stands on bone: do not push, pull back{how}", how=outwards),
-        StepKind.DEEPER: tr("Push {mm} mm deeper{how}").format(mm=_amount(mm), how=inwards),
-        StepKind.BACK: tr("Pull back {mm} mm{how}").format(mm=_amount(mm), how=outwards),
+        StepKind.DEEPER: tr("Push {mm} mm deeper{how}").format(mm=amount(mm), how=inwards),
+        StepKind.BACK: tr("Pull back {mm} mm{how}").format(mm=amount(mm), how=outwards),
         StepKind.HOLD: tr("Hold still"),
         StepKind.TOUCH: tr("Bring the tip to the target"),
         StepKind.STAY: tr("Stay on the target"),
@@ -231,11 +230,11 @@ def touch_words(step: NextStep, touch: TouchState) -> str:
         sides = tr(" and ").join(side_word(letter) for letter in step.towards)
         said.append(
             tr("tip {mm} mm towards {sides} (hand the other way)").format(
-                mm=_amount(step.across / MILLIMETRE), sides=sides
+                mm=amount(step.across / MILLIMETRE), sides=sides
             )
         )
     if abs(step.distance) >= NEAR:
-        mm = _amount(abs(step.distance) / MILLIMETRE)
+        mm = amount(abs(step.distance) / MILLIMETRE)
         said.append(tr("push {mm} mm", mm=mm) if step.distance > 0.0 else tr("pull {mm} mm", mm=mm))
     way = ", ".join(said) or tr("a little nearer")
     return tr("Target {n} of {of}: {way}", n=number, of=of, way=way)
@@ -277,14 +276,23 @@ def _font_of(pixels: int) -> QFont:
 
 
 class NextStepLine(PlainLabel):
-    """The one line that always says the next step, over the views, to be read at arm's length."""
+    """The one line that always says the next step, over the views, to be read at arm's length.
+
+    Signals:
+        spoken(str, bool): what it says, and whether that something was reached; whoever has taken
+            its place says the same.
+        stepped(NextStep): the step that it says, as a value.
+    """
+
+    spoken = Signal(str, bool)
+    stepped = Signal(object)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._steps: NextSteps | None = None
         self._run: ExerciseRun | None = None
         self._snapshot: Snapshot | None = None
-        self._moves_hub = self._gives_way = False
+        self._moves_hub = self._gives_way = self._aside = False
         self._may_start, self._why_not = False, ""
         self._touched, self._told = 0, ""
         self._tell = QTimer(self, interval=TOLD_MS, singleShot=True)
@@ -312,8 +320,13 @@ class NextStepLine(PlainLabel):
         self._gives_way = on
         self._stand()
 
+    def set_aside(self, aside: bool) -> None:
+        """Leave the place over the views to the rail, which says the same, or take it again."""
+        self._aside = aside
+        self._stand()
+
     def _stand(self) -> None:
-        self.setVisible(self._run is not None and not self._gives_way)
+        self.setVisible(self._run is not None and not (self._gives_way or self._aside))
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Say what comes after this moment."""
@@ -375,6 +388,7 @@ class NextStepLine(PlainLabel):
         self.setText(words)
         self.setToolTip(literal(words))
         self.suit_room()
+        self.spoken.emit(words, bool(self._told))
 
     def _ask(self) -> None:
         if self._snapshot is not None:  # else there is nothing to say, and the first word waits
@@ -384,6 +398,7 @@ class NextStepLine(PlainLabel):
         if self._steps is None or self._run is None or self._snapshot is None:
             return
         step = self._steps.of(self._snapshot, self._run.shown.live)
+        self.stepped.emit(step)
         shows = self._run.demonstrates
         tip = not (self._run.held_at_hub or self._moves_hub)
         words = step_words(step, self._run.interactive or shows, tip)

@@ -17,7 +17,7 @@ COLUMNS = 12
 
 AXIAL, SAGITTAL, CORONAL = "axial", "sagittal", "coronal"
 IN_PLANE, IN_PLANE_90, PROBE = "in_plane", "in_plane_90", "probe"
-SCENE, BULLSEYE = "scene", "bullseye"
+SCENE, BULLSEYE, SCAN = "scene", "bullseye", "scan"
 
 Cell = tuple[int, int, int, int]
 """First row and column, height in the layout's rows and width in `COLUMNS`."""
@@ -30,10 +30,12 @@ class Layout:
     Attributes:
         name: what it is remembered by.
         cells: pane and place of each, in the order in which the keyboard goes through them.
+        columns: that its cells count in.
     """
 
     name: str
     cells: tuple[tuple[str, Cell], ...]
+    columns: int = COLUMNS
 
     @property
     def panes(self) -> tuple[str, ...]:
@@ -48,7 +50,7 @@ class Layout:
     def mirrored(self) -> Layout:
         """Left and right exchanged, for the left-handed."""
         cells = [
-            (pane, (row, COLUMNS - column - width, height, width))
+            (pane, (row, self.columns - column - width, height, width))
             for pane, (row, column, height, width) in self.cells
         ]
         return replace(self, cells=tuple(cells))
@@ -128,6 +130,53 @@ LAYOUTS: dict[str, tuple[Layout, Layout]] = {
 """Each layout by its name, without and with the bull's-eye."""
 
 
+ATTEMPT_COLUMNS, ATTEMPT_CT, ATTEMPT_ROWS = 26, 20, 12
+"""Of an attempt: in all, and those of the CT, which has the rest's where there is no rest."""
+
+_ATTEMPT: dict[str, tuple[tuple[str, Cell], ...]] = {
+    LayoutName.FOUR: (
+        (AXIAL, (0, 0, 12, 10)),
+        (SAGITTAL, (0, 10, 6, 10)),
+        (CORONAL, (6, 10, 6, 10)),
+    ),
+    LayoutName.ONE_AND_THREE: (
+        (AXIAL, (0, 0, 12, 14)),
+        (SAGITTAL, (0, 14, 6, 6)),
+        (CORONAL, (6, 14, 6, 6)),
+    ),
+    LayoutName.SIX: (
+        *zip(_SLICES, ((0, 0, 5, 7), (0, 7, 5, 6), (0, 13, 5, 7)), strict=True),
+        (IN_PLANE, (5, 0, 7, 10)),
+        (IN_PLANE_90, (5, 10, 7, 10)),
+    ),
+    LayoutName.NEEDLE: ((IN_PLANE, (0, 0, 12, 10)), (PROBE, (0, 10, 12, 10))),
+    "attempt": ((IN_PLANE, (0, 0, 12, 10)), (IN_PLANE_90, (0, 10, 12, 10))),
+    SCAN: ((SCAN, (0, 0, 12, 20)),),
+}
+"""The CT's panes in an attempt by the layout that was chosen; `attempt` where none was."""
+
+
+def attempt_layout(name: str, beside: tuple[str, ...], mirrored: bool) -> Layout:
+    """Arrange an attempt: the CT large, at most two panes in a column beside it.
+
+    Args:
+        name: of the layout whose slices are shown; `attempt` or an unknown one shows the two planes
+            along the needle, `SCAN` the control scan.
+        beside: the panes in the column, from the top; none gives the CT all of it.
+        mirrored: whether the column stands on the left.
+    """
+    cells = _ATTEMPT.get(name, _ATTEMPT["attempt"])
+    columns = ATTEMPT_COLUMNS if beside else ATTEMPT_CT
+    heights = (7, 5) if len(beside) > 1 else (ATTEMPT_ROWS,)
+    top, width = 0, ATTEMPT_COLUMNS - ATTEMPT_CT
+    column: list[tuple[str, Cell]] = []
+    for pane, height in zip(beside, heights, strict=False):
+        column.append((pane, (top, ATTEMPT_CT, height, width)))
+        top += height
+    layout = Layout(f"attempt {name}", (*cells, *column), columns)
+    return layout.mirrored() if mirrored else layout
+
+
 def layout_title(name: str) -> str:
     """Name of a layout for people."""
     titles: dict[str, str] = {
@@ -162,13 +211,11 @@ class ViewGrid(QWidget):
         super().__init__(parent)
         self._panes: dict[str, QWidget] = {}
         self._layout = FOUR
-        self._rows = 0
+        self._rows, self._columns = 0, COLUMNS
         self._maximised: QWidget | None = None
         self._grid = QGridLayout(self)
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setSpacing(0)
-        for column in range(COLUMNS):
-            self._grid.setColumnStretch(column, 1)
         for name, pane in panes.items():
             self.add(name, pane)
         self.arrange(FOUR)
@@ -200,17 +247,31 @@ class ViewGrid(QWidget):
         pane.setVisible(False)
         self._panes[name] = pane
 
+    def remove(self, name: str) -> None:
+        """Let go of a pane that was added; whoever takes it next shows it."""
+        pane = self._panes.pop(name)
+        self._grid.removeWidget(pane)
+        if self._maximised is pane:
+            self._maximised = None
+
     def arrange(self, layout: Layout) -> None:
         """Put panes into the layout's cells and hide the rest."""
         self._layout, self._maximised = layout, None
+        # All of them leave before the first comes back: a grid that is laid out with some panes in
+        # the columns of the layout before, while those are taken away, ends the program.
+        for pane in self._panes.values():
+            self._grid.removeWidget(pane)
         self._rows = max(self._rows, layout.rows)
         for row in range(self._rows):
             self._grid.setRowStretch(row, 1 if row < layout.rows else 0)
+        self._columns = max(self._columns, layout.columns)
+        for column in range(self._columns):
+            self._grid.setColumnStretch(column, 1 if column < layout.columns else 0)
         cells = dict(layout.cells)
         for name, pane in self._panes.items():
-            self._grid.removeWidget(pane)
             if name in cells:
                 self._grid.addWidget(pane, *cells[name])
+        for name, pane in self._panes.items():
             pane.setVisible(name in cells)
         self._set_tab_order(layout)
 
@@ -229,5 +290,5 @@ class ViewGrid(QWidget):
             for other in self._panes.values():
                 self._grid.removeWidget(other)
                 other.setVisible(other is pane)
-            self._grid.addWidget(pane, 0, 0, self._rows, COLUMNS)
+            self._grid.addWidget(pane, 0, 0, self._rows, self._columns)
         pane.setFocus()

@@ -5,7 +5,7 @@ below.
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtGui import QKeySequence, QResizeEvent, QShortcut
 from PySide6.QtWidgets import (
     QBoxLayout,
     QHBoxLayout,
@@ -31,6 +31,7 @@ from app.views.kit import theme
 from app.views.kit.names import NAMES
 from app.views.kit.side_panel import SidePanel
 from app.views.plan.editor import PlanEditor
+from app.views.reading.attempt_room import AttemptRoom
 from app.views.reading.layouts import BULLSEYE, FOUR, SCENE, ViewGrid, chosen, possible
 from app.views.reading.lock_words import off_words
 from app.views.reading.patient_views import PatientViews
@@ -70,8 +71,9 @@ class NeedleCell(QWidget):
     def __init__(self, bullseye: Bullseye, scan: ScanView, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._bullseye, self._scan = bullseye, scan
+        self._scanning = self._lent = False
         self.gauge = AxialGauge(self)
-        row = QHBoxLayout()
+        self._row = row = QHBoxLayout()
         row.setContentsMargins(0, 0, 0, 0)
         row.addWidget(scan, 2)
         row.addWidget(bullseye, 1)
@@ -94,9 +96,22 @@ class NeedleCell(QWidget):
             pad: the bull's-eye.
             gauge: the force along the needle.
         """
-        self._scan.setVisible(scanning)
+        self._scanning = scanning
+        if not self._lent:
+            self._scan.setVisible(scanning)
         self._bullseye.setVisible((pad and not scanning) or has_hand)
         self.gauge.setVisible(gauge)
+
+    def lend_scan(self) -> None:
+        """Let somebody else show the control scan."""
+        self._lent = True
+        self._row.removeWidget(self._scan)
+
+    def take_scan_back(self) -> None:
+        """Show the control scan here again."""
+        self._lent = False
+        self._row.insertWidget(0, self._scan, 2)
+        self._scan.setVisible(self._scanning)
 
 
 SIDE_WIDTH = 376
@@ -111,6 +126,7 @@ class WorkspacePage(QWidget):
     """
 
     arranged = Signal()
+    room: AttemptRoom
 
     def __init__(self, editor: PlanEditor, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -132,12 +148,14 @@ class WorkspacePage(QWidget):
         self.layout_name, self.has_bullseye, self.is_left_handed = FOUR.name, False, False
         self._bar: QWidget | None = None
         self.is_layout_fixed = self.is_cell_fixed = False
-        self._has_cell = True
+        self.has_cell = True
         for pane in self.slices:
             pane.maximise_wanted.connect(lambda pane=pane: self.grid.toggle(pane))
             pane.leave_wanted.connect(lambda on, pane=pane: self._go_on(pane, on))
         cell = self.grid.pane(BULLSEYE)
-        self.scan_view.pane.maximise_wanted.connect(lambda: self.grid.toggle(cell))
+        self.scan_view.pane.maximise_wanted.connect(
+            lambda: self.grid.toggle(self.scan_view if self.room.is_on else cell)
+        )
         self._set_up_needle_panes()
         self.needle_planes.refused.connect(editor.refused)
         self.scene.maximise_wanted.connect(lambda: self.grid.toggle(self.scene))
@@ -156,6 +174,13 @@ class WorkspacePage(QWidget):
         )
         self.side = SidePanel(self)
         self.side.setFixedWidth(SIDE_WIDTH)
+        self.disclaimer = disclaimer_label(self)
+        self.rail = panel.rail
+        self.rail.set_note(self.disclaimer.text())
+        self.room = AttemptRoom(self, self.rail)
+        self.next_step.spoken.connect(self.rail.order.say)
+        self.next_step.stepped.connect(self.bullseye.show_step)
+        self.status.shown.connect(self.rail.show_health)
         self.setFocusProxy(self.panes[0].canvas)
         self._lay_out()
         self.exercise_panel.listen(self)
@@ -222,12 +247,13 @@ class WorkspacePage(QWidget):
         """Arrange the panes otherwise, unless they are fixed; the bull's-eye stays."""
         if not self.is_layout_fixed:
             self.layout_name = name if name in self.layouts else FOUR.name
-        self._arrange()
+            self.room.choose(self.layout_name)
+        self.arrange()
 
     def share_room(self) -> None:
         """Let a pane that has the whole room share it again."""
         if self.grid.maximised is not None:
-            self._arrange()
+            self.arrange()
 
     def fix_layout(self, fixed: bool) -> None:
         """Keep the layout as it is for an exercise, or end that."""
@@ -238,8 +264,8 @@ class WorkspacePage(QWidget):
         """Give the bull's-eye's cell a place in the layout, or take it away, if there is anything
         in it and the exercise lets it go.
         """
-        self.has_bullseye = self._has_cell and (shown or self.is_cell_fixed)
-        self._arrange()
+        self.has_bullseye = self.has_cell and (shown or self.is_cell_fixed)
+        self.arrange()
 
     def show_views(self, shown: Shown, has_hand: bool, why_fixed: str = "") -> None:
         """Show what an exercise shows, and nothing that it does not.
@@ -252,11 +278,11 @@ class WorkspacePage(QWidget):
         shows, scanning = shown.shows, not shown.live
         pad, gauge = shows(ViewName.BULLSEYE), shows(ViewName.FORCE_GAUGE)
         self.needle_cell.set_shown(scanning, has_hand, pad, gauge)
-        self._has_cell = scanning or has_hand or pad or gauge
+        self.has_cell = scanning or has_hand or pad or gauge
         self.is_cell_fixed = bool(why_fixed)
         self.scene.set_off("" if shows(ViewName.THREE_D) else off_words(why_fixed))
         self.tracker_panel.set_off("" if shows(ViewName.CAMERAS) else off_words(why_fixed))
-        if self.has_bullseye and not self._has_cell:
+        if self.has_bullseye and not self.has_cell:
             self.show_bullseye(False)
         self.arranged.emit()
 
@@ -264,13 +290,21 @@ class WorkspacePage(QWidget):
         """Put panel and panes where the left hand at the mouse leaves them free to see."""
         self.is_left_handed = left_handed
         self._row.setDirection(_RIGHT_TO_LEFT if left_handed else _LEFT_TO_RIGHT)
-        self._arrange()
+        self.arrange()
 
-    def _arrange(self) -> None:
+    def arrange(self) -> None:
+        """Put the panes where layout, hand and attempt have them."""
         self.grid.arrange(
-            chosen(self.layout_name, self.has_bullseye, self.is_left_handed, self.grid.names)
+            self.room.layout()
+            if self.room.is_on
+            else chosen(self.layout_name, self.has_bullseye, self.is_left_handed, self.grid.names)
         )
         self.arranged.emit()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Let the rail have its share of the new width."""
+        super().resizeEvent(event)
+        self.room.suit_window()
 
     def _go_on(self, pane: QWidget, on: bool) -> None:
         """Give the keyboard to the next pane that is shown, or to the previous one."""
@@ -322,6 +356,7 @@ class WorkspacePage(QWidget):
         self.tracker_panel.forget()
         self.status.show_items(())
         self.messages.clear()
+        self.room.end()
 
     def suit_room(self) -> None:
         """Take another size of text, and hide the student's name or show it."""
@@ -330,6 +365,7 @@ class WorkspacePage(QWidget):
         self.exercise_panel.student.setEchoMode(mode)
         self.bullseye.suit_text()
         self.next_step.suit_room()
+        self.room.suit_window()
         self.viewing.plan_changed.emit()  # names of marks are as large as the text
         self.viewing.needle_changed.emit()
         self.messages.suit_room()
@@ -340,10 +376,11 @@ class WorkspacePage(QWidget):
         right.setSpacing(0)
         right.addWidget(self.next_step)
         right.addWidget(self.grid, 1)
-        right.addWidget(disclaimer_label(self))
+        right.addWidget(self.disclaimer)
         self._row = row = QHBoxLayout()
         row.setSpacing(3)
         row.addWidget(self.side)
+        row.addWidget(self.rail)
         row.addLayout(right, 1)
         page = QVBoxLayout(self)
         page.setContentsMargins(0, 0, 0, 0)

@@ -88,6 +88,10 @@ STANDS_MM = 1.0
 """The home view is fitted anew when the robot's base moved more than this in the patient."""
 
 
+LEGEND_FROM_PX = 400
+"""In a narrower pane there is no room for a legend beside the body: it is left out."""
+
+
 class SceneView(QWidget):
     """Surfaces, robot, needle and plan in 3D.
 
@@ -423,6 +427,8 @@ class SceneView(QWidget):
         error = self._feed.error and tr("3D view off: {why}", why=self._feed.error)
         scale, note = self._enlargement.scale, error or self.note
         legend = (*self._robot_legend, *self.legend, *self._organ_legend())
+        if self.width() < LEGEND_FROM_PX * theme.scale():  # it would lie on the body
+            legend, scale = (), 0.0
         button = self._button.geometry()
         draw_words(painter, self.rect(), display, scale, legend, note, button)
 

@@ -129,6 +129,16 @@ class Remembered:
         self._projector.set(light=bool(state["light"]), large=bool(state["large"]))
 
 
+def show_as_remembered(window: QWidget, settings: QSettings) -> None:
+    """Show a window as large as it was; at a first start over the whole screen, because frames and
+    bars of a desktop are known only then, and what is below the screen cannot be read.
+    """
+    if settings.value("window/geometry") is None:
+        window.showMaximized()
+    else:
+        window.show()
+
+
 def reading(workspace: WorkspacePage) -> dict[str, Any]:
     """Return how the slices are read now, as JSON can hold it."""
     viewing, greys = workspace.viewing, workspace.viewing.greys

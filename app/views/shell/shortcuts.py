@@ -87,6 +87,7 @@ def groups(
                 ),
                 ("S", tr("control scan")),
                 (tr("Enter"), tr("end the attempt")),
+                ("Ctrl+B, Ctrl+T", tr("in an attempt: all panels; live pictures or the scan")),
                 (tr("Hold Esc"), tr("abort: force to zero at once")),
                 (tr("Hold H, or a pedal"), tr("forces on, where they are armed by holding")),
                 (

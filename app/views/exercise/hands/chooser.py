@@ -88,7 +88,7 @@ class HandChooser(QWidget):
         self._pad = pad
         self._source: HandSource | None = None
         self._interactive = self._depth_only = self._busy = self._compact = False
-        self._why, self._own = "", ("mouse", "normal")
+        self._why, self._own = "", ("mouse", "direct")
         self._turn_why, self._own_turn = "", False
         self._note = ""
         self.box, self.gain, self._help = _source_box(), _gain_box(), PlainLabel(self)
@@ -173,7 +173,7 @@ class HandChooser(QWidget):
         if not self._why:
             self._own = self.name, str(self.gain.currentData())
         self._why = reason
-        self.gain.setCurrentIndex(max(0, self.gain.findData("normal")))
+        self.gain.setCurrentIndex(max(0, self.gain.findData("direct")))
         self._take(name)
         self._enable()
 
@@ -373,7 +373,7 @@ def _gain_box() -> QComboBox:
     names = {"fine": tr("fine"), "normal": tr("normal"), "direct": tr("direct")}
     for key in GAINS:
         box.addItem(f"{names[key]} ×{GAINS[key]:g}", key)
-    box.setCurrentIndex(list(GAINS).index("normal"))
+    box.setCurrentIndex(list(GAINS).index("direct"))
     box.setToolTip(literal(gain_help()))
     box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
     return box

@@ -108,7 +108,7 @@ class FeedButton(QPushButton):
 
     def __init__(self, feed: Feed, inwards: bool, parent: QWidget) -> None:
         super().__init__(tr("▼ push") if inwards else tr("▲ pull"), parent)
-        self._feed = feed
+        self._feed, self._inwards = feed, inwards
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # the pad keeps its keys
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.setToolTip(
@@ -118,6 +118,12 @@ class FeedButton(QPushButton):
         )
         self.pressed.connect(lambda: feed.press(self, inwards, _is_fine()))
         self.released.connect(lambda: feed.release(self))
+
+    def set_brief(self, brief: bool) -> None:
+        """Show the arrow alone, beside a narrow bar, or with its word."""
+        words = tr("▼ push") if self._inwards else tr("▲ pull")
+        self.setText(words.split()[0] if brief else words)
+        self.setAccessibleName(words)
 
     def event(self, event: QEvent) -> bool:
         """Let go where no release of the mouse will come."""

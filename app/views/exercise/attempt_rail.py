@@ -1,0 +1,331 @@
+"""The rail beside the pictures of an attempt: stage, order, time, depth, force, and its buttons.
+
+All that is read while a needle goes in, in three sizes of type, one accent and steps of eight
+pixels; everything else is put away until the attempt is over, or somebody asks for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import (
+    QApplication,
+    QGridLayout,
+    QPushButton,
+    QScrollArea,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.session.machine import State
+from app.views.exercise.breath_strip import BreathStrip
+from app.views.exercise.live import LiveFigures
+from app.views.exercise.readouts import OFFSETS, ForceBar, figure_texts
+from app.views.exercise.steps import BRIEF, ORDER, state_word
+from app.views.kit import theme
+from app.views.kit.parts import PlainLabel
+from app.views.kit.side_panel import scrolled
+from app.views.kit.text import literal, tr
+from app.views.kit.verdict import StatusItem, Verdict
+
+WIDEST_SHARE: Final = 0.17
+"""Of the window's width, at most: the pictures have the rest."""
+
+WIDEST_PX: Final = 352
+"""On large screens, with text of the usual size."""
+
+GRID: Final = 8
+"""Margins, gaps and widths are whole numbers of so many pixels."""
+
+ORDER_LINES: Final = 5
+"""Lines of the order, in the largest letters: the block below never moves."""
+
+LONGEST: Final = "88.8 mm"
+"""What a number of the rail is as wide as."""
+
+_DISC: Final = 8.0
+
+
+def rail_width(window: int) -> int:
+    """Return the width of the rail in a window [px]."""
+    widest = min(WIDEST_SHARE * window, WIDEST_PX * theme.scale())
+    return int(widest) // GRID * GRID
+
+
+class Stage(QWidget):
+    """Discs for what is done, now and to come, and the name of now below them."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._state: State | None = None
+        self._order, self._reached = ORDER, 0
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setAccessibleName(tr("No attempt"))
+
+    def sizeHint(self) -> QSize:
+        """Preferred size."""
+        return QSize(160, 3 * GRID + theme.FONT_PX + GRID)
+
+    def set_brief(self, brief: bool) -> None:
+        """Show what lies between beginning and end as one: it is read from the needle."""
+        self._order, self._reached = (BRIEF if brief else ORDER), 0
+        self.update()
+
+    def show_state(self, state: State | None) -> None:
+        """Show a state; None before there is an attempt."""
+        if state is self._state:
+            return
+        if state in self._order:
+            self._reached = self._order.index(state)
+        elif state is None or state is State.WITHDRAWING:
+            self._reached = 0
+        self._state = state
+        self.setAccessibleName(self.word)
+        self.update()
+
+    @property
+    def word(self) -> str:
+        """Return the name of the state."""
+        if self._state is None:
+            return tr("No attempt")
+        if self._order is BRIEF and self._state is State.INSERTING:
+            return tr("Under way")
+        return state_word(self._state)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw discs and name."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        step = (self.width() - 2 * _DISC - 2) / max(1, len(self._order) - 1)
+        y, accent, line = _DISC + 1.0, QColor(theme.ACCENT), QColor(theme.BORDER)
+        painter.setPen(QPen(line, 2.0))
+        painter.drawLine(QPointF(_DISC, y), QPointF(self.width() - _DISC, y))
+        for number in range(len(self._order)):
+            here = number == self._reached and self._state is not None
+            done = number < self._reached
+            painter.setPen(QPen(accent if here or done else line, 2.0))
+            painter.setBrush(accent if done else QColor(theme.BACKGROUND))
+            at = QPointF(_DISC + 1.0 + number * step, y)
+            painter.drawEllipse(at, _DISC if here else 5.0, _DISC if here else 5.0)
+            if here:
+                painter.setBrush(accent)
+                painter.drawEllipse(at, 4.0, 4.0)
+        painter.setFont(_font(theme.FONT_PX, bold=True))
+        painter.setPen(QColor(theme.WARNING if self._state is State.PAUSED else theme.TEXT))
+        below = QRectF(0.0, 3.0 * GRID, self.width(), theme.FONT_PX + GRID)
+        painter.drawText(below, Qt.AlignmentFlag.AlignLeft, self.word)
+
+
+class OrderBlock(PlainLabel):
+    """The one thing to do next, as large as fits, in the accent colour; always the same height."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWordWrap(True)
+        self.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self.setAccessibleName(tr("Next step"))
+        self._good = False
+
+    def say(self, words: str, good: bool = False) -> None:
+        """Say what is next; `good`: that something was reached, in another colour."""
+        if (words, good) == (self.text(), self._good):
+            return
+        self._good = good
+        self.setText(words)
+        self.setToolTip(literal(words))
+        self.fit(self.width())
+
+    def fit(self, width: int) -> None:
+        """Take the larger letters in which all of it can be read at a width [px], else the usual
+        ones.
+        """
+        high = ORDER_LINES * QFontMetrics(_font(theme.TITLE_PX, bold=True)).lineSpacing()
+        self.setFixedHeight((high + 2 * GRID) // GRID * GRID)
+        room = width - 2 * GRID
+        pixels = theme.TITLE_PX
+        if not _fits(self.text(), pixels, room, self.height() - 2 * GRID):
+            pixels = theme.FONT_PX
+        ground = theme.now(theme.GOOD if self._good else theme.ACCENT)
+        style = (
+            f"background: {ground}; color: {theme.now(theme.BACKGROUND)}; font-size: {pixels}px;"
+            f" font-weight: 600; padding: {GRID}px; border-radius: {GRID // 2}px;"
+        )
+        if style != self.styleSheet():
+            self.setStyleSheet(style)
+
+
+def _fits(words: str, pixels: int, width: int, height: int) -> bool:
+    metrics, flags = QFontMetrics(_font(pixels, bold=True)), Qt.TextFlag.TextWordWrap
+    box = metrics.boundingRect(0, 0, max(1, width), 10_000, int(flags), words)
+    return box.height() <= height and box.width() <= width
+
+
+def _font(pixels: int, bold: bool = False) -> QFont:
+    font = QFont(QApplication.font())
+    font.setPixelSize(pixels)
+    font.setWeight(QFont.Weight.DemiBold if bold else QFont.Weight.Normal)
+    return font
+
+
+class RailFigures(QWidget):
+    """Time, depth, the way left and the scans: small names, large numbers, two in a row."""
+
+    SHOWN: Final = ("elapsed", "scans", "depth", "to_target")
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._telling: frozenset[str] | None = None
+        self._offsets = True
+        self._titles: dict[str, PlainLabel] = {}
+        self._values: dict[str, PlainLabel] = {}
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setHorizontalSpacing(GRID)
+        grid.setVerticalSpacing(0)
+        names = {
+            "elapsed": tr("Time"),
+            "depth": tr("Depth"),
+            "to_target": tr("To target"),
+            "scans": tr("Scans"),
+        }
+        for number, key in enumerate(self.SHOWN):
+            title, value = PlainLabel(names[key], self), PlainLabel("–", self)
+            row, column = 2 * (number // 2), number % 2
+            grid.addWidget(title, row, column)
+            grid.addWidget(value, row + 1, column)
+            grid.setColumnStretch(column, 1)
+            self._titles[key], self._values[key] = title, value
+        self.suit_width(0)
+
+    def show_figures(self, figures: LiveFigures | None) -> None:
+        """Show a moment; None empties them."""
+        texts = {} if figures is None else figure_texts(figures)
+        for key, label in self._values.items():
+            words = texts.get(key, "–")
+            if label.text() != words:
+                label.setText(words)
+
+    def set_telling(self, keys: frozenset[str] | None, offsets: bool) -> None:
+        """Leave only these, None for all; `offsets`: whether the way left may be told."""
+        self._telling, self._offsets = keys, offsets
+        for key, value in self._values.items():
+            told = self._telling is None or key in self._telling
+            for label in (value, self._titles[key]):
+                label.setVisible(told and (offsets or key not in OFFSETS))
+
+    def suit_width(self, width: int) -> None:
+        """Take the largest letters in which two numbers stand side by side in a width [px]."""
+        longest = QFontMetrics(_font(theme.TITLE_PX, bold=True)).horizontalAdvance(LONGEST)
+        pixels = theme.TITLE_PX if longest <= (width - GRID) // 2 else theme.FONT_PX
+        for label in self._titles.values():
+            label.setStyleSheet(f"font-size: {theme.SMALL_PX}px; color: {theme.TEXT_DIM};")
+        for label in self._values.values():
+            label.setStyleSheet(f"font-size: {pixels}px; font-weight: 600;")
+
+
+class AttemptRail(QWidget):
+    """Stands beside the pictures while an attempt runs.
+
+    Signals:
+        panel_wanted(): the side panel is to come back, or to go again.
+        scan_closed(): the live pictures are to come back in place of a scan, or the scan again.
+
+    Attributes:
+        order: what is to be done next.
+        breath: how the patient breathes.
+    """
+
+    panel_wanted = Signal()
+    scan_closed = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.stage, self.order = Stage(self), OrderBlock(self)
+        self.figures, self.force = RailFigures(self), ForceBar(self)
+        self.breath = BreathStrip(self)
+        self.pictures = _quiet(tr("Live pictures (Ctrl+T)"))
+        self.panel = _quiet(tr("All panels (Ctrl+B)"))
+        self._place = QVBoxLayout()
+        self._note, self._health = PlainLabel(self), PlainLabel(self)
+        self._lay_out()
+        self._health.hide()
+        self.pictures.hide()
+        self.pictures.clicked.connect(self.scan_closed)
+        self.panel.clicked.connect(self.panel_wanted)
+        self.hide()
+
+    def take(self, tools: QWidget) -> None:
+        """Let the attempt's own buttons stand here."""
+        self._place.addWidget(tools)
+        tools.show()
+
+    def show_figures(self, figures: LiveFigures | None) -> None:
+        """Show a moment of the attempt; None without one."""
+        self.figures.show_figures(figures)
+        self.stage.show_state(figures.state if figures else None)
+        if figures is not None:
+            self.force.show_force(
+                figures.force,
+                figures.force_limit,
+                figures.force_measured,
+                at_most=figures.force_at_most,
+            )
+
+    def show_health(self, items: Sequence[StatusItem], robot: StatusItem | None) -> None:
+        """Say what is not well of the robot and the other parts; nothing while all is."""
+        ill = [item for item in (robot, *items) if item is not None and not item.detail]
+        ill = [item for item in ill if item.verdict in (Verdict.WARNING, Verdict.BAD)]
+        worst = sorted(ill, key=lambda item: item.verdict is not Verdict.BAD)[:1]
+        words = "".join(_health(item) for item in worst)
+        if words != self._health.text():
+            self._health.setText(words)
+            self._health.setToolTip(literal(worst[0].help) if worst else "")
+            self._health.setVisible(bool(words))
+
+    def set_note(self, words: str) -> None:
+        """Say at the foot what is always to be said: what this program is not for."""
+        self._note.setText(words)
+
+    def suit_window(self, width: int) -> None:
+        """Take the width that belongs to a window's [px], and what depends on it."""
+        self.setFixedWidth(rail_width(width))
+        self.order.fit(self.width() - 2 * GRID)
+        self.figures.suit_width(self.width() - 2 * GRID)
+
+    def _lay_out(self) -> None:
+        inner = QWidget(self)
+        column = QVBoxLayout(inner)
+        column.setContentsMargins(GRID, GRID, GRID, GRID)
+        column.setSpacing(GRID)
+        for widget in (self.stage, self.order, self.figures, self.force, self.breath):
+            column.addWidget(widget)
+        column.addLayout(self._place)
+        column.addWidget(self.pictures)
+        column.addStretch(1)
+        self._health.setWordWrap(True)
+        column.addWidget(self._health)
+        column.addWidget(self.panel)
+        self._note.setWordWrap(True)
+        self._note.setProperty("role", "dim")
+        column.addWidget(self._note)
+        self._area: QScrollArea = scrolled(inner, self)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.addWidget(self._area)
+
+
+def _health(item: StatusItem) -> str:
+    symbol = item.verdict.colour_and_symbol[1]
+    return f"{symbol} {item.title}: {item.text}" if item.text else f"{symbol} {item.title}"
+
+
+def _quiet(words: str) -> QPushButton:
+    button = QPushButton(words)
+    # A button that keeps the focus would swallow the pad's keys.
+    button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+    return button

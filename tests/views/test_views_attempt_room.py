@@ -1,0 +1,182 @@
+"""The workspace in an attempt: shares of the window, what is put away, and that it comes back."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from attempt_windows import begun, judged
+from PySide6.QtWidgets import QApplication
+
+from app.core import state_vector as sv
+from app.imaging.window import WindowLevel
+from app.planning.draft import DraftPlan
+from app.views.exercise.breath_strip import BreathStrip
+from app.views.exercise.scan_wall import ScanWall, Shot
+from app.views.kit import theme
+
+SIZES = [(1366, 768), (1920, 1080), (2560, 1440)]
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("large", [False, True])
+def test_in_an_attempt_the_ct_has_its_share_of_the_window(window, patient, settle, size, large):
+    try:
+        window.projector.set(large=large)
+        window.resize(*size)
+        begun(window, patient)
+        assert judged(window, large=large) == []
+    finally:
+        theme.apply_theme(QApplication.instance())
+
+
+@pytest.mark.long("journey")
+def test_the_shares_hold_at_every_scale_of_the_screen():
+    screens = [(factor, *size) for factor in (1.0, 1.25, 1.5, 2.0) for size in SIZES]
+    script = Path(__file__).with_name("attempt_windows.py")
+    told = subprocess.run(
+        [sys.executable, str(script), json.dumps(screens)],
+        capture_output=True, text=True, timeout=600, check=False,
+    )  # fmt: skip
+    assert told.returncode == 0, told.stderr
+    lines = [json.loads(line) for line in told.stdout.splitlines() if line.startswith("{")]
+    assert len(lines) == len(screens)
+    for line, (factor, _, _) in zip(lines, screens, strict=True):
+        assert line["ratio"] == factor
+        assert line["wrong"] == []
+
+
+def test_everything_that_was_put_away_comes_back_as_it_was(window, patient, settle):
+    window.resize(1366, 768)
+    workspace = window.workspace
+    begun(window, patient, start=False)
+    workspace.show_layout("1+3")
+    workspace.show_bullseye(True)
+    workspace.side.setCurrentIndex(2)
+    window.show()
+    settle(timeout=0.1)
+    looks = lambda: (  # noqa: E731
+        workspace.grid.shown, workspace.side.currentIndex(), workspace.side.isVisible(),
+        workspace.status.isVisible(), workspace.next_step.isVisible(), workspace.rail.isVisible(),
+        workspace.disclaimer.isVisible(), workspace.bullseye.source.isVisible(),
+        workspace.exercise_panel.buttons.start.isVisibleTo(workspace.exercise_panel),
+        workspace.exercise_panel.isAncestorOf(workspace.exercise_panel.tools),
+    )  # fmt: skip
+    before = looks()
+    workspace.room.begin()
+    settle(timeout=0.1)
+    assert not workspace.side.isVisible()
+    assert workspace.rail.isAncestorOf(workspace.exercise_panel.buttons)
+    assert workspace.exercise_panel.buttons.end.isVisible()
+    workspace.room.toggle_panels()
+    settle(timeout=0.1)
+    assert workspace.side.isVisible()
+    workspace.room.toggle_panels()
+    workspace.show_layout("6-up")
+    workspace.room.end()
+    settle(timeout=0.1)
+    assert looks() == before
+
+
+def test_the_exercises_own_layout_is_the_one_of_the_attempt(window, patient, settle):
+    begun(window, patient, start=False)
+    workspace = window.workspace
+    workspace.room.begin("2x2")
+    assert workspace.grid.shown.panes[:3] == ("axial", "sagittal", "coronal")
+    workspace.room.end()
+    workspace.room.begin()
+    assert workspace.grid.shown.panes[:2] == ("in_plane", "in_plane_90")
+    workspace.room.end()
+
+
+def test_without_bullseye_and_3d_the_ct_has_all_of_it(window, patient, settle):
+    begun(window, patient, start=False)
+    workspace = window.workspace
+    workspace.has_cell = False
+    workspace.scene.set_off("not here")
+    workspace.room.begin()
+    assert workspace.grid.shown.panes == ("in_plane", "in_plane_90")
+    assert workspace.grid.shown.columns == 20
+    workspace.room.end()
+
+
+# --- the control scan -------------------------------------------------------------------------
+def wall_of(volume, *captions):
+    wall = ScanWall()
+    wall.resize(880, 700)
+    wall.set_window(WindowLevel(400.0, 40.0))
+    for caption in captions:
+        wall.add(Shot(volume, caption))
+    return wall
+
+
+def test_the_new_scan_stands_over_the_last_one_slice_by_slice(volume, destroy):
+    wall = wall_of(volume, "first", "second", "third")
+    destroy(wall)
+    assert wall.captions == ("third", "second")
+    above, below = wall.tiles
+    assert len(above) == len(below) >= 2
+    assert [tile.words for tile in above] == [tile.words for tile in below]
+
+
+def test_a_tile_is_zoomed_on_the_path_and_shows_its_ends(volume, destroy):
+    wall = wall_of(volume, "first")
+    destroy(wall)
+    entry, target = volume.lps_mm((10, 8, 5)), volume.lps_mm((12, 20, 6))
+    wall.look_at(DraftPlan(tuple(entry), tuple(target)))
+    wall.show()
+    QApplication.processEvents()
+    tile = wall.tiles[0][0]
+    for end in (entry, target):
+        x, y = tile.to_pixels().map(float(end[0]), float(end[1]))
+        assert 0.1 * tile.width() < x < 0.9 * tile.width()
+        assert 0.1 * tile.height() < y < 0.9 * tile.height()
+
+
+# --- the breath -------------------------------------------------------------------------------
+class Told:
+    """A moment with a breath [m]."""
+
+    def __init__(self, time, moved):
+        row = np.zeros(sv.BREATH_Z + 1)
+        row[sv.BREATH_Z] = moved
+        self.time, self.device = time, type("Device", (), {"row": row})()
+
+
+def test_the_breath_strip_is_there_once_the_patient_breathes_and_knows_its_gate(application):
+    strip = BreathStrip()
+    strip.begin(0.002)
+    for tick in range(50):
+        strip.show_snapshot(Told(0.1 * tick, 0.0))
+    assert strip.isHidden()
+    assert strip.in_gate
+    lowest = np.inf
+    for tick in range(50, 130):
+        strip.show_snapshot(Told(0.1 * tick, 0.012 * np.sin(0.1 * tick) ** 4))
+        lowest = min(lowest, strip.points.last().y())
+    assert not strip.isHidden()
+    assert lowest < strip.level(strip.gate) < strip.level(0.0)
+    strip.show_snapshot(Told(14.0, 0.012))
+    assert not strip.in_gate
+    assert "12 mm" in strip.words
+    strip.show_snapshot(Told(14.1, 0.001))
+    assert "push" in strip.words
+
+
+def test_what_a_scan_is_ordered_with_fits_the_rail(window, patient, settle):
+    window.resize(1366, 768)
+    begun(window, patient, start=False)
+    workspace = window.workspace
+    workspace.room.begin(live=False)
+    workspace.exercise_panel.scan.show()
+    settle(timeout=0.1)
+    scan, rail = workspace.exercise_panel.scan, workspace.rail
+    assert scan.isVisible()
+    assert scan.minimumSizeHint().width() <= rail.width() - 16
+    for part in (scan.table, scan.feet, scan.head, scan.here, scan.slices, scan.count):
+        assert rail.rect().contains(part.mapTo(rail, part.rect().bottomRight()))
+    workspace.room.end()
+    settle(timeout=0.1)
+    assert workspace.exercise_panel.isAncestorOf(scan)
