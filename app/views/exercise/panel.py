@@ -460,7 +460,7 @@ class ExercisePanel(QWidget):
         """Show a moment of the attempt; None without one."""
         self.readouts.show_figures(figures)
         state = figures.state if figures else None
-        self.steps.show_state(state)
+        self.steps.show_state(state, figures.ready if figures else False)
         if state is not self._state:
             self._state = state
             self._enable()
