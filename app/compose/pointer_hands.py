@@ -202,7 +202,7 @@ def careful_hand(desk: Desk) -> Moves:
     while desk.watched(0.3).remaining > 1.0:
         yield from _await_breath(desk)
         stroke = min(STROKE_MM, desk.watched(0.3).remaining)
-        yield from _wheel(desk, stroke, FINE_CLICK_MM, 1)
+        yield from _wheel(desk, stroke, FINE_CLICK_MM, 2)
         yield from _wait(0.5)
         yield from _align(desk, tries=4)
     for _ in range(12):

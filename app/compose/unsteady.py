@@ -3,7 +3,8 @@
 | | level 1 | level 5 and above | stands on |
 |---|---|---|---|
 | tremor at the hub, RMS | 40 µm | 160 µm | 15 to 254 µm measured (PMC3032442) |
-| mean angle of the drift | 1.3° | 3.4° | guided and freehand insertions (Gruber-Rouh 2015) |
+| mean angle of the drift, always moving at 20 mm/s | 3.4° | 6.5° | freehand insertions (Gruber-Rouh 2015): mean, and mean + SD |
+| share of it at rest | 10 % | 10 % | estimated |
 | lag | 0.10 s | 0.15 s | estimated |
 | memory of the drift | 6 s | 4 s | estimated |
 | bend while pushing 20 mm/s | 1.0° | 2.5° | estimated |
@@ -25,21 +26,28 @@ HIGHEST: Final = 5
 
 
 def _unsteadiness(
-    lag: float, tremor_mm: float, drift_deg: float, memory: float, bend_deg: float, slip_mm: float
+    lag: float,
+    tremor_mm: float,
+    drift_deg: float,
+    rest: float,
+    memory: float,
+    bend_deg: float,
+    slip_mm: float,
 ) -> Unsteadiness:
     return Unsteadiness(
         lag=lag,
         tremor=tremor_mm * MILLIMETRE,
         tremor_along=tremor_mm * MILLIMETRE,
         drift=radians(drift_deg) / sqrt(0.5 * pi),
+        rest=rest,
         memory=memory,
         bend=radians(bend_deg) / 0.02,
         slip=slip_mm * MILLIMETRE / radians(10.0),
     )
 
 
-LEVEL_1: Final = _unsteadiness(0.10, 0.04, 1.3, 6.0, 1.0, 0.9)
-LEVEL_5: Final = _unsteadiness(0.15, 0.16, 3.4, 4.0, 2.5, 2.6)
+LEVEL_1: Final = _unsteadiness(0.10, 0.04, 3.4, 0.1, 6.0, 1.0, 0.9)
+LEVEL_5: Final = _unsteadiness(0.15, 0.16, 6.5, 0.1, 4.0, 2.5, 2.6)
 
 
 def hand_unsteady_by_level(profile: DeviceProfile) -> Stage:

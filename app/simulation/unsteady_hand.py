@@ -6,7 +6,8 @@ before its own bounds on speed and acceleration:
 
 - *weight*: direction and depth follow as a mass on a spring, damping ratio 0.7;
 - *tremor*: noise through a resonance at 10 Hz whose half-power band is 8 to 12 Hz, across and along;
-- *drift*: the direction wanders, with a memory of some seconds;
+- *drift*: the direction wanders, the more the faster the hand pushes (signal-dependent noise: Harris
+  and Wolpert 1998, Nature 394:780), and stays where it has come to for some seconds;
 - *coupling*: while it pushes, the direction bends aside, each attempt to another side; turning while
   pushing moves the depth, which stays moved.
 
@@ -32,10 +33,14 @@ from app.simulation.errors import SimulationError
 
 NAME: Final = "unsteady_hand"
 
+USUAL: Final = 0.02
+"""Speed of an ordinary insertion [m/s]."""
+
 _TREMOR: Final = 2.0 * np.pi * 10.0  # [rad/s]
 _NARROW: Final = 0.2  # damping ratio of the tremor's resonance: 4 Hz between half powers
 _DAMPING: Final = 0.7  # ratio of the weight
 _FASTEST_PUSH: Final = 0.03  # [m/s] a faster push does not bend the direction further
+_MOST_EFFORT: Final = 2.0  # of a movement at `USUAL`
 _MOST_SLIP: Final = 0.005  # [m]
 _LONGEST: Final = 5e-3  # [s] as the loop clamps a step
 _MODULUS: Final = 4294967296.0
@@ -50,7 +55,9 @@ class Unsteadiness:
         lag: time by which it follows a steady movement late [s].
         tremor: standard deviation across the needle at the hub, in each of two directions [m].
         tremor_along: along the needle [m].
-        drift: standard deviation of the direction's wander, in each of two directions [rad].
+        drift: standard deviation of the direction's wander, in each of two directions, in a hand
+            that pushes at `USUAL` for long [rad].
+        rest: share of it in a hand at rest.
         memory: time in which the drift forgets where it was [s].
         bend: turn of the direction for a speed of pushing [rad·s/m].
         slip: depth for a turn while pushing as fast as bends most [m/rad].
@@ -60,6 +67,7 @@ class Unsteadiness:
     tremor: float
     tremor_along: float
     drift: float
+    rest: float
     memory: float
     bend: float
     slip: float
@@ -109,6 +117,7 @@ class _Of(NamedTuple):
     tremor: int
     tremor_along: int
     drift: int
+    rest: int
     memory: int
     bend: int
     slip: int
@@ -202,7 +211,9 @@ def step(state: FloatArray, p: FloatArray) -> None:
         h = min(state[sv.DT], _LONGEST)
         pull = 2.0 * _DAMPING / _of_level(p, level, _OF.lag)
         forgets = h / _of_level(p, level, _OF.memory)
+        effort = min(abs(p[_AT.vz]) / USUAL, _MOST_EFFORT)  # its turning would feed itself
         wander = _of_level(p, level, _OF.drift) * np.sqrt(2.0 * forgets)
+        wander *= _of_level(p, level, _OF.rest) + effort
         push = min(max(p[_AT.vz], -_FASTEST_PUSH), _FASTEST_PUSH)
         bend = _of_level(p, level, _OF.bend) * push
         for i in range(2):
