@@ -150,6 +150,14 @@ class Desk:
         )
 
 
+    def moves(self, duration: float) -> float:
+        """How far what was seen went to and fro over a `duration` [s], in radii of the pad."""
+        latest = self.seen.time
+        some = [one for one in self._screens if latest - duration < one.time <= latest]
+        seen = np.array([[*one.heading, *one.tip] for one in some])
+        return float(np.ptp(seen, axis=0).max())
+
+
 Moves = Iterator[None]
 """What somebody does, one look after the other; he ends the attempt when it is over."""
 
@@ -191,6 +199,9 @@ def perfect_mouse(desk: Desk) -> Moves:
     yield from _wait(1.2)
 
 
+STILL: Final = 0.6
+"""What has not moved for so long stands still [s]."""
+
 STROKE_MM: Final = 10.0
 """So far the careful hand pushes before it looks again [mm]."""
 
@@ -209,7 +220,7 @@ def careful_hand(desk: Desk) -> Moves:
         yield from _await_breath(desk)
         yield from _wheel(desk, desk.watched(0.3).remaining, FINE_CLICK_MM, 1)
         yield from _align(desk, tries=4)
-        yield from _wait(0.6)
+        yield from _await_breath(desk)
         seen = desk.watched(0.3)
         if abs(seen.remaining) < 0.6 and hypot(*seen.tip) < desk.ring and seen.rests:
             break
@@ -218,6 +229,7 @@ def careful_hand(desk: Desk) -> Moves:
 def _align(desk: Desk, tries: int) -> Moves:
     """Bring tip and heading to the middle by small corrections, each looked at."""
     for _ in range(tries):
+        yield from _await_breath(desk)
         seen = desk.watched(0.3)
         error = 0.5 * (seen.heading + seen.tip) if seen.remaining < STROKE_MM else seen.heading
         if hypot(*error) < 0.5 * desk.ring:
@@ -227,11 +239,11 @@ def _align(desk: Desk, tries: int) -> Moves:
 
 
 def _await_breath(desk: Desk) -> Moves:
-    """Have the breath held, or wait until the target is where it rests."""
+    """Have the breath held, or wait for its end: nothing that is seen moves, the target rests."""
     if desk.hold_breath is not None:
         desk.hold_breath(True)
     for _ in range(round(8.0 / LOOK)):
-        if desk.seen.rests:
+        if desk.seen.rests and desk.moves(STILL) < 1.6 * desk.ring:
             return
         yield
 
