@@ -46,7 +46,7 @@ DRAG: Final = 1.5
 
 @dataclass(frozen=True, slots=True)
 class Screen:
-    """What can be read off the screen at one moment.
+    """All that can be read off the screen at one moment.
 
     Attributes:
         time: moment [s].
@@ -131,13 +131,13 @@ class Desk:
 
     @property
     def seen(self) -> Screen:
-        """What is seen now: as it was a fifth of a second ago."""
+        """Return what is seen now: as it was a fifth of a second ago."""
         latest = self._screens[-1].time
         late = [one for one in self._screens if one.time <= latest - LATE + 1e-9]
         return late[-1] if late else self._screens[0]
 
     def watched(self, duration: float) -> Screen:
-        """What was seen on average over a `duration` [s]; the last order."""
+        """Return what was seen on average over a `duration` [s]; the last order."""
         seen = self.seen
         some = [one for one in self._screens if seen.time - duration < one.time <= seen.time]
         return Screen(
@@ -149,9 +149,8 @@ class Desk:
             all(one.rests for one in some),
         )
 
-
     def moves(self, duration: float) -> float:
-        """How far what was seen went to and fro over a `duration` [s], in radii of the pad."""
+        """Return how far what was seen went to and fro over a `duration` [s], in radii of the pad."""
         latest = self.seen.time
         some = [one for one in self._screens if latest - duration < one.time <= latest]
         seen = np.array([[*one.heading, *one.tip] for one in some])
@@ -159,7 +158,7 @@ class Desk:
 
 
 Moves = Iterator[None]
-"""What somebody does, one look after the other; he ends the attempt when it is over."""
+"""All that somebody does, one look after the other; he ends the attempt when it is over."""
 
 
 def _wait(seconds: float) -> Moves:
@@ -200,7 +199,7 @@ def perfect_mouse(desk: Desk) -> Moves:
 
 
 STILL: Final = 0.6
-"""What has not moved for so long stands still [s]."""
+"""A thing that has not moved for so long stands still [s]."""
 
 STROKE_MM: Final = 10.0
 """So far the careful hand pushes before it looks again [mm]."""

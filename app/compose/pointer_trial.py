@@ -112,7 +112,11 @@ def _play(trainer: Trainer, exercise: Exercise, placed: PlacedPlan, name: str) -
     eyes = Eyes(Shown.of_exercise(exercise), placed, frame, scale, steps)
     snapshot = trainer.snapshot()
     row = snapshot.device.row if snapshot.device is not None else None
-    direction = downward(0.0, 0.0) if row is None else downward(float(row[sv.HAND_X]), float(row[sv.HAND_Y]))
+    direction = (
+        downward(0.0, 0.0)
+        if row is None
+        else downward(float(row[sv.HAND_X]), float(row[sv.HAND_Y]))
+    )
     limits = HandLimits(profile.tilt_limit, *profile.depth_range)
     hand = PadHand(frame, scale, limits, HandPose(direction, WAITS, True))
     told = trainer.hold_breath if exercise.longest_hold is not None else None

@@ -1,4 +1,4 @@
-"""How unsteady the hand of mouse, keys, pen and gamepad is at each level of an exercise.
+"""Unsteadiness of the hand of mouse, keys, pen and gamepad, by the level of an exercise.
 
 | | level 1 | level 5 and above | stands on |
 |---|---|---|---|
@@ -10,10 +10,10 @@
 | bend while pushing 20 mm/s | 2.0° | 3.0° | estimated |
 | depth moved by 10° turned while pushing | 0.9 mm | 2.6 mm | estimated |
 
-Freehand insertions leave 3.4 ± 3.1° (Gruber-Rouh 2015), with all that the hand sees and mends on the
-way: one that pushes without looking is taken as worse, by half that deviation and by all of it. That
-share, and what is called estimated, was chosen so that who drags once and wheels in without a second
-look does not score as who checks (`compose.pointer_hands`); no hand was measured for it.
+Freehand insertions leave 3.4 ± 3.1° (Gruber-Rouh 2015), with all that the hand sees and mends on
+the way: one that pushes without looking is taken as worse, by half that deviation and by all of it.
+That share, and what is called estimated, was chosen so that who drags once and wheels in without a
+second look does not score as who checks (`compose.pointer_hands`); no hand was measured for it.
 
 The direction's two parts are independent: their standard deviation is the mean angle / √(π/2).
 """

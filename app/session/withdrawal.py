@@ -261,7 +261,7 @@ class Withdrawal:
         return self._led or (aside < ARRIVED and abs(depth - WAITS) < ARRIVED)
 
     def _bring_out(self, device: DeviceState) -> None:
-        """Let the simulated hand draw the needle back along itself; once it is out, to its start."""
+        """Let the hand draw the needle back along itself; once it is out, to its start."""
         x, y = device.row[[sv.GRIP_X, sv.GRIP_Y]].tolist()
         if _depth(device) <= OUT and not self._led:
             x, y = self._place

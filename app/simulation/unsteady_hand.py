@@ -1,15 +1,15 @@
 """A simulated hand that is not steady: weight, tremor, drift, and push and tilt that are coupled.
 
 Mouse, wheel, keys, stick and pen say where the hand is wanted (HAND_*). A person's hand comes there
-late and never stands still. What it is off goes into UNSTEADY_*, which `mechanisms.hand_motion` adds
-before its own bounds on speed and acceleration:
+late and never stands still. What it is off goes into UNSTEADY_*, which `mechanisms.hand_motion`
+adds before its own bounds on speed and acceleration:
 
 - *weight*: direction and depth follow as a mass on a spring, damping ratio 0.7;
-- *tremor*: noise through a resonance at 10 Hz whose half-power band is 8 to 12 Hz, across and along;
-- *drift*: the direction wanders, the more the faster the hand pushes (signal-dependent noise: Harris
-  and Wolpert 1998, Nature 394:780), and stays where it has come to for some seconds;
-- *coupling*: while it pushes, the direction bends aside, each attempt to another side; turning while
-  pushing moves the depth, which stays moved.
+- *tremor*: noise through a resonance at 10 Hz, half-power band 8 to 12 Hz, across and along;
+- *drift*: the direction wanders, the more the faster the hand pushes (signal-dependent noise:
+  Harris and Wolpert 1998, Nature 394:780), and stays where it has come to for some seconds;
+- *coupling*: while it pushes, the direction bends aside, each attempt to another side; turning
+  while pushing moves the depth, which stays moved.
 
 Where tissue holds the needle it goes on holding: the plant's springs pull, nothing here moves it.
 
@@ -49,7 +49,7 @@ _SHORTEST: Final = 0.01  # [m] of needle outside the fulcrum
 
 @dataclass(frozen=True, slots=True)
 class Unsteadiness:
-    """How unsteady a hand is.
+    """Sizes of a hand's unsteadiness.
 
     Attributes:
         lag: time by which it follows a steady movement late [s].

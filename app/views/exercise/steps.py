@@ -186,9 +186,7 @@ ASIDE: Final = (StepKind.START, StepKind.WITHDRAW, StepKind.MOVE, StepKind.WAIT)
 """What comes before the attempt's own steps, or stops them: no breath is held for it."""
 
 
-def step_words(
-    step: NextStep, by_mouse: bool, tip: bool = False, numbers: bool = True
-) -> str:
+def step_words(step: NextStep, by_mouse: bool, tip: bool = False, numbers: bool = True) -> str:
     """Say what is to be done next, as an order.
 
     Args:
