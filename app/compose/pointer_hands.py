@@ -150,7 +150,7 @@ class Desk:
         )
 
     def moves(self, duration: float) -> float:
-        """Return how far what was seen went to and fro over a `duration` [s], in radii of the pad."""
+        """Return how far all went to and fro that was seen for a `duration` [s], in pad radii."""
         latest = self.seen.time
         some = [one for one in self._screens if latest - duration < one.time <= latest]
         seen = np.array([[*one.heading, *one.tip] for one in some])
