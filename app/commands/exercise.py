@@ -2,7 +2,7 @@
 
 from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import typer
 
@@ -290,6 +290,10 @@ def unpack(
     return Answer(facts, shown="{id}, version {version} {known:?was there already|taken in}")
 
 
+WINDOW: Final = "window"
+"""Script of those who sit at the window, beside those of skills."""
+
+
 @app.command()
 def trial(
     exercise: Name,
@@ -297,12 +301,14 @@ def trial(
     script: Annotated[
         str,
         typer.Option(
-            help="hand: as slow, uneven and far off as people are; quick: as in a demonstration.",
+            help="hand: as slow, uneven and far off as people are; quick: as in a demonstration; "
+            "window: who drags and wheels in, and who plans and checks, at the window.",
         ),
     ] = "hand",
 ) -> Answer:
     """Try an exercise: what five scripted skills score (instructor). Nothing is recorded."""
     from app.commands.calibrate_parts import with_progress
+    from app.compose.pointer_trial import pointer_outcomes
     from app.compose.skill_scores import ordered_seeds, ordered_share, risks_of, run_trial
     from app.core.errors import AcusError
     from app.core.messages import sentence
@@ -310,21 +316,21 @@ def trial(
     from app.simulation.hands import Script
 
     instructor()
-    if script not in (*Script,):
+    if script not in (*Script, WINDOW):
         raise AcusError(
             sentence(
                 "there is no script {script!r}; there are {scripts}",
                 script=script,
-                scripts=", ".join(Script),
+                scripts=", ".join((*Script, WINDOW)),
             )
         )
-    chosen, played = load_exercise(exercise), Script(script)
+    chosen = load_exercise(exercise)
 
     def work(progress: "Progress") -> "tuple[SkillOutcome, ...]":
-        risks = risks_of(chosen, progress.part(0.0, 0.2))
-        return run_trial(
-            chosen, seeds, risks=risks, progress=progress.part(0.2, 1.0), script=played
-        )
+        risks, rest = risks_of(chosen, progress.part(0.0, 0.2)), progress.part(0.2, 1.0)
+        if script == WINDOW:
+            return pointer_outcomes(chosen, seeds, risks, rest)
+        return run_trial(chosen, seeds, risks=risks, progress=rest, script=Script(script))
 
     outcomes = with_progress(work)
     rows: list[dict[str, Any]] = []
@@ -343,7 +349,7 @@ def trial(
             }
         )
     facts = {"id": chosen.id, "version": chosen.version, "seeds": seeds, "skills": rows}
-    facts["script"] = played.value
+    facts["script"] = script
     facts |= {"ordered_seeds": ordered_seeds(outcomes), "ordered_share": ordered_share(outcomes)}
     row = (
         "{skill:<12} {median:?{median:6.1f}  {lower_quartile:5.1f}{upper_quartile:6.1f}|"

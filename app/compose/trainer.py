@@ -21,6 +21,7 @@ from app.compose.needle_sources import NeedleSource, recorded_table
 from app.compose.robot import Robot, connect
 from app.compose.run_context import agreement_of, run_context, with_exercise
 from app.compose.trainee import trainee_of
+from app.compose.unsteady import hand_unsteady_by_level
 from app.core import paths
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
@@ -40,6 +41,7 @@ from app.imaging.field import TissueField
 from app.mechanisms.hand_motion import hand_stage
 from app.mechanisms.profile import DeviceProfile, parse_profile
 from app.planning.placement import PlacedPlan
+from app.session.beginnings import Beginnings
 from app.session.conditions import TRAINEE
 from app.session.context import RunContext
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
@@ -298,6 +300,9 @@ def _build_rig(
         tissues=setup.tissues,
         trust=DepthTrust(profile.hand.depth_speed, seen=robot is None or real is not None),
         start=Start.SIMULATED if robot is None else Start.REAL,
+        beginnings=Beginnings(setup.seed, setup.exercise.level, profile.tilt_limit)
+        if robot is None and setup.skill is None
+        else None,
     )
     return Rig(setup, profile, loop, tracker, trainer, robot)
 
@@ -369,6 +374,8 @@ def loop_table(
     before: list[Stage] = []
     if simulated:
         link = simulated_link(profile, [plant_stage(profile, UPRIGHT, START_DEPTH)])
+        if setup.skill is None:  # a script has a hand of its own
+            before = [hand_unsteady_by_level(profile)]
     else:  # a simulated hand may still move what simulated cameras see
         before = [hand_stage(profile.needle_length)]
     if (simulated or robot is not None) and setup.skill is not None:

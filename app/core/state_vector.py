@@ -117,6 +117,8 @@ TEST_LEFT: Final = _input()  # [N·m] joint torques that a service routine asks 
 TEST_RIGHT: Final = _input()
 HOLD_BREATH: Final = _input()  # [-] 1 while the patient is asked to hold the breath
 NEEDLE_ROLL: Final = _input()  # [rad] roll of the needle, clockwise seen from the hub
+HAND_LEVEL: Final = _input()  # [-] level by which the simulated hand is unsteady; 0: steady
+HAND_SEED: Final = _input()  # [-] whole number that its unsteadiness follows from
 INPUTS: Final = _end_of_inputs()  # number of input slots
 
 # --- time -----------------------------------------------------------------------------------------
@@ -313,6 +315,11 @@ BONE_CROSSED: Final = _scene()  # [m] way along the needle beyond the bone's sur
 BONE_PUSH_X: Final = _scene()  # [N] of bone on the tip across the needle, along its surface
 BONE_PUSH_Y: Final = _scene()
 BONE_PUSH_Z: Final = _scene()
+
+# --- how far the simulated hand is from where it is asked to be: weight, tremor, drift ------------
+UNSTEADY_X: Final = next(_next)  # [-] added to HAND_X and HAND_Y
+UNSTEADY_Y: Final = next(_next)
+UNSTEADY_DEPTH: Final = next(_next)  # [m] added to HAND_DEPTH
 
 SLOTS: Final = next(_next)
 """Length of the state vector."""

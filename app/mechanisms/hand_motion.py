@@ -1,7 +1,8 @@
 """How fast the simulated hand goes where mouse, wheel, keys, pen, gamepad or script want it.
 
-HAND_* say where the hand is wanted; GRIP_* are where it is. Between them stands a hand: its speed
-and its acceleration are bounded, across the needle (at the hub) and along it, each on its own. At a
+HAND_* say where the hand is wanted, and UNSTEADY_* how far a hand that is not steady is from there
+(`simulation.unsteady_hand`); GRIP_* are where it is. Between them stands a hand: its speed and its
+acceleration are bounded, across the needle (at the hub) and along it, each on its own. At a
 distance e from where it is wanted it aims for the speed
 
     v(e) = min(e / τ, √(2 a (e - a τ² / 2)), limit),
@@ -68,6 +69,9 @@ def wanted(state: FloatArray) -> tuple[bool, float, float, float]:
     sine = np.sqrt(x * x + y * y)
     if not (state[sv.HAND_HOLDS] > 0.5 and np.isfinite(sine + state[sv.HAND_DEPTH])):
         return False, 0.0, 0.0, -1.0
+    if state[sv.UNSTEADY_X] != 0.0 or state[sv.UNSTEADY_Y] != 0.0:  # a steady hand's zero stays -0
+        x, y = x + state[sv.UNSTEADY_X], y + state[sv.UNSTEADY_Y]
+        sine = np.sqrt(x * x + y * y)
     if sine > _FLATTEST:
         x, y = x * (_FLATTEST / sine), y * (_FLATTEST / sine)
     return True, x, y, -np.sqrt(1.0 - x * x - y * y)
@@ -150,9 +154,12 @@ def turn(
 @njit
 def advance(state: FloatArray, p: FloatArray, at: int, h: float) -> None:
     """Move the hand along the needle for a step `h` [s] towards HAND_DEPTH."""
-    way, rate = state[sv.HAND_DEPTH] - state[sv.GRIP_DEPTH], p[at + AT.rate]
+    depth = state[sv.HAND_DEPTH]
+    if state[sv.UNSTEADY_DEPTH] != 0.0:
+        depth += state[sv.UNSTEADY_DEPTH]
+    way, rate = depth - state[sv.GRIP_DEPTH], p[at + AT.rate]
     if abs(way) < _NEAR and abs(rate) < _SLOW:
-        state[sv.GRIP_DEPTH], p[at + AT.rate] = state[sv.HAND_DEPTH], 0.0
+        state[sv.GRIP_DEPTH], p[at + AT.rate] = depth, 0.0
         return
     speed = aimed(abs(way), p[at + AT.axial_speed], p[at + AT.axial_acceleration])
     most = p[at + AT.axial_acceleration] * h

@@ -57,9 +57,12 @@ CABLES: Final = (*slots.VECTORS["cable"], *slots.VECTORS["reel"])
 JUDGED: Final = ("encoder_fault", "unbelieved")
 """What was made of a robot's readings when they came; later than all, and zeros before."""
 
+UNSTEADY: Final = ("hand_level", "hand_seed")
+"""Inputs that make the simulated hand unsteady; later than all, and zeros before: it was steady."""
+
 COLUMNS: Final = (
-    *(n for n in INPUTS if n not in LATER),
-    *(*CLOCK, *WIRE, *OUTPUTS, *LATER, *CABLES, *JUDGED),
+    *(n for n in INPUTS if n not in (*LATER, *UNSTEADY)),
+    *(*CLOCK, *WIRE, *OUTPUTS, *LATER, *CABLES, *JUDGED, *UNSTEADY),
 )
 """Slot names of a block's columns."""
 

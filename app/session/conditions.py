@@ -29,6 +29,10 @@ HANDS: Final = ("mouse", "keyboard", "tablet", "gamepad", "robot", "pen", "scrip
 """Sources of the hand: `robot` is a real hand at a real robot, `pen` one that holds a pen with
 printed markers, `script` the scripted trainee."""
 
+POINTERS: Final = ("mouse", "keyboard", "tablet", "gamepad")
+"""Those that move a simulated hand, which is a person's: unsteady, and where the attempt waits for
+its first movement."""
+
 TAKEN_OVER: Final = "taken_over"
 """Kind of the event at which another hand goes on with the needle: `hand` one of `HANDS`, `depth_m`
 where the tip was, None where nobody had measured it."""

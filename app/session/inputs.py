@@ -85,6 +85,10 @@ class LoopInputs:
             hand_x=checked[0], hand_y=checked[1], hand_depth=checked[2], hand_holds=float(holds)
         )
 
+    def unsteady(self, level: int, seed: int) -> None:
+        """Make the simulated hand unsteady by an exercise's level, 0 for not at all."""
+        self._inbox.write(hand_level=float(level), hand_seed=float(seed))
+
     def hold_breath(self, held: bool) -> None:
         """Ask the simulated patient to hold the breath, or to breathe."""
         self._inbox.write(hold_breath=float(held))

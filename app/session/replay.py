@@ -23,7 +23,7 @@ from app.core.build import BUILD, build, changes
 from app.core.messages import sentence
 from app.scoring.met import Met
 from app.scoring.risks import RiskMark
-from app.session.blocks import CABLES, CLOCK, INPUTS, JUDGED, LATER, SLOT_NAMES, WIRE
+from app.session.blocks import CABLES, CLOCK, INPUTS, JUDGED, LATER, SLOT_NAMES, UNSTEADY, WIRE
 from app.session.control_scan import ControlScan
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.session.digest import MEASURED, digests
@@ -33,6 +33,9 @@ from app.session.recording import Recording
 from app.session.risks import event_of, mark_sentence, risk_marks
 from app.session.ticks import Inputs
 from app.session.tissues import tissues_met
+
+UNSTEADY_SLOTS: Final = ("unsteady_x", "unsteady_y", "unsteady_depth")
+"""What a hand adds that is unsteady; nothing in records from before there was one."""
 
 _INDEX = {name: k for k, name in enumerate(SLOT_NAMES) if name}
 
@@ -379,7 +382,7 @@ def why_not(inputs: Inputs) -> str:
         )
     missing = set(inputs.checkpoint.slots) ^ set(SLOT_NAMES)
     missing -= {SLOT_NAMES[slot] for slot in sv.SUMS + sv.SCENE}  # later ones: nobody wrote them
-    missing -= set(LATER)  # nor gave these
+    missing -= {*LATER, *UNSTEADY, *UNSTEADY_SLOTS}  # nor gave these
     missing -= {SLOT_NAMES[slot] for slot in sv.MACHINE}  # of machines that it was not
     if missing:
         return sentence(

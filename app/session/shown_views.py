@@ -80,6 +80,13 @@ class _WithoutNeedle:
         self.force_measured, self.measured_force = False, 0.0
 
 
+WITHOUT_NUMBERS: Final = 2
+"""From this level on orders say which way, and no longer how far."""
+
+CT_LEADS: Final = 3
+"""From this level on nobody orders: the student steers by the CT and by control scans."""
+
+
 @dataclass(frozen=True, slots=True)
 class Shown:
     """What may be told.
@@ -87,16 +94,25 @@ class Shown:
     Attributes:
         live: whether the needle is shown while it moves.
         views: what is shown of it; with `live` False none of those that tell.
+        orders: whether the line over the views says how to move the needle.
+        numbers: whether it says by how much.
     """
 
     live: bool = True
     views: frozenset[ViewName] = frozenset(ViewName)
+    orders: bool = True
+    numbers: bool = True
 
     @classmethod
     def of_exercise(cls, exercise: Exercise) -> Shown:
-        """Return what an exercise shows."""
+        """Return what an exercise shows: its views, and by its level what help in words is left.
+
+        Targets that are to be touched keep their words: nothing else says which is the next.
+        """
         live = exercise.guidance_mode is GuidanceMode.LIVE
-        return cls(live, frozenset(exercise.shown_views))
+        level = 1 if exercise.touch is not None else exercise.level
+        orders, numbers = level < CT_LEADS, level < WITHOUT_NUMBERS
+        return cls(live, frozenset(exercise.shown_views), orders, numbers)
 
     def shows(self, view: ViewName) -> bool:
         """Return whether this view is on."""

@@ -75,6 +75,7 @@ class Snapshot:
         withdrawal: what happens, or is to be done, before the attempt can begin with the needle out
             of the skin; empty otherwise.
         may_confirm: whether the student may say that the needle is out.
+        ready: whether all is in place and the first movement of the student's hand begins it.
         breath: how the breath-hold stands; None where the patient is not told.
         roll: of a bevelled needle [rad], clockwise seen from the hub; None where none is bevelled.
         measured_pose: the pose as measured, behind by its age; None in snapshots made by hand.
@@ -104,6 +105,7 @@ class Snapshot:
     measured_pose: NeedlePose | None = None
     withdrawal: str = ""
     may_confirm: bool = False
+    ready: bool = False
     breath: BreathHold | None = None
     roll: float | None = None
     touch: TouchState | None = None
@@ -208,9 +210,11 @@ class StepKind(StrEnum):
 
     START = "start"
     WITHDRAW = "withdraw"
+    MOVE = "move"
     SEE = "see"
     WAIT = "wait"
     SCAN = "scan"
+    LOOK = "look"
     TILT = "tilt"
     INSERT = "insert"
     FEEL = "feel"
@@ -247,6 +251,14 @@ class NextStep:
     pause: PauseCause | None = None
 
 
+ORDERS: Final = frozenset(
+    {
+        *(StepKind.TILT, StepKind.INSERT, StepKind.FEEL, StepKind.DEEPER, StepKind.BACK),
+        *(StepKind.HOLD, StepKind.FINISH),
+    }
+)
+"""Steps that say how the needle is to be moved, and when it is where it belongs."""
+
 CALM: Final = 0.6
 """Share of a limit below which what was asked for is done: an order does not flicker."""
 
@@ -271,14 +283,17 @@ class NextSteps:
         self._placed, self._across, self._along = placed, across, along
         self._last = StepKind.START
 
-    def of(self, snapshot: Snapshot, live: bool = True) -> NextStep:
+    def of(self, snapshot: Snapshot, live: bool = True, orders: bool = True) -> NextStep:
         """Return the next step.
 
         Args:
             snapshot: as it may be shown.
             live: whether the needle may be told of at all.
+            orders: whether it is said how to move it; else only what must not go on.
         """
         step = self._step(snapshot, live)
+        if not orders and step.kind in ORDERS:
+            step = NextStep(StepKind.LOOK)
         self._last = step.kind
         return step
 
@@ -286,7 +301,7 @@ class NextSteps:
         if snapshot.state is State.READY or snapshot.state in FINAL:
             return NextStep(StepKind.START)
         if snapshot.state is State.WITHDRAWING:
-            return NextStep(StepKind.WITHDRAW)
+            return NextStep(StepKind.MOVE if snapshot.ready else StepKind.WITHDRAW)
         if snapshot.pause not in (None, PauseCause.CAMERAS):
             return NextStep(StepKind.WAIT, pause=snapshot.pause)
         if not live:

@@ -19,7 +19,8 @@ from app.imaging.field import TissueField
 from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
 from app.session.attempt_log import AttemptLog
-from app.session.conditions import ARM, TAKEN_OVER, hand_of
+from app.session.beginnings import Beginnings
+from app.session.conditions import ARM, POINTERS, TAKEN_OVER, hand_of
 from app.session.context import RunContext
 from app.session.effect_models import KIND, ModelChoice
 from app.session.errors import ControlLockedError, IllegalTransitionError, SessionError
@@ -87,6 +88,7 @@ class Trainer:
         dial: float | None = None,
         trust: DepthTrust = TRUST,
         start: Start = Start.ANYWHERE,
+        beginnings: Beginnings | None = None,
     ) -> None:
         """Keep the parts.
 
@@ -96,7 +98,8 @@ class Trainer:
         `risks` are measured and recorded when an attempt ends, and by `tissues` what the needle
         met. `dial` is the assistance that every attempt begins with; None for the exercise's.
         `trust` says how far a depth by the cameras is
-        believed, `start` how the needle comes out of the skin before an attempt.
+        believed, `start` how the needle comes out of the skin before an attempt, `beginnings` where
+        a simulated hand that a person moves begins; None for where scripts do.
         """
         self.events = EventQueue()
         self.result: AttemptResult | None = None
@@ -116,7 +119,7 @@ class Trainer:
         longest = exercise.longest_hold
         self._breath = None if longest is None else BreathWatch(longest)
         self._running = RunningAttempt(self.events)
-        self._withdrawal = Withdrawal(self._inputs, start)
+        self._withdrawal, self._beginnings = Withdrawal(self._inputs, start), beginnings
         self._latest: Latest[Snapshot] = Latest()
         real = isinstance(self._clock, SystemClock)
         self._standstill = Standstill() if real else Standstill(lambda: 0.0)
@@ -213,7 +216,10 @@ class Trainer:
                 self._touching.begin()
                 self._take_aim()
             seen = self._sources.newest(self._aim, now)
-            out = self._withdrawal.begin(seen.device, seen.pose, now, led=hand == ARM)
+            begins = None
+            if self._beginnings is not None and hand in POINTERS:
+                begins = self._beginnings.next(self._placed)
+            out = self._withdrawal.begin(seen.device, seen.pose, now, hand == ARM, begins)
             self._running.begin(log, now, failure, out)
             self._lost_before = 0.0 if self._paced is None else self._paced.lost
             if self._touching is not None:
@@ -269,6 +275,7 @@ class Trainer:
         """
         if not self._withdrawal.moves_hand:
             self._inputs.hand(x, y, depth, holds)
+            self._withdrawal.follow(x, y, depth)
 
     def lead(self, within: float) -> float | None:
         """Hear from a program that leads the hand step by step in a run whose time is paced.
@@ -313,6 +320,8 @@ class Trainer:
             depth = float(pose.depth) if pose.measured else None
             at = "" if depth is None else f" at {depth / MILLIMETRE:.0f} mm"
             words = f"taken over by {hand}{at}"
+            if hand not in POINTERS:  # it brings its own steadiness
+                self._inputs.unsteady(0, 0)
             self._running.say(TAKEN_OVER, words, now, {"hand": hand, "depth_m": depth})
 
     def roll(self, step: float) -> None:
@@ -551,6 +560,7 @@ class Trainer:
             clearance=clearance,
             measured_pose=seen.pose,
             withdrawal=withdrawal.words,
+            ready=withdrawal.ready,
             may_confirm=withdrawal.asks,
             breath=None if self._breath is None else self._breath.now,
             roll=self._inputs.rolled if "bevel" in self._exercise.effects else None,
@@ -574,6 +584,7 @@ class Trainer:
     def _finish(self, event: AttemptEvent, reason: str = "") -> AttemptResult:
         self.disarm()
         self._withdrawal.stop()
+        self._inputs.unsteady(0, 0)
         now = self._clock.now()
         if self._paced is not None and (lost := self._paced.lost - self._lost_before) > SLOWED_S:
             self._running.say(SLOWED, slowed_words(lost), now, {"seconds": lost})

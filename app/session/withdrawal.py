@@ -2,7 +2,9 @@
 
 A simulated needle goes back by itself, through the same simulated hand and at a hand's speed: out
 of the skin along itself, then upright to where it waits for a first attempt, wherever the last one
-or the student left it. A real one the student withdraws: the attempt begins once
+or the student left it. Where a person moves the hand it goes to the start that the attempt has
+(`session.beginnings`), is unsteady from there on, and the attempt waits until it moves: the clock
+is the student's. A real one the student withdraws: the attempt begins once
 the whole interval that holds the depth lies outside; where nothing measures it there, once the
 student says that the needle is out. What was said and not measured is recorded so, and a depth
 inside the skin within `REFUTES` seconds refutes it.
@@ -17,6 +19,7 @@ from app.core import state_vector as sv
 from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.device.state import DeviceState
+from app.session.beginnings import Beginning
 from app.session.inputs import LoopInputs
 from app.session.needle import NeedlePose
 
@@ -34,6 +37,14 @@ WAITS: Final = -0.015
 
 ARRIVED: Final = 1e-3
 """So near its start the simulated hand has arrived: horizontally a share of 1, along it [m]."""
+
+MOVED: Final = 1.5e-3
+"""So far from its start the student's hand has moved: horizontally a share of 1."""
+
+MOVED_ALONG: Final = 0.5 * MILLIMETRE
+"""The same along the needle [m]."""
+
+READY: Final = "ready: the attempt and its clock begin with your first movement"
 
 PATIENCE: Final = 30.0
 """Time after which a simulated needle that does not come out ends the attempt [s]."""
@@ -108,6 +119,7 @@ class Withdrawal:
         active: whether the tip is being brought out.
         words: what the student should know; empty while nothing is to be done.
         asks: whether the student may say that the needle is out.
+        ready: whether all is in place and only the student's first movement is waited for.
     """
 
     def __init__(self, inputs: LoopInputs, start: Start = Start.ANYWHERE) -> None:
@@ -115,7 +127,9 @@ class Withdrawal:
         self._since = 0.0
         self._confirmed: float | None = None
         self._said = self._led = False
-        self.active, self.asks, self.words = False, False, ""
+        self._begins: Beginning | None = None
+        self._moved = False
+        self.active, self.asks, self.ready, self.words = False, False, False, ""
 
     @property
     def simulated(self) -> bool:
@@ -125,23 +139,35 @@ class Withdrawal:
     @property
     def moves_hand(self) -> bool:
         """Return whether it is moving the simulated hand."""
-        return self.active and self._start is Start.SIMULATED
+        return self.active and self._start is Start.SIMULATED and not self.ready
 
     def begin(
-        self, device: DeviceState | None, pose: NeedlePose, now: float, led: bool = False
+        self,
+        device: DeviceState | None,
+        pose: NeedlePose,
+        now: float,
+        led: bool = False,
+        begins: Beginning | None = None,
     ) -> OutsideBy | None:
         """Begin before an attempt: how it is known that the tip is out already, or None.
 
         `led`: whether somebody leads the simulated hand who brings it to where he begins himself:
-        only a needle inside the skin is brought out then.
+        only a needle inside the skin is brought out then. `begins`: where a simulated hand begins
+        that a person moves, whose first movement begins the attempt; None for upright, and at once.
         """
         self._since, self._confirmed, self._said, self._led = now, None, False, led
-        self.active, self.asks, self.words = False, False, ""
+        self._begins = begins if self._start is Start.SIMULATED else None
+        self._moved = False
+        self.active, self.asks, self.ready, self.words = False, False, False, ""
+        self._inputs.unsteady(0, 0)
         if self._start is Start.SIMULATED:
-            if device is None or self._stands(device, INSIDE):
+            if self._begins is None and device is None:
+                return OutsideBy.SIMULATED
+            if self._begins is None and device is not None and self._stands(device, INSIDE):
                 return OutsideBy.SIMULATED
             self.active = True  # before the hand moves: nobody else may move it from now on
-            self._bring_out(device)
+            if device is not None:
+                self._bring_out(device)
             self.words = WORDS[Start.SIMULATED]
         elif self._start is Start.REAL:
             if tip_outside(pose) is Outside.YES:
@@ -155,8 +181,14 @@ class Withdrawal:
     def advance(self, device: DeviceState | None, pose: NeedlePose, now: float) -> WithdrawalStep:
         """Look once more while the tip is being brought out."""
         if self._start is Start.SIMULATED:
+            if self.ready:
+                return self._out(OutsideBy.SIMULATED) if self._moved else WithdrawalStep()
             if device is not None and self._stands(device, OUT):
-                return self._out(OutsideBy.SIMULATED)
+                if self._begins is None:
+                    return self._out(OutsideBy.SIMULATED)
+                self._inputs.unsteady(self._begins.level, self._begins.seed)
+                self.ready, self.words = True, READY
+                return WithdrawalStep()
             if now - self._since > PATIENCE:
                 self.stop()
                 return WithdrawalStep(failure="the simulated needle did not come to its start")
@@ -171,6 +203,12 @@ class Withdrawal:
             return self._out(OutsideBy.CONFIRMED)
         self._ask(outside)
         return WithdrawalStep()
+
+    def follow(self, x: float, y: float, depth: float) -> None:
+        """Hear where the student wants the hand: what is away from the start begins the attempt."""
+        if self.ready and self._begins is not None:
+            aside = hypot(x - self._begins.x, y - self._begins.y)
+            self._moved = self._moved or aside > MOVED or abs(depth - WAITS) > MOVED_ALONG
 
     def confirm(self) -> None:
         """Take the student's word that the needle is out; counts only where nothing measures it."""
@@ -195,7 +233,13 @@ class Withdrawal:
 
     def stop(self) -> None:
         """Stop waiting; the hand obeys its window again."""
-        self.active, self.asks, self.words, self._said = False, False, "", False
+        self.active, self.asks, self.ready, self.words = False, False, False, ""
+        self._said = False
+
+    @property
+    def _place(self) -> tuple[float, float]:
+        """Direction of the hand where an attempt begins."""
+        return (0.0, 0.0) if self._begins is None else (self._begins.x, self._begins.y)
 
     def _out(self, known: OutsideBy) -> WithdrawalStep:
         self.stop()
@@ -213,13 +257,14 @@ class Withdrawal:
         if _depth(device) > out:
             return False
         x, y, depth = device.row[[sv.GRIP_X, sv.GRIP_Y, sv.GRIP_DEPTH]].tolist()
-        return self._led or (hypot(x, y) < ARRIVED and abs(depth - WAITS) < ARRIVED)
+        aside = hypot(x - self._place[0], y - self._place[1])
+        return self._led or (aside < ARRIVED and abs(depth - WAITS) < ARRIVED)
 
     def _bring_out(self, device: DeviceState) -> None:
-        """Let the simulated hand draw the needle back along itself; once it is out, upright."""
+        """Let the hand draw the needle back along itself; once it is out, to its start."""
         x, y = device.row[[sv.GRIP_X, sv.GRIP_Y]].tolist()
         if _depth(device) <= OUT and not self._led:
-            x, y = 0.0, 0.0
+            x, y = self._place
         self._inputs.hand(x, y, WAITS, True)
 
 

@@ -36,6 +36,7 @@ class Moment:
     touch: object = None
     device: object = None
     pause: object = None
+    ready: bool = False
 
 
 def moment(plan, depth, turn=None, state=State.INSERTING, measured=True, valid=True, p_target=None):

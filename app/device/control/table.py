@@ -58,7 +58,7 @@ WITHOUT_MEMORY: Final = ("machine", "dynamics")
 """Names of a machine's stages: their arrays are what its profile says, and nothing else."""
 
 
-SINCE: Final = ("plausibility",)
+SINCE: Final = ("plausibility", "unsteady_hand")
 """Names of stages that older records' tables do not have: their ticks are recomputed without."""
 
 

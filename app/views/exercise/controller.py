@@ -107,7 +107,7 @@ class ExerciseDisplay:
         While the needle is being brought out, the hand of the window goes with it.
         """
         bullseye = self._views.bullseye
-        led = snapshot.state is State.WITHDRAWING
+        led = snapshot.state is State.WITHDRAWING and not snapshot.ready
         hand = hand_pose(snapshot) if led or bullseye.hand is None else None
         if hand is not None:
             bullseye.take_hand(hand)
@@ -155,7 +155,7 @@ class ExerciseDisplay:
         views.panel.touch.show_touch(snapshot, run.profile.needle_length)
         views.bullseye.pad.rolls = commands and snapshot.roll is not None
         views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))
-        figured = snapshot.state, hidden
+        figured = snapshot.state, snapshot.ready, hidden
         if figured == self._figured and 0.0 <= now - self._figures_time < FIGURES_PERIOD:
             return
         self._figured, self._figures_time = figured, now

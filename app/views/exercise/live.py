@@ -30,6 +30,7 @@ class LiveFigures:
         deflection_sigma: its standard deviation [m].
         guidance: what holds the force below `force_limit` where the needle is; None if nothing.
         hidden: whether nothing of the needle may be told: only time and scans count then.
+        ready: whether the attempt waits for the first movement of the hand.
     """
 
     state: State | None
@@ -49,3 +50,4 @@ class LiveFigures:
     guidance: GuidanceLimit | None = None
     force_at_most: bool = False
     hidden: bool = False
+    ready: bool = False

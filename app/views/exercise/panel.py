@@ -545,7 +545,7 @@ class ExercisePanel(QWidget):
         self.readouts.show_figures(figures)
         self.rail.show_figures(figures)
         state = figures.state if figures else None
-        self.steps.show_state(state)
+        self.steps.show_state(state, figures.ready if figures else False)
         if state is not self._state:
             self._state = state
             self._enable()

@@ -61,6 +61,7 @@ def figures(snapshot: Snapshot, force_limit: float, hidden: bool = False) -> Liv
         deflection_sigma=snapshot.pose.deflection_sigma,
         guidance=guidance_limit(snapshot, force_limit),
         hidden=hidden,
+        ready=snapshot.ready,
     )
 
 

@@ -43,6 +43,10 @@ ORDER: Final[tuple[State, ...]] = (
 )
 
 
+TURN_MS: Final = 60
+TURN: Final = 16
+"""A ring goes round in so many pictures, so far apart."""
+
 BRIEF: Final[tuple[State, ...]] = (State.READY, State.INSERTING, State.ENDED)
 """Where control scans guide: `inserting` stands for all that happens in between."""
 
@@ -54,7 +58,10 @@ class Steps(QWidget):
         super().__init__(parent)
         self._state: State | None = None
         self._order = ORDER
-        self._reached = 0
+        self._reached = self._turn = 0
+        self._ready = False
+        self._turns = QTimer(self, interval=TURN_MS)
+        self._turns.timeout.connect(self._go_round)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setMinimumSize(300, 48)
         self.setAccessibleName(tr("No attempt"))
@@ -71,10 +78,27 @@ class Steps(QWidget):
         self.show_state(state)
         self.update()
 
-    def show_state(self, state: State | None) -> None:
-        """Show a state; None before there is an attempt."""
-        if state is self._state:
+    @property
+    def prepares(self) -> bool:
+        """Return whether a ring goes round: the needle is on its way to its start."""
+        return self._turns.isActive()
+
+    def _go_round(self) -> None:
+        self._turn = (self._turn + 1) % TURN
+        self.update()
+
+    def show_state(self, state: State | None, ready: bool = False) -> None:
+        """Show a state; None before there is an attempt.
+
+        `ready`: whether only the first movement of the hand is waited for.
+        """
+        if state is self._state and ready is self._ready:
             return
+        self._ready = ready
+        if state is State.WITHDRAWING and not ready:
+            self._turns.start()
+        else:
+            self._turns.stop()
         if state in self._order:
             self._reached = self._order.index(state)
         elif state is None or state is State.WITHDRAWING:
@@ -82,6 +106,7 @@ class Steps(QWidget):
         self._state = state
         brief = self._order is BRIEF and state is State.INSERTING
         word = tr("Under way") if brief else state_word(state) if state else tr("No attempt")
+        word = state_word(State.READY) if ready else word
         self.setAccessibleName(word)
         self.update()
 
@@ -108,6 +133,11 @@ class Steps(QWidget):
         painter.setPen(QPen(QColor(colour), 2.5))
         painter.setBrush(QColor(theme.BACKGROUND))
         painter.drawEllipse(centre, 10, 10)
+        if here and self.prepares:
+            painter.setPen(QPen(QColor(theme.TEXT), 2.5))
+            ring = QRectF(centre.x() - 10, 4, 20, 20)
+            painter.drawArc(ring, -16 * 360 * self._turn // TURN, 16 * 90)
+            sign = ""
         painter.setFont(_font(painter, 11, True))
         painter.setPen(QColor(colour))
         disc = QRectF(centre.x() - 10, 4, 20, 20)
@@ -118,7 +148,7 @@ class Steps(QWidget):
         if self._order is BRIEF and state is State.INSERTING:
             name = tr("Under way")
         name = tr("Paused") if paused else name
-        if here and self._state is State.WITHDRAWING:
+        if here and self._state is State.WITHDRAWING and not self._ready:
             name = tr("Pull out")  # what fits below a step
         top = Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop
         painter.drawText(box.adjusted(0, 26, 0, 0), top, name)
@@ -151,17 +181,18 @@ def amount(value: float) -> str:
     return f"{value:.0f}" if value >= 0.95 else f"{max(value, 0.1):.1f}"
 
 
-ASIDE: Final = (StepKind.START, StepKind.WITHDRAW, StepKind.WAIT)
+ASIDE: Final = (StepKind.START, StepKind.WITHDRAW, StepKind.MOVE, StepKind.WAIT)
 """What comes before the attempt's own steps, or stops them: no breath is held for it."""
 
 
-def step_words(step: NextStep, by_mouse: bool, tip: bool = False) -> str:
+def step_words(step: NextStep, by_mouse: bool, tip: bool = False, numbers: bool = True) -> str:
     """Say what is to be done next, as an order.
 
     Args:
         step: what.
         by_mouse: whether mouse or keys move the needle.
         tip: whether it is said where the tip goes, as the hand of mouse or keys does, not the hub.
+        numbers: whether it is said how far.
     """
     if step.touch is not None:
         return touch_words(step, step.touch)
@@ -175,16 +206,20 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False) -> str:
         if tip
         else tr("Tilt the hub towards {sides}: {mm} mm off the target")
     )
+    if not numbers and step.kind in (StepKind.TILT, StepKind.DEEPER, StepKind.BACK):
+        return _without_numbers(step.kind, sides, inwards, outwards, tip)
     return {
         StepKind.START: tr("Press F5 to start the attempt"),
         StepKind.WITHDRAW: (
-            tr("Wait: the needle goes back to its start")
+            tr("One moment: the needle goes to its start")
             if by_mouse
             else tr("Pull the needle out of the skin")
         ),
+        StepKind.MOVE: tr("Ready: the clock starts when you move"),
         StepKind.SEE: tr("Let both cameras see the marker"),
         StepKind.WAIT: _pause_words(step.pause),
         StepKind.SCAN: tr("Push by the scans: S takes one, Enter ends the attempt"),
+        StepKind.LOOK: tr("Steer by the CT: S takes a scan, Enter ends the attempt"),
         StepKind.TILT: tilt.format(mm=amount(step.across / MILLIMETRE), sides=sides),
         StepKind.INSERT: tr("Push the needle in{how}", how=inwards),
         StepKind.FEEL: tr("Push slowly{how}: the cameras do not see the depth", how=inwards),
@@ -196,6 +231,17 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False) -> str:
         StepKind.STAY: tr("Stay on the target"),
         StepKind.FINISH: tr("Press Enter: the tip is at the target"),
     }[step.kind]
+
+
+def _without_numbers(kind: StepKind, sides: str, inwards: str, outwards: str, tip: bool) -> str:
+    """Say which way the needle is to be moved, and not how far."""
+    if kind is StepKind.DEEPER:
+        return tr("Push deeper{how}", how=inwards)
+    if kind is StepKind.BACK:
+        return tr("Pull back{how}", how=outwards)
+    if tip:
+        return tr("Aim further towards {sides}", sides=sides)
+    return tr("Tilt the hub towards {sides}", sides=sides)
 
 
 def _pause_words(cause: PauseCause | None) -> str:
@@ -397,11 +443,12 @@ class NextStepLine(PlainLabel):
     def _write(self) -> None:
         if self._steps is None or self._run is None or self._snapshot is None:
             return
-        step = self._steps.of(self._snapshot, self._run.shown.live)
+        shown = self._run.shown
+        step = self._steps.of(self._snapshot, shown.live, shown.orders)
         self.stepped.emit(step)
         shows = self._run.demonstrates
         tip = not (self._run.held_at_hub or self._moves_hub)
-        words = step_words(step, self._run.interactive or shows, tip)
+        words = step_words(step, self._run.interactive or shows, tip, shown.numbers)
         if shows and step.kind is StepKind.START:
             words = tr("The demonstration begins")
         elif step.kind is StepKind.START and not self._may_start:

@@ -1,0 +1,254 @@
+"""Two scripted people at the window: one who only drags and wheels, one who plans and checks.
+
+Both see what the screen shows at the exercise's level, a fifth of a second late, and move the hand
+that mouse and wheel move (`session.pad.hand`); nothing else is known to them. They are scripts: no
+person has been measured against them.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from math import atan2, hypot
+from typing import Final
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.core.units import MILLIMETRE
+from app.exercises.parts import ViewName
+from app.planning.placement import PlacedPlan
+from app.session.pad.geometry import PadScale, PathFrame
+from app.session.pad.hand import PadHand
+from app.session.shown_views import Shown
+from app.session.snapshot import NextSteps, Snapshot, StepKind
+
+LATE: Final = 0.2
+"""Time from what happens on the screen to the hand that answers it [s]."""
+
+LOOK: Final = 0.02
+"""From one look and movement to the next [s]."""
+
+PAD_PX: Final = 100.0
+"""Radius of the pad on the screen [px]."""
+
+CT_PX_MM: Final = 1.0
+"""A pixel of the CT on the screen [mm]."""
+
+CLICK_MM: Final = 1.0
+FINE_CLICK_MM: Final = 0.2
+"""Depth by a click of the wheel, and with the key for fine movements [mm]."""
+
+DRAG: Final = 1.5
+"""Speed of the mouse [radii of the pad in a second]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Screen:
+    """All that can be read off the screen at one moment.
+
+    Attributes:
+        time: moment [s].
+        heading: where on the pad the needle is heading, (2,), in radii of the pad.
+        tip: where on it the tip is, (2,).
+        remaining: along the needle to the target [mm].
+        order: the next step as the line says it.
+        rests: whether the target is where it rests, as far as it is shown.
+    """
+
+    time: float
+    heading: FloatArray
+    tip: FloatArray
+    remaining: float
+    order: StepKind
+    rests: bool
+
+
+class Eyes:
+    """Reads snapshots as the window shows them."""
+
+    def __init__(
+        self, shown: Shown, placed: PlacedPlan, frame: PathFrame, scale: PadScale, steps: NextSteps
+    ) -> None:
+        self._shown, self._placed = shown, placed
+        self._frame, self._scale, self._steps = frame, scale, steps
+
+    def read(self, snapshot: Snapshot) -> Screen | None:
+        """Return what is there to be read; None where no needle is shown."""
+        shown = self._shown.of(snapshot, self._placed)
+        pad = self._shown.shows(ViewName.BULLSEYE)
+        if not shown.pose.valid or not (pad or self._shown.shows(ViewName.LIVE_OVERLAY)):
+            return None
+        across = shown.offset.across
+        tip_mm = np.array([across @ self._frame.right, across @ self._frame.up]) / MILLIMETRE
+        tilts, remaining = self._frame.tilts(shown.pose.axis), shown.offset.remaining / MILLIMETRE
+        if pad:
+            tip = _grid(self._place(tip_mm), 1.0 / PAD_PX)
+            heading, remaining = _grid(self._scale.place(tilts), 1.0 / PAD_PX), round(remaining, 1)
+        else:  # read off the slices: the tip, and a line from it back to the entry
+            length_mm = self._placed.length / MILLIMETRE
+            tip = self._place(_grid(tip_mm, CT_PX_MM))
+            heading = self._place(_grid(tilts * length_mm, CT_PX_MM))
+            remaining = CT_PX_MM * round(remaining / CT_PX_MM)
+        order = self._steps.of(shown, self._shown.live, self._shown.orders).kind
+        rest = float(np.abs(snapshot.p_target - snapshot.at_rest(self._placed).p_target).max())
+        rests = rest < CT_PX_MM * MILLIMETRE or not self._shown.shows(ViewName.TARGET_MOTION)
+        return Screen(snapshot.time, heading, tip, remaining, order, rests)
+
+    def _place(self, across_mm: FloatArray) -> FloatArray:
+        """Place on the pad of what lies so far off the path [mm] at the target."""
+        away = hypot(*across_mm) * MILLIMETRE
+        angle = atan2(away, self._placed.length)
+        tilts = across_mm * (angle / max(hypot(*across_mm), 1e-9))
+        return self._scale.place(tilts)
+
+
+def _grid(values: FloatArray, step: float) -> FloatArray:
+    result: FloatArray = step * np.round(values / step)
+    return result
+
+
+class Desk:
+    """Screen and hand of somebody who sits at the window.
+
+    Attributes:
+        hand: that mouse and wheel move.
+        ring: radius of the innermost ring on the pad.
+        hold_breath: tells the patient to hold the breath or to breathe; None where he is not told.
+    """
+
+    def __init__(
+        self, hand: PadHand, ring: float, hold_breath: Callable[[bool], None] | None
+    ) -> None:
+        self.hand, self.ring, self.hold_breath = hand, ring, hold_breath
+        self._screens: deque[Screen] = deque(maxlen=round(1.0 / LOOK))
+
+    def show(self, screen: Screen | None) -> None:
+        """Show the next moment."""
+        if screen is not None:
+            self._screens.append(screen)
+
+    @property
+    def seen(self) -> Screen:
+        """Return what is seen now: as it was a fifth of a second ago."""
+        latest = self._screens[-1].time
+        late = [one for one in self._screens if one.time <= latest - LATE + 1e-9]
+        return late[-1] if late else self._screens[0]
+
+    def watched(self, duration: float) -> Screen:
+        """Return what was seen on average over a `duration` [s]; the last order."""
+        seen = self.seen
+        some = [one for one in self._screens if seen.time - duration < one.time <= seen.time]
+        return Screen(
+            seen.time,
+            np.mean([one.heading for one in some], axis=0),
+            np.mean([one.tip for one in some], axis=0),
+            float(np.mean([one.remaining for one in some])),
+            seen.order,
+            all(one.rests for one in some),
+        )
+
+    def moves(self, duration: float) -> float:
+        """Return how far all went to and fro that was seen for a `duration` [s], in pad radii."""
+        latest = self.seen.time
+        some = [one for one in self._screens if latest - duration < one.time <= latest]
+        seen = np.array([[*one.heading, *one.tip] for one in some])
+        return float(np.ptp(seen, axis=0).max())
+
+
+Moves = Iterator[None]
+"""All that somebody does, one look after the other; he ends the attempt when it is over."""
+
+
+def _wait(seconds: float) -> Moves:
+    for _ in range(round(seconds / LOOK)):
+        yield
+
+
+def _drag(desk: Desk, way: FloatArray) -> Moves:
+    pieces = max(1, round(hypot(*way) / (DRAG * LOOK)))
+    for _ in range(pieces):
+        desk.hand.drag(way / pieces)
+        yield
+
+
+def _wheel(desk: Desk, way_mm: float, click_mm: float, looks: int) -> Moves:
+    for _ in range(round(abs(way_mm) / click_mm)):
+        desk.hand.advance(float(np.copysign(click_mm * MILLIMETRE, way_mm)))
+        for _ in range(looks):
+            yield
+
+
+def perfect_mouse(desk: Desk) -> Moves:
+    """Drag the dot straight to the middle and wheel in until the depth is right: no second look."""
+    yield from _wait(0.5)
+    for _ in range(4):
+        yield from _drag(desk, -desk.seen.heading)
+        yield from _wait(0.5)
+        if hypot(*desk.seen.heading) <= desk.ring:
+            break
+    for _ in range(6):
+        if desk.seen.order in (StepKind.HOLD, StepKind.FINISH):
+            break
+        yield from _wheel(desk, desk.seen.remaining, CLICK_MM, 3)
+        yield from _wait(0.6)
+        if abs(desk.seen.remaining) < 0.5 * CLICK_MM:
+            break
+    yield from _wait(1.2)
+
+
+STILL: Final = 0.6
+"""A thing that has not moved for so long stands still [s]."""
+
+STROKE_MM: Final = 10.0
+"""So far the careful hand pushes before it looks again [mm]."""
+
+
+def careful_hand(desk: Desk) -> Moves:
+    """Look at the plan, align, wait for the breath, push in short strokes and check after each."""
+    yield from _wait(2.0)
+    yield from _align(desk, tries=12)
+    while desk.watched(0.3).remaining > 1.0:
+        yield from _await_breath(desk)
+        stroke = min(STROKE_MM, desk.watched(0.3).remaining)
+        yield from _wheel(desk, stroke, FINE_CLICK_MM, 2)
+        yield from _wait(0.5)
+        yield from _align(desk, tries=4)
+    for _ in range(12):
+        yield from _await_breath(desk)
+        yield from _wheel(desk, desk.watched(0.3).remaining, FINE_CLICK_MM, 1)
+        yield from _align(desk, tries=4)
+        yield from _await_breath(desk)
+        seen = desk.watched(0.3)
+        if abs(seen.remaining) < 0.6 and hypot(*seen.tip) < desk.ring and seen.rests:
+            break
+
+
+def _align(desk: Desk, tries: int) -> Moves:
+    """Bring tip and heading to the middle by small corrections, each looked at."""
+    for _ in range(tries):
+        yield from _await_breath(desk)
+        seen = desk.watched(0.3)
+        error = 0.5 * (seen.heading + seen.tip) if seen.remaining < STROKE_MM else seen.heading
+        if hypot(*error) < 0.5 * desk.ring:
+            return
+        yield from _drag(desk, -0.7 * error)
+        yield from _wait(0.5)
+
+
+def _await_breath(desk: Desk) -> Moves:
+    """Have the breath held, or wait for its end: nothing that is seen moves, the target rests."""
+    if desk.hold_breath is not None:
+        desk.hold_breath(True)
+    for _ in range(round(8.0 / LOOK)):
+        if desk.seen.rests and desk.moves(STILL) < 1.6 * desk.ring:
+            return
+        yield
+
+
+HANDS: Final[dict[str, Callable[[Desk], Moves]]] = {
+    "mouse": perfect_mouse,
+    "careful": careful_hand,
+}
+"""Both by name."""
