@@ -45,7 +45,7 @@ DRAG: Final = 1.5
 
 
 @dataclass(frozen=True, slots=True)
-class Screen:
+class Sight:
     """All that can be read off the screen at one moment.
 
     Attributes:
@@ -74,7 +74,7 @@ class Eyes:
         self._shown, self._placed = shown, placed
         self._frame, self._scale, self._steps = frame, scale, steps
 
-    def read(self, snapshot: Snapshot) -> Screen | None:
+    def read(self, snapshot: Snapshot) -> Sight | None:
         """Return what is there to be read; None where no needle is shown."""
         shown = self._shown.of(snapshot, self._placed)
         pad = self._shown.shows(ViewName.BULLSEYE)
@@ -94,7 +94,7 @@ class Eyes:
         order = self._steps.of(shown, self._shown.live, self._shown.orders).kind
         rest = float(np.abs(snapshot.p_target - snapshot.at_rest(self._placed).p_target).max())
         rests = rest < CT_PX_MM * MILLIMETRE or not self._shown.shows(ViewName.TARGET_MOTION)
-        return Screen(snapshot.time, heading, tip, remaining, order, rests)
+        return Sight(snapshot.time, heading, tip, remaining, order, rests)
 
     def _place(self, across_mm: FloatArray) -> FloatArray:
         """Place on the pad of what lies so far off the path [mm] at the target."""
@@ -122,25 +122,25 @@ class Desk:
         self, hand: PadHand, ring: float, hold_breath: Callable[[bool], None] | None
     ) -> None:
         self.hand, self.ring, self.hold_breath = hand, ring, hold_breath
-        self._screens: deque[Screen] = deque(maxlen=round(1.0 / LOOK))
+        self._screens: deque[Sight] = deque(maxlen=round(1.0 / LOOK))
 
-    def show(self, screen: Screen | None) -> None:
+    def show(self, screen: Sight | None) -> None:
         """Show the next moment."""
         if screen is not None:
             self._screens.append(screen)
 
     @property
-    def seen(self) -> Screen:
+    def seen(self) -> Sight:
         """Return what is seen now: as it was a fifth of a second ago."""
         latest = self._screens[-1].time
         late = [one for one in self._screens if one.time <= latest - LATE + 1e-9]
         return late[-1] if late else self._screens[0]
 
-    def watched(self, duration: float) -> Screen:
+    def watched(self, duration: float) -> Sight:
         """Return what was seen on average over a `duration` [s]; the last order."""
         seen = self.seen
         some = [one for one in self._screens if seen.time - duration < one.time <= seen.time]
-        return Screen(
+        return Sight(
             seen.time,
             np.mean([one.heading for one in some], axis=0),
             np.mean([one.tip for one in some], axis=0),

@@ -29,7 +29,7 @@ _OWN: Final = 17  # distinguishes these numbers from others that are drawn from 
 
 
 @dataclass(frozen=True, slots=True)
-class Beginning:
+class SeededStart:
     """Start of one attempt.
 
     Attributes:
@@ -60,13 +60,13 @@ class Beginnings:
     tilt_limit: float
     begun: int = field(default=0)
 
-    def next(self, placed: PlacedPlan) -> Beginning:
+    def next(self, placed: PlacedPlan) -> SeededStart:
         """Return the start of the next attempt at a plan."""
         random = np.random.default_rng([self.seed, _OWN, self.begun])
         self.begun += 1
         hand = int(random.integers(1, 2**32))
         direction = self._direction(placed.axis, random)
-        return Beginning(float(direction[0]), float(direction[1]), self.level, hand)
+        return SeededStart(float(direction[0]), float(direction[1]), self.level, hand)
 
     def _direction(self, axis: FloatArray, random: np.random.Generator) -> FloatArray:
         basis = tangent_basis(axis)

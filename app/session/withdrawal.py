@@ -19,7 +19,7 @@ from app.core import state_vector as sv
 from app.core.messages import sentence
 from app.core.units import MILLIMETRE
 from app.device.state import DeviceState
-from app.session.beginnings import Beginning
+from app.session.beginnings import SeededStart
 from app.session.inputs import LoopInputs
 from app.session.needle import NeedlePose
 
@@ -127,7 +127,7 @@ class Withdrawal:
         self._since = 0.0
         self._confirmed: float | None = None
         self._said = self._led = False
-        self._begins: Beginning | None = None
+        self._begins: SeededStart | None = None
         self._moved = False
         self.active, self.asks, self.ready, self.words = False, False, False, ""
 
@@ -147,7 +147,7 @@ class Withdrawal:
         pose: NeedlePose,
         now: float,
         led: bool = False,
-        begins: Beginning | None = None,
+        begins: SeededStart | None = None,
     ) -> OutsideBy | None:
         """Begin before an attempt: how it is known that the tip is out already, or None.
 

@@ -84,7 +84,7 @@ class Unsteadiness:
             )
 
 
-class _Places(NamedTuple):
+class _HandPlaces(NamedTuple):
     """The unsteadiness of the lowest level and of the highest, the needle's length, and memory."""
 
     highest: int
@@ -123,7 +123,7 @@ class _Of(NamedTuple):
     slip: int
 
 
-_AT: Final = numbered(_Places)
+_AT: Final = numbered(_HandPlaces)
 _LOW: Final = len(_AT)
 _OF: Final = numbered(_Of)
 _COUNT: Final = len(_OF)

@@ -14,7 +14,7 @@ from app.core import state_vector as sv
 from app.imaging.window import WindowLevel
 from app.planning.draft import DraftPlan
 from app.views.exercise.breath_strip import BreathStrip
-from app.views.exercise.scan_wall import ScanWall, Shot
+from app.views.exercise.scan_wall import ScanPicture, ScanWall
 from app.views.kit import theme
 
 SIZES = [(1366, 768), (1920, 1080), (2560, 1440)]
@@ -108,7 +108,7 @@ def wall_of(volume, *captions):
     wall.resize(880, 700)
     wall.set_window(WindowLevel(400.0, 40.0))
     for caption in captions:
-        wall.add(Shot(volume, caption))
+        wall.add(ScanPicture(volume, caption))
     return wall
 
 

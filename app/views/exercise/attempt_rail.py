@@ -56,7 +56,7 @@ def rail_width(window: int) -> int:
     return int(widest) // GRID * GRID
 
 
-class Stage(QWidget):
+class StageLine(QWidget):
     """Discs for what is done, now and to come, and the name of now below them."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -245,7 +245,7 @@ class AttemptRail(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.stage, self.order = Stage(self), OrderBlock(self)
+        self.stage, self.order = StageLine(self), OrderBlock(self)
         self.figures, self.force = RailFigures(self), ForceBar(self)
         self.breath = BreathStrip(self)
         self.pictures = _quiet(tr("Live pictures (Ctrl+T)"))

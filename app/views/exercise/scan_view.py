@@ -25,7 +25,7 @@ from app.imaging.volume import Volume
 from app.imaging.window import to_grey
 from app.planning.plan import Plan
 from app.session.control_scan import TEACHING_ESTIMATE, ControlScan
-from app.views.exercise.scan_wall import ScanWall, Shot
+from app.views.exercise.scan_wall import ScanPicture, ScanWall
 from app.views.kit import theme
 from app.views.kit.coordinates import axis_words
 from app.views.kit.parts import PlainLabel
@@ -276,7 +276,7 @@ class ScanView(QWidget):
         self._go_to(picture.size[2] // 2)
         self.wall.set_window(self.viewing.window)
         self.wall.look_at(self._planning.draft)
-        self.wall.add(Shot(picture, caption(scan, origin)))
+        self.wall.add(ScanPicture(picture, caption(scan, origin)))
         self.show_all()
         self.pane.canvas.fit()
         self.arrived.emit()

@@ -44,7 +44,7 @@ _NOTCH: Final = 120
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Shot:
+class ScanPicture:
     """A control scan as it is shown.
 
     Attributes:
@@ -80,7 +80,9 @@ class ScanTile(QWidget):
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.setToolTip(literal(tr("Click: this slice alone, with all that a slice can do")))
 
-    def show_slice(self, shot: Shot | None, number: int, window: WindowLevel, box: QRectF) -> None:
+    def show_slice(
+        self, shot: ScanPicture | None, number: int, window: WindowLevel, box: QRectF
+    ) -> None:
         """Show a slice of a scan; None, or a number that it does not have, leaves it black.
 
         Args:
@@ -159,7 +161,7 @@ class ScanWall(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._shots: list[Shot] = []  # the newest first, two at most
+        self._shots: list[ScanPicture] = []  # the newest first, two at most
         self._box = QRectF(-50.0, -50.0, 100.0, 100.0)
         self._window = WindowLevel(400.0, 40.0)
         self._first, self._wheel = 0, 0
@@ -179,7 +181,7 @@ class ScanWall(QWidget):
         self._shots, self._first = [], 0
         self._draw()
 
-    def add(self, shot: Shot) -> None:
+    def add(self, shot: ScanPicture) -> None:
         """Take a new scan above the last one, its middle slices in sight."""
         self._shots = [shot, *self._shots[:1]]
         self._first = (shot.picture.size[2] - self._columns()) // 2

@@ -8,21 +8,60 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from typing import Final, Protocol
 
 from PySide6.QtCore import QObject
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
 from app.views.exercise.attempt_rail import AttemptRail
+from app.views.exercise.bullseye import Bullseye
+from app.views.exercise.panel import ExercisePanel
+from app.views.exercise.scan_view import ScanView
+from app.views.exercise.status import StatusStrip
+from app.views.exercise.steps import NextStepLine
+from app.views.kit.side_panel import SidePanel
 from app.views.kit.text import tr
-from app.views.reading.layouts import BULLSEYE, SCAN, SCENE, Layout, attempt_layout
-
-if TYPE_CHECKING:
-    from app.views.reading.workspace import WorkspacePage
+from app.views.reading.layouts import BULLSEYE, SCAN, SCENE, Layout, ViewGrid, attempt_layout
+from app.views.scene.view import SceneView
 
 PANELS_KEY: Final = "Ctrl+B"
 PICTURES_KEY: Final = "Ctrl+T"
+
+
+class LendsScan(Protocol):
+    """The cell that has the control scan while no attempt has the room."""
+
+    def lend_scan(self) -> None:
+        """Let somebody else show the control scan."""
+
+    def take_scan_back(self) -> None:
+        """Show the control scan again."""
+
+
+class Furniture(Protocol):
+    """The workspace's parts that an attempt puts away or arranges anew."""
+
+    layout_name: str
+    has_bullseye: bool
+    has_cell: bool
+    is_left_handed: bool
+    grid: ViewGrid
+    side: SidePanel
+    scene: SceneView
+    bullseye: Bullseye
+    scan_view: ScanView
+    exercise_panel: ExercisePanel
+    status: StatusStrip
+    next_step: NextStepLine
+    disclaimer: QLabel
+
+    @property
+    def needle_cell(self) -> LendsScan:
+        """The cell that has the control scan otherwise."""
+
+    def arrange(self) -> None:
+        """Arrange the panes as the layout is now."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,15 +84,20 @@ class PutAway:
 class AttemptRoom(QObject):
     """Puts panels and words away for an attempt, and brings them back.
 
+    Args:
+        page: the workspace's parts.
+        host: the widget that they lie in; its keys are the room's.
+        rail: shown beside the pictures meanwhile.
+
     Attributes:
         is_on: whether an attempt has the room.
         is_open: whether the panels are back although it has.
         shows_scan: whether the control scan has the place of the live pictures.
     """
 
-    def __init__(self, page: WorkspacePage, rail: AttemptRail) -> None:
-        super().__init__(page)
-        self._page, self.rail = page, rail
+    def __init__(self, page: Furniture, host: QWidget, rail: AttemptRail) -> None:
+        super().__init__(host)
+        self._page, self._host, self.rail = page, host, rail
         self.is_on = self.is_open = self.shows_scan = False
         self._own, self._live = "", True
         self._was: PutAway | None = None
@@ -64,7 +108,7 @@ class AttemptRoom(QObject):
         page.scan_view.arrived.connect(self._take_scan)
 
     def _key(self, keys: str, command: Callable[[], None]) -> QShortcut:
-        shortcut = QShortcut(QKeySequence(keys), self._page)
+        shortcut = QShortcut(QKeySequence(keys), self._host)
         shortcut.setAutoRepeat(False)
         shortcut.activated.connect(command)
         shortcut.setEnabled(False)
@@ -144,7 +188,7 @@ class AttemptRoom(QObject):
 
     def suit_window(self) -> None:
         """Take the room that the window has now."""
-        self.rail.suit_window(self._page.width())
+        self.rail.suit_window(self._host.width())
 
     def _show(self) -> None:
         page, on = self._page, self.is_on

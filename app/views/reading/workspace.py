@@ -177,7 +177,7 @@ class WorkspacePage(QWidget):
         self.disclaimer = disclaimer_label(self)
         self.rail = panel.rail
         self.rail.set_note(self.disclaimer.text())
-        self.room = AttemptRoom(self, self.rail)
+        self.room = AttemptRoom(self, self, self.rail)
         self.next_step.spoken.connect(self.rail.order.say)
         self.next_step.stepped.connect(self.bullseye.show_step)
         self.status.shown.connect(self.rail.show_health)
