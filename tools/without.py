@@ -12,8 +12,8 @@ Several names are asked for one after the other, all parts without a name. `--te
 the tests, or those of some paths, that do not concern that part either. Ends with code 3 where
 something is named or does not work.
 
-Every copy lies in the same place, one at a time, and their kernels, volumes and fields of tissue are
-kept together: they are those of the checkout but for what is left out, and made once for all parts.
+Every copy lies in the same place, one at a time, and their kernels, volumes and fields of tissue
+are kept together: they are those of the checkout but for what is left out, and made once for all.
 """
 
 from __future__ import annotations
