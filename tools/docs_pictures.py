@@ -53,9 +53,14 @@ def studies() -> None:
 
 
 def own_settings(module: str) -> None:
-    """Let a module of `tools` keep its pictures, with settings of their own."""
+    """Let a module of `tools` keep its pictures, with settings of their own.
+
+    The window is a technician's, who has all that can be shown, but on the student's way.
+    """
+    role = "student" if module == "tools.student_pictures" else "technician"
     with tempfile.TemporaryDirectory() as folder:
         own = {"ACUS_SETTINGS": f"{folder}/settings", "ACUS_DATA": f"{folder}/data"}
+        own["ACUS_ROLE"] = role
         order = [sys.executable, "-m", module, str(PICTURES)]
         subprocess.run(order, check=True, cwd=ROOT, env=os.environ | own)
 
