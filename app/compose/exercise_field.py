@@ -34,7 +34,7 @@ FIELD: Final = FIELD_FACTS
 
 MEDIA_TYPE: Final = "application/x-acus-tissue-field"
 
-_HAS_LAYERS: Final = "layers: the exercise has them"
+_HAS_LAYERS: Final = sentence("layers: the exercise has them")
 
 
 def trial_plan(exercise: Exercise) -> Plan:

@@ -556,8 +556,9 @@ class HelpPage(Form):
             _show_line(self.dials, shown)
 
     def _set_dials(self, text: str) -> None:
+        parts = text.replace(",", ".").split(";") if ";" in text else text.split(",")
         try:
-            value: Any = [float(part) for part in text.replace(";", ",").split(",") if part.strip()]
+            value: Any = [float(part) for part in parts if part.strip()]
         except ValueError:
             value = text  # the reader says what is wrong with it
         self.editor.put("fading", "dials", value=value, typed=True)
