@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from PySide6.QtCore import QCoreApplication, QTranslator
+from PySide6.QtGui import QFont, QFontMetrics
 from views_exercise_attempts import review, score
 
 from app.core.messages import sentence
@@ -27,8 +28,9 @@ from app.views.debrief.score_words import (
     with_unit,
 )
 from app.views.debrief.sessions import exercise_text
+from app.views.exercise.assistance_dial import apart
 from app.views.exercise.steps import amount, step_words
-from app.views.kit import text
+from app.views.kit import text, theme
 from app.views.kit.coordinates import lps_words
 from app.views.kit.text import tr, translated
 from tools.translations import faults
@@ -137,3 +139,14 @@ def test_an_exercise_of_the_list_is_named_in_the_language_of_the_window(german, 
     known = SimpleNamespace(version=version)
     one = SimpleNamespace(exercise_title="First insertion", exercise_id="first", conditions=known)
     assert exercise_text(one).startswith("Erster Einstich")
+
+
+@pytest.mark.parametrize("words", [("wegdrücken", "frei", "führen"), ("repel", "off", "guide")])
+@pytest.mark.parametrize("width", [90, 120, 160, 320])
+def test_the_three_words_of_the_dial_never_run_into_each_other(qt, words, width):
+    font = QFont(qt.font())
+    font.setPixelSize(theme.SMALL_PX)
+    metrics = QFontMetrics(font)
+    left, middle, right = (metrics.horizontalAdvance(w) for w in apart(words, metrics, width))
+    assert max(left, right) < (width - middle) / 2
+    assert apart(words, metrics, 1000) == words

@@ -314,7 +314,9 @@ class DebriefPage(QWidget):
         self.risks.setText("\n".join((tr("Closest to structures of risk"), *lines)))
         self.risks.setVisible(bool(lines))
         lines = met_lines(review)
-        self.met.setText("\n".join((tr("What the needle met"), *lines)))
+        self.met.setText(
+            "\n".join((tr("What the needle met, with the force along the needle"), *lines))
+        )
         self.met.setVisible(bool(lines))
         self.published.show_review(review)
         said = lessons(review)

@@ -309,7 +309,12 @@ _MOST_MET = 8  # lines of a page
 def _risks(painter: QPainter, review: Review, y: float) -> float:
     """Say how near the needle came to risks, and what it met; return where the page goes on."""
     y = _list(painter, tr("Closest to structures of risk"), risk_lines(review), y)
-    return _list(painter, tr("What the needle met"), met_lines(review)[:_MOST_MET], y)
+    return _list(
+        painter,
+        tr("What the needle met, with the force along the needle"),
+        met_lines(review)[:_MOST_MET],
+        y,
+    )
 
 
 def _list(painter: QPainter, title: str, lines: tuple[str, ...], y: float) -> float:
