@@ -6,7 +6,8 @@ times that way. From outside on nothing is ever given out by all of them togethe
 on a law gives out at most what it says that it can hold; cutting and pressing, whose force P comes
 and goes over a way λ, P λ (1 - ln 2) more each time that they are pushed by λ ln 2 and drawn back
 (0.07 mJ in liver): that little is no law's own, and paid for by what the membrane before took. From
-within a push it is P λ alone. Only pushes are counted, as the tip goes against the tissue.
+within a push, where they hold f λ, it is that besides. Only pushes are counted, as the tip goes
+against the tissue.
 """
 
 import numpy as np
@@ -30,6 +31,7 @@ STRONGEST = 30.0  # [N] no hand pushes harder: what stops it ends a segment
 STILL = 1e-8  # [m] in a tick
 STRONGEST_PRESSING = 0.040  # [m] deep, in the tissue with the largest pressing
 ROUNDING = 2e-5  # [J] of forces that are known at ticks alone
+WAYS = np.array([0.0, 1e-4, 3e-4, 0.0, 0.0])  # [m] λ of cutting and of pressing, as shipped
 BY_WAY = np.array([name in ("cutting", "relaxation") for name in AXIAL])
 
 
@@ -79,6 +81,7 @@ class PushedNeedle:
         self.out, self.supplied = np.zeros(len(AXIAL)), np.zeros(len(AXIAL))
         self.jumped, self.most = True, 0.0
         self.pushes, self.pushes_then, self.goes_in = 0, np.zeros(len(AXIAL)), False
+        self.held = self.bound.copy()
         self.lowest, self.worst = np.zeros(len(AXIAL)), np.zeros(len(AXIAL))
         self.tick(self.axis, self.depth, 0.0)
 
@@ -118,9 +121,11 @@ class PushedNeedle:
         self.axis, self.depth, self.breath, self.forces = axis, depth, breath, forces
         gained = self.out - self.supplied
         self.pushes_then = np.where(gained <= self.lowest, self.pushes, self.pushes_then)
+        now = np.where(BY_WAY, np.abs(forces) * WAYS, self.bound)  # what is held: f λ
+        self.held = np.where(gained <= self.lowest, now, self.held)
         self.lowest = np.minimum(self.lowest, gained)
         each = self.bound * BY_WAY * (1.0 - np.log(2.0))
-        allowed = self.bound + each * (self.pushes - self.pushes_then)
+        allowed = self.held + each * (1.0 + self.pushes - self.pushes_then)
         self.worst = np.maximum(self.worst, gained - self.lowest - allowed)
         self.worst = np.maximum(self.worst, gained - each * self.pushes)
         self.most = max(self.most, float(gained.sum()))
@@ -255,7 +260,7 @@ def test_the_count_of_energy_would_see_a_tenth_of_a_millijoule() -> None:
 
 @pytest.mark.parametrize("u", [0.1, 0.6931471805599453, 1.0, 1.5, 1.7, 5.0])
 def test_a_push_by_way_and_back_gives_out_the_derived_part_of_what_it_holds(u: float) -> None:
-    """By quadrature of f' = (P - f) / λ and f' = -f / λ, with scipy; most at ln 2, none from 1.59."""
+    """By quadrature of both ways, with scipy: most at ln 2, none from 1.59 on."""
     took = quad(lambda x: 1.0 - np.exp(-x), 0.0, u)[0]
     gives = quad(lambda x: (1.0 - np.exp(-u)) * np.exp(-x), 0.0, np.inf)[0]
     assert gives - took == pytest.approx(2.0 * (1.0 - np.exp(-u)) - u, abs=1e-9)

@@ -238,7 +238,7 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
 
 
 def axial_energy_bound(parameters: FloatArray) -> float:
-    """Return the most that drawing back can give out [J]; what a push took may be 0.31 of it less."""
+    """Return the most that drawing back can give out [J]; a push may take 0.31 of it less."""
     if parameters[_AT.model] == _TRACK:
         tissues = parameters[len(_TO) :][: _TISSUE * int(parameters[_TO.rows])]
         return float(tissues.reshape(-1, _TISSUE)[:, 1].max() * parameters[_TO.way])

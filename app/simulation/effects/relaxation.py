@@ -25,8 +25,9 @@ does without is the cut.
 Energy: K e²/2 is stored, the damper only takes; a puncture loses what was stored. `standing`:
 drawn back, at most P λ is given out. f rises by (P - f) / λ at most on the way of a push, so a push
 from 0 that ends at f = P (1 - exp(-u)) took P λ (u - 1 + exp(-u)) or more, whatever relaxes, and
-drawn back gives f λ: P λ (2 (1 - exp(-u)) - u) more, at most (1 - ln 2) P λ = 0.307 P λ, at u = ln 2,
-and from u = 1.59 on nothing more. Each push and draw can do so; from f before it gains less.
+drawn back gives f λ: P λ (2 (1 - exp(-u)) - u) more, at most (1 - ln 2) P λ = 0.307 P λ, at
+u = ln 2, and from u = 1.59 on nothing more. Each push and draw can do so; from an f before it gains
+less.
 """
 
 from collections.abc import Mapping

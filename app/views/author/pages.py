@@ -562,7 +562,7 @@ class HelpPage(Form):
 
 
 def _dials_of(text: str) -> list[float] | str:
-    """Return dials: `0.7, 0.4`, or `0,7; 0,4`; a text that is none as it is: the reader says why."""
+    """Return dials: `0.7, 0.4`, or `0,7; 0,4`; of another text itself: the reader says why."""
     parts = text.replace(",", ".").split(";") if ";" in text else text.split(",")
     try:
         return [float(part) for part in parts if part.strip()]
