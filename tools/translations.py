@@ -88,8 +88,12 @@ def faults(english: str, text: str) -> list[str]:
     return [f"{name} are {b}, of the English {a}" for name, a, b in pairs if a != b]
 
 
-def _fields(text: str) -> list[tuple[str, str]]:
-    return sorted((name, form or "") for _, name, form, _ in Formatter().parse(text) if name)
+def _fields(text: str) -> list[tuple[str, str, str]]:
+    return sorted(
+        (name, form or "", conversion or "")
+        for _, name, form, conversion in Formatter().parse(text)
+        if name is not None
+    )
 
 
 def _accelerators(text: str) -> int:

@@ -34,7 +34,7 @@ FIELD: Final = FIELD_FACTS
 
 MEDIA_TYPE: Final = "application/x-acus-tissue-field"
 
-_HAS_LAYERS: Final = "layers: the exercise has them"
+_HAS_LAYERS: Final = sentence("layers: the exercise has them")
 
 
 def trial_plan(exercise: Exercise) -> Plan:
@@ -88,7 +88,7 @@ def resolve_tissue(
     if exercise.tissue is TissueSource.LAYERS:
         return exercise, _HAS_LAYERS
     if exercise.tissue is TissueSource.FIELD and tissues is not None:
-        return exercise, "the field: the exercise asks for it"
+        return exercise, sentence("the field: the exercise asks for it")
     if exercise.tissue is TissueSource.FIELD:
         raise ExerciseError(
             sentence(
@@ -99,7 +99,7 @@ def resolve_tissue(
         )
     if tissues is None:
         layered = exercise.model_copy(update={"tissue": TissueSource.LAYERS})
-        return layered, "layers: there is no CT in Hounsfield values"
+        return layered, sentence("layers: there is no CT in Hounsfield values")
     needles = needles or Needles(tissues, placed, device_of(exercise))
     choice = choose(exercise, needles)
     if choice.source is TissueSource.LAYERS:

@@ -13,6 +13,8 @@ from string import Formatter
 from types import MappingProxyType
 from typing import Any
 
+import numpy as np
+
 _IMMUTABLE = (str, int, float, bool, type(None))
 
 
@@ -95,6 +97,8 @@ def _remembered(template: str, values: Mapping[str, Any]) -> dict[str, Any]:
 def _plain(value: Any, conversion: str, form: str) -> Any:
     if isinstance(value, BaseException) and not conversion and not form:
         value = sentence_of(value)
+    if isinstance(value, np.floating) and not conversion:  # its decimal point is the language's
+        value = float(value)
     if type(value) in _IMMUTABLE or isinstance(value, Sentence | Formatted):
         return value
     return Formatted(f"{{0{'!' * bool(conversion)}{conversion}:{form}}}".format(value))

@@ -220,7 +220,7 @@ def _field_reason(exercise: Exercise, needles: Needles) -> str:
     choice = choose(exercise, needles)
     if choice.source is not TissueSource.FIELD:
         return ""
-    return choice.reason.removeprefix("the field: ")
+    return choice.because
 
 
 def _listed(names: Any) -> str:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.rotation import rotation_exp
 from app.core.units import MILLIMETRE
 from app.exercises.parts import TissueSource
@@ -41,10 +42,22 @@ _LEAST_MM: Final = 0.7  # shorter stretches are edges of voxels
 
 @dataclass(frozen=True, slots=True)
 class TissueChoice:
-    """Which of both, and why in one sentence."""
+    """Which of both.
+
+    Attributes:
+        source: layers or the field.
+        because: part of a sentence that says why.
+    """
 
     source: TissueSource
-    reason: str
+    because: str
+
+    @property
+    def reason(self) -> str:
+        """Return both in one sentence."""
+        if self.source is TissueSource.FIELD:
+            return sentence("the field: {because}", because=self.because)
+        return sentence("layers: {because}", because=self.because)
 
 
 class Needles:
@@ -88,24 +101,41 @@ def choose(exercise: Exercise, needles: Needles) -> TissueChoice:
     most = 0.0
     for angle, met in needles:
         others = [field.tissues[part.code].words for part in met]
-        where = f"a needle {np.degrees(angle):.0f}° from upright"
+        where = sentence("a needle {angle:.0f}° from upright", angle=float(np.degrees(angle)))
         if new := [part for part in met if field.tissues[part.code].words not in names]:
             name = field.tissues[new[0].code].words
-            why = f"{where} meets {name} at {new[0].begin_mm:.0f} mm, which the path does not"
-            return TissueChoice(TissueSource.FIELD, f"the field: {why}")
+            because = sentence(
+                "{where} meets {name} at {begin_mm:.0f} mm, which the path does not",
+                where=where,
+                name=name,
+                begin_mm=new[0].begin_mm,
+            )
+            return TissueChoice(TissueSource.FIELD, because)
         if others != names:
-            why = f"{where} meets {_listed(others)}, the path {_listed(names)}"
-            return TissueChoice(TissueSource.FIELD, f"the field: {why}")
+            because = sentence(
+                "{where} meets {others}, the path {own}",
+                where=where,
+                others=_listed(others),
+                own=_listed(names),
+            )
+            return TissueChoice(TissueSource.FIELD, because)
         off = np.abs(static_force(met, depths, values, diameter) - force)
         most = max(most, float(off.max()))
         if most > FELT:
-            depth = depths[int(off.argmax())]
-            why = f"{where} feels {most:.1f} N more or less at {depth:.0f} mm than the path"
-            return TissueChoice(TissueSource.FIELD, f"the field: {why}")
+            because = sentence(
+                "{where} feels {most:.1f} N more or less at {depth:.0f} mm than the path",
+                where=where,
+                most=most,
+                depth=float(depths[int(off.argmax())]),
+            )
+            return TissueChoice(TissueSource.FIELD, because)
     return TissueChoice(
         TissueSource.LAYERS,
-        f"layers: every needle within reach meets {_listed(names)} with the same force to"
-        f" {most:.2f} N",
+        sentence(
+            "every needle within reach meets {names} with the same force to {most:.2f} N",
+            names=_listed(names),
+            most=most,
+        ),
     )
 
 

@@ -80,7 +80,8 @@ def outcome(
     if not isfinite(value):
         return MetricOutcome(None, None, "the value is too large to be written as a number")
     try:
-        sd = float(module.deviation(trajectory)) if hasattr(module, "deviation") else -1.0
+        sd = module.deviation(trajectory) if hasattr(module, "deviation") else None
+        sd = -1.0 if sd is None else float(sd)  # None: not known
     except borne:
         sd = -1.0
     return MetricOutcome(value, sd if isfinite(sd) and sd >= 0.0 else None, "")

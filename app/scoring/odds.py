@@ -14,7 +14,14 @@ from typing import Any, Final
 from app.core.messages import sentence
 from app.imaging.field.tissue_field import TissueKind
 from app.scoring.met import SMALL_VESSELS, Met
-from app.scoring.pleura import aerated_mm, crossings, flattest_deg, lung_met, punctures
+from app.scoring.pleura import (
+    aerated_mm,
+    crossings,
+    flattest_deg,
+    lung_met,
+    punctures,
+    target_in_lung,
+)
 
 HUO: Final = "Huo et al. 2020, Br J Radiol, PMC7362905: 36 series, 23 104 patients"
 ZHU: Final = "Zhu et al. 2020, Quant Imaging Med Surg, 41160: 1090 biopsies"
@@ -119,7 +126,7 @@ def _lung(met: Sequence[Met]) -> list[PublishedRisk]:
                 AGAIN_OR,
             )
         )
-    if aerated >= DEEP_MM:
+    if aerated >= DEEP_MM and target_in_lung(met):  # of a lesion behind the lung it says nothing
         found.append(
             PublishedRisk(
                 "pneumothorax",
@@ -193,7 +200,7 @@ def _patient() -> list[PublishedRisk]:
 def _bleeding(met: Sequence[Met]) -> list[PublishedRisk]:
     vessels = [one for one in met if one.kind == TissueKind.VESSEL and one.counts]
     names = dict.fromkeys(one.words for one in vessels if one.name not in SMALL_VESSELS)
-    organs = {one.name for one in met if one.kind == TissueKind.ORGAN and one.counts}
+    organs = {one.name.lower() for one in met if one.kind == TissueKind.ORGAN and one.counts}
     found = [
         PublishedRisk(
             "not known",
@@ -205,7 +212,7 @@ def _bleeding(met: Sequence[Met]) -> list[PublishedRisk]:
         )
         for name in names
     ]
-    if "liver" in organs:
+    if any("liver" in name for name in organs):
         found.append(
             PublishedRisk(
                 "bleeding",

@@ -19,22 +19,32 @@ def crossings(met: Sequence[Met]) -> int:
     Vessels and airways within the lung are lung, as is a nodule in it that holds the target: going
     from one into the other crosses no pleura.
     """
-    holding = {one.kind for one in met if one.holds_target}
-    within = holding - {TissueKind.LUNG} if TissueKind.LUNG in holding else set()
+    within = _within(met)
     sides = (side for one in lung_met(met) for side in (one.before, one.after))
     return sum(side != "" and side not in within for side in sides)
 
 
 def punctures(met: Sequence[Met]) -> int:
     """Return how often the pleura was crossed inwards: entries into the lung."""
-    holding = {one.kind for one in met if one.holds_target}
-    within = holding - {TissueKind.LUNG} if TissueKind.LUNG in holding else set()
+    within = _within(met)
     return sum(one.before != "" and one.before not in within for one in lung_met(met))
 
 
 def flattest_deg(met: Sequence[Met]) -> float | None:
     """Return the largest angle to the pleura's normal at which it was entered; None if never."""
-    return max((one.angle_deg for one in lung_met(met) if one.before != ""), default=None)
+    outside = _within(met) | {""}
+    return max((one.angle_deg for one in lung_met(met) if one.before not in outside), default=None)
+
+
+def target_in_lung(met: Sequence[Met]) -> bool:
+    """Tell whether the lung that was met holds the target."""
+    return any(one.kind == TissueKind.LUNG and one.holds_target for one in met)
+
+
+def _within(met: Sequence[Met]) -> set[str]:
+    """Return the kinds of tissue within the lung: that of a target's nodule in it."""
+    holding = {one.kind for one in met if one.holds_target}
+    return holding - {TissueKind.LUNG} if TissueKind.LUNG in holding else set()
 
 
 def aerated_mm(met: Sequence[Met]) -> float:

@@ -75,6 +75,8 @@ class Trajectory:
         met: what the needle met in the patient; None where nothing could tell.
         computer: time of pauses because the computer was too slow for its simulated cameras [s].
         scoring_version: of the rules that it is measured by (`scoring.version`).
+        seen_from: from this depth of the tip on the cameras see the marker wherever the needle
+            leans [m]; infinite where that is not known.
 
     Raises:
         TrajectoryError: naming the array and the first bad sample.
@@ -102,6 +104,7 @@ class Trajectory:
     met: tuple[Met, ...] | None = None
     computer: float = 0.0
     scoring_version: int = SCORING_VERSION
+    seen_from: float = np.inf
 
     def __post_init__(self) -> None:
         time = _samples(self.time, "time", None, ())

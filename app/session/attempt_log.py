@@ -28,7 +28,13 @@ from app.session.risks import Risk, event_of, risk_marks_of
 from app.session.sample import Sample
 from app.session.sample_columns import attachment
 from app.session.samples import SampleHistory, Samples
-from app.session.scored import agreement_of, renders_force, score_document, trajectory
+from app.session.scored import (
+    agreement_of,
+    renders_force,
+    score_document,
+    seen_from,
+    trajectory,
+)
 from app.session.sidecar import write_summary
 from app.session.signature import signature_file, signed
 from app.session.station import StationKey
@@ -98,7 +104,8 @@ class AttemptLog:
             for mark in near:
                 self.event(event_of(mark))
             head = self.recorder.header
-            felt = feels_along(head.metadata, {a.name: a.data for a in head.attachments})
+            attached = {a.name: a.data for a in head.attachments}
+            felt = feels_along(head.metadata, attached)
             met = tissues_met_of(samples, self.placed, self.tissues, felt)
             for event in events_of(met, samples):
                 self.event(event)
@@ -114,6 +121,7 @@ class AttemptLog:
                 touches_of(self.events),
                 met,
                 computer=waited_for_computer(self.events),
+                seen_from=seen_from(attached),
             )
             score = self.scorer(path)
         except AcusError as error:

@@ -25,7 +25,7 @@ from app.session.sample_columns import SAMPLES_FILE, same, unpack
 from app.session.samples import Samples, bends, flags, floats, known, spreads, vectors, words
 from app.session.scan import FileContents, scan, scan_by_index
 from app.session.schemas import CHANNELS, conforms
-from app.session.scored import agreement_of, renders_force, trajectory
+from app.session.scored import agreement_of, renders_force, seen_from, trajectory
 from app.session.ticks import Inputs, read_inputs
 from app.session.tissues import tissues_met
 from app.session.touching import touches_of
@@ -106,6 +106,7 @@ class Recording:
             touches_of(self.events),
             tissues_met(self.events),
             computer=waited_for_computer(self.events),
+            seen_from=seen_from(self.attachments),
         )
 
     def placed_plan(self) -> PlacedPlan:

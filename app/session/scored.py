@@ -47,6 +47,22 @@ def agreement_of(metadata: Mapping[str, Mapping[str, str]]) -> float:
     return radius if 0.0 <= radius < 1.0 else 0.0
 
 
+def seen_from(attachments: Mapping[str, bytes]) -> float:
+    """Return from which depth of the tip on a record's cameras see the marker [m], by its head.
+
+    Wherever the needle leans, as the rig is meant, and no tube hides the marker; infinite where the
+    record does not say it.
+    """
+    try:
+        rig = json.loads(attachments["cameras.json"])
+        needle, depths_mm = rig["needle"], [float(rig["range"]["depth_min_mm"])]
+        if needle.get("hidden_mm") is not None:
+            depths_mm.append(float(needle["hidden_mm"][1]) + float(needle["marker_offset_mm"]))
+    except (LookupError, TypeError, ValueError, AttributeError):
+        return np.inf
+    return max(depths_mm) * MILLIMETRE if np.isfinite(depths_mm).all() else np.inf
+
+
 def trajectory(
     samples: Samples,
     placed: PlacedPlan,
@@ -59,6 +75,7 @@ def trajectory(
     touches: Touches | None = None,
     met: tuple[Met, ...] | None = None,
     computer: float = 0.0,
+    seen_from: float = np.inf,
 ) -> Trajectory:
     """Turn samples into what scoring wants.
 
@@ -79,6 +96,7 @@ def trajectory(
         touches: targets that were to be touched; None where there were none.
         met: what the needle met; None where nothing could tell.
         computer: time of pauses for simulated pictures that came late [s].
+        seen_from: see the function of this name [m].
 
     Raises:
         SessionError: if no sample has a direction of the needle.
@@ -116,6 +134,7 @@ def trajectory(
         touches=touches,
         met=met,
         computer=computer,
+        seen_from=seen_from,
         clamped=samples.clamped[rising] if renders and samples.clamped is not None else None,
     )
 

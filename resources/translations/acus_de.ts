@@ -10138,8 +10138,8 @@ Anteil</translation>
             <translation type="unfinished">Nächste Annäherung an Risikostrukturen</translation>
         </message>
         <message>
-            <source>What the needle met</source>
-            <translation type="unfinished">Was die Nadel getroffen hat</translation>
+            <source>What the needle met, with the force along the needle</source>
+            <translation type="unfinished">Was die Nadel getroffen hat, mit der Kraft längs der Nadel</translation>
         </message>
         <message>
             <source>Next: {title}</source>

@@ -10138,8 +10138,8 @@ part</translation>
             <translation type="unfinished">Au plus près des structures à risque</translation>
         </message>
         <message>
-            <source>What the needle met</source>
-            <translation type="unfinished">Ce que l’aiguille a rencontré</translation>
+            <source>What the needle met, with the force along the needle</source>
+            <translation type="unfinished">Ce que l’aiguille a rencontré, avec la force le long de l’aiguille</translation>
         </message>
         <message>
             <source>Next: {title}</source>

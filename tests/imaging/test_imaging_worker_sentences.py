@@ -40,6 +40,7 @@ def test_template_and_values_cross_with_the_sentences_inside_them():
         sentence("{path}", path=Path("x") / "y"),
         sentence("{share:.2f} of {word:>8}", share=math.nan, word="all"),
         joined("; ", (sentence("a {n}", n=1), "b")),
+        sentence("{count} voxels of {size}", count=1 << 80, size=-(1 << 70)),
     ],
 )
 def test_every_text_comes_as_it_went(text):

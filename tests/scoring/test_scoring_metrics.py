@@ -12,6 +12,7 @@ from app.scoring.errors import MetricUnavailableError, UnknownMetricError
 from app.scoring.met import Met
 from app.scoring.paths import raw_length, smooth_length
 from app.scoring.risks import RiskMark
+from app.scoring.score import score
 from app.scoring.touches import Touches
 from app.scoring.trajectory import Phase, Trajectory
 
@@ -292,4 +293,22 @@ def test_who_hides_the_needle_until_it_is_in_has_not_been_seen_inserting_it() ->
     tube = hidden_entry(5.0, 24.0, before=0.010)  # the marker went into the tube, and came out
     assert value("tracking_valid", tube) == 100.0
     older = replace(hidden_entry(19.0, 40.0), scoring_version=6)
+    assert value("tracking_valid", older) == 100.0
+
+
+def test_cameras_covered_from_the_first_moment_on_make_an_attempt_void():
+    """The wide rig sees the marker from 30 mm above the skin on, the thesis' from 60 mm depth on:
+    `depth_min_mm` and `hidden_mm` of resources/cameras.
+    """
+    covered = replace(hidden_entry(-1.0, 40.0), seen_from=-0.030)
+    assert value("tracking_valid", covered) == pytest.approx(100 * 20 / 60, abs=1)
+    judged = score(covered)
+    assert judged.total is None
+    assert "the tip was tracked for 3" in judged.void_reason
+    assert judged.unseen
+    in_the_tube = replace(hidden_entry(-1.0, 40.0), seen_from=0.060)
+    assert value("tracking_valid", in_the_tube) == 100.0  # it came out at 30 mm: none could see it
+    begun = replace(covered, phase=np.where(covered.time < 5.0, Phase.READY, covered.phase))
+    assert value("tracking_valid", begun) == pytest.approx(100 * 20 / 55, abs=1)
+    older = replace(covered, scoring_version=6)
     assert value("tracking_valid", older) == 100.0

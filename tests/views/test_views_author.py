@@ -455,6 +455,8 @@ def test_fading_is_chosen_and_its_mistakes_are_said(form, author):
     assert not form.keep.isEnabled()
     write(form.help.dials, "0.5, 0")
     assert author.editor.exercise.fading.dials == (0.5, 0.0)
+    write(form.help.dials, "0,1; 0,0")  # as a German writes two of them
+    assert author.editor.exercise.fading.dials == (0.1, 0.0)
 
 
 def test_it_can_be_tried_without_being_kept(opened, form, author, settle):

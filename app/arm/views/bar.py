@@ -76,11 +76,12 @@ class ArmBar(QFrame):
             return
         holds = play.state is PlayState.HOLDING
         what = tr("holds still at your target") if holds else phase_words(play.phase)
+        values = {"what": what, "now": play.t, "all": play.duration}
         words = (
-            tr("Simulated arm: {what}  ·  {now:.0f}/{all:.0f} s")
+            tr("Simulated arm: {what}  ·  {now:.0f}/{all:.0f} s", **values)
             if play.playing
-            else tr("Simulated arm  ‖  {what}  ·  {now:.0f}/{all:.0f} s")
-        ).format(what=what, now=play.t, all=play.duration)
+            else tr("Simulated arm  ‖  {what}  ·  {now:.0f}/{all:.0f} s", **values)
+        )
         fetching = play.state is PlayState.FETCHING
         self.tell(words, self.pause, self.step, self.skip if fetching else self.take, self.stop)
         self.take.setEnabled(play.may_take_over)

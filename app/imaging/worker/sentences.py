@@ -15,6 +15,7 @@ LONGEST: Final = 600
 """Longest text that is shown [characters]."""
 
 _DEEPEST: Final = 6
+_LARGEST: Final = 1 << 64
 _FORM: Final = re.compile(r"[-+<>^ ]?0?[0-9]{0,2}(?:,|_)?(?:\.[0-9]{1,2})?[bcdeEfFgGnosxX%z]?")
 _TEMPLATE, _VALUES, _FORMATTED = "template", "values", "formatted"
 
@@ -37,6 +38,8 @@ def _value(value: Any) -> Any:
     if isinstance(value, Formatted):
         return {_FORMATTED: str(value)}
     if isinstance(value, float) and not math.isfinite(value):
+        return {_FORMATTED: str(value)}
+    if isinstance(value, int) and abs(value) > _LARGEST:
         return {_FORMATTED: str(value)}
     return crossing(value) if isinstance(value, str) else value
 
@@ -72,7 +75,7 @@ def _read(value: Any, deep: int) -> Any:
     if value is None or isinstance(value, bool | float):
         return value
     if isinstance(value, int):
-        if abs(value) > 1 << 64:
+        if abs(value) > _LARGEST:
             raise ForeignSentenceError(sentence("a number without end"))
         return value
     return arrived(value, deep + 1)

@@ -1,7 +1,8 @@
 """Share of the time in the body, pauses included, during which the tip's depth was measured.
 
 An insertion that nobody saw begin counts from where the needle was seen last: who covers the
-cameras until the needle is in has not been seen inserting it.
+cameras until the needle is in has not been seen inserting it. Nor has who covered them from the
+first moment on, where the record says from which depth on the cameras see the marker.
 """
 
 from typing import Any, Final
@@ -21,6 +22,10 @@ DECLARATION: Final[dict[str, Any]] = {
 
 SEEN_OUTSIDE: Final = 0.002
 """A needle seen no deeper than this was out of the body [m]: from here on it counts as inserted."""
+
+APPEARS: Final = 0.010
+"""A marker that was never seen may be so much deeper than where it comes into view [m]: a fast
+hand's way from one picture to the next."""
 
 COUNTED_SINCE: Final = 7
 """Scoring version from which an insertion that nobody saw begin counts."""
@@ -56,9 +61,11 @@ def entered_unseen(trajectory: Trajectory) -> NDArray[np.bool_]:
     """Find the samples before insertions that nobody saw begin, shape (n,).
 
     The needle was seen out of the body, then not at all, and when it was seen again it was in:
-    while nobody knew where it was, the phase stayed what it had been. A marker that was not seen
-    before, or came out of the tube as deep as it had gone in, hides nothing.
+    while nobody knew where it was, the phase stayed what it had been. A needle that was never seen
+    before counts too where it appears deeper than where the cameras begin to see it. A marker that
+    came out of the tube as deep as it had gone in hides nothing.
     """
+    appears = max(trajectory.seen_from, 0.0) + APPEARS
     seen, depth = trajectory.depth_valid, trajectory.depth
     hidden = np.zeros(len(trajectory), dtype=np.bool_)
     waits = (trajectory.phase == Phase.ALIGNING) | trajectory.paused
@@ -66,6 +73,10 @@ def entered_unseen(trajectory: Trajectory) -> NDArray[np.bool_]:
         first = stay.start
         while first > 0 and waits[first - 1] and not seen[first - 1]:
             first -= 1
-        if first > 0 and seen[first - 1] and depth[first - 1] <= SEEN_OUTSIDE:
+        last = first  # a look before the attempt begins is one all the same
+        while last > 0 and trajectory.phase[last - 1] == Phase.READY and not seen[last - 1]:
+            last -= 1
+        never = last == 0 and depth[stay.start] > appears
+        if never or (last > 0 and seen[last - 1] and depth[last - 1] <= SEEN_OUTSIDE):
             hidden[first : stay.start] = True
     return hidden

@@ -12,7 +12,8 @@ has gone since with breathing: a wall that moves cannot hold the walk up. At the
 TISSUE is what lies behind it, WALL negative: how far back it was met; what is left of the way is
 walked in the next tick. So no wall is jumped over, and several in one tick are told one a tick.
 Going back tells none: what was pierced stays pierced. Where the tissue moves past a tip that
-stands, the wall that passes is told in the same way.
+stands, the tip walks the other way in it: a wall on that way is told likewise, unless what the tip
+was in is neither where it was nor where it went with the breath: the walk begins in the new tissue.
 
 Otherwise WALL is the way to the first wall ahead, 1 for none within `ahead`. In what is rigid it is
 the surface behind the tip, as far as distances reach.

@@ -551,16 +551,23 @@ class HelpPage(Form):
 
     def _show_dials(self) -> None:
         dials = self.editor.get("fading", "dials", default=[])
+        if dials and dials == _dials_of(self.dials.text()):
+            return  # what somebody writes is not rewritten under his hands
         if not self.dials.hasFocus() or not dials:
             shown = dials if isinstance(dials, str) else ", ".join(f"{one:g}" for one in dials)
             _show_line(self.dials, shown)
 
     def _set_dials(self, text: str) -> None:
-        try:
-            value: Any = [float(part) for part in text.replace(";", ",").split(",") if part.strip()]
-        except ValueError:
-            value = text  # the reader says what is wrong with it
-        self.editor.put("fading", "dials", value=value, typed=True)
+        self.editor.put("fading", "dials", value=_dials_of(text), typed=True)
+
+
+def _dials_of(text: str) -> list[float] | str:
+    """Return dials: `0.7, 0.4`, or `0,7; 0,4`; of another text itself: the reader says why."""
+    parts = text.replace(",", ".").split(";") if ";" in text else text.split(",")
+    try:
+        return [float(part) for part in parts if part.strip()]
+    except ValueError:
+        return text
 
 
 class SightPage(Form):

@@ -104,20 +104,23 @@ class AimDialog(QDialog):
         good = cone.share >= ENOUGH and not aim.assumed
         colour, symbol = theme.VERDICTS["good" if good else "warning"]
         self.share.setStyleSheet(f"color: {colour}; font-size: {theme.TITLE_PX}px;")
-        words = (
-            tr("{symbol} Standing as designed, both cameras would see {share:.0f} % of the cone")
+        seen = {"symbol": symbol, "share": 100.0 * cone.share}
+        self.share.setText(
+            tr(
+                "{symbol} Standing as designed, both cameras would see {share:.0f} % of the cone",
+                **seen,
+            )
             if aim.assumed
-            else tr("{symbol} Both cameras see {share:.0f} % of the needle's cone")
+            else tr("{symbol} Both cameras see {share:.0f} % of the needle's cone", **seen)
         )
-        self.share.setText(words.format(symbol=symbol, share=100.0 * cone.share))
         names = (tr("Left"), tr("Right"))
         for title, name, share in zip(self.titles, names, cone.shares, strict=True):
-            sees = (
-                tr("{name}: would see {share:.0f} %")
+            values = {"name": name, "share": 100.0 * share}
+            title.setText(
+                tr("{name}: would see {share:.0f} %", **values)
                 if aim.assumed
-                else tr("{name}: sees {share:.0f} %")
+                else tr("{name}: sees {share:.0f} %", **values)
             )
-            title.setText(sees.format(name=name, share=100.0 * share))
         lines = [tr("Cone of: {basis}.", basis=aim.basis), *cone.losses()]
         self.losses.setText("\n".join(lines))
 

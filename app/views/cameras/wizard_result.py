@@ -41,7 +41,7 @@ from app.views.cameras.wizard_words import (
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.parts import PlainLabel, button, column, label, table, thin_bar
-from app.views.kit.text import tr, translated
+from app.views.kit.text import number, tr, translated
 from app.views.kit.verdict import Verdict, tell
 
 
@@ -347,7 +347,7 @@ class ResultPage(QWidget):
         self.views.setRowCount(len(rows))
         for i, (name, rms, verdict, remark) in enumerate(rows):
             colour = verdict.colour_and_symbol[0] if remark else theme.TEXT
-            for k, text in enumerate((name, f"{rms:.2f}", remark)):
+            for k, text in enumerate((name, number(rms, ".2f"), remark)):
                 item = QTableWidgetItem(text)
                 item.setForeground(QColor(colour))
                 if k == 1:

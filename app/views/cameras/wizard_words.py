@@ -14,7 +14,7 @@ from app.tracking.calibration.verdict import Grade, Why, judge
 from app.tracking.calibration.views import Rejection
 from app.tracking.calibration.world import WorldFrame
 from app.tracking.optics.calibration import CameraCalibration, StereoCalibration
-from app.views.kit.text import tr
+from app.views.kit.text import number, tr
 from app.views.kit.verdict import Verdict
 
 Line = tuple[Verdict, str]
@@ -168,12 +168,12 @@ def parameter_rows(mono: MonoResult, camera: CameraCalibration) -> list[tuple[st
         sd = max(0.0, camera.covariance[i][i]) ** 0.5
         if name in camera.estimated:
             digits = 2 if i < 4 else 4
-            rows.append(
-                (f"{name} [px]" if i < 4 else name, f"{value:.{digits}f} ± {sd:.{digits}f}")
-            )
+            form = f".{digits}f"
+            words = f"{number(value, form)} ± {number(sd, form)}"
+            rows.append((f"{name} [px]" if i < 4 else name, words))
         elif name in dropped:
             lost = dropped[name]
-            rows.append((name, f"({lost.value:.1g} ± {lost.sd:.1g})"))
+            rows.append((name, f"({number(lost.value, '.1g')} ± {number(lost.sd, '.1g')})"))
         else:
             rows.append((name, tr("(dropped)")))
     return rows

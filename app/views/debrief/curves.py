@@ -21,7 +21,7 @@ from app.views.exercise.felt import origin_word
 from app.views.exercise.steps import state_word
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, number, tr
 from app.views.kit.themes import DARK
 
 SHORTEST_S: Final = 0.05
@@ -428,10 +428,10 @@ class CurvesView(QWidget):
             return ""
         i = int(np.argmin(np.abs(review.curves.time - time)))
         digits = 1 if time_end(review.curves.time) > SHORT_S else 3
-        parts = [f"{review.curves.time[i]:.{digits}f} s", _state_at(review.spans, time)]
+        parts = [f"{number(review.curves.time[i], f'.{digits}f')} s", _state_at(review.spans, time)]
         for curve in self._curves:
             value = curve.values[i]
-            text = f"{value:.1f} {curve.unit}" if np.isfinite(value) else "–"
+            text = f"{number(value, '.1f')} {curve.unit}" if np.isfinite(value) else "–"
             parts.append(f"{curve.name} {text}")
         return _BETWEEN.join(part for part in parts if part)
 

@@ -57,7 +57,7 @@ from app.views.kit.menu_entries import add_entries
 from app.views.kit.names import NAMES
 from app.views.kit.parts import message_box, size_dialog
 from app.views.kit.roles import EVERYBODY, STAFF, Role
-from app.views.kit.text import tr, translated
+from app.views.kit.text import declared, tr, translated
 from app.views.shell.feature import Context, Feature
 from app.views.structures.layer import draw_in
 
@@ -632,7 +632,7 @@ class Interruptions(QObject):
             "  ·  ".join(
                 (
                     self._who(one),
-                    one.exercise_title or one.exercise_id,
+                    declared(one.exercise_title) or one.exercise_id,
                     date_text(one.started),
                     clock_text(one.duration),
                 )

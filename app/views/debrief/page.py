@@ -64,7 +64,7 @@ from app.views.kit.coordinates import axis_words
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel
 from app.views.kit.roles import Role
-from app.views.kit.text import declared, disclaimer, literal, tr
+from app.views.kit.text import declared, disclaimer, literal, number, tr
 
 _ROW_HEIGHT = 24
 _COLUMNS = 5
@@ -140,7 +140,7 @@ def cells(scan: ControlScan, origin: float) -> tuple[str, ...]:
         Seen.NOTHING: tr("✖ no needle"),
     }
     time = clock_text(scan.time - origin)
-    return str(scan.number), time, slices, shows[scan.seen], f"{scan.dose:.1f}"
+    return str(scan.number), time, slices, shows[scan.seen], number(scan.dose, ".1f")
 
 
 _ROW_HEIGHT, _WEIGHT = 26, 4
@@ -306,7 +306,7 @@ class DebriefPage(QWidget):
         """Show an attempt, standing where its needle ended."""
         self._review, self._ghost, self._waits = review, None, ""
         self._show_held("")
-        self._title.setText(review.exercise)
+        self._title.setText(declared(review.exercise))
         self._facts.setText(facts(review))
         self._show_conditions(review)
         self.show_said(review)
@@ -314,7 +314,9 @@ class DebriefPage(QWidget):
         self.risks.setText("\n".join((tr("Closest to structures of risk"), *lines)))
         self.risks.setVisible(bool(lines))
         lines = met_lines(review)
-        self.met.setText("\n".join((tr("What the needle met"), *lines)))
+        self.met.setText(
+            "\n".join((tr("What the needle met, with the force along the needle"), *lines))
+        )
         self.met.setVisible(bool(lines))
         self.published.show_review(review)
         said = lessons(review)
@@ -365,7 +367,7 @@ class DebriefPage(QWidget):
         self._review, self._ghost, self._waits = None, None, ""
         self.follow_access()
         self.replayer.begin(0.0, 0.0)
-        self._title.setText(review.exercise)
+        self._title.setText(declared(review.exercise))
         self._facts.setText(facts(review))
         self.show_proposal(None)
         self._show_held(words)

@@ -39,7 +39,7 @@ from app.views.debrief.met_marks import MetLayer, MetScene, places_of
 from app.views.debrief.path_view import PathView
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import tr
+from app.views.kit.text import number, tr
 from app.views.reading.layouts import BULLSEYE, IN_PLANE, PROBE, SCENE, Layout, ViewGrid
 from app.views.scene.display import Display
 from app.views.scene.orbit import Orbit
@@ -218,7 +218,7 @@ class ReplayBar(QWidget):
         self.slider.blockSignals(True)
         self.slider.setValue(round(1e3 * time))
         self.slider.blockSignals(False)
-        self.clock.setText(f"{time:.1f} / {self._replayer.end:.1f} s")
+        self.clock.setText(f"{number(time, '.1f')} / {number(self._replayer.end, '.1f')} s")
 
     def set_ghosts(self, choices: list[tuple[object, str]], chosen: object = None) -> None:
         """Offer what may stand beside the needle: keys with their words."""
@@ -237,7 +237,7 @@ class ReplayBar(QWidget):
     # --- inside -----------------------------------------------------------------------------------
     def _prepare(self) -> None:
         for speed in SPEEDS:
-            text = {0.25: "¼ ×", 0.5: "½ ×"}.get(speed, f"{speed:g} ×")
+            text = {0.25: "¼ ×", 0.5: "½ ×"}.get(speed, number(speed, "g") + " ×")
             self.speed.addItem(text, speed)
         self.speed.setCurrentIndex(SPEEDS.index(1.0))
         self.speed.setToolTip(tr("How fast it is played"))

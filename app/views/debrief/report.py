@@ -49,7 +49,7 @@ from app.views.exercise.pad_canvas import PadArea
 from app.views.exercise.readouts import clock_text
 from app.views.exercise.steps import state_word
 from app.views.kit.access import ACCESS
-from app.views.kit.text import disclaimer, tr
+from app.views.kit.text import declared, disclaimer, number, tr, translated
 
 
 def paint_path(painter: QPainter, box: QRectF, review: Review) -> None:
@@ -185,10 +185,10 @@ def _paint_grid(
         painter.setPen(QColor(DIM))
         label = QRectF(area.left() - _LEFT, y - 5.0, _LEFT - 4.0, 10.0)
         right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-        painter.drawText(label, right, f"{value:g}")
+        painter.drawText(label, right, number(value, "g"))
     for value in ticks(0.0, end, 8) if labelled else ():
         label = QRectF(_x(area, value, end) - 20.0, area.bottom() + 1.0, 40.0, 10.0)
-        painter.drawText(label, Qt.AlignmentFlag.AlignHCenter, f"{value:g} s")
+        painter.drawText(label, Qt.AlignmentFlag.AlignHCenter, number(value, "g") + " s")
     painter.setPen(QPen(QColor(DIM), 0.6))
     painter.setBrush(Qt.BrushStyle.NoBrush)
     painter.drawRect(area)
@@ -309,15 +309,20 @@ _MOST_MET = 8  # lines of a page
 def _risks(painter: QPainter, review: Review, y: float) -> float:
     """Say how near the needle came to risks, and what it met; return where the page goes on."""
     y = _list(painter, tr("Closest to structures of risk"), risk_lines(review), y)
-    return _list(painter, tr("What the needle met"), met_lines(review)[:_MOST_MET], y)
+    return _list(
+        painter,
+        tr("What the needle met, with the force along the needle"),
+        met_lines(review)[:_MOST_MET],
+        y,
+    )
 
 
 def _list(painter: QPainter, title: str, lines: tuple[str, ...], y: float) -> float:
     if not lines:
         return y
     _text(painter, MARGIN, y + 6.0, title, font(9.0, bold=True), DIM)
-    for number, line in enumerate(lines, 1):
-        _text(painter, MARGIN, y + 6.0 + 14.0 * number, line, font(9.5))
+    for n, line in enumerate(lines, 1):
+        _text(painter, MARGIN, y + 6.0 + 14.0 * n, line, font(9.5))
     painter.setFont(font(8.5))
     painter.setPen(QColor(DIM))
     return y + 20.0 + 14.0 * len(lines)
@@ -325,7 +330,7 @@ def _list(painter: QPainter, title: str, lines: tuple[str, ...], y: float) -> fl
 
 def _heading(painter: QPainter, review: Review) -> float:
     whose = whose_words(review.conditions)
-    _text(painter, MARGIN, MARGIN + 14.0, review.exercise, font(17.0, bold=True))
+    _text(painter, MARGIN, MARGIN + 14.0, declared(review.exercise), font(17.0, bold=True))
     _text(painter, MARGIN, MARGIN + 31.0, whose or tr("Report of an attempt"), font(10.0), DIM)
     painter.setPen(QPen(QColor(RULE), 0.8))
     painter.drawLine(QPointF(MARGIN, MARGIN + 40.0), QPointF(WIDTH - MARGIN, MARGIN + 40.0))
@@ -339,7 +344,10 @@ def _facts(painter: QPainter, review: Review, y: float) -> float:
         (who, ACCESS.shown(review.student)),
         (tr("Date"), date_text(review.started)),
         (tr("Session"), review.id),
-        (tr("State"), state_word(review.state) + (f": {review.reason}" if review.reason else "")),
+        (
+            tr("State"),
+            state_word(review.state) + (f": {translated(review.reason)}" if review.reason else ""),
+        ),
         (tr("Duration"), clock_text(review.duration)),
         (tr("Control scans"), scans_text(review)),
         (tr("Path"), tr("{mm:.1f} mm from entry to target", mm=1e3 * review.placed.length)),

@@ -5,6 +5,7 @@ under.
 import math
 from dataclasses import dataclass, replace
 
+from app.core.messages import joined
 from app.core.units import MILLIMETRE
 from app.core.words import counted
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
@@ -19,7 +20,8 @@ from app.views.exercise.readouts import clock_text
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.roles import Role
-from app.views.kit.text import declared, tr
+from app.views.kit.text import begun, declared, tr
+from app.views.kit.text import number as local
 
 
 def risk_line(mark: RiskMark, origin: float) -> str:
@@ -33,13 +35,10 @@ def risk_line(mark: RiskMark, origin: float) -> str:
             when=when,
             limit=mark.limit_mm,
         )
-    near = mark.breach_mm > 0.0
-    text = (
-        tr("▲ {name}: {distance:.1f} mm, at {when}: nearer than {limit:g} mm")
-        if near
-        else tr("✔ {name}: {distance:.1f} mm, at {when} (limit {limit:g} mm)")
-    )
-    return text.format(name=mark.name, distance=mark.closest_mm, when=when, limit=mark.limit_mm)
+    values = {"name": mark.name, "distance": mark.closest_mm, "when": when, "limit": mark.limit_mm}
+    if mark.breach_mm > 0.0:
+        return tr("▲ {name}: {distance:.1f} mm, at {when}: nearer than {limit:g} mm", **values)
+    return tr("✔ {name}: {distance:.1f} mm, at {when} (limit {limit:g} mm)", **values)
 
 
 def risk_lines(review: Review) -> tuple[str, ...]:
@@ -122,8 +121,8 @@ def dial_text(dial: Assistance | None) -> str:
     if dial is None:
         return ""
     if not dial.moved:
-        return f"{dial.mean:z.2f}"
-    return f"{dial.least:z.2f} … {dial.most:z.2f}"
+        return local(dial.mean, "z.2f")
+    return f"{local(dial.least, 'z.2f')} … {local(dial.most, 'z.2f')}"
 
 
 def short_words(conditions: Conditions | None) -> str:
@@ -167,7 +166,7 @@ def assistance_words(dial: Assistance | None) -> str:
     """Say what the exercise set, and what it was."""
     if dial is None:
         return tr("not recorded")
-    start = tr("not recorded") if dial.start is None else f"{dial.start:z.2f}"
+    start = tr("not recorded") if dial.start is None else local(dial.start, "z.2f")
     if not dial.moved and dial.start is not None and abs(dial.mean - dial.start) < 5e-3:
         return tr("{start} as set, throughout", start=start)
     return tr(
@@ -292,7 +291,7 @@ def row_texts(row: Row, score: Score) -> RowTexts:
         else with_unit(row.value, row.unit, shown_sd(row.name, row.value, row.sd)),
         band=band,
         points=_points(row, score),
-        weight=f"{row.tolerance.weight:g}" if row.tolerance else "–",
+        weight=local(row.tolerance.weight, "g") if row.tolerance else "–",
         colour=colour,
         help=row.note or (_limits(row) if score.total is not None else tr("Void: not judged.")),
     )
@@ -354,8 +353,10 @@ def lessons(review: Review) -> tuple[str, ...]:
     lost = score.losses
     said = [_loss(points, row) for points, row in lost[:MOST_LESSONS]]
     if (share := min((row.gate for row in score.rows if row.weight > 0.0), default=1.0)) < 1.0:
-        words = tr("The target was missed: all else counts only {share:.0f} %.")
-        said.insert(1, words.format(share=100.0 * share))
+        words = tr(
+            "The target was missed: all else counts only {share:.0f} %.", share=_less(100.0 * share)
+        )
+        said.insert(1, words)
     turn = review.correction
     if turn is not None and any(row.name in STEERED for _, row in lost):
         words = tr(
@@ -376,15 +377,20 @@ def lessons(review: Review) -> tuple[str, ...]:
 def _loss(points: float, row: Row) -> str:
     expert = row.tolerance.knots[0] if row.tolerance else 0.0
     more = row.tolerance is not None and row.tolerance.knots[0] > row.tolerance.knots[2]
-    text = (
-        tr("{label}: {value} cost {points}; {expert} or more costs none.")
-        if more
-        else tr("{label}: {value} cost {points}; {expert} or less costs none.")
-    )
-    value = "–" if row.value is None else with_unit(row.value, row.unit)
-    limit = with_unit(expert, row.unit)
-    cost = points_words(points)
-    return text.format(label=metric_title(row), value=value, points=cost, expert=limit)
+    values = {
+        "label": metric_title(row),
+        "value": "–" if row.value is None else with_unit(row.value, row.unit),
+        "points": points_words(points),
+        "expert": with_unit(expert, row.unit),
+    }
+    if more:
+        return tr("{label}: {value} cost {points}; {expert} or more costs none.", **values)
+    return tr("{label}: {value} cost {points}; {expert} or less costs none.", **values)
+
+
+def _less(percent: float) -> float:
+    """Return a share below 100 % [%] as it is shown: what costs something is not told as all."""
+    return min(percent, 99.0)
 
 
 def points_words(points: float) -> str:
@@ -435,7 +441,7 @@ def proposal_words(proposal: Proposal) -> str:
 def number(value: float) -> str:
     """Three significant digits, never in exponents; what rounds to zero has no sign."""
     size = abs(value)
-    return f"{value:.0f}" if size >= 100 else f"{value:.1f}" if size >= 10 else f"{value:z.2f}"
+    return local(value, ".0f" if size >= 100 else ".1f" if size >= 10 else "z.2f")
 
 
 def with_unit(value: float, unit: str, sd: float | None = None) -> str:
@@ -467,17 +473,16 @@ def verdict(review: Review) -> tuple[str, str, str]:
         why = tr("Declared void by the instructor: {why}", why=review.said.void)
         return theme.WARNING, tr("▲ Void"), tr("{why} It does not count.", why=_ended(why))
     if score is None:
-        why = review.reason[:1].upper() + review.reason[1:]
+        why = begun(review.reason)
         return theme.TEXT_DIM, "–", _ended(why) if why else tr("This attempt was not scored.")
     if score.void_reason:
-        why = score.void_reason[:1].upper() + score.void_reason[1:]
-        return theme.WARNING, tr("▲ Void"), f"{why}. {remedy(score, review.conditions)}"
+        why = _ended(begun(score.void_reason))
+        return theme.WARNING, tr("▲ Void"), f"{why} {remedy(score, review.conditions)}"
     if score.passed:
         return theme.GOOD, tr("✔ Passed"), ""
     failures = ", ".join(metric_title(row) for row in score.failures)
     if score.hard_fails:
-        reason = "; ".join(score.hard_fails)
-        reason = f"{reason[:1].upper()}{reason[1:]}"
+        reason = begun(joined("; ", score.hard_fails))
     elif failures:
         reason = tr("Required and not met: {names}", names=failures)
     else:
@@ -508,7 +513,7 @@ def _points(row: Row, score: Score) -> str:
     if score.total is None or row.utility is None or weight <= 0.0 or row.weight <= 0.0:
         return "–"
     most = 100.0 * row.weight / weight
-    return f"{most * row.counted:.1f} / {most:.1f}"
+    return f"{local(most * row.counted, '.1f')} / {local(most, '.1f')}"
 
 
 def _limits(row: Row) -> str:

@@ -50,7 +50,7 @@ from app.views.kit.access import ACCESS
 from app.views.kit.background import run_in_background
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import literal, tr, translated
+from app.views.kit.text import declared, literal, tr, translated
 
 Index = QModelIndex | QPersistentModelIndex
 SORT_ROLE: Final = Qt.ItemDataRole.UserRole
@@ -264,7 +264,8 @@ def signature_word(verdict: str) -> str:
 
 def exercise_text(summary: Summary) -> str:
     """Title of the exercise, with its version from the second one on."""
-    title, known = summary.exercise_title or summary.exercise_id, summary.conditions
+    title = declared(summary.exercise_title) or summary.exercise_id
+    known = summary.conditions
     if known is None or known.version < 2:
         return title
     return tr("{title} (version {n})", title=title, n=known.version)

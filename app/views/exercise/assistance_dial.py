@@ -7,6 +7,7 @@ from PySide6.QtCore import QPointF, QRectF, QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import (
     QColor,
     QFont,
+    QFontMetrics,
     QKeyEvent,
     QMouseEvent,
     QPainter,
@@ -154,6 +155,22 @@ class _Scale(QWidget):
         painter.setFont(font)
         box = QRectF(0, 7, self.width(), self.height() - 7)
         flags = Qt.AlignmentFlag.AlignVCenter
-        painter.drawText(box, flags | Qt.AlignmentFlag.AlignLeft, tr("repel"))
-        painter.drawText(box, flags | Qt.AlignmentFlag.AlignHCenter, tr("off"))
-        painter.drawText(box, flags | Qt.AlignmentFlag.AlignRight, tr("guide"))
+        words = (tr("repel"), tr("off"), tr("guide"))
+        sides = (
+            Qt.AlignmentFlag.AlignLeft,
+            Qt.AlignmentFlag.AlignHCenter,
+            Qt.AlignmentFlag.AlignRight,
+        )
+        for word, side in zip(apart(words, QFontMetrics(font), self.width()), sides, strict=True):
+            painter.drawText(box, flags | side, word)
+
+
+def apart(words: tuple[str, str, str], metrics: QFontMetrics, width: int) -> tuple[str, str, str]:
+    """Return words for left, middle and right of a width [px] that do not run into each other.
+
+    Where they would, those at the sides are cut, and end in `…`; the middle one stays.
+    """
+    left, middle, right = words
+    room = (width - metrics.horizontalAdvance(middle)) // 2 - metrics.horizontalAdvance(" ")
+    cut = Qt.TextElideMode.ElideRight
+    return metrics.elidedText(left, cut, room), middle, metrics.elidedText(right, cut, room)

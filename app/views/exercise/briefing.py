@@ -31,7 +31,7 @@ from app.views.exercise.offer import BriefingOffer
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.parts import PlainLabel, button, label
-from app.views.kit.text import declared, literal, tr
+from app.views.kit.text import declared, literal, number, tr
 from app.views.reading.lock_words import view_title
 from app.views.shell.shortcuts import disclaimer_label
 
@@ -71,14 +71,15 @@ def scored_words(exercise: Exercise) -> list[str]:
 
 
 def _limit_words(title: str, unit: str, limits: Tolerance) -> str:
+    values = {
+        "title": title,
+        "best": _value(limits.expert, unit),
+        "passes": _value(limits.pass_, unit),
+    }
     words = (
-        tr("{title}: best from {best}, passes from {passes}")
+        tr("{title}: best from {best}, passes from {passes}", **values)
         if limits.higher_is_better
-        else tr("{title}: best up to {best}, passes up to {passes}")
-    ).format(
-        title=title,
-        best=_value(limits.expert, unit),
-        passes=_value(limits.pass_, unit),
+        else tr("{title}: best up to {best}, passes up to {passes}", **values)
     )
     return words + (tr("; must be kept") if limits.required else "")
 
@@ -88,7 +89,7 @@ def _value(value: float, unit: str) -> str:
         minutes, seconds = divmod(round(value), 60)
         return tr("{m}:{s:02d} min", m=minutes, s=seconds)
     gap = "" if unit in ("°", "") else " "
-    return f"{value:g}{gap}{unit}"
+    return number(value, "g") + gap + unit
 
 
 def locked_words(exercise: Exercise) -> list[str]:
@@ -131,8 +132,10 @@ def aid_words(exercise: Exercise) -> list[str]:
         said.append(tr("The hand moves the tool's handle: the tip goes the other way."))
     if exercise.guidance_mode is GuidanceMode.CONTROL_CT:
         said.append(
-            tr("The needle is seen on control scans alone (S): {n} slices of {mm:g} mm.").format(
-                n=exercise.guidance.slices, mm=exercise.guidance.slice_mm
+            tr(
+                "The needle is seen on control scans alone (S): {n} slices of {mm:g} mm.",
+                n=exercise.guidance.slices,
+                mm=exercise.guidance.slice_mm,
             )
         )
     shown = [view_title(view) for view in ViewName if view in exercise.shown_views]
@@ -298,7 +301,7 @@ class BriefingPage(QWidget):
 
     def show_exercise(self, exercise: Exercise, portrait: Portrait | None) -> None:
         """Show what an exercise says."""
-        self.title.setText(exercise.title)
+        self.title.setText(declared(exercise.title))
         self.kind.setText(kind_words(exercise))
         self.description.setText(
             declared(exercise.description) or tr("Insert the needle to the target.")

@@ -34,7 +34,7 @@ from app.views.exercise.pad_canvas import PadCanvas
 from app.views.exercise.steps import amount
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, number, tr
 
 STRAIGHT_DEG = 0.1
 """Corrections below this [°] are not asked for: five encoder counts."""
@@ -89,12 +89,10 @@ def _correction(
     if short:
         return tr("{name}: {angle:.1f}° to {to}", name=name, angle=abs(angle_deg), to=letters)
     where = towards(letters)
-    words = (
-        tr("{name}: tilt the hub {angle:.1f}° towards {where}")
-        if hub
-        else tr("{name}: tilt the tip {angle:.1f}° towards {where}")
-    )
-    return words.format(name=name, angle=abs(angle_deg), where=where)
+    values = {"name": name, "angle": abs(angle_deg), "where": where}
+    if hub:
+        return tr("{name}: tilt the hub {angle:.1f}° towards {where}", **values)
+    return tr("{name}: tilt the tip {angle:.1f}° towards {where}", **values)
 
 
 def lateral(offset: Offset, short: bool = False) -> str:
@@ -133,7 +131,7 @@ def ct_words(frame: PathFrame, direction: ArrayLike, rest: PathFrame | None = No
 
 
 def _in_plane(angle_deg: float, out_of_plane_deg: float) -> str:
-    return "–" if abs(out_of_plane_deg) > STEEPEST_DEG else f"{angle_deg:+.1f}°"
+    return "–" if abs(out_of_plane_deg) > STEEPEST_DEG else number(angle_deg, "+.1f") + "°"
 
 
 def remaining(offset: Offset, across: float, along: float) -> str:

@@ -194,7 +194,7 @@ class ExerciseFeature(Feature):
             return
         answer = ask(
             self._shell.dialog_parent,
-            exercise.title,
+            declared(exercise.title),
             tr("Same plan, or a new one?"),
             tr("The plan of an attempt stays in its record."),
             (tr("Same plan"), tr("New plan"), tr("Cancel")),

@@ -319,7 +319,7 @@ class BreathCommand(QWidget):
         holds, breathes = tr("Hold the breath (A)"), tr("Let breathe (A)")
         self.button.setText(holds if self._wish else breathes)
         if breath.held:
-            words = tr("holds: {s:.0f} s left").format(s=breath.left)
+            words = tr("holds: {s:.0f} s left", s=breath.left)
         elif breath.spent:
             words = tr("breathes by himself")
             self.button.setText(tr("Release (A)"))

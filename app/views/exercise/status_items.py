@@ -192,23 +192,28 @@ def robot_item(
         guard_acts: whether the guard takes energy out now.
         at_most: whether the force is held back because the depth is not certain.
     """
-    ready, held = tr("Robot ready"), tr("Robot held back: {why}")
-    stopped = tr("Robot stopped: {why}")
+    ready = tr("Robot ready")
     verdicts = (loop.verdict if loop else Verdict.IDLE, heartbeat.verdict)
     if loop is None:
         verdict, words = Verdict.IDLE, tr("No robot")
     elif fault:
-        verdict, words = Verdict.BAD, stopped.format(why=fault)
+        verdict, words = Verdict.BAD, tr("Robot stopped: {why}", why=fault)
     elif encoders.verdict is Verdict.BAD:
-        verdict, words = Verdict.BAD, stopped.format(why=tr("it does not answer"))
+        verdict, words = Verdict.BAD, tr("Robot stopped: {why}", why=tr("it does not answer"))
     elif heartbeat.verdict is Verdict.BAD:
-        verdict, words = Verdict.BAD, stopped.format(why=tr("this window stood still"))
+        verdict, words = Verdict.BAD, tr("Robot stopped: {why}", why=tr("this window stood still"))
     elif guard_acts:
-        verdict, words = Verdict.WARNING, held.format(why=tr("it calms the needle"))
+        verdict, words = (
+            Verdict.WARNING,
+            tr("Robot held back: {why}", why=tr("it calms the needle")),
+        )
     elif encoders.verdict is Verdict.WARNING:
-        verdict, words = Verdict.WARNING, held.format(why=tr("it answers late"))
+        verdict, words = Verdict.WARNING, tr("Robot held back: {why}", why=tr("it answers late"))
     elif at_most:
-        verdict, words = Verdict.WARNING, held.format(why=tr("the depth is not certain"))
+        verdict, words = (
+            Verdict.WARNING,
+            tr("Robot held back: {why}", why=tr("the depth is not certain")),
+        )
     elif Verdict.BAD in verdicts or Verdict.WARNING in verdicts:
         verdict, words = Verdict.WARNING, tr("Robot ready, the computer is busy")
     else:

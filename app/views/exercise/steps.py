@@ -14,7 +14,7 @@ from app.session.transitions import PauseCause
 from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, number, tr
 from app.views.slices.pace import Unhurried
 
 
@@ -178,7 +178,7 @@ OTHER_SIDE: Final = str.maketrans("LRAPSI", "RLPAIS")
 
 def amount(value: float) -> str:
     """Write a way to go: whole numbers, and below one tenths, so that nobody overshoots by them."""
-    return f"{value:.0f}" if value >= 0.95 else f"{max(value, 0.1):.1f}"
+    return number(value, ".0f") if value >= 0.95 else number(max(value, 0.1), ".1f")
 
 
 ASIDE: Final = (StepKind.START, StepKind.WITHDRAW, StepKind.MOVE, StepKind.WAIT)
@@ -201,10 +201,11 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False, numbers: bool 
     outwards = tr(" (wheel towards you)") if by_mouse else ""
     towards = step.towards.translate(OTHER_SIDE) if tip else step.towards
     sides = tr(" and ").join(side_word(letter) for letter in towards)
+    across = amount(step.across / MILLIMETRE)
     tilt = (
-        tr("Aim {mm} mm further towards {sides}")
+        tr("Aim {mm} mm further towards {sides}", mm=across, sides=sides)
         if tip
-        else tr("Tilt the hub towards {sides}: {mm} mm off the target")
+        else tr("Tilt the hub towards {sides}: {mm} mm off the target", mm=across, sides=sides)
     )
     if not numbers and step.kind in (StepKind.TILT, StepKind.DEEPER, StepKind.BACK):
         return _without_numbers(step.kind, sides, inwards, outwards, tip)
@@ -220,12 +221,12 @@ def step_words(step: NextStep, by_mouse: bool, tip: bool = False, numbers: bool 
         StepKind.WAIT: _pause_words(step.pause),
         StepKind.SCAN: tr("Push by the scans: S takes one, Enter ends the attempt"),
         StepKind.LOOK: tr("Steer by the CT: S takes a scan, Enter ends the attempt"),
-        StepKind.TILT: tilt.format(mm=amount(step.across / MILLIMETRE), sides=sides),
+        StepKind.TILT: tilt,
         StepKind.INSERT: tr("Push the needle in{how}", how=inwards),
         StepKind.FEEL: tr("Push slowly{how}: the cameras do not see the depth", how=inwards),
         StepKind.BONE: tr("The tip stands on bone: do not push, pull back{how}", how=outwards),
-        StepKind.DEEPER: tr("Push {mm} mm deeper{how}").format(mm=amount(mm), how=inwards),
-        StepKind.BACK: tr("Pull back {mm} mm{how}").format(mm=amount(mm), how=outwards),
+        StepKind.DEEPER: tr("Push {mm} mm deeper{how}", mm=amount(mm), how=inwards),
+        StepKind.BACK: tr("Pull back {mm} mm{how}", mm=amount(mm), how=outwards),
         StepKind.HOLD: tr("Hold still"),
         StepKind.TOUCH: tr("Bring the tip to the target"),
         StepKind.STAY: tr("Stay on the target"),
@@ -275,8 +276,10 @@ def touch_words(step: NextStep, touch: TouchState) -> str:
     if step.across >= NEAR:
         sides = tr(" and ").join(side_word(letter) for letter in step.towards)
         said.append(
-            tr("tip {mm} mm towards {sides} (hand the other way)").format(
-                mm=amount(step.across / MILLIMETRE), sides=sides
+            tr(
+                "tip {mm} mm towards {sides} (hand the other way)",
+                mm=amount(step.across / MILLIMETRE),
+                sides=sides,
             )
         )
     if abs(step.distance) >= NEAR:
@@ -295,7 +298,7 @@ def breath_words(breath: BreathHold, words: str, commands: bool) -> str:
         commands: whether who reads it tells the patient.
     """
     if breath.held:
-        return tr("Held, {s:.0f} s left: ").format(s=breath.left) + words
+        return tr("Held, {s:.0f} s left: ", s=breath.left) + words
     if breath.spent:
         return (
             tr("The patient breathes freely (A releases, A asks again): {step}", step=words)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from app.views.kit.text import tr
+from app.views.kit.text import number, tr
 
 SIDES = (("R", "L"), ("A", "P"), ("I", "S"))
 """Letters of the negative and the positive side of each LPS axis."""
@@ -14,7 +14,7 @@ SIDES = (("R", "L"), ("A", "P"), ("I", "S"))
 def axis_words(axis: int, value_mm: float) -> str:
     """Say one LPS coordinate [mm] with the letter of its side: `S 310.2`."""
     value = round(value_mm, 1)
-    return f"{SIDES[axis][value >= 0]} {abs(value):.1f}"
+    return f"{SIDES[axis][value >= 0]} {number(abs(value), '.1f')}"
 
 
 def lps_words(lps_mm: ArrayLike) -> str:

@@ -20,10 +20,11 @@ def tr(text: str, **values: object) -> str:
 
     Called when the string is needed, never at import: the translation is loaded after the modules.
     `pyside6-lupdate -tr-function-alias tr` finds the calls; the text must therefore be a literal.
-    Values that are sentences or errors of the lower rooms come in the user's language as well.
+    Values that are sentences or errors of the lower rooms come in the user's language as well. A
+    translation that the values do not fit is not shown: the text is English then.
     """
     pattern = QCoreApplication.translate(CONTEXT, text)
-    return _filled(pattern, _shown(values)) if values else pattern
+    return _fitted(pattern, text, _shown(values)) if values else pattern
 
 
 def declared(text: str) -> str:
@@ -44,11 +45,14 @@ def translated(message: str | BaseException) -> str:
     text = sentence_of(message) if isinstance(message, BaseException) else message
     if not isinstance(text, Sentence):
         return str(text)
-    values = _shown(text.values)
-    try:
-        return _filled(QCoreApplication.translate(CONTEXT, text.template), values)
-    except (LookupError, ValueError):  # a translation that names other values
-        return text.template.format(**values)
+    pattern = QCoreApplication.translate(CONTEXT, text.template)
+    return _fitted(pattern, text.template, _shown(text.values))
+
+
+def begun(message: str | BaseException) -> str:
+    """Return a message of the lower rooms in the user's language, begun with a capital."""
+    text = translated(message)
+    return text[:1].upper() + text[1:]
 
 
 class _Local(Formatter):
@@ -73,6 +77,15 @@ def use_decimal_point(point: str) -> None:
 def number(value: float, form: str) -> str:
     """Return a number by a format such as `.1f`, with the language's own decimal point."""
     return format(value, form).replace(".", _LOCAL.point)
+
+
+def _fitted(pattern: str, english: str, values: Mapping[str, object]) -> str:
+    try:
+        return _filled(pattern, values)
+    except (LookupError, ValueError, TypeError, AttributeError):
+        if pattern == english:
+            raise
+        return _filled(english, values)  # the translation names other values
 
 
 def _filled(pattern: str, values: Mapping[str, object]) -> str:

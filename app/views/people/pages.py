@@ -52,7 +52,7 @@ from app.views.kit.field_words import problem_words
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel, add_row, button, label, table
 from app.views.kit.settings_dialog import SettingsDialog
-from app.views.kit.text import literal, tr, translated
+from app.views.kit.text import declared, literal, tr, translated
 from app.views.kit.verdict import Verdict, tell
 from app.views.kit.wheel import wheel_scrolls
 
@@ -634,7 +634,7 @@ class CourseDialog(SettingsDialog):
         self.offered = QComboBox(self)
         self.offered.setAccessibleName(tr("Exercise to add"))
         for identifier, exercise in exercises.items():
-            self.offered.addItem(exercise.title, identifier)
+            self.offered.addItem(declared(exercise.title), identifier)
         self.add, self.remove = button(tr("Add")), button(tr("Remove"))
         titles = (tr("Exercise"), tr("Version"), tr("Attempts"), tr("Purpose"), tr("Opens"))
         self.items = QTableWidget(0, 6, self)

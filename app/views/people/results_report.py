@@ -35,7 +35,7 @@ from app.session.board import BoardCell, CurvePoint
 from app.session.people import Person
 from app.views.debrief.page import date_text
 from app.views.debrief.report import BAND_INKS, DIM, HEIGHT, INK, LINE, MARGIN, RULE, WIDTH, font
-from app.views.kit.text import disclaimer, tr
+from app.views.kit.text import disclaimer, number, tr
 
 PASSED, MEDIAN = BAND_INKS[Band.GOOD], "#8a5a00"
 _ROW: Final = 17.0
@@ -305,7 +305,7 @@ def _exercises(sheet: _Sheet, results: Results, person: Person, titles: Mapping[
             head()
         cell = results.board.cells[person.key, item.exercise]
         named = titles.get(item.exercise, item.exercise) + f", v{item.version}"
-        trend = "–" if cell.trend is None else f"{cell.trend:+.1f}"
+        trend = "–" if cell.trend is None else number(cell.trend, "+.1f")
         numbers = ("–" if one is None else f"{one:.0f}" for one in (cell.best, cell.last))
         texts = (named, str(cell.attempts), *numbers, trend, "✔" if cell.passed else "–")
         for place, (left, words) in enumerate(zip(_COLUMNS, texts, strict=True)):
@@ -342,8 +342,8 @@ def _curve(sheet: _Sheet, title: str, points: Sequence[CurvePoint]) -> None:
         painter.setPen(QColor(DIM))
         painter.drawText(QPointF(MARGIN, y + 3.0), str(level))
     step = max(1, len(points) // 10)
-    for number in range(1, len(points) + 1, step):
-        painter.drawText(QPointF(place(number, 0.0).x() - 2.0, bottom + 11.0), str(number))
+    for n in range(1, len(points) + 1, step):
+        painter.drawText(QPointF(place(n, 0.0).x() - 2.0, bottom + 11.0), str(n))
     for ink, style, values in (
         (PASSED, Qt.PenStyle.SolidLine, [point.best for point in points]),
         (MEDIAN, Qt.PenStyle.DashLine, [point.median for point in points]),
@@ -354,8 +354,8 @@ def _curve(sheet: _Sheet, title: str, points: Sequence[CurvePoint]) -> None:
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(QColor(LINE))
     size = 2.2 if len(points) < 80 else 1.2
-    for number, point in enumerate(points, 1):
-        painter.drawEllipse(place(number, point.total), size, size)
+    for n, point in enumerate(points, 1):
+        painter.drawEllipse(place(n, point.total), size, size)
     sheet.y = bottom + 34.0
 
 

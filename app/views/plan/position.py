@@ -21,7 +21,7 @@ from app.exchange.transforms import read_tfm, write_tfm
 from app.planning.placement import placement_of
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.roles import STAFF, Role
-from app.views.kit.text import tr
+from app.views.kit.text import number, tr
 from app.views.shell.feature import Context, Feature
 
 SUFFIX = ".tfm"
@@ -131,7 +131,7 @@ class PositionFeature(Feature):
             "Rotation taken from {name}. Its shift would put the robot's fulcrum {off} mm from the "
             "entry of this plan and was left out: the entry lies on the fulcrum.",
             name=path.name,
-            off=f"{off_mm:.1f}",
+            off=number(off_mm, ".1f"),
         )
 
 

@@ -31,7 +31,7 @@ from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel, size_dialog
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, number, tr
 
 PICTURE_PX = 112
 _BUTTON_PX = 190
@@ -117,7 +117,7 @@ def facts(series: Series) -> str:
     size = " × ".join(str(count) for count in series.size)
     parts = [series.modality, size]
     if series.spacing_mm is not None:
-        parts.append(" × ".join(f"{value:.3g}" for value in series.spacing_mm) + " mm")
+        parts.append(" × ".join(number(value, ".3g") for value in series.spacing_mm) + " mm")
     return "  ·  ".join(part for part in parts if part)
 
 

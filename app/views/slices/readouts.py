@@ -18,7 +18,7 @@ from app.imaging.volume import Volume
 from app.views.kit import theme
 from app.views.kit.coordinates import lps_words
 from app.views.kit.names import NAMES
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, number, tr
 from app.views.slices.canvas import SliceCanvas
 from app.views.slices.needle_source import Along
 from app.views.slices.panes import PANE_MARKS, PaneId, pane_name
@@ -200,7 +200,7 @@ class Readouts(QObject):
             return ""
         axis = plane.normal_axis
         value = float(cursor[axis])
-        return f"{'RLAPIS'[2 * axis + (value >= 0)]} {abs(value):.1f}"
+        return f"{'RLAPIS'[2 * axis + (value >= 0)]} {number(abs(value), '.1f')}"
 
     # --- room ---------------------------------------------------------------------------------
     def _arrange(self) -> None:

@@ -25,7 +25,7 @@ from app.planning.clearance import Nearness, PathClearance
 from app.views.kit import theme
 from app.views.kit.names import NAMES
 from app.views.kit.parts import PlainLabel
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, number, tr
 from app.views.kit.wheel import wheel_scrolls
 from app.views.structures.book import StructureBook
 from app.views.structures.brush import Brush, Mode
@@ -101,7 +101,7 @@ class StructureTable(QTableWidget):
         item = QTableWidgetItem("–")
         if clearance is not None:
             colour, sign = NEARNESS_STYLES[clearance.nearness]
-            item.setText(f"{sign} {clearance.distance_mm:z.1f}")
+            item.setText(f"{sign} {number(clearance.distance_mm, 'z.1f')}")
             item.setForeground(QColor(theme.now(colour)))
             item.setToolTip(
                 literal(
