@@ -271,18 +271,27 @@ def _depth(past: Evidence) -> tuple[str, ...]:
     )
 
 
-def _breath(past: Evidence) -> tuple[str, ...]:
-    """Say how much of the way was pushed while the breath had moved the target."""
+def pushed_outside(past: Evidence) -> tuple[float, float] | None:
+    """Return how far the needle was pushed outside the gate of the breath, and in all [mm].
+
+    None where hardly any of it was outside, or nothing was pushed.
+    """
     steps, shift = past.way.pushed()
     outside, whole = float(steps[shift > past.gate_mm].sum()), float(steps.sum())
-    if not whole > 1.0 or not outside > LEAST_OUTSIDE * whole:
+    return (outside, whole) if whole > 1.0 and outside > LEAST_OUTSIDE * whole else None
+
+
+def _breath(past: Evidence) -> tuple[str, ...]:
+    """Say how much of the way was pushed while the breath had moved the target."""
+    ways = pushed_outside(past)
+    if ways is None:
         return ()
     return (
         sentence(
             "You pushed {outside:.0f} of {whole:.0f} mm while the breath had moved the target by "
             "more than {gate:.1f} mm.",
-            outside=outside,
-            whole=whole,
+            outside=ways[0],
+            whole=ways[1],
             gate=past.gate_mm,
         ),
     )

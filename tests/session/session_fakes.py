@@ -29,6 +29,7 @@ FULCRUM = np.array([0.0, 0.16056, 0.090])
 WALL = datetime(2026, 1, 15, 9, 31, 22, 418000, tzinfo=UTC)
 EXERCISE = SimpleNamespace(
     effects={},
+    drill=None,
     id="liver-01",
     title="Liver, first insertion",
     version=1,
