@@ -8,14 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from math import degrees, isfinite
+from math import isfinite
 from typing import Final
 
 import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.messages import sentence
-from app.core.units import MILLIMETRE
 from app.imaging.field.tissue_field import TissueKind
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.met import Met
@@ -84,7 +83,6 @@ class Evidence:
         met: what the needle met.
         risks: how near it came to structures of risk.
         scans: moments of the control scans [s], monotonic.
-        turn: depth [m] and angle [rad] of the largest turn in the tissue; None without one.
     """
 
     way: AlongPath
@@ -95,7 +93,6 @@ class Evidence:
     met: Sequence[Met] = ()
     risks: Sequence[RiskMark] = ()
     scans: Sequence[float] = ()
-    turn: tuple[float, float] | None = None
 
     @property
     def line_mm(self) -> float:
@@ -117,7 +114,7 @@ def reasons(metric: str, past: Evidence) -> tuple[str, ...]:
     if metric in ALONG:
         parts.append(_depth)
     if metric in ACROSS:
-        parts += [_line, _skin, _turn]
+        parts += [_line, _skin]
     if metric in ALONG | ACROSS or metric == "breath_offset":
         parts.append(_breath)
     if metric == "total_time" or metric in STAGES:
@@ -212,20 +209,6 @@ def _skin(past: Evidence) -> tuple[str, ...]:
             "The tilt at the skin was {tilt:.1f}° off: the tip pointed too far {where}.",
             tilt=tilt,
             where=side(way.lean[row]),
-        ),
-    )
-
-
-def _turn(past: Evidence) -> tuple[str, ...]:
-    """Say where in the depth the needle was turned."""
-    if past.turn is None:
-        return ()
-    depth, angle = past.turn
-    return (
-        sentence(
-            "You turned the needle by {angle:.1f}° at {depth:.0f} mm depth.",
-            angle=degrees(angle),
-            depth=depth / MILLIMETRE,
         ),
     )
 

@@ -293,7 +293,6 @@ def review(recording: Recording) -> Review:
     figures = only_measured(curves(samples, placed), measured)
     origin = float(samples.time[0]) if len(samples.time) else 0.0
     score = None if withheld else _shown(recording, found)
-    turn = correction(samples, measured, side_force(recording))
     tolerances = judged_by(recording, found.standing)[0]
     past = Evidence(
         AlongPath.of(samples, placed),
@@ -304,7 +303,6 @@ def review(recording: Recording) -> Review:
         met=tissues_met(recording.events) or (),
         risks=risk_marks(recording.events),
         scans=tuple(event.time for event in recording.events if event.kind == "scan"),
-        turn=None if turn is None else (turn.depth, turn.angle),
     )
     exercise = exercise_in(recording)
     return Review(
@@ -334,7 +332,7 @@ def review(recording: Recording) -> Review:
         ct=recording.ct,
         risks=risk_marks(recording.events),
         met=tissues_met(recording.events),
-        correction=turn,
+        correction=correction(samples, measured, side_force(recording)),
         touches=tuple(event for event in recording.events if event.kind in (TASK, KIND)),
         tolerances=tolerances,
         motion=motion(samples, placed, needle_length(recording)) if len(samples.time) else None,

@@ -265,6 +265,8 @@ def signature_word(verdict: str) -> str:
 def exercise_text(summary: Summary) -> str:
     """Title of the exercise, with its version from the second one on."""
     title, known = summary.exercise_title or summary.exercise_id, summary.conditions
+    if known is not None and known.drill:
+        return tr("Drill: {title}", title=title)
     if known is None or known.version < 2:
         return title
     return tr("{title} (version {n})", title=title, n=known.version)
