@@ -100,7 +100,11 @@ def drilled(exercise: Exercise, kind: DrillKind, placed: PlacedPlan) -> Exercise
         "description": asks(kind),
     }
     if kind is not DrillKind.REPEAT:
-        changes["tolerances"] = _judged(kind, exercise)
+        others = {
+            name: bands.model_copy(update={"weight": 0.0, "required": False})
+            for name, bands in exercise.tolerances.items()
+        }  # shown, and the rings stay what they are
+        changes["tolerances"] = others | _judged(kind, exercise)
     if kind is DrillKind.ALIGN:  # nothing lies deeper than the skin, and hardly a picture of it
         changes["rules"] = ScoreRules(
             pass_mark=exercise.rules.pass_mark,

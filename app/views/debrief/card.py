@@ -127,7 +127,7 @@ def drill_words(kind: DrillKind, rounds: int = 0) -> str:
     if kind is DrillKind.REPEAT and rounds:
         done = min(rounds, ROUNDS)
         words = f"{tr('Round {n} of {all} is done.', n=done, all=ROUNDS)} {words}"
-    return tr("It counts for no course and no pass. {words}", words=words)
+    return tr("{drill} It counts for no course and no pass.", drill=words)
 
 
 class DebriefCard(QFrame):

@@ -534,6 +534,7 @@ class DebriefPage(QWidget):
         left = QWidget(self)
         column = QVBoxLayout(left)
         column.setContentsMargins(0, 0, theme.SPACING, 0)
+        column.setSpacing(8)
         column.addWidget(self.whose)
         column.addWidget(self.card)
         for widget in (self.comment, self._problems, self.proposal, self.conditions, self.fold):
@@ -575,7 +576,7 @@ class DebriefPage(QWidget):
         self.fold.setToolTip(tr("Every metric with its value, band and points; remembered"))
         self.fold.setCheckable(True)
         self.fold.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-        self.fold.setAutoRaise(True)
+        self.fold.setStyleSheet("QToolButton { background: transparent; border: none; }")
         self.fold.toggled.connect(self._unfold)
         self._unfold(False)
         return below
@@ -607,8 +608,8 @@ class DebriefPage(QWidget):
         self.held.setVisible(bool(words))
         self.held.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._splitter.setVisible(not words)
-        for button in (self.report, self.export):
-            button.setVisible(not words)
+        self.report.setVisible(not words)
+        self.export.setVisible(not words and ACCESS.role is not Role.STUDENT)
 
     def _connect(self) -> None:
         self.report.clicked.connect(lambda: self._emit(self.report_requested))
