@@ -116,7 +116,7 @@ def test_it_opens_where_the_needle_ended_in_slices_and_3d_with_plan_and_toleranc
     assert views.viewing.draft.target_mm == pytest.approx(tuple(PLAN.target_mm))
     assert len(views.viewing.tolerances_mm) == 2
     assert all(pane.canvas.plane is not None for pane in views.panes)
-    assert shown.ending.text() == (
+    assert shown.card.ending.text() == (
         "The needle ended 3.9 mm beside the target to the left, and 0.3 mm short of it."
     )
 
@@ -426,10 +426,10 @@ def test_whoever_signs_in_sees_of_the_attempt_on_the_page_what_he_may(
     People().remark(mine.id, comment="well held", void="the cable was loose")
     feature._controller.look_again()
     assert settle(lambda: "well held" in page.comment.text())
-    assert "the cable was loose" in page._reason.text()
-    assert "Void" in page._verdict.text()
+    assert "the cable was loose" in page.card.reason.text()
+    assert "Void" in page.card.verdict.text()
     page.remarks.count.trigger()
-    assert settle(lambda: "cable" not in page._reason.text())
+    assert settle(lambda: "cable" not in page.card.reason.text())
     ACCESS.sign_in(assessed)
     assert settle(lambda: page.review is None)
     assert "Autumn" in page.held.text()
