@@ -192,6 +192,7 @@ class Bench:
     folder: Path
     clock: VirtualClock = field(default_factory=lambda: VirtualClock(100.0))
     placed: PlacedPlan = field(default_factory=placed_plan)
+    drill: Any = None
 
     def __post_init__(self) -> None:
         self.loop = FakeLoop(self.clock)
@@ -209,7 +210,7 @@ class Bench:
             self.loop,
             self.tracker,
             self.placed,
-            EXERCISE,
+            SimpleNamespace(**vars(EXERCISE) | {"drill": self.drill}),
             self.context,
             clock=self.clock,
             advance=self.tracker.advance,

@@ -26,7 +26,7 @@ from app.session.roster import RosterLine
 from app.session.samples import Samples
 from app.session.summary import Summary
 from app.session.timeline import spans
-from app.views.debrief.feature import IDEAL, DebriefFeature
+from app.views.debrief.feature import EXPERT, IDEAL, DebriefFeature
 from app.views.debrief.replay import Ghost
 from app.views.debrief.sessions import SCORE, SORT_ROLE, Listed
 from app.views.kit.access import ACCESS
@@ -220,6 +220,8 @@ def test_the_ideal_path_stands_beside_the_needle_as_deep_as_it_dotted_with_anoth
 def test_another_attempt_stands_beside_it_at_the_same_time_or_at_the_same_depth(shown, settle):
     volume = shown.views.viewing.volume
     other = attempted(volume, side=0.001, seconds=10.0)
+    settle(lambda: shown._ghost is not None, timeout=3.0)  # the expert, whom nobody chose
+    shown.bar.by.setCurrentIndex(0)
     shown.show_ghost(Ghost("ghost, 91 points", other))
     assert shown.bar.by.isVisibleTo(shown)
     layer, own = shown.views.ghosts[0], shown.review.motion
@@ -335,15 +337,15 @@ def test_beside_an_attempt_stand_the_ideal_path_and_comparable_ones_by_their_poi
     one, two = attempt("a", 87.4, "ada"), attempt("b", 80.0, "ada")
     other = attempt("c", 99.0, "ben")
     words = ghost_words([(arms, True), (one, True), (two, True), (other, False)], shown.review)
-    assert [key for key, _ in words] == [IDEAL, "z", "a", "b", "c"]
-    assert words[1][1].startswith("the arm (simulation): 100")  # nobody's best
-    assert words[2][1].startswith("own best: 87")
-    assert words[4][1].startswith("ben: 99")
+    assert [key for key, _ in words] == [EXPERT, IDEAL, "z", "a", "b", "c"]
+    assert words[2][1].startswith("the arm (simulation): 100")  # nobody's best
+    assert words[3][1].startswith("own best: 87")
+    assert words[5][1].startswith("ben: 99")
     shown.offer_ghosts(words)
-    assert shown.bar.ghost.count() == 6
+    assert shown.bar.ghost.count() == 7
     got = []
     shown.ghost_wanted.connect(got.append)
-    shown.bar.ghost.setCurrentIndex(1)
+    shown.bar.ghost.setCurrentIndex(shown.bar.ghost.findData(IDEAL))
     assert got == [IDEAL]
     assert shown.curves._ghost[0] is None
     assert window.feature(DebriefFeature).page._ghost.title == "ideal"
