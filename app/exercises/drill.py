@@ -8,20 +8,12 @@ It is practice: it is in no library and no course, and no attempt at it counts f
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated, Final
+from typing import Annotated, Final
 
 from pydantic import Field
 
 from app.core.configuration import Strict
 from app.core.messages import sentence
-from app.exercises.parts import PlanPoints
-from app.planning.placement import PlacedPlan
-from app.scoring.defaults import DEFAULT_TOLERANCES
-from app.scoring.rows import ScoreRules
-from app.scoring.tolerance import Tolerance
-
-if TYPE_CHECKING:
-    from app.exercises.schema import Exercise
 
 ROUNDS: Final = 10
 ROUND_S: Final = 180.0
@@ -30,7 +22,8 @@ ROUND_S: Final = 180.0
 THROUGH_S: Final = 0.2
 """Aligning alone ends so long after the tip has gone through the skin [s]."""
 
-_LONGEST_ID: Final = 64
+LONGEST_ID: Final = 64
+"""Characters of an exercise's identifier."""
 
 
 class DrillKind(StrEnum):
@@ -56,7 +49,7 @@ class DrillPart(Strict):
     """
 
     kind: DrillKind
-    of: Annotated[str, Field(min_length=1, max_length=_LONGEST_ID)]
+    of: Annotated[str, Field(min_length=1, max_length=LONGEST_ID)]
     version: Annotated[int, Field(ge=1)] = 1
 
     @property
@@ -77,43 +70,6 @@ class DrillPart(Strict):
         return self.kind is DrillKind.REPEAT and lasted >= ROUND_S
 
 
-def drilled(exercise: Exercise, kind: DrillKind, placed: PlacedPlan) -> Exercise:
-    """Return an exercise as a drill on the plan of an attempt at it.
-
-    Args:
-        exercise: the whole one; a drill for the whole that it is of.
-        kind: what is practised.
-        placed: plan and placement of the attempt, which are those of the drill.
-    """
-    from app.exercises.guidance import Purpose
-
-    whole = exercise.drill or DrillPart(kind=kind, of=exercise.id, version=exercise.version)
-    plan = placed.plan
-    changes: dict[str, object] = {
-        "id": f"drill-{kind}-{whole.of}"[:_LONGEST_ID].rstrip("-"),
-        "drill": whole.model_copy(update={"kind": kind}),
-        "purpose": Purpose.PRACTICE,
-        "fading": None,
-        "plan": PlanPoints(
-            entry_mm=tuple(plan.entry_mm.tolist()), target_mm=tuple(plan.target_mm.tolist())
-        ),
-        "description": asks(kind),
-    }
-    if kind is not DrillKind.REPEAT:
-        others = {
-            name: bands.model_copy(update={"weight": 0.0, "required": False})
-            for name, bands in exercise.tolerances.items()
-        }  # shown, and the rings stay what they are
-        changes["tolerances"] = others | _judged(kind, exercise)
-    if kind is DrillKind.ALIGN:  # nothing lies deeper than the skin, and hardly a picture of it
-        changes["rules"] = ScoreRules(
-            pass_mark=exercise.rules.pass_mark,
-            minimum_tracking=0.0,
-            maximum_pause=exercise.rules.maximum_pause,
-        )
-    return exercise.placed_as(placed.placement).model_copy(update=changes)
-
-
 def asks(kind: DrillKind) -> str:
     """Say what a drill asks for, and when it ends."""
     return {
@@ -130,21 +86,3 @@ def asks(kind: DrillKind) -> str:
             "minutes."
         ),
     }[kind]
-
-
-def _judged(kind: DrillKind, exercise: Exercise) -> dict[str, Tolerance]:
-    """Return the one metric that counts in a drill, by the exercise's own bands if it has them."""
-    known = exercise.tolerances
-    if kind is DrillKind.DEPTH:
-        bands = known.get("depth_error", DEFAULT_TOLERANCES["depth_error"])
-        return {"depth_error": _alone(bands)}
-    if kind is DrillKind.ALIGN:
-        default = known.get("angle_error", DEFAULT_TOLERANCES["angle_error"])
-        return {"angle_at_skin": _alone(known.get("angle_at_skin", default))}
-    gate = known.get("lateral_error", DEFAULT_TOLERANCES["lateral_error"]).expert
-    limits = {"expert": 0.5 * gate, "good": gate, "pass": 1.5 * gate}
-    return {"breath_offset": _alone(Tolerance.model_validate(limits))}
-
-
-def _alone(bands: Tolerance) -> Tolerance:
-    return bands.model_copy(update={"weight": 1.0, "required": True})

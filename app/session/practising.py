@@ -14,7 +14,7 @@ from app.scoring.result import Score
 from app.session.along_path import AlongPath
 from app.session.conditions import EXERCISE_FILE
 from app.session.machine import State
-from app.session.reasons import ACROSS, ALONG, Evidence, pushed_outside
+from app.session.reasons import ACROSS, ALONG, AttemptEvidence, pushed_outside
 from app.session.recording import Recording
 
 _TIMES: Final = frozenset({"total_time", "aligning_time"})
@@ -31,7 +31,9 @@ def exercise_in(recording: Recording) -> Exercise | None:
         return None
 
 
-def called_for(score: Score | None, past: Evidence, exercise: Exercise | None) -> DrillKind | None:
+def called_for(
+    score: Score | None, past: AttemptEvidence, exercise: Exercise | None
+) -> DrillKind | None:
     """Return the drill for what cost most; None where nothing did, or nothing may be practised.
 
     Args:
@@ -57,7 +59,7 @@ def called_for(score: Score | None, past: Evidence, exercise: Exercise | None) -
     return DrillKind.REPEAT
 
 
-def _begun_askew(past: Evidence) -> bool:
+def _begun_askew(past: AttemptEvidence) -> bool:
     """Return whether the tilt at the skin was more than what passes as good."""
     row = past.way.at_skin()
     bands = past.tolerances.get("angle_at_skin") or past.tolerances.get("angle_error")

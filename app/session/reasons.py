@@ -71,7 +71,7 @@ TISSUES: Final[Mapping[str, tuple[str, ...]]] = {
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Evidence:
+class AttemptEvidence:
     """What the record of an attempt holds that a reason may rest on.
 
     Attributes:
@@ -101,14 +101,14 @@ class Evidence:
         return max(bands.good, self.unsure_mm)
 
 
-def reasons(metric: str, past: Evidence) -> tuple[str, ...]:
+def reasons(metric: str, past: AttemptEvidence) -> tuple[str, ...]:
     """Say why a metric cost points; empty where the record does not tell.
 
     Args:
         metric: its name.
         past: what the record holds.
     """
-    parts: list[Callable[[Evidence], tuple[str, ...]]] = []
+    parts: list[Callable[[AttemptEvidence], tuple[str, ...]]] = []
     if metric == "angle_at_skin":
         parts.append(_skin)
     if metric in ALONG:
@@ -160,7 +160,7 @@ def side(towards: FloatArray) -> str:
     return name
 
 
-def _line(past: Evidence) -> tuple[str, ...]:
+def _line(past: AttemptEvidence) -> tuple[str, ...]:
     """Say between which depths the needle was off the line, how far, and to which side."""
     way, rows = past.way, past.way.worst_stretch(past.line_mm)
     if not len(rows):
@@ -196,7 +196,7 @@ def _line(past: Evidence) -> tuple[str, ...]:
     return (text,)
 
 
-def _skin(past: Evidence) -> tuple[str, ...]:
+def _skin(past: AttemptEvidence) -> tuple[str, ...]:
     """Say how the needle was tilted when it went through the skin."""
     way, row = past.way, past.way.at_skin()
     if row is None:
@@ -213,7 +213,7 @@ def _skin(past: Evidence) -> tuple[str, ...]:
     )
 
 
-def _depth(past: Evidence) -> tuple[str, ...]:
+def _depth(past: AttemptEvidence) -> tuple[str, ...]:
     """Say how far short or too deep the tip ended, and since when it was there."""
     way, rows = past.way, past.way.measured_stay()
     if not len(rows):
@@ -254,7 +254,7 @@ def _depth(past: Evidence) -> tuple[str, ...]:
     )
 
 
-def pushed_outside(past: Evidence) -> tuple[float, float] | None:
+def pushed_outside(past: AttemptEvidence) -> tuple[float, float] | None:
     """Return how far the needle was pushed outside the gate of the breath, and in all [mm].
 
     None where hardly any of it was outside, or nothing was pushed.
@@ -264,7 +264,7 @@ def pushed_outside(past: Evidence) -> tuple[float, float] | None:
     return (outside, whole) if whole > 1.0 and outside > LEAST_OUTSIDE * whole else None
 
 
-def _breath(past: Evidence) -> tuple[str, ...]:
+def _breath(past: AttemptEvidence) -> tuple[str, ...]:
     """Say how much of the way was pushed while the breath had moved the target."""
     ways = pushed_outside(past)
     if ways is None:
@@ -280,7 +280,7 @@ def _breath(past: Evidence) -> tuple[str, ...]:
     )
 
 
-def _stage(past: Evidence) -> tuple[str, ...]:
+def _stage(past: AttemptEvidence) -> tuple[str, ...]:
     """Say which stage took longest: against its band where it has one, else of all."""
     lasted = {State(name): seconds for name, seconds in past.way.lasted().items()}
     whole = sum(lasted.values())
@@ -322,7 +322,7 @@ def _stage_word(stage: State) -> str:
     }[stage]
 
 
-def _force(past: Evidence) -> tuple[str, ...]:
+def _force(past: AttemptEvidence) -> tuple[str, ...]:
     """Say where the force at the hand was largest."""
     way = past.way
     force = np.where(np.isin(way.state, RUNS), way.force_n, np.nan)
@@ -346,7 +346,7 @@ def _force(past: Evidence) -> tuple[str, ...]:
     )
 
 
-def _tissues(past: Evidence, kinds: Sequence[str]) -> tuple[str, ...]:
+def _tissues(past: AttemptEvidence, kinds: Sequence[str]) -> tuple[str, ...]:
     """Say what of some kinds was met, where and when."""
     return tuple(
         sentence("{met}, at {clock}.", met=met.sentence, clock=moment(met.time - past.origin))
@@ -354,7 +354,7 @@ def _tissues(past: Evidence, kinds: Sequence[str]) -> tuple[str, ...]:
     )
 
 
-def _risk(past: Evidence) -> tuple[str, ...]:
+def _risk(past: AttemptEvidence) -> tuple[str, ...]:
     """Say to which structure the needle came nearest, where and when."""
     if not past.risks:
         return ()
@@ -381,7 +381,7 @@ def _risk(past: Evidence) -> tuple[str, ...]:
     )
 
 
-def _scans(past: Evidence) -> tuple[str, ...]:
+def _scans(past: AttemptEvidence) -> tuple[str, ...]:
     """Say how many control scans were taken with the needle outside and in the body."""
     way = past.way
     if not past.scans or not len(way.time):

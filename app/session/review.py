@@ -38,7 +38,7 @@ from app.session.pad.geometry import PadScale, PathFrame, path_frame
 from app.session.pad.view import rings, touch_rings
 from app.session.people import NOTHING_SAID, Remarks
 from app.session.practising import called_for, exercise_in
-from app.session.reasons import Evidence, reasons
+from app.session.reasons import AttemptEvidence, reasons
 from app.session.recording import Recording
 from app.session.result import AttemptResult
 from app.session.risks import risk_marks
@@ -294,7 +294,7 @@ def review(recording: Recording) -> Review:
     origin = float(samples.time[0]) if len(samples.time) else 0.0
     score = None if withheld else _shown(recording, found)
     tolerances = judged_by(recording, found.standing)[0]
-    past = Evidence(
+    past = AttemptEvidence(
         AlongPath.of(samples, placed),
         tolerances,
         gate_mm=rings(tolerances)[0] / MILLIMETRE,

@@ -11,9 +11,10 @@ from test_session_reasons import BACK, HEAD, LEFT, evidence, pushed, recorded
 from test_session_reasons import ENTRY_MM as ENTRY
 
 from app.compose.run_context import conditions_of as metadata_of
-from app.exercises.drill import ROUND_S, THROUGH_S, DrillKind, DrillPart, drilled
+from app.exercises.drill import ROUND_S, THROUGH_S, DrillKind, DrillPart
 from app.exercises.guidance import Purpose
 from app.exercises.library import load_exercise
+from app.exercises.practice import drilled
 from app.exercises.schema import Exercise
 from app.scoring.conditions import Conditions, comparable
 from app.scoring.result import judge

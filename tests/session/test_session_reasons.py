@@ -20,7 +20,7 @@ from app.scoring.metrics import available
 from app.scoring.risks import RiskMark
 from app.scoring.tolerance import Tolerance
 from app.session.along_path import AlongPath
-from app.session.reasons import Evidence, reasons
+from app.session.reasons import AttemptEvidence, reasons
 from app.session.samples import Samples
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
@@ -83,7 +83,7 @@ def pushed(aside_mm, orientation=PatientOrientation.SUPINE, to_mm=LENGTH_MM, sec
 
 
 def evidence(samples, placed, **more):
-    return Evidence(AlongPath.of(samples, placed), BANDS, origin=7.0, **more)
+    return AttemptEvidence(AlongPath.of(samples, placed), BANDS, origin=7.0, **more)
 
 
 def numbers(text):

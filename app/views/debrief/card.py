@@ -32,6 +32,9 @@ STEERED: Final = frozenset({"lateral_error", "angle_error", "path_ratio", "tip_e
 MOST_COSTS: Final = 2
 """So many metrics are told of: who reads more remembers none."""
 
+HELD_BACK: Final = 0.95
+"""That the target was missed is told where all else counts less than this."""
+
 MOST_REASONS: Final = 3
 """So many sentences are told of one."""
 
@@ -64,7 +67,7 @@ def costs(review: Review) -> tuple[Cost, ...]:
         texts = [translated(text) for text in review.reasons.get(row.name, ())]
         if row.name in STEERED:
             texts += turn_words(review)
-        if share < 1.0 and not result:
+        if share < HELD_BACK and not result:
             texts.insert(
                 0,
                 tr(
@@ -233,7 +236,7 @@ class DebriefCard(QFrame):
 
     def _style(self) -> None:
         self.setStyleSheet(
-            f"#card {{ background: {theme.RAISED}; border-radius: 8px; }} "
+            "#card { background: palette(button); border-radius: 8px; } "
             "#card QLabel { background: transparent; }"
         )
         self.total.setStyleSheet(f"font-size: {theme.TITLE_PX}px; font-weight: 600;")

@@ -26,7 +26,8 @@ from app.core.files import write_atomically
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.exchange.csv_export import score_table, trajectory_table, write_csv
-from app.exercises.drill import ROUNDS, DrillKind, drilled
+from app.exercises.drill import ROUNDS, DrillKind
+from app.exercises.practice import drilled
 from app.exercises.schema import Exercise
 from app.imaging.volume import Volume
 from app.planning.draft import DraftPlan
@@ -854,7 +855,9 @@ class DebriefFeature(Feature):
         """Begin a drill of the exercise that was attempted, on the same plan."""
         drill = self._controller.drill(kind)
         if drill is None:
-            self.failed.emit(tr("This exercise is no more what it was: begin it anew."))
+            self.failed.emit(
+                tr("This exercise is no more what it was: begin it from the start page.")
+            )
         else:
             self.drill_wanted.emit(drill)
 

@@ -229,6 +229,13 @@ _AGAIN_LONGEST: Final = 34
 """Characters of a title on a button."""
 
 
+_FOLD_STYLE: Final = (
+    "QToolButton, QToolButton:checked { background: transparent; color: palette(window-text);"
+    " border: 1px solid transparent; padding: 4px 8px; }"
+    "QToolButton:focus { border: 1px solid palette(highlight); }"
+)
+
+
 class DebriefPage(QWidget):
     """Shows one attempt and replays it; what its buttons do is up to whoever listens.
 
@@ -576,7 +583,7 @@ class DebriefPage(QWidget):
         self.fold.setToolTip(tr("Every metric with its value, band and points; remembered"))
         self.fold.setCheckable(True)
         self.fold.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-        self.fold.setStyleSheet("QToolButton { background: transparent; border: none; }")
+        self.fold.setStyleSheet(_FOLD_STYLE)
         self.fold.toggled.connect(self._unfold)
         self._unfold(False)
         return below
