@@ -94,11 +94,13 @@ def conditions_of(exercise: Exercise) -> dict[str, str]:
         left_out.add("layers")
     content = exercise.model_dump(mode="json", exclude_defaults=True, exclude=left_out)
     text = json.dumps(content, sort_keys=True)
+    drill = {} if exercise.drill is None else {"drill": exercise.drill.kind.value}
     return {
         "level": str(exercise.level),
         "views": ",".join(sorted(view.value for view in exercise.shown_views)),
         "assistance": repr(exercise.assistance),
         "content": hashlib.sha256(text.encode()).hexdigest()[:12],
+        **drill,
     }
 
 

@@ -300,11 +300,16 @@ def _build_rig(
         tissues=setup.tissues,
         trust=DepthTrust(profile.hand.depth_speed, seen=robot is None or real is not None),
         start=Start.SIMULATED if robot is None else Start.REAL,
-        beginnings=Beginnings(setup.seed, setup.exercise.level, profile.tilt_limit)
-        if robot is None and setup.skill is None
-        else None,
+        beginnings=_beginnings(setup, profile) if robot is None and setup.skill is None else None,
     )
     return Rig(setup, profile, loop, tracker, trainer, robot)
+
+
+def _beginnings(setup: TrainerSetup, profile: DeviceProfile) -> Beginnings:
+    """Return where attempts of a person's simulated hand begin: off the path, or on it."""
+    drill, level = setup.exercise.drill, setup.exercise.level
+    aligned = drill is not None and drill.begins_aligned
+    return Beginnings(setup.seed, level, profile.tilt_limit, aligned)
 
 
 def _build_source_rig(setup: TrainerSetup, source: NeedleSource) -> Rig:

@@ -9,6 +9,7 @@ from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_
 
 from app.core.configuration import Strict
 from app.core.messages import sentence, sentence_of
+from app.exercises.drill import DrillPart
 from app.exercises.guidance import (
     FadingPart,
     GuidanceMode,
@@ -89,6 +90,7 @@ class Exercise(Strict):
             it is locked.
         touch: targets that the tip of a long tool has to touch one after the other; the hand then
             moves the tool's handle. None for a needle that goes to the plan's target.
+        drill: of which exercise this is a drill, and what it practises; None for a whole one.
         seed: of everything random in the attempt.
     """
 
@@ -123,6 +125,7 @@ class Exercise(Strict):
     locks: tuple[Lock, ...] | None = None
     hand: HandName | None = None
     touch: TouchPart | None = None
+    drill: DrillPart | None = None
     seed: Annotated[int, Field(ge=0)] = 1
     _is_probe: bool = PrivateAttr(default=False)
 

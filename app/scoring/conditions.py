@@ -75,6 +75,7 @@ class Conditions:
         taken_over: what held the needle from some moment on, after the arm; empty where nobody took
             it over.
         computer: how the computer was too slow, and what came of it; empty where it was not.
+        drill: what alone was practised (`exercises.drill.DrillKind`); empty for a whole exercise.
     """
 
     exercise: str
@@ -96,6 +97,7 @@ class Conditions:
     models: tuple[str, ...] = ()
     taken_over: str = ""
     computer: str = ""
+    drill: str = ""
 
     @property
     def by_person(self) -> bool:
@@ -117,6 +119,8 @@ class Conditions:
         document["kind"] = self.kind.value
         document["views"] = None if self.views is None else list(self.views)
         document["models"] = list(self.models)
+        if not self.drill:
+            del document["drill"]
         return document
 
     @classmethod
@@ -145,7 +149,7 @@ class Conditions:
 
 _TEXTS: Final = (
     *("content", "hand", "scripted", "device", "ct", "software", "calibration"),
-    *("taken_over", "computer"),
+    *("taken_over", "computer", "drill"),
 )
 
 

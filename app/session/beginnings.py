@@ -52,12 +52,14 @@ class Beginnings:
         seed: of the run.
         level: of the exercise.
         tilt_limit: of the robot [rad].
+        aligned: whether they lie on the path; else off it.
         begun: attempts so far.
     """
 
     seed: int
     level: int
     tilt_limit: float
+    aligned: bool = False
     begun: int = field(default=0)
 
     def next(self, placed: PlacedPlan) -> SeededStart:
@@ -65,7 +67,7 @@ class Beginnings:
         random = np.random.default_rng([self.seed, _OWN, self.begun])
         self.begun += 1
         hand = int(random.integers(1, 2**32))
-        direction = self._direction(placed.axis, random)
+        direction = placed.axis if self.aligned else self._direction(placed.axis, random)
         return SeededStart(float(direction[0]), float(direction[1]), self.level, hand)
 
     def _direction(self, axis: FloatArray, random: np.random.Generator) -> FloatArray:

@@ -66,7 +66,8 @@ def hand_of(trainee: Mapping[str, str], asked: str = "") -> str:
 
 
 CONDITIONS: Final = "conditions"
-"""Metadata record of what the exercise sets: `level`, `views`, `assistance`, `content`."""
+"""Metadata record of what the exercise sets: `level`, `views`, `assistance`, `content`,
+`drill`."""
 
 AGREEMENT: Final = "agreement"
 """Metadata record of the registration check in force: `radius_mm`, `check` (its id)."""
@@ -119,6 +120,7 @@ def conditions_of(
         models=tuple(sorted({f"{c.effect}: {c.model}" for c in choices_of(events)})),
         taken_over=_taken_over(events),
         computer=computer_of(events),
+        drill=said.get("drill", ""),
     )
 
 

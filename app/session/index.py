@@ -78,7 +78,8 @@ class Indexed:
         total: points; None where it was not scored, is void or was altered after it was signed.
         passed: whether the score passes; None without one.
         verdict: of the signature.
-        counts: whether it counts for a person: scored, by a person, not emulated, and it `stands`.
+        counts: whether it counts for a person: scored, by a person, not emulated, no
+            drill, and it `stands`.
         under: what the score was made under, as text; empty where nothing is known.
         document: the summary as `Summary.document` gives it, as text.
         stands: whether this station vouches for it: verified, admitted by the instructor, or not
@@ -423,6 +424,7 @@ def _rows(
     score, known = summary.score or {}, summary.conditions
     total = None if score.get("total") is None else float(score["total"])
     person = known is not None and known.by_person and known.kind is not DeviceKind.EMULATED
+    person = person and not (known is not None and known.drill)
     return [
         {
             "id": name,

@@ -37,6 +37,7 @@ class ProposalReason(StrEnum):
     VOID = "void"  # nothing was judged: the same once more
     YOURSELF = "yourself"  # a program did it: the same, by hand
     DONE = "done"  # everything is passed: where most is to be gained
+    WHOLE = "whole"  # a drill: the whole exercise after it
     CLOSED = "closed"  # none may be begun, or none can be named yet
 
 
@@ -52,7 +53,7 @@ class Proposal:
         points: what it cost, of 100.
         course: title of the course that it follows; empty without one.
         level: of the proposed exercise.
-        tries: attempts in a row that did not pass.
+        tries: attempts in a row that did not pass; of a drill, those of that day.
     """
 
     exercise: str
@@ -272,12 +273,30 @@ def around(
     )
     seen = not_void((one for one in own if is_open(one)), remarks)
     score = None if held else shown.score
-    if under is not None and not under.by_person:
+    if shown.drill is not None:
+        rounds = sum(one.exercise == done and _same_day(one, shown) for one in own)
+        proposal = _whole(shown.drill.of, exercises, refusal, rounds)
+    elif under is not None and not under.by_person:
         proposal = _yourself(done, exercises, refusal)
     else:
         proposal = propose(done, score, seen, exercises, course, refusal, held)
     found = () if held or under is None else rivals(attempts, shown.id, under, same, is_open)
     return Around(proposal, tuple((one, same(one.student)) for one in found[:MOST_RIVALS]))
+
+
+def _same_day(item: Indexed, shown: Review) -> bool:
+    """Return whether an attempt was made on the day of the one that is shown, and not after it."""
+    return item.started[:10] == shown.started[:10] and item.started <= shown.started
+
+
+def _whole(
+    whole: str, exercises: Sequence[Exercise], refused: Callable[[str], str], rounds: int
+) -> Proposal:
+    """Propose the whole exercise after a drill of it."""
+    item = next((one for one in exercises if one.id == whole), None)
+    if item is None or refused(whole):
+        return Proposal("", "", ProposalReason.CLOSED, tries=rounds)
+    return Proposal(item.id, item.title, ProposalReason.WHOLE, level=item.level, tries=rounds)
 
 
 def _yourself(done: str, exercises: Sequence[Exercise], refused: Callable[[str], str]) -> Proposal:

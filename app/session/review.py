@@ -13,7 +13,8 @@ from app.core.errors import AcusError
 from app.core.events import Event
 from app.core.loading import ONE_AT_A_TIME
 from app.core.messages import sentence
-from app.core.units import DEGREE
+from app.core.units import DEGREE, MILLIMETRE
+from app.exercises.drill import DrillKind, DrillPart
 from app.exercises.scene import scene_of
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import parse_profile
@@ -24,6 +25,7 @@ from app.scoring.result import Score
 from app.scoring.risks import RiskMark
 from app.scoring.score import with_shown
 from app.scoring.tolerance import Bands
+from app.session.along_path import AlongPath
 from app.session.calibration_flag import CalibrationFlags
 from app.session.conditions import EXERCISE_FILE
 from app.session.control_scan import ControlScan
@@ -35,6 +37,8 @@ from app.session.needle import FROM_CAMERAS
 from app.session.pad.geometry import PadScale, PathFrame, path_frame
 from app.session.pad.view import rings, touch_rings
 from app.session.people import NOTHING_SAID, Remarks
+from app.session.practising import called_for, exercise_in
+from app.session.reasons import AttemptEvidence, reasons
 from app.session.recording import Recording
 from app.session.result import AttemptResult
 from app.session.risks import risk_marks
@@ -192,6 +196,10 @@ class Review:
         said: what the instructor says of it; no part of the record.
         touches: events that tell of targets to be touched; none where there were none.
         tolerances: of the attempt's exercise, by metric; those left out are the default's.
+        reasons: metric -> sentences that say why it cost points; those left out cost none, or the
+            record does not tell.
+        drill: what it was a drill of; None for a whole exercise.
+        practise: the drill that it calls for; None where it calls for none.
     """
 
     id: str
@@ -225,6 +233,9 @@ class Review:
     said: Remarks = NOTHING_SAID
     touches: tuple[Event, ...] = ()
     tolerances: Mapping[str, Bands] = field(default_factory=dict)
+    reasons: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    drill: DrillPart | None = None
+    practise: DrillKind | None = None
 
     def targets(self, row: int) -> TargetMarks | None:
         """Return the targets that were to be touched as they stood at a sample; None without."""
@@ -281,6 +292,19 @@ def review(recording: Recording) -> Review:
     measured = np.isin(samples.depth_source, FROM_CAMERAS)
     figures = only_measured(curves(samples, placed), measured)
     origin = float(samples.time[0]) if len(samples.time) else 0.0
+    score = None if withheld else _shown(recording, found)
+    tolerances = judged_by(recording, found.standing)[0]
+    past = AttemptEvidence(
+        AlongPath.of(samples, placed),
+        tolerances,
+        gate_mm=rings(tolerances)[0] / MILLIMETRE,
+        unsure_mm=(samples.tip_radius() or 0.0) / MILLIMETRE,
+        origin=origin,
+        met=tissues_met(recording.events) or (),
+        risks=risk_marks(recording.events),
+        scans=tuple(event.time for event in recording.events if event.kind == "scan"),
+    )
+    exercise = exercise_in(recording)
     return Review(
         id=summary.id,
         student=summary.student,
@@ -292,7 +316,7 @@ def review(recording: Recording) -> Review:
         scans=summary.scans,
         software=summary.software,
         problems=() if withheld == BEING_RECORDED else summary.problems,
-        score=None if withheld else _shown(recording, found),
+        score=score,
         conditions=summary.conditions,
         curves=figures,
         spans=spans(figures.time, samples.state),
@@ -310,8 +334,11 @@ def review(recording: Recording) -> Review:
         met=tissues_met(recording.events),
         correction=correction(samples, measured, side_force(recording)),
         touches=tuple(event for event in recording.events if event.kind in (TASK, KIND)),
-        tolerances=judged_by(recording, found.standing)[0],
+        tolerances=tolerances,
         motion=motion(samples, placed, needle_length(recording)) if len(samples.time) else None,
+        reasons={row.name: reasons(row.name, past) for _, row in score.losses} if score else {},
+        drill=None if exercise is None else exercise.drill,
+        practise=called_for(score, past, exercise),
     )
 
 

@@ -481,9 +481,18 @@ class Trainer:
             reason = self._stood_still(now) or self._observe(now)
             if reason:
                 self.abort(reason)
+            elif self._drill_is_over(now):
+                self._finish(AttemptEvent.END)
             elif self._ticker is None and self._running.log is not None:
                 self._running.log.recorder.drain()
             return self._publish(now)
+
+    def _drill_is_over(self, now: float) -> bool:
+        drill, attempt = self._exercise.drill, self._running.attempt
+        if drill is None or not self._running.counts:
+            return False
+        in_body = attempt.state in (State.INSERTING, State.HOLDING)
+        return drill.is_over(in_body, now - attempt.since, attempt.duration(now))
 
     def _observe(self, now: float) -> str:
         """Pull the latest values and move the attempt; returns why it must be aborted, or nothing.

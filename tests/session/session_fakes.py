@@ -29,6 +29,7 @@ FULCRUM = np.array([0.0, 0.16056, 0.090])
 WALL = datetime(2026, 1, 15, 9, 31, 22, 418000, tzinfo=UTC)
 EXERCISE = SimpleNamespace(
     effects={},
+    drill=None,
     id="liver-01",
     title="Liver, first insertion",
     version=1,
@@ -191,6 +192,7 @@ class Bench:
     folder: Path
     clock: VirtualClock = field(default_factory=lambda: VirtualClock(100.0))
     placed: PlacedPlan = field(default_factory=placed_plan)
+    drill: Any = None
 
     def __post_init__(self) -> None:
         self.loop = FakeLoop(self.clock)
@@ -208,7 +210,7 @@ class Bench:
             self.loop,
             self.tracker,
             self.placed,
-            EXERCISE,
+            SimpleNamespace(**vars(EXERCISE) | {"drill": self.drill}),
             self.context,
             clock=self.clock,
             advance=self.tracker.advance,

@@ -14,6 +14,7 @@ from app.core.errors import NumericalError
 from app.core.events import Event
 from app.core.transform import rotation_between
 from app.device.errors import LoopError
+from app.exercises.drill import DrillKind, DrillPart
 from app.planning.placement import PlacedPlan, Placement
 from app.session.errors import IllegalTransitionError, NotReadyError, SessionError
 from app.session.machine import State
@@ -382,3 +383,27 @@ def test_after_a_fault_of_the_program_the_forces_are_off_and_stay_off(
         bench.trainer.begin("s-1")
     assert bench.loop.inbox.values["enabled"] == 0.0
     bench.trainer.close()
+
+
+@pytest.mark.parametrize(
+    ("kind", "lasts"), [("align", 2.7), ("depth", None), ("breath", None), ("repeat", 9.0)]
+)
+def test_a_drill_ends_by_itself_scored_and_whole_exercises_do_not(
+    tmp_path: Path, kind: str, lasts: float | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The needle is pushed from 20 mm before the skin by 27 mm/s, and stays in the body."""
+    monkeypatch.setattr("app.exercises.drill.ROUND_S", 9.0)
+    bench = Bench(tmp_path, drill=DrillPart(kind=DrillKind(kind), of="liver-01"))
+    bench.run(0.1)
+    bench.trainer.begin("s-7f3a")
+    bench.insertion(0.06)
+    bench.run(5.0, 0.06)
+    result = bench.trainer.result
+    bench.trainer.close()
+    if lasts is None:
+        assert result is None  # until the trainer was closed
+        return
+    assert result is not None
+    assert result.duration == pytest.approx(lasts, abs=1.6)
+    assert result.trajectory is not None
+    assert (kind == "align") == bool(result.trajectory.depth.max() < 0.03)

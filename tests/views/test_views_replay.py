@@ -26,7 +26,7 @@ from app.session.roster import RosterLine
 from app.session.samples import Samples
 from app.session.summary import Summary
 from app.session.timeline import spans
-from app.views.debrief.feature import IDEAL, DebriefFeature
+from app.views.debrief.feature import EXPERT, IDEAL, DebriefFeature
 from app.views.debrief.replay import Ghost
 from app.views.debrief.sessions import SCORE, SORT_ROLE, Listed
 from app.views.kit.access import ACCESS
@@ -116,7 +116,7 @@ def test_it_opens_where_the_needle_ended_in_slices_and_3d_with_plan_and_toleranc
     assert views.viewing.draft.target_mm == pytest.approx(tuple(PLAN.target_mm))
     assert len(views.viewing.tolerances_mm) == 2
     assert all(pane.canvas.plane is not None for pane in views.panes)
-    assert shown.ending.text() == (
+    assert shown.card.ending.text() == (
         "The needle ended 3.9 mm beside the target to the left, and 0.3 mm short of it."
     )
 
@@ -220,6 +220,8 @@ def test_the_ideal_path_stands_beside_the_needle_as_deep_as_it_dotted_with_anoth
 def test_another_attempt_stands_beside_it_at_the_same_time_or_at_the_same_depth(shown, settle):
     volume = shown.views.viewing.volume
     other = attempted(volume, side=0.001, seconds=10.0)
+    settle(lambda: shown._ghost is not None, timeout=3.0)  # the expert, whom nobody chose
+    shown.bar.by.setCurrentIndex(0)
     shown.show_ghost(Ghost("ghost, 91 points", other))
     assert shown.bar.by.isVisibleTo(shown)
     layer, own = shown.views.ghosts[0], shown.review.motion
@@ -335,15 +337,15 @@ def test_beside_an_attempt_stand_the_ideal_path_and_comparable_ones_by_their_poi
     one, two = attempt("a", 87.4, "ada"), attempt("b", 80.0, "ada")
     other = attempt("c", 99.0, "ben")
     words = ghost_words([(arms, True), (one, True), (two, True), (other, False)], shown.review)
-    assert [key for key, _ in words] == [IDEAL, "z", "a", "b", "c"]
-    assert words[1][1].startswith("the arm (simulation): 100")  # nobody's best
-    assert words[2][1].startswith("own best: 87")
-    assert words[4][1].startswith("ben: 99")
+    assert [key for key, _ in words] == [EXPERT, IDEAL, "z", "a", "b", "c"]
+    assert words[2][1].startswith("the arm (simulation): 100")  # nobody's best
+    assert words[3][1].startswith("own best: 87")
+    assert words[5][1].startswith("ben: 99")
     shown.offer_ghosts(words)
-    assert shown.bar.ghost.count() == 6
+    assert shown.bar.ghost.count() == 7
     got = []
     shown.ghost_wanted.connect(got.append)
-    shown.bar.ghost.setCurrentIndex(1)
+    shown.bar.ghost.setCurrentIndex(shown.bar.ghost.findData(IDEAL))
     assert got == [IDEAL]
     assert shown.curves._ghost[0] is None
     assert window.feature(DebriefFeature).page._ghost.title == "ideal"
@@ -426,10 +428,10 @@ def test_whoever_signs_in_sees_of_the_attempt_on_the_page_what_he_may(
     People().remark(mine.id, comment="well held", void="the cable was loose")
     feature._controller.look_again()
     assert settle(lambda: "well held" in page.comment.text())
-    assert "the cable was loose" in page._reason.text()
-    assert "Void" in page._verdict.text()
+    assert "the cable was loose" in page.card.reason.text()
+    assert "Void" in page.card.verdict.text()
     page.remarks.count.trigger()
-    assert settle(lambda: "cable" not in page._reason.text())
+    assert settle(lambda: "cable" not in page.card.reason.text())
     ACCESS.sign_in(assessed)
     assert settle(lambda: page.review is None)
     assert "Autumn" in page.held.text()

@@ -11,6 +11,7 @@ from views_exercise_attempts import placed_plan, review, score
 
 from app.core.disclaimer import DISCLAIMER
 from app.core.events import Event
+from app.exercises.drill import DrillKind, DrillPart
 from app.scoring.conditions import Conditions
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.risks import RiskMark
@@ -21,12 +22,12 @@ from app.session.recording import Inputs, Recording
 from app.session.review import Correction, Span, TimeMark, marks, only_measured, spans
 from app.session.review import review as review_of
 from app.session.samples import Samples
+from app.views.debrief.card import costs, drill_title
 from app.views.debrief.curves import CurvesView, curves_of, peaks, value_range
 from app.views.debrief.page import DebriefPage, date_text
 from app.views.debrief.report import polylines, report_bytes, ticks, write_report
 from app.views.debrief.score_words import (
     facts_of,
-    lessons,
     number,
     points_words,
     row_texts,
@@ -105,9 +106,9 @@ def test_a_void_attempt_is_not_judged_and_what_can_be_done_is_said(page):
     page.show_review(shown)
     assert not any("expert" in text or "/" in text for k in (2, 3) for text in column(page, k))
     assert column(page, 1)[0] == "2.40 mm"
-    assert page._total.text() == "not scored"
-    assert page._reason.text().startswith("The attempt was aborted: student. It does not count")
-    assert "try again" in page._reason.text()
+    assert page.card.total.text() == "not scored"
+    assert page.card.reason.text().startswith("The attempt was aborted: student. It does not count")
+    assert "try again" in page.card.reason.text()
     lost = score().recomputed(rules=score().rules.model_copy(update={"minimum_tracking": 99.0}))
     assert "both cameras see the marker" in verdict(review(score=lost))[2]
 
@@ -476,18 +477,56 @@ def test_curves_cannot_be_zoomed_or_moved_to_nonsense_and_all_is_shown_again(qt)
         assert low <= 0.0 < end <= high
 
 
-def test_what_cost_points_is_said_with_the_attempts_own_numbers(page):
+def test_what_cost_points_is_said_with_the_attempts_own_numbers_and_its_reasons(page):
     shown = replace(review(), correction=Correction(0.06, np.radians(3.0), 0.02, 0.08))
-    said = lessons(shown)
-    assert 1 <= len(said) <= 3
-    lost = [row for row in shown.score.rows if row.weight and row.utility < 0.95]
-    assert any(row.label in said[0] for row in lost)
-    assert "or less costs none" in said[0]
+    worst = shown.score.losses[0][1]
+    shown = replace(shown, reasons={worst.name: ("You left the line.", "It was askew.")})
+    first, *more = costs(shown)
+    assert len(more) <= 1
+    assert worst.label in first.loss
+    assert "or less costs none" in first.loss
+    assert first.reasons[:2] == ("You left the line.", "It was askew.")
     turned = "You turned the needle by 3.0° at 60 mm depth. The same turn at 20 mm takes 8 % of"
-    assert turned in " ".join(said)
+    told = [text for cost in (first, *more) for text in cost.reasons]
+    assert sum(text.startswith(turned) for text in told) == 1  # and no reason twice
     page.show_review(shown)
-    assert page.lessons.text() == "\n".join(said)
-    assert not page.lessons.isHidden()
+    lines = page.card.words.splitlines()
+    assert first.loss in lines
+    assert "•  You left the line." in lines
+
+
+def test_the_card_offers_the_drill_and_begins_exactly_that(page):
+    page.show_review(review())
+    assert not page.card.drill.isVisibleTo(page)
+    asked = []
+    page.drill_wanted.connect(asked.append)
+    for kind in DrillKind:
+        page.offer_drill(kind)
+        assert page.card.drill.isVisibleTo(page)
+        assert drill_title(kind) in page.card.drill.text()
+        assert "no course" in page.card.drill.accessibleDescription()
+        page.card.drill.click()
+    assert asked == list(DrillKind)
+    page.offer_drill(DrillKind.REPEAT, rounds=3)
+    assert "Round 3 of 10 is done" in page.card.practise.text()
+    page.offer_drill(None)
+    assert not page.card.drill.isVisibleTo(page)
+
+
+def test_the_metrics_are_folded_until_somebody_wants_them(page):
+    page.show_review(review())
+    assert not page.table.isVisibleTo(page)
+    page.fold.click()
+    assert page.table.isVisibleTo(page)
+    page.show_review(review())
+    assert page.table.isVisibleTo(page)
+
+
+def test_a_drill_is_named_and_neither_passed_nor_failed(page):
+    shown = replace(review(), drill=DrillPart(kind="depth", of="liver-01"))
+    page.show_review(shown)
+    assert page._title.text().startswith("Drill, depth only: ")
+    assert "ass" not in page.card.verdict.text()
 
 
 def test_points_of_100_that_are_told_are_those_that_are_missing():
@@ -497,11 +536,13 @@ def test_points_of_100_that_are_told_are_those_that_are_missing():
 
 
 def test_who_lost_nothing_is_told_so_and_who_was_not_judged_nothing(page):
-    assert lessons(review(score=all_expert(score()))) == ("Nothing cost points.",)
-    assert lessons(review(score=score(void=True))) == ()
-    assert lessons(review(score=None)) == ()
+    assert costs(review(score=all_expert(score()))) == ()
+    assert costs(review(score=score(void=True))) == ()
+    assert costs(review(score=None)) == ()
+    page.show_review(review(score=all_expert(score())))
+    assert page.card.words == "Nothing cost points."
     page.show_review(review(score=None))
-    assert page.lessons.isHidden()
+    assert page.card.words == ""
 
 
 def all_expert(judged):

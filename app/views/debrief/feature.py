@@ -26,12 +26,15 @@ from app.core.files import write_atomically
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.exchange.csv_export import score_table, trajectory_table, write_csv
+from app.exercises.drill import ROUNDS, DrillKind
+from app.exercises.practice import drilled
 from app.exercises.schema import Exercise
 from app.imaging.volume import Volume
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
 from app.session.control_scan import ControlScan
 from app.session.errors import SessionError
+from app.session.expert_beside import expert_beside
 from app.session.interrupted import interrupted
 from app.session.motion import ShownMotion, show_expert
 from app.session.next_exercise import Around, around, held_by
@@ -134,6 +137,9 @@ class DebriefController(QObject):
         if key == IDEAL:
             self._page.show_ghost(Ghost(tr("ideal")))
             return
+        if key == EXPERT:
+            self._show_expert(own, asked)
+            return
 
         def take(other: Review) -> None:
             if asked == self._asked_ghost and self._page.review is own:
@@ -147,6 +153,53 @@ class DebriefController(QObject):
             title=tr("Reading the other attempt"),
             indicator=self._indicator,
         )
+
+    def _show_expert(self, own: Review, asked: int) -> None:
+        """Let the expert's way along the same plan stand beside the attempt."""
+
+        def take(expert: Review | None) -> None:
+            if expert is not None and asked == self._asked_ghost and self._page.review is own:
+                self._page.show_ghost(Ghost(tr("expert"), expert))
+
+        run_in_background(self, lambda _: expert_beside(own), take, self._fail)
+
+    # --- drills -----------------------------------------------------------------------------------
+    def wanted_drill(self, rounds: int = 0) -> DrillKind | None:
+        """Return the drill that the attempt which is shown calls for; None where none may be begun.
+
+        Args:
+            rounds: of a drill that is repeated, how many are done today.
+        """
+        shown = self._shown
+        if shown is None or shown is not self._page.review or self._whole() is None:
+            return None
+        if shown.drill is None:
+            return shown.practise
+        is_over = shown.score is not None and shown.score.passed
+        if shown.drill.kind is DrillKind.REPEAT:
+            is_over = rounds >= ROUNDS
+        return None if is_over else shown.drill.kind
+
+    def drill(self, kind: DrillKind) -> Exercise | None:
+        """Return the exercise of the attempt as a drill on its plan; None where that cannot be."""
+        shown, whole = self._shown, self._whole()
+        return None if shown is None or whole is None else drilled(whole, kind, shown.placed)
+
+    def _whole(self) -> Exercise | None:
+        """Return the exercise that was attempted, as it is today; None where it is another."""
+        shown = self._shown
+        under = None if shown is None else shown.conditions
+        if shown is None or under is None or ACCESS.refusal(self.whole):
+            return None
+        version = under.version if shown.drill is None else shown.drill.version
+        there = (one for one in self._exercises() if one.id == self.whole)
+        return next((one for one in there if one.version == version), None)
+
+    @property
+    def whole(self) -> str:
+        """Return the exercise that was attempted, or that a drill is of; empty without one."""
+        drill = None if self._shown is None else self._shown.drill
+        return self.exercise if drill is None else drill.of
 
     def save_report(self, shown: Review) -> None:
         """Ask where, and write the report."""
@@ -279,7 +332,9 @@ class DebriefController(QObject):
                 return  # another attempt by now
             self._page.show_proposal(result.proposal)
             if not held:
-                self._page.offer_ghosts(ghost_words(result.rivals, shown))
+                rounds = result.proposal.tries if shown.drill is not None else 0
+                self._page.offer_drill(self.wanted_drill(rounds), rounds)
+                self._page.offer_ghosts(ghost_words(result.rivals, shown), EXPERT)
 
         run_in_background(self, look, take, self._fail)
 
@@ -341,6 +396,9 @@ def ask_path_in_dialog(parent: QWidget, title: str, start: str, kind: str) -> st
     return QFileDialog.getSaveFileName(parent, title, start, kind)[0]
 
 
+EXPERT: Final = "expert"
+"""Key of the expert's way; it stands beside an attempt until somebody chooses otherwise."""
+
 IDEAL: Final = "ideal"
 """Key of the ideal path among what may stand beside an attempt."""
 
@@ -348,6 +406,8 @@ IDEAL: Final = "ideal"
 def ghost_words(result: Sequence[tuple[Indexed, bool]], shown: Review) -> list[tuple[object, str]]:
     """Name what may stand beside an attempt: the ideal path, the own best, the others."""
     choices: list[tuple[object, str]] = []
+    if shown.motion is not None and not shown.touches:
+        choices.append((EXPERT, tr("the expert, along your plan")))
     if shown.motion is not None:
         choices.append((IDEAL, tr("the ideal path")))
     best = True
@@ -677,11 +737,16 @@ class Interruptions(QObject):
         box.open()
 
 
+UNFOLDED: Final = "debrief/metrics"
+"""Setting: whether the table of metrics is unfolded."""
+
+
 class DebriefFeature(Feature):
     """Two pages: shown when an attempt ends, and from the menu.
 
     Signals:
         begin_wanted(str): begin this exercise: again, or as proposed.
+        drill_wanted(Exercise): begin this drill.
 
     Attributes:
         page: the debrief.
@@ -695,6 +760,7 @@ class DebriefFeature(Feature):
     place: ClassVar[int] = 170
     roles: ClassVar[frozenset[Role]] = EVERYBODY
     begin_wanted = Signal(str)
+    drill_wanted = Signal(object)
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
@@ -729,7 +795,12 @@ class DebriefFeature(Feature):
         ACCESS.changed.connect(self._controller.follow_access)
         self.page.retry_requested.connect(self.begin_again)
         self.page.next_requested.connect(self.begin_wanted)
+        self.page.drill_wanted.connect(self.begin_drill)
         self.page.sessions_requested.connect(self._show_list)
+        self.page.fold.setChecked(str(shell.settings.value(UNFOLDED, "")) == "true")
+        self.page.fold.toggled.connect(
+            lambda on: shell.settings.setValue(UNFOLDED, "true" if on else "false")
+        )
         self._back: Callable[[], object] = context.leave_page
         self.sessions.closed.connect(self._leave_list)
         context.conductor.controller.finished.connect(self.show_result)
@@ -769,12 +840,26 @@ class DebriefFeature(Feature):
 
     def begin_again(self) -> None:
         """Begin the exercise of the attempt once more; one that is not kept is still prepared."""
+        shown = self.page.review
+        if shown is not None and shown.drill is not None:
+            self.begin_drill(shown.drill.kind)
+            return
         taken, wanted = self.context.conductor.exercise, self._controller.exercise
         kept = {one.id for one in self.context.services.exercises()}
         if not wanted or (wanted not in kept and taken is not None and taken.id == wanted):
             self.context.shell.show_workspace()
         else:
             self.begin_wanted.emit(wanted)
+
+    def begin_drill(self, kind: DrillKind) -> None:
+        """Begin a drill of the exercise that was attempted, on the same plan."""
+        drill = self._controller.drill(kind)
+        if drill is None:
+            self.failed.emit(
+                tr("This exercise is no more what it was: begin it from the start page.")
+            )
+        else:
+            self.drill_wanted.emit(drill)
 
     def choose_demonstration(self) -> None:
         """Let the attempt that the debrief shows be the demonstration of its exercise."""

@@ -16,19 +16,23 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QHeaderView,
     QPushButton,
+    QScrollArea,
     QSplitter,
     QTableWidget,
     QTableWidgetItem,
+    QToolButton,
     QVBoxLayout,
     QWidget,
 )
 
+from app.exercises.drill import DrillKind
 from app.imaging.scan_order import Seen
 from app.scoring.result import Score
 from app.session.control_scan import TEACHING_ESTIMATE, ControlScan
 from app.session.motion import Alignment
 from app.session.next_exercise import Proposal, ProposalReason
 from app.session.review import Review
+from app.views.debrief.card import DebriefCard, drill_title
 from app.views.debrief.curves import CurvesView
 from app.views.debrief.published import PublishedOdds
 from app.views.debrief.remarks import RemarkActions, said_words
@@ -43,17 +47,13 @@ from app.views.debrief.replay import (
 )
 from app.views.debrief.score_words import (
     counting,
-    ending_words,
     facts_of,
-    lessons,
     met_lines,
     proposal_words,
     risk_lines,
     row_texts,
     short_words,
     shown_only,
-    total_text,
-    verdict,
     whose_words,
 )
 from app.views.exercise.readouts import clock_text
@@ -229,6 +229,13 @@ _AGAIN_LONGEST: Final = 34
 """Characters of a title on a button."""
 
 
+_FOLD_STYLE: Final = (
+    "QToolButton, QToolButton:checked { background: transparent; color: palette(window-text);"
+    " border: 1px solid transparent; padding: 4px 8px; }"
+    "QToolButton:focus { border: 1px solid palette(highlight); }"
+)
+
+
 class DebriefPage(QWidget):
     """Shows one attempt and replays it; what its buttons do is up to whoever listens.
 
@@ -239,6 +246,7 @@ class DebriefPage(QWidget):
         sessions_requested().
         said(): the instructor said something of the attempt.
         ghost_wanted(object): the key of another attempt that is to stand beside this one.
+        drill_wanted(object): begin this `DrillKind`.
 
     Attributes:
         replayer: the clock of the replay.
@@ -253,6 +261,7 @@ class DebriefPage(QWidget):
     sessions_requested = Signal()
     said = Signal()
     ghost_wanted = Signal(object)
+    drill_wanted = Signal(object)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -267,18 +276,10 @@ class DebriefPage(QWidget):
             PlainLabel(self),
         )
         self.whose = PlainLabel(self)
-        self._verdict, self._total, self._reason = (
-            PlainLabel(self),
-            PlainLabel(self),
-            PlainLabel(self),
-        )
+        self.card, self.fold = DebriefCard(self), QToolButton(self)
         self._problems, self.risks = PlainLabel(self), PlainLabel(self)
         self.met, self.published = PlainLabel(self), PublishedOdds(self)
-        self.ending, self.lessons, self.proposal = (
-            PlainLabel(self),
-            PlainLabel(self),
-            PlainLabel(self),
-        )
+        self.proposal = PlainLabel(self)
         self.held, self.comment = PlainLabel(self), PlainLabel(self)
         self.table = ScoreTable(self)
         self.details = QPushButton(tr("Details"), self)
@@ -306,7 +307,7 @@ class DebriefPage(QWidget):
         """Show an attempt, standing where its needle ended."""
         self._review, self._ghost, self._waits = review, None, ""
         self._show_held("")
-        self._title.setText(declared(review.exercise))
+        self._title.setText(title_of(review))
         self._facts.setText(facts(review))
         self._show_conditions(review)
         self.show_said(review)
@@ -319,11 +320,7 @@ class DebriefPage(QWidget):
         )
         self.met.setVisible(bool(lines))
         self.published.show_review(review)
-        said = lessons(review)
-        self.lessons.setText("\n".join(said))
-        self.lessons.setVisible(bool(said))
-        self.ending.setText(ending_words(review))
-        self.ending.setVisible(bool(self.ending.text()))
+        self.card.offer(None)
         self.table.show_score(review.score)
         self.scans.show_review(review)
         self.curves.show_review(review)
@@ -386,10 +383,26 @@ class DebriefPage(QWidget):
                 title = title[: _AGAIN_LONGEST - 1].rstrip() + "…"
             self.next.setText(tr("Next: {title}", title=title))
             self.next.setToolTip(literal(words))
+        drills = self.card.kind is not None and not self._passed
         for button, primary in ((self.next, other), (self.retry, not other)):
-            button.setProperty("role", "primary" if primary else "")
+            button.setProperty("role", "primary" if primary and not drills else "")
             button.style().unpolish(button)
             button.style().polish(button)
+
+    def offer_drill(self, kind: DrillKind | None, rounds: int = 0) -> None:
+        """Offer a drill on the card; None offers none.
+
+        Args:
+            kind: which.
+            rounds: how many of it were done today.
+        """
+        self.card.offer(kind, rounds, first=not self._passed)
+        self.show_proposal(self._proposal)
+
+    @property
+    def _passed(self) -> bool:
+        score = None if self._review is None else self._review.score
+        return score is not None and score.passed
 
     def _show_conditions(self, review: Review) -> None:
         """Say what the score was made under in one line, and all of it to whoever points there."""
@@ -404,12 +417,7 @@ class DebriefPage(QWidget):
 
     def _show_words(self, review: Review) -> None:
         """Write the verdict and what belongs to it, without names while they are hidden."""
-        colour, word, reason = verdict(review)
-        self._verdict.setText(word)
-        self._verdict.setStyleSheet(f"color: {colour}; font-size: {theme.TITLE_PX + 6}px;")
-        self._total.setText(total_text(review.score, review.said.void))
-        self._reason.setText(NAMES.without_names(reason))
-        self._reason.setVisible(bool(reason))
+        self.card.show_review(review)
         said = said_words(replace(review.said, void=""), self._waits)
         self.comment.setText(NAMES.without_names("\n".join(said)))
         self.comment.setVisible(bool(said))
@@ -452,10 +460,19 @@ class DebriefPage(QWidget):
         if self._review is not None:
             self._seek(self._review.control_scans[row].time - self._review.origin)
 
-    def offer_ghosts(self, choices: Sequence[tuple[object, str]]) -> None:
-        """Offer what may stand beside the needle: keys with their words."""
-        chosen = self.bar.ghost.currentData()
+    def offer_ghosts(self, choices: Sequence[tuple[object, str]], at_first: object = None) -> None:
+        """Offer what may stand beside the needle: keys with their words.
+
+        Args:
+            choices: what there is.
+            at_first: key of what stands there until somebody chooses; None for nothing.
+        """
+        there = self.bar.ghost.count() > 1  # somebody may have chosen already
+        chosen = self.bar.ghost.currentData() if there else at_first
         self.bar.set_ghosts(list(choices), chosen)
+        if not there and self.bar.ghost.currentData() is not None:
+            self.bar.align_by(Alignment.DEPTH)
+            self.ghost_wanted.emit(self.bar.ghost.currentData())
 
     def show_ghost(self, ghost: Ghost | None) -> None:
         """Let the ideal path, another attempt, or nothing stand beside this one."""
@@ -480,7 +497,6 @@ class DebriefPage(QWidget):
         self._title.setProperty("role", "title")
         for label in (self._facts, self.conditions):
             label.setProperty("role", "dim")
-        self._total.setStyleSheet(f"font-size: {theme.TITLE_PX}px; font-weight: 600;")
         self._problems.setStyleSheet(f"color: {theme.WARNING}; font-size: {theme.SMALL_PX}px;")
         self.proposal.setStyleSheet("font-weight: 600;")
         self.comment.setStyleSheet(
@@ -495,12 +511,9 @@ class DebriefPage(QWidget):
             self._facts,
             self.whose,
             self.conditions,
-            self._reason,
             self._problems,
             self.risks,
             self.met,
-            self.ending,
-            self.lessons,
             self.proposal,
             self.held,
             self.comment,
@@ -530,27 +543,19 @@ class DebriefPage(QWidget):
         left = QWidget(self)
         column = QVBoxLayout(left)
         column.setContentsMargins(0, 0, theme.SPACING, 0)
-        headline = QHBoxLayout()
-        headline.addWidget(self._verdict)
-        headline.addWidget(self._total, 1, Qt.AlignmentFlag.AlignRight)
+        column.setSpacing(8)
         column.addWidget(self.whose)
-        column.addLayout(headline)
-        column.addWidget(self.conditions)
-        for widget in (
-            self._reason,
-            self.comment,
-            self._problems,
-            self.ending,
-            self.lessons,
-            self.proposal,
-        ):
+        column.addWidget(self.card)
+        for widget in (self.comment, self._problems, self.proposal, self.conditions, self.fold):
             column.addWidget(widget)
-        column.addWidget(self.table, 3)
-        column.addWidget(self.details)
-        column.addWidget(self.risks)
-        column.addWidget(self.met)
-        column.addWidget(self.published)
-        column.addWidget(self.scans, 2)
+        column.addWidget(self._folded())
+        column.addWidget(self.scans)
+        column.addStretch(1)
+        scrolled = QScrollArea(self)
+        scrolled.setWidgetResizable(True)
+        scrolled.setFrameShape(QScrollArea.Shape.NoFrame)
+        scrolled.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        scrolled.setWidget(left)
         right = QWidget(self)
         self._inner = QSplitter(Qt.Orientation.Horizontal, right)
         self._inner.addWidget(self.views)
@@ -562,12 +567,32 @@ class DebriefPage(QWidget):
         beside.addWidget(self._inner, 1)
         beside.addWidget(self.bar)
         self._splitter = splitter = QSplitter(Qt.Orientation.Horizontal, self)
-        splitter.addWidget(left)
+        splitter.addWidget(scrolled)
         splitter.addWidget(right)
         splitter.setStretchFactor(1, 1)
         splitter.setSizes([_LEFT, 900])
         self._inner.setSizes([_VIEWS, 400])
         return splitter
+
+    def _folded(self) -> QWidget:
+        """Return what the fold shows: the metrics, and what else the needle did."""
+        self._below = below = QWidget(self)
+        column = QVBoxLayout(below)
+        column.setContentsMargins(0, 0, 0, 0)
+        for widget in (self.table, self.details, self.risks, self.met, self.published):
+            column.addWidget(widget)
+        self.fold.setText(tr("All metrics"))
+        self.fold.setToolTip(tr("Every metric with its value, band and points; remembered"))
+        self.fold.setCheckable(True)
+        self.fold.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self.fold.setStyleSheet(_FOLD_STYLE)
+        self.fold.toggled.connect(self._unfold)
+        self._unfold(False)
+        return below
+
+    def _unfold(self, unfolded: bool) -> None:
+        self._below.setVisible(unfolded)
+        self.fold.setArrowType(Qt.ArrowType.DownArrow if unfolded else Qt.ArrowType.RightArrow)
 
     def _foot(self) -> QHBoxLayout:
         buttons = QHBoxLayout()
@@ -592,8 +617,8 @@ class DebriefPage(QWidget):
         self.held.setVisible(bool(words))
         self.held.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._splitter.setVisible(not words)
-        for button in (self.report, self.export):
-            button.setVisible(not words)
+        self.report.setVisible(not words)
+        self.export.setVisible(not words and ACCESS.role is not Role.STUDENT)
 
     def _connect(self) -> None:
         self.report.clicked.connect(lambda: self._emit(self.report_requested))
@@ -604,6 +629,7 @@ class DebriefPage(QWidget):
         self.remarks.changed.connect(self.said)
         self.replayer.moved.connect(self._show_time)
         self.curves.sought.connect(self._seek)
+        self.card.drill_wanted.connect(self.drill_wanted)
         self.scans.cellClicked.connect(lambda row, _: self._seek_scan(row))
         self.bar.laid.connect(self.views.lay_along_path)
         self.bar.aligned.connect(self._align)
@@ -666,6 +692,14 @@ SAME: Final = (
     ProposalReason.YOURSELF,
 )
 """Reasons to propose the same exercise once more: the button *Again* does it."""
+
+
+def title_of(review: Review) -> str:
+    """Return the title of an attempt's exercise, and of which drill it was."""
+    title = declared(review.exercise)
+    if review.drill is None:
+        return title
+    return tr("Drill, {drill}: {title}", drill=drill_title(review.drill.kind), title=title)
 
 
 def facts(review: Review) -> str:

@@ -234,6 +234,10 @@ class ReplayBar(QWidget):
         """Let one choose by what a ghost is aligned; the ideal path has no time of its own."""
         self.by.setVisible(possible)
 
+    def align_by(self, alignment: Alignment) -> None:
+        """Choose by what a ghost is aligned."""
+        self.by.setCurrentIndex(self.by.findData(alignment.value))
+
     # --- inside -----------------------------------------------------------------------------------
     def _prepare(self) -> None:
         for speed in SPEEDS:

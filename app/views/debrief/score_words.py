@@ -2,7 +2,6 @@
 under.
 """
 
-import math
 from dataclasses import dataclass, replace
 
 from app.core.messages import joined
@@ -335,63 +334,6 @@ def ending_words(review: Review) -> str:
 LEAST_ASIDE_MM = 0.3
 """Less than this towards a side is not told [mm]: a camera knows no better."""
 
-STEERED = frozenset({"lateral_error", "angle_error", "path_ratio", "tip_error"})
-"""Metrics that a turn in the depth spoils."""
-
-MOST_LESSONS = 2
-"""So many metrics are told of: who reads more remembers none."""
-
-
-def lessons(review: Review) -> tuple[str, ...]:
-    """Say in two or three sentences what cost points, and what would have cost less.
-
-    Every number is the attempt's own; empty where nothing was judged.
-    """
-    score = review.score
-    if score is None or score.total is None:
-        return ()
-    lost = score.losses
-    said = [_loss(points, row) for points, row in lost[:MOST_LESSONS]]
-    if (share := min((row.gate for row in score.rows if row.weight > 0.0), default=1.0)) < 1.0:
-        words = tr(
-            "The target was missed: all else counts only {share:.0f} %.", share=_less(100.0 * share)
-        )
-        said.insert(1, words)
-    turn = review.correction
-    if turn is not None and any(row.name in STEERED for _, row in lost):
-        words = tr(
-            "You turned the needle by {angle:.1f}° at {depth:.0f} mm depth.",
-            angle=math.degrees(turn.angle),
-            depth=turn.depth / MILLIMETRE,
-        )
-        if turn.share is not None:
-            words += " " + tr(
-                "The same turn at {earlier:.0f} mm takes {share:.0f} % of the side force.",
-                earlier=turn.earlier / MILLIMETRE,
-                share=100.0 * turn.share,
-            )
-        said.append(words)
-    return tuple(said) or (tr("Nothing cost points."),)
-
-
-def _loss(points: float, row: Row) -> str:
-    expert = row.tolerance.knots[0] if row.tolerance else 0.0
-    more = row.tolerance is not None and row.tolerance.knots[0] > row.tolerance.knots[2]
-    values = {
-        "label": metric_title(row),
-        "value": "–" if row.value is None else with_unit(row.value, row.unit),
-        "points": points_words(points),
-        "expert": with_unit(expert, row.unit),
-    }
-    if more:
-        return tr("{label}: {value} cost {points}; {expert} or more costs none.", **values)
-    return tr("{label}: {value} cost {points}; {expert} or less costs none.", **values)
-
-
-def _less(percent: float) -> float:
-    """Return a share below 100 % [%] as it is shown: what costs something is not told as all."""
-    return min(percent, 99.0)
-
 
 def points_words(points: float) -> str:
     """Say so many points."""
@@ -431,6 +373,9 @@ def proposal_words(proposal: Proposal) -> str:
         )
         + cost,
         ProposalReason.YOURSELF: tr("Now you: {title}.", title=declared(proposal.title)),
+        ProposalReason.WHOLE: tr(
+            "Then the whole exercise: {title}.", title=declared(proposal.title)
+        ),
         ProposalReason.VOID: tr("The same again: this attempt has no points."),
         ProposalReason.DONE: tr("All exercises that are open to you are passed.") + cost,
         ProposalReason.CLOSED: "",
@@ -479,7 +424,7 @@ def verdict(review: Review) -> tuple[str, str, str]:
         why = _ended(begun(score.void_reason))
         return theme.WARNING, tr("▲ Void"), f"{why} {remedy(score, review.conditions)}"
     if score.passed:
-        return theme.GOOD, tr("✔ Passed"), ""
+        return theme.GOOD, tr("✔ Passed") if review.drill is None else tr("✔ Reached"), ""
     failures = ", ".join(metric_title(row) for row in score.failures)
     if score.hard_fails:
         reason = begun(joined("; ", score.hard_fails))
@@ -487,7 +432,8 @@ def verdict(review: Review) -> tuple[str, str, str]:
         reason = tr("Required and not met: {names}", names=failures)
     else:
         reason = tr("{mark:g} points are needed", mark=score.rules.pass_mark)
-    return theme.BAD, tr("✖ Not passed"), reason
+    word = tr("✖ Not passed") if review.drill is None else tr("✖ Not reached yet")
+    return theme.BAD, word, reason
 
 
 def remedy(score: Score, conditions: Conditions | None = None) -> str:

@@ -266,6 +266,8 @@ def exercise_text(summary: Summary) -> str:
     """Title of the exercise, with its version from the second one on."""
     title = declared(summary.exercise_title) or summary.exercise_id
     known = summary.conditions
+    if known is not None and known.drill:
+        return tr("Drill: {title}", title=title)
     if known is None or known.version < 2:
         return title
     return tr("{title} (version {n})", title=title, n=known.version)

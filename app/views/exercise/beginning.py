@@ -194,6 +194,17 @@ class Beginning(QObject):
         self.exercise, self._was_working = exercise, True
         self.begin()
 
+    def practise(self, drill: Exercise) -> None:
+        """Begin a drill of an exercise that was attempted, at once: its patient and plan stay."""
+        if self._conductor.controller.is_running:
+            self._shell.messages.show_error(
+                tr("An attempt is running: end it before another exercise is begun")
+            )
+            return
+        self._end_wish()
+        self.exercise, self._was_working = drill, True
+        self.begin()
+
     def trust(self, identifier: str) -> None:
         """Let an exercise be begun without its briefing: somebody else has told what it says."""
         exercise = self._exercises().get(identifier)
@@ -519,7 +530,9 @@ def attempts_left(
 
 
 def _key(exercise: Exercise) -> tuple[str, int]:
-    return exercise.id, exercise.version
+    """Name what a briefing is of: of a drill it is the whole exercise, which was briefed."""
+    drill = exercise.drill
+    return (exercise.id, exercise.version) if drill is None else (drill.of, drill.version)
 
 
 def _skip(exercise: Exercise) -> str:

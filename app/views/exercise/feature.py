@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
+import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QSplitter
 
@@ -11,14 +12,16 @@ from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.exercises.guidance import StartingDial, starting_dial
 from app.exercises.parts import OwnPlan
+from app.exercises.scene import draft_of
 from app.exercises.schema import Exercise
+from app.planning.draft import DraftPlan
 from app.planning.patient import Patient
 from app.views.exercise.beginning import Beginning
 from app.views.kit.access import ACCESS
 from app.views.kit.background import run_in_background
 from app.views.kit.question import ask
 from app.views.kit.roles import EVERYBODY, TECHNICIANS, Role
-from app.views.kit.text import declared, tr
+from app.views.kit.text import declared, tr, translated
 from app.views.shell.feature import Context, Feature
 
 
@@ -138,7 +141,8 @@ class ExerciseFeature(Feature):
         found = {exercise.id: declared(exercise.title) for exercise in self.exercises.values()}
         taken = self._conductor.exercise
         if taken is not None and taken.id not in found:
-            found[taken.id] = tr("{title} (not kept)", title=declared(taken.title))
+            words = tr("{title} (not kept)") if taken.drill is None else tr("Drill: {title}")
+            found[taken.id] = words.format(title=declared(taken.title))
         return list(found.items())
 
     def begin(self, identifier: str) -> None:
@@ -187,6 +191,10 @@ class ExerciseFeature(Feature):
         """Take an exercise on the patient who is shown; the plan of the same one may stay."""
         taken, plan = self._conductor.exercise, self._editor
         own = isinstance(exercise.plan, OwnPlan)
+        if exercise.drill is not None and _same_points(plan.edit.draft, draft_of(exercise)):
+            self._take_here(exercise)  # nothing is lost: its plan is the one that is shown
+            self.noted.emit(translated(exercise.description))
+            return
         again = taken is not None and taken.id == exercise.id and plan.edit.draft.complete
         if not (again and (own or plan.dirty)):
             if self._shell.may_go():
@@ -255,3 +263,9 @@ class ExerciseFeature(Feature):
             self._shell.messages.show_error(error)
             return False
         return True
+
+
+def _same_points(plan: DraftPlan, other: DraftPlan) -> bool:
+    """Return whether two plans have the same entry and target, both whole."""
+    pairs = ((plan.entry_mm, other.entry_mm), (plan.target_mm, other.target_mm))
+    return all(a is not None and b is not None and np.allclose(a, b) for a, b in pairs)

@@ -439,9 +439,9 @@ class MainWindow(QMainWindow):
             self.context.shell.owned.keep(start.own)
         self._take_name(str(self.settings.value("student/name", "")))
         ACCESS.changed.connect(self._follow_role)
-        self.feature(DebriefFeature).begin_wanted.connect(
-            self.feature(ExerciseFeature).beginning.go_on
-        )
+        debrief_feature = self.feature(DebriefFeature)
+        debrief_feature.begin_wanted.connect(exercises.beginning.go_on)
+        debrief_feature.drill_wanted.connect(exercises.beginning.practise)
 
     def _connect_people(self) -> None:
         """Let the board lead to the attempts of a student, and back."""
