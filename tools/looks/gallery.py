@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import sys
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, field
@@ -9,8 +11,8 @@ from fnmatch import fnmatch
 from pathlib import Path
 from typing import Any, Final
 
-from PySide6.QtCore import QSize
-from PySide6.QtWidgets import QApplication, QDialog, QWidget
+from PySide6.QtCore import QSize, QTimer
+from PySide6.QtWidgets import QApplication, QDialog, QMessageBox, QWidget
 
 from app.views.kit.roles import Role
 from tools.looks import rules
@@ -100,6 +102,17 @@ class Gallery(Studio):
         super().__init__(folder, sessions, None)
         self.window.resize(size_of(SIZES[0]))
         self.window.activateWindow()
+        self.window.open_ct.may_replace = lambda: True
+        self._guard = QTimer(interval=3000)
+        self._guard.timeout.connect(self._answer)
+        self._guard.start()
+
+    def _answer(self) -> None:
+        """Close a question that nobody is there to answer."""
+        asked = QApplication.activeModalWidget()
+        if isinstance(asked, QMessageBox):
+            self.broken.append(f"a question was asked: {asked.text()}")
+            asked.reject()
 
     # --- ways to states -----------------------------------------------------------------------
     def sit_down(self, role: Role) -> None:
@@ -162,11 +175,15 @@ class Gallery(Studio):
         file = f"{wish.language}/{theme}/{size}/{name}.png"
         path = self.folder / file
         path.parent.mkdir(parents=True, exist_ok=True)
-        small_png(shot, path)
+        kept = (wish.language, size, theme) == KEPT
+        if kept:
+            small_png(shot, path)
+        else:
+            shot.save(str(path))
         faults = rules.judged(shown, shot.toImage())
         if shown is self.window and self.window.workspace.room.is_on:
             faults += rules.judged_in_attempt(self.window)
-        if (wish.language, size, theme) == KEPT:
+        if kept:
             faults += rules.judged_by_keys(shown)
         if shown.width() > size_of(size).width() or shown.height() > size_of(size).height():
             words = f"{shown.width()}x{shown.height()}"
@@ -174,6 +191,9 @@ class Gallery(Studio):
         look = Look(name, wish.language, size, theme, file, time.monotonic() - begin)
         look.faults = [asdict(fault) for fault in dict.fromkeys(faults)]
         self.looks.append(look)
+        facts = {"looks": [one.facts() for one in self.looks], "broken": self.broken}
+        (self.folder / f"{wish.language}.json").write_text(json.dumps(facts, indent=1))
+        print(f"{look.seconds:5.1f} s  {file}  {len(faults)}", file=sys.stderr, flush=True)
 
 
 def _dialogs() -> Iterator[QDialog]:

@@ -27,7 +27,7 @@ from app.views.robot.feature import RobotFeature
 from tools import dialog_pictures, reading_pictures
 from tools.debrief_pictures import attempt as scripted_attempt
 from tools.docs_pictures import CHEST
-from tools.looks.gallery import Gallery
+from tools.looks.gallery import PASSES_S, Gallery
 from tools.robot_pictures import pause, wait
 
 FIRST: Final = "first-insertion"
@@ -39,7 +39,7 @@ def start(gallery: Gallery) -> None:
     gallery.sit_down(Role.STUDENT)
     window.show_start()
     facts, count = window.start_facts, page.exercises.count()
-    wait(lambda: facts.pictured >= count)
+    wait(lambda: facts.pictured >= count, PASSES_S)
     gallery.keep("start-first")
     if gallery.wish.wants("start-tour"):
         page.tour.click()
@@ -121,7 +121,9 @@ def scan(gallery: Gallery) -> None:
 def own_plan(gallery: Gallery) -> None:
     """Leave the plan to the student."""
     gallery.sit_down(Role.STUDENT)
-    gallery.begin("plan-it-yourself")
+    gallery.window.begin_exercise("plan-it-yourself")
+    wait(lambda: gallery.window.workspace.isVisible(), PASSES_S)
+    pause(1.0)
     gallery.keep("plan-student")
 
 
