@@ -52,6 +52,7 @@ class FiducialTable(QTableWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self.setTabKeyNavigation(False)
         titles = [
             tr("Fiducial"),
             tr("Tip: x  y  z [mm]"),

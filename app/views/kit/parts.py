@@ -97,6 +97,7 @@ def thin_bar() -> QProgressBar:
 def table(titles: tuple[str, ...], selectable: bool = False) -> QTableWidget:
     """Return a table to read; `selectable` lets whole rows be chosen, one at a time."""
     made = QTableWidget(0, len(titles))
+    made.setTabKeyNavigation(False)  # Tab leads on; the arrows lead from cell to cell
     made.setHorizontalHeaderLabels(titles)
     made.verticalHeader().setVisible(False)
     made.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)

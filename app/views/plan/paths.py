@@ -173,6 +173,7 @@ class PathsPanel(QWidget):
 
 def _table() -> QTableWidget:
     table = QTableWidget(0, 4)
+    table.setTabKeyNavigation(False)
     table.setHorizontalHeaderLabels(
         [tr("Score"), tr("Length\n[mm]"), tr("Angle\n[°]"), tr("Nearest\n[mm]")]
     )

@@ -186,6 +186,7 @@ def _sentences() -> tuple[str, ...]:
 
 def _table() -> QTableWidget:
     table = QTableWidget(0, 3)
+    table.setTabKeyNavigation(False)
     table.setHorizontalHeaderLabels([tr("Library"), tr("Version"), tr("Licence")])
     table.setEditTriggers(QTableWidget.EditTrigger.NoEditTriggers)
     table.setSelectionBehavior(QTableWidget.SelectionBehavior.SelectRows)
