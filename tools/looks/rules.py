@@ -416,7 +416,10 @@ def _rounds(reached: set[QWidget], now: QWidget | None) -> bool:
 
 def _of_group(widget: QWidget) -> bool:
     """Return whether the arrows lead to it from a neighbour: unchecked, in a group of one choice."""
-    return isinstance(widget, QRadioButton) and not widget.isChecked()
+    if not isinstance(widget, QAbstractButton) or widget.isChecked():
+        return False
+    group = widget.group()
+    return isinstance(widget, QRadioButton) or (group is not None and group.exclusive())
 
 
 # --- an attempt -------------------------------------------------------------------------------

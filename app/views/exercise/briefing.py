@@ -252,7 +252,11 @@ class PortraitView(QWidget):
         painter.setPen(QColor(theme.IMAGE_DIM))
         words = self.title if self._portrait is not None else tr("The picture is being made …")
         corner = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
-        painter.drawText(box.adjusted(8, 5, -8, -5), corner, words)
+        room = box.adjusted(8, 5, -8, -5)
+        ground = QColor(theme.IMAGE_BACKGROUND)
+        ground.setAlphaF(0.75)  # bone may lie under the words
+        painter.fillRect(painter.boundingRect(room, corner, words).adjusted(-4, -1, 4, 1), ground)
+        painter.drawText(room, corner, words)
 
 
 # --- page -------------------------------------------------------------------------------------
