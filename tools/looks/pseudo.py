@@ -10,9 +10,9 @@ from PySide6.QtCore import QTranslator
 
 LONGER: Final = 0.4
 _KEPT: Final = re.compile(
-    r"\{[^}]*\}|<[^>]*>|`[^`]*`|&\w+;|%\w|\b(?:Ctrl|Shift|Alt|Esc|F\d+)\b\S*"
+    r"\{[^}]*\}|<[^>]*>|`[^`]*`|&\w+;|%\w|\b(?:Ctrl|Shift|Alt|Esc|Enter|F\d+)\b\S*"
 )
-_WORD: Final = re.compile(r"[^\W\d_]{2,}")
+_WORD: Final = re.compile(r"[^\W\d_]{3,}")
 
 
 def longer(text: str) -> str:

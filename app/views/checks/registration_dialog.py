@@ -60,6 +60,7 @@ class FiducialTable(QTableWidget):
             tr("CT: L  P  S [mm]"),
             tr("Residual [mm]"),
         ]
+        self.setAccessibleName(titles[0])
         self.setColumnCount(len(titles))
         self.setHorizontalHeaderLabels(titles)
         self.verticalHeader().hide()
