@@ -21,7 +21,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Final
 
-from tools.looks.gallery import KEPT, SIZES, THEMES, Gallery, Look, Wish
+from tools.looks.gallery import KEPT, SIZES, THEMES, Gallery, Look, Wish, size_of
 from tools.looks.page import write
 
 ROOT: Final = Path(__file__).resolve().parents[2]
@@ -39,7 +39,7 @@ def take(folder: Path, wish: Wish) -> None:
     from tools.looks.pseudo import Longer
     from tools.looks.states import taken
 
-    application = start(offscreen=True)
+    application = start()
     pseudo = wish.language == "pseudo"
     code = ENGLISH if pseudo else wish.language
     choose(open_settings(), code)
@@ -65,7 +65,7 @@ def beside(folder: Path, wish: Wish) -> tuple[list[Look], list[str]]:
         around = {
             "ACUS_SETTINGS": f"{own}/settings",
             "ACUS_DATA": f"{own}/data",
-            "QT_QPA_PLATFORM": "offscreen",
+            "QT_QPA_PLATFORM": f"offscreen:configfile={screen(Path(own))}",
             "LC_ALL": "C.UTF-8",
         }
         ended = subprocess.run(order, cwd=ROOT, env=os.environ | around, check=False)
@@ -73,6 +73,19 @@ def beside(folder: Path, wish: Wish) -> tuple[list[Look], list[str]]:
         return [], [f"{wish.language}: ended with {ended.returncode}"]
     facts = json.loads(found.read_text(encoding="utf-8"))
     return [Look(**one) for one in facts["looks"]], facts["broken"]
+
+
+def screen(folder: Path) -> Path:
+    """Write for Qt how large the screen in memory is; return the file.
+
+    Qt's own would be 800 by 800, to which dialogs would be cut.
+    """
+    size = size_of(SIZES[0])
+    one = {"name": "looks", "x": 0, "y": 0, "width": size.width(), "height": size.height()}
+    one |= {"logicalDpi": 96, "logicalBaseDpi": 96, "dpr": 1}
+    file = folder / "screen.json"
+    file.write_text(json.dumps({"screens": [one]}), encoding="utf-8")
+    return file
 
 
 def compare(looks: Iterable[Look], folder: Path) -> None:

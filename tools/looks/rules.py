@@ -40,6 +40,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.views.shell.message_bar import MessageBar
 from app.views.shell.tour import TourVeil
 from app.views.shell.window import MainWindow
 from app.views.slices.words import Overlay
@@ -294,7 +295,14 @@ def _overlaps(window: QWidget, seen: list[QWidget]) -> Iterator[Fault]:
             apart = both.width() <= 2 or both.height() <= 2
             if apart or widget.isAncestorOf(other) or other.isAncestorOf(widget):
                 continue
+            if _floats(widget) != _floats(other):  # a notice lies on the page until it is closed
+                continue
             yield Fault("overlap", called(widget), f"lies on {called(other)}")
+
+
+def _floats(widget: QWidget) -> bool:
+    parent = widget.parentWidget()
+    return parent is not None and (isinstance(parent, MessageBar) or _floats(parent))
 
 
 def _ink(window: QWidget, widget: QWidget) -> QRect:
@@ -423,7 +431,7 @@ def _rounds(reached: set[QWidget], now: QWidget | None) -> bool:
 
 
 def _of_group(widget: QWidget) -> bool:
-    """Return whether the arrows lead to it from a neighbour: unchecked, in a group of one choice."""
+    """Return whether the arrows lead to it from a neighbour: unchecked, one choice of many."""
     if not isinstance(widget, QAbstractButton) or widget.isChecked():
         return False
     group = widget.group()

@@ -227,7 +227,7 @@ def robot(gallery: Gallery) -> None:
     gallery.dialog("robot-port", feature.ask_port)
     accuracy = window.feature(AccuracyFeature)
     accuracy.open_page()
-    accuracy.show_study("integrators", here=False)
+    accuracy.show_study("contact", here=False)
     pause(0.5)
     gallery.keep("accuracy")
     if accuracy.page is not None:
