@@ -61,7 +61,8 @@ def add_row(form: QFormLayout, title: str, field: QWidget | QLayout) -> None:
         named.setBuddy(field)
     else:  # a screen reader calls each of several by the row's name
         for place in range(field.count()):
-            part = field.itemAt(place).widget()
+            item = field.itemAt(place)
+            part = None if item is None else item.widget()
             if part is not None and not part.accessibleName() and not isinstance(part, QLabel):
                 part.setAccessibleName(title)
     form.addRow(named, field)
