@@ -154,6 +154,13 @@ class _Scale(QWidget):
         painter.setFont(font)
         box = QRectF(0, 7, self.width(), self.height() - 7)
         flags = Qt.AlignmentFlag.AlignVCenter
-        painter.drawText(box, flags | Qt.AlignmentFlag.AlignLeft, tr("repel"))
-        painter.drawText(box, flags | Qt.AlignmentFlag.AlignHCenter, tr("off"))
-        painter.drawText(box, flags | Qt.AlignmentFlag.AlignRight, tr("guide"))
+        metrics, half_px = painter.fontMetrics(), self.width() // 2 - 2
+        first, last = (
+            metrics.elidedText(word, Qt.TextElideMode.ElideRight, half_px)
+            for word in (tr("repel"), tr("guide"))
+        )
+        painter.drawText(box, flags | Qt.AlignmentFlag.AlignLeft, first)
+        painter.drawText(box, flags | Qt.AlignmentFlag.AlignRight, last)
+        widest = max(metrics.horizontalAdvance(word) for word in (first, last))
+        if metrics.horizontalAdvance(tr("off")) / 2 + widest + 4 <= self.width() / 2:
+            painter.drawText(box, flags | Qt.AlignmentFlag.AlignHCenter, tr("off"))

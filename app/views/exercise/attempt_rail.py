@@ -196,6 +196,7 @@ class RailFigures(QWidget):
         }
         for number, key in enumerate(self.SHOWN):
             title, value = ElidedLabel(names[key], self), PlainLabel("–", self)
+            title.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Preferred)
             row, column = 2 * (number // 2), number % 2
             grid.addWidget(title, row, column)
             grid.addWidget(value, row + 1, column)
