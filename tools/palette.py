@@ -34,7 +34,9 @@ def _palette(pixels: NDArray[np.uint8]) -> Image.Image:
     """Return greys at even steps and the colours that stand for all others."""
     levels = np.linspace(0, 255, GREYS).round().astype(np.uint8)
     found = np.repeat(levels[:, None], 3, axis=1)
-    colours, counts = np.unique(pixels.reshape(-1, 3), axis=0, return_counts=True)
+    packed = pixels.reshape(-1, 3).astype(np.uint32) @ np.array([65536, 256, 1], np.uint32)
+    values, counts = np.unique(packed, return_counts=True)  # of rows it takes ten times as long
+    colours = np.stack([values >> 16, values >> 8 & 255, values & 255], axis=-1).astype(np.uint8)
     spread = colours.max(axis=1).astype(int) - colours.min(axis=1)
     times = np.sqrt(counts).astype(int)  # a mark counts beside large areas
     colours = np.repeat(colours, times, axis=0)[np.repeat(spread >= ALIKE, times)]

@@ -62,6 +62,7 @@ class HardCasesTab(QWidget):
                 tr("Holds"),
             )
         )
+        self.cases.setAccessibleName(tr("Hard cases"))
         head = QHBoxLayout()
         head.addWidget(self.run)
         head.addWidget(self.said, 1)
@@ -118,6 +119,7 @@ class AccuracyPage(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.studies = QListWidget(self)
+        self.studies.setAccessibleName(tr("Cost of accuracy"))
         self.studies.setMinimumWidth(theme.px(240))
         self.studies.setResizeMode(QListWidget.ResizeMode.Adjust)
         self.studies.setWordWrap(True)
@@ -143,6 +145,7 @@ class AccuracyPage(QWidget):
                 tr("Verdict"),
             )
         )
+        self.ways.setAccessibleName(tr("Way"))
         self.hard = HardCasesTab()
         self.tabs = QTabWidget(self)
         back = button(tr("Back"))

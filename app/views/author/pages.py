@@ -802,6 +802,7 @@ class LayersBox(QWidget):
         inner.setContentsMargins(0, 0, 0, 0)
         self.none = label(tr("None is given: the body is of one tissue."), "dim")
         self.table = QTableWidget(0, 1 + len(LAYER_NUMBERS), self)
+        self.table.setTabKeyNavigation(False)
         self.table.setHorizontalHeaderLabels(
             [
                 tr("Layer"),
@@ -1107,6 +1108,7 @@ class ScorePage(Form):
         first = [name for name in USUAL if name in there]
         self.metrics = {name: there[name] for name in dict.fromkeys((*first, *there))}
         self.bands = QTableWidget(len(self.metrics), 7, self)
+        self.bands.setTabKeyNavigation(False)
         heads = [tr("Counts"), tr("expert"), tr("good"), tr("pass"), tr("zero"), tr("weight")]
         heads.append(tr("must"))
         self.bands.setHorizontalHeaderLabels(heads)

@@ -52,6 +52,7 @@ class FiducialTable(QTableWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self.setTabKeyNavigation(False)
         titles = [
             tr("Fiducial"),
             tr("Tip: x  y  z [mm]"),
@@ -59,6 +60,7 @@ class FiducialTable(QTableWidget):
             tr("CT: L  P  S [mm]"),
             tr("Residual [mm]"),
         ]
+        self.setAccessibleName(titles[0])
         self.setColumnCount(len(titles))
         self.setHorizontalHeaderLabels(titles)
         self.verticalHeader().hide()

@@ -81,6 +81,7 @@ class ScanList(QTableWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(0, _COLUMNS, parent)
+        self.setTabKeyNavigation(False)
         self._scans: tuple[ControlScan, ...] = ()
         estimate = tr(TEACHING_ESTIMATE).replace(" ", "\n")
         dosed = tr("mGy·cm\n{estimate}", estimate=estimate)
@@ -156,7 +157,9 @@ class ScoreTable(QTableWidget):
             self.setHorizontalHeaderItem(column, _cell(title, column))
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
-        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.setTabKeyNavigation(False)
+        self.setAccessibleName(tr("Points"))
         self.setShowGrid(False)
         self.verticalHeader().hide()
         self.verticalHeader().setDefaultSectionSize(_ROW_HEIGHT)

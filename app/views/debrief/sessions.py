@@ -49,7 +49,7 @@ from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.background import run_in_background
 from app.views.kit.names import NAMES
-from app.views.kit.parts import PlainLabel
+from app.views.kit.parts import FittingButton, PlainLabel
 from app.views.kit.text import declared, literal, tr, translated
 
 Index = QModelIndex | QPersistentModelIndex
@@ -347,16 +347,18 @@ class SessionsPage(QWidget):
         self.proxy.setFilterKeyColumn(-1)
         self.proxy.setFilterCaseSensitivity(Qt.CaseSensitivity.CaseInsensitive)
         self.table = QTableView(self)
+        self.table.setTabKeyNavigation(False)
+        self.table.setAccessibleName(tr("Sessions"))
         self.search = QLineEdit(self)
         self._count = PlainLabel(self)
-        self.back = QPushButton(tr("Back"), self)
-        self.open_button = QPushButton(tr("Open"), self)
-        self.export = QPushButton(tr("Export CSV"), self)
-        self.delete_button = QPushButton(tr("Delete"), self)
-        self.undo = QPushButton(tr("Undo delete"), self)
-        self.trash = QPushButton(tr("Show deleted"), self)
-        self.bring_back = QPushButton(tr("Bring back"), self)
-        self.recover = QPushButton(tr("Recover"), self)
+        self.back = FittingButton(tr("Back"), self)
+        self.open_button = FittingButton(tr("Open"), self)
+        self.export = FittingButton(tr("Export CSV"), self)
+        self.delete_button = FittingButton(tr("Delete"), self)
+        self.undo = FittingButton(tr("Undo delete"), self)
+        self.trash = FittingButton(tr("Show deleted"), self)
+        self.bring_back = FittingButton(tr("Bring back"), self)
+        self.recover = FittingButton(tr("Recover"), self)
         self.everything = QPushButton(self)
         self._prepare_table()
         self.remarks = RemarkActions(
@@ -597,6 +599,7 @@ class SessionsPage(QWidget):
         header.setSectionResizeMode(NOTE, QHeaderView.ResizeMode.Stretch)
         header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         self.search.setPlaceholderText(tr("Filter by student, exercise, date, state…"))
+        self.search.setAccessibleName(self.search.placeholderText())
         self.search.setClearButtonEnabled(True)
         self.open_button.setProperty("role", "primary")
         self.open_button.setToolTip(tr("Debrief with replay (double click, or Enter)"))
@@ -611,6 +614,7 @@ class SessionsPage(QWidget):
         self.trash.setCheckable(True)
         self.everything.hide()
         self._count.setProperty("role", "dim")
+        self._count.setWordWrap(True)
 
     def _lay_out(self) -> None:
         title = PlainLabel(tr("Sessions"), self)

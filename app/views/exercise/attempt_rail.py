@@ -27,7 +27,8 @@ from app.views.exercise.live import LiveFigures
 from app.views.exercise.readouts import OFFSETS, ForceBar, figure_texts
 from app.views.exercise.steps import BRIEF, ORDER, state_word
 from app.views.kit import theme
-from app.views.kit.parts import PlainLabel
+from app.views.kit.parts import FittingButton, PlainLabel
+from app.views.kit.progress_strip import ElidedLabel
 from app.views.kit.side_panel import scrolled
 from app.views.kit.text import literal, tr
 from app.views.kit.verdict import StatusItem, Verdict
@@ -194,7 +195,8 @@ class RailFigures(QWidget):
             "scans": tr("Scans"),
         }
         for number, key in enumerate(self.SHOWN):
-            title, value = PlainLabel(names[key], self), PlainLabel("–", self)
+            title, value = ElidedLabel(names[key], self), PlainLabel("–", self)
+            title.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Preferred)
             row, column = 2 * (number // 2), number % 2
             grid.addWidget(title, row, column)
             grid.addWidget(value, row + 1, column)
@@ -325,7 +327,7 @@ def _health(item: StatusItem) -> str:
 
 
 def _quiet(words: str) -> QPushButton:
-    button = QPushButton(words)
+    button = FittingButton(words)
     # A button that keeps the focus would swallow the pad's keys.
     button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
     return button

@@ -30,7 +30,7 @@ from app.scoring.tolerance import Tolerance
 from app.views.exercise.offer import BriefingOffer
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
-from app.views.kit.parts import PlainLabel, button, label
+from app.views.kit.parts import FittingButton, PlainLabel, label
 from app.views.kit.text import declared, literal, number, tr
 from app.views.reading.lock_words import view_title
 from app.views.shell.shortcuts import disclaimer_label
@@ -255,7 +255,11 @@ class PortraitView(QWidget):
         painter.setPen(QColor(theme.IMAGE_DIM))
         words = self.title if self._portrait is not None else tr("The picture is being made …")
         corner = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
-        painter.drawText(box.adjusted(8, 5, -8, -5), corner, words)
+        room = box.adjusted(8, 5, -8, -5)
+        ground = QColor(theme.IMAGE_BACKGROUND)
+        ground.setAlphaF(0.75)  # bone may lie under the words
+        painter.fillRect(painter.boundingRect(room, corner, words).adjusted(-4, -1, 4, 1), ground)
+        painter.drawText(room, corner, words)
 
 
 # --- page -------------------------------------------------------------------------------------
@@ -444,7 +448,10 @@ class BriefingPage(QWidget):
 
 
 def _key_button(text: str, role: str = "") -> QPushButton:
-    made = button(text, role)
+    made = FittingButton(text)
+    made.setAutoDefault(False)
+    if role:
+        made.setProperty("role", role)
     made.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
     return made
 

@@ -38,7 +38,7 @@ from app.views.exercise.scan_view import ScanPanel
 from app.views.exercise.steps import Steps
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
-from app.views.kit.parts import PlainLabel, add_row
+from app.views.kit.parts import FittingButton, PlainLabel, add_row
 from app.views.kit.text import literal, tr
 
 
@@ -149,7 +149,7 @@ def _takes() -> str:
 
 
 def _button(text: str, help_text: str) -> QPushButton:
-    button = QPushButton(text)
+    button = FittingButton(text)
     button.setToolTip(literal(help_text))
     # A button that keeps the focus would swallow the pad's keys; Space on it would repeat it.
     button.setFocusPolicy(Qt.FocusPolicy.TabFocus)

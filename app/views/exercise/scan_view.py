@@ -165,7 +165,7 @@ class ScanPanel(QWidget):
         kept.setRetainSizeWhenHidden(True)  # nothing below it jumps
         self.progress.setSizePolicy(kept)
         for widget in (self.table, self.slices):
-            widget.setFocusPolicy(Qt.FocusPolicy.ClickFocus)  # S stays the pedal
+            widget.setFocusPolicy(Qt.FocusPolicy.StrongFocus)  # no wheel by chance
         for button in (self.feet, self.head, self.here):
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.table.valueChanged.connect(lambda _: self._show_order())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QFormLayout,
@@ -12,6 +13,9 @@ from PySide6.QtWidgets import (
     QMessageBox,
     QProgressBar,
     QPushButton,
+    QSizePolicy,
+    QStyle,
+    QStyleOptionButton,
     QTableWidget,
     QVBoxLayout,
     QWidget,
@@ -55,6 +59,12 @@ def add_row(form: QFormLayout, title: str, field: QWidget | QLayout) -> None:
     named = PlainLabel(title)
     if isinstance(field, QWidget):
         named.setBuddy(field)
+    else:  # a screen reader calls each of several by the row's name
+        for place in range(field.count()):
+            item = field.itemAt(place)
+            part = None if item is None else item.widget()
+            if part is not None and not part.accessibleName() and not isinstance(part, QLabel):
+                part.setAccessibleName(title)
     form.addRow(named, field)
 
 
@@ -75,6 +85,63 @@ def button(text: str, role: str = "") -> QPushButton:
         made.setProperty("role", role)
     return made
 
+
+class FittingButton(QPushButton):
+    """A button that never asks for more width than there is.
+
+    Where the text does not fit, the key in brackets at its end goes first, then letters; a tip has
+    all of it unless the button has another.
+    """
+
+    def __init__(self, text: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._whole = ""
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+        self.setText(text)
+
+    def setText(self, text: str) -> None:
+        """Show as much of a text as there is room for."""
+        self._whole = text
+        self.setAccessibleName(text)
+        super().setText(text)
+        self.updateGeometry()
+        self._fit()
+
+    def sizeHint(self) -> QSize:
+        """Return what the whole text takes."""
+        metrics, hint = self.fontMetrics(), super().sizeHint()
+        shown = metrics.horizontalAdvance(self.text())
+        return hint + QSize(metrics.horizontalAdvance(self._whole) - shown, 0)
+
+    def minimumSizeHint(self) -> QSize:
+        """Return what a few letters take."""
+        hint = self.sizeHint()
+        return QSize(min(theme.px(NARROWEST_PX), hint.width()), hint.height())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Show more or less of it."""
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        option = QStyleOptionButton()
+        self.initStyleOption(option)
+        element = QStyle.SubElement.SE_PushButtonContents
+        room = self.style().subElementRect(element, option, self).width()
+        metrics = self.fontMetrics()
+        if metrics.horizontalAdvance(self._whole) <= room:
+            shown = self._whole
+        else:
+            short = self._whole.rpartition(" (")[0] or self._whole
+            shown = metrics.elidedText(short, Qt.TextElideMode.ElideRight, room)
+        if shown != self.text():
+            super().setText(shown)
+            if not self.toolTip():
+                self.setToolTip(literal(self._whole))
+
+
+NARROWEST_PX = 96
+"""Of a button that gives way, at the usual size of the text."""
 
 FRAME = QSize(16, 48)
 """About what a desktop draws round a window: border and title bar [px]."""
@@ -97,6 +164,7 @@ def thin_bar() -> QProgressBar:
 def table(titles: tuple[str, ...], selectable: bool = False) -> QTableWidget:
     """Return a table to read; `selectable` lets whole rows be chosen, one at a time."""
     made = QTableWidget(0, len(titles))
+    made.setTabKeyNavigation(False)  # Tab leads on; the arrows lead from cell to cell
     made.setHorizontalHeaderLabels(titles)
     made.verticalHeader().setVisible(False)
     made.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)

@@ -40,6 +40,7 @@ class Wizard(QDialog):
         self.setWindowTitle(title)
         size_dialog(self, theme.px(size[0]), size[1])
         self.list, self.pages = QListWidget(self), QStackedWidget(self)
+        self.list.setAccessibleName(title)
         self.back, self.next = button(tr("Back")), button(tr("Next"))
         self._lay_out(list_width)
         self.list.currentRowChanged.connect(self.show_page)

@@ -86,6 +86,7 @@ class MeasurePanel(QWidget):
         self._group.setExclusive(False)
         self.buttons = {tool: self._tool_button(tool) for tool in TOOLS}
         self.table = QTableWidget(0, 2, self)
+        self.table.setTabKeyNavigation(False)
         self.remove = QPushButton(tr("Remove"), self)
         self.clear = QPushButton(tr("Remove all"), self)
         self.export = QPushButton(tr("Export…"), self)

@@ -108,6 +108,7 @@ class PacsPanel(QDialog):
 
     def _make_tree(self) -> QTreeWidget:
         tree = QTreeWidget(self)
+        tree.setAccessibleName(tr("Series"))
         columns = ("Patient", "ID", "Date", "Study", "Series", "Body part", "Pictures")
         tree.setHeaderLabels([tr(column) for column in columns])
         tree.setRootIsDecorated(False)

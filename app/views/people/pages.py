@@ -638,6 +638,8 @@ class CourseDialog(SettingsDialog):
         self.add, self.remove = button(tr("Add")), button(tr("Remove"))
         titles = (tr("Exercise"), tr("Version"), tr("Attempts"), tr("Purpose"), tr("Opens"))
         self.items = QTableWidget(0, 6, self)
+        self.items.setTabKeyNavigation(False)
+        self.items.setAccessibleName(tr("Exercises"))
         self.items.setHorizontalHeaderLabels([*titles, tr("Closes")])
         self.items.verticalHeader().setDefaultSectionSize(theme.CONTROL_HEIGHT + 8)
         for place, width in enumerate((230, 80, 90, 120, 125, 125)):

@@ -218,6 +218,7 @@ def _angle_box(axis: str) -> QDoubleSpinBox:
     box.setSuffix(" °")
     box.setKeyboardTracking(False)
     box.setMinimumSize(70, theme.CONTROL_HEIGHT)
+    box.setAccessibleName(tr("Patient position") + f" {axis}")
     box.setToolTip(
         literal(tr("Free rotation about the robot's {axis} axis (rotation vector)", axis=axis))
     )

@@ -173,6 +173,7 @@ class PathsPanel(QWidget):
 
 def _table() -> QTableWidget:
     table = QTableWidget(0, 4)
+    table.setTabKeyNavigation(False)
     table.setHorizontalHeaderLabels(
         [tr("Score"), tr("Length\n[mm]"), tr("Angle\n[°]"), tr("Nearest\n[mm]")]
     )
@@ -194,7 +195,9 @@ def readable(rgb: tuple[int, int, int]) -> str:
     colour, ground = QColor(*rgb), QColor(theme.BACKGROUND)
     if ground.lightnessF() > 0.5:
         return QColor.fromHslF(colour.hslHueF() % 1.0, colour.hslSaturationF(), 0.27).name()
-    return colour.lighter(125).name()
+    return QColor.fromHslF(
+        colour.hslHueF() % 1.0, colour.hslSaturationF(), max(0.65, 1.1 * colour.lightnessF())
+    ).name()
 
 
 class PathsFeature(Feature):

@@ -181,7 +181,6 @@ class WorkspacePage(QWidget):
         self.next_step.spoken.connect(self.rail.order.say)
         self.next_step.stepped.connect(self.bullseye.show_step)
         self.status.shown.connect(self.rail.show_health)
-        self.setFocusProxy(self.panes[0].canvas)
         self._lay_out()
         self.exercise_panel.listen(self)
         start = QShortcut(QKeySequence(Qt.Key.Key_F5), self)
@@ -236,6 +235,10 @@ class WorkspacePage(QWidget):
         seen = [pane.pane for pane in self.needle_panes if pane.isVisible()]
         self.needle_planes.set_watched(bool(seen))
         self.viewing.set_seen(seen)
+
+    def setFocus(self, *reason: Qt.FocusReason) -> None:  # type: ignore[override]
+        """Give the keyboard to the first pane; as its proxy the page would send Tab back to it."""
+        self.panes[0].setFocus(*reason)
 
     # --- layouts ------------------------------------------------------------------------------
     @property

@@ -142,7 +142,8 @@ class SceneView(QWidget):
         self._button.setText("☰")
         self._button.setToolTip(tr("Viewpoint, and what is shown"))
         self._button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-        self._button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self._button.setAccessibleName(tr("Viewpoint, and what is shown"))
+        self._button.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves the keys to the view
         self._button.hide()
 
     def _commands(self) -> Mapping[str, Callable[[], None]]:

@@ -163,6 +163,7 @@ class ImportReport(QDialog):
         self.warning.setVisible(bool(report.warnings))
         lines = [line for line in report.lines() if not line.startswith("look at this")]
         self.text = QPlainTextEdit(NAMES.without_names("\n\n".join(lines)), self)
+        self.text.setAccessibleName(self.windowTitle())
         self.text.setReadOnly(True)
         kinds = QDialogButtonBox.StandardButton
         self.buttons = QDialogButtonBox(kinds.Open | kinds.Close, parent=self)

@@ -186,7 +186,9 @@ def _sentences() -> tuple[str, ...]:
 
 def _table() -> QTableWidget:
     table = QTableWidget(0, 3)
+    table.setTabKeyNavigation(False)
     table.setHorizontalHeaderLabels([tr("Library"), tr("Version"), tr("Licence")])
+    table.setAccessibleName(tr("Library"))
     table.setEditTriggers(QTableWidget.EditTrigger.NoEditTriggers)
     table.setSelectionBehavior(QTableWidget.SelectionBehavior.SelectRows)
     table.verticalHeader().hide()
@@ -251,6 +253,7 @@ class ProblemReport(QDialog):
         )
         words.setWordWrap(True)
         self.text = QPlainTextEdit(report_text(), self)
+        self.text.setAccessibleName(self.windowTitle())
         self.text.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
         self.text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         self.buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close, self)

@@ -185,6 +185,9 @@ class StartPage(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.exercises, self.recents = QListWidget(self), QListWidget(self)
+        self.recents.setAccessibleName(tr("Your own CT"))
+        self.recents.setWordWrap(True)
+        self.recents.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.search, self.hint = QLineEdit(self), PlainLabel(self)
         self.search.setPlaceholderText(tr("Search exercises"))
         self.search.setAccessibleName(tr("Search exercises"))

@@ -42,6 +42,7 @@ class StructureTable(QTableWidget):
         self, book: StructureBook, watch: StructureWatch, parent: QWidget | None = None
     ) -> None:
         super().__init__(0, 4, parent)
+        self.setTabKeyNavigation(False)
         self._book, self._watch = book, watch
         self._style()
         self.itemChanged.connect(self._edited)

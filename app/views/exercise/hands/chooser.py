@@ -339,7 +339,7 @@ def _source_box() -> QComboBox:
     box = QComboBox()
     for name in SOURCES:
         box.addItem(source_title(name), name)
-    box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+    box.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
     box.setAccessibleName(tr("Hand"))
     return box
 
@@ -358,7 +358,7 @@ def _sense_box() -> QComboBox:
     box.addItem(tr("moves the tip"), False)
     box.addItem(tr("moves the hub"), True)
     box.setToolTip(literal(sense_help()))
-    box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+    box.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
     box.setAccessibleName(tr("The hand moves"))
     return box
 
@@ -375,5 +375,5 @@ def _gain_box() -> QComboBox:
         box.addItem(f"{names[key]} ×{GAINS[key]:g}", key)
     box.setCurrentIndex(list(GAINS).index("direct"))
     box.setToolTip(literal(gain_help()))
-    box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+    box.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
     return box
