@@ -85,7 +85,7 @@ def pointer_attempt(
         tissues=tissues,
         trust=DepthTrust(profile.hand.depth_speed),
         start=Start.SIMULATED,
-        beginnings=Beginnings(seed, exercise.level, profile.tilt_limit),
+        beginnings=Beginnings(seed, exercise.hand_level, profile.tilt_limit),
     )
     loop.open()
     try:

@@ -300,7 +300,7 @@ def _build_rig(
         tissues=setup.tissues,
         trust=DepthTrust(profile.hand.depth_speed, seen=robot is None or real is not None),
         start=Start.SIMULATED if robot is None else Start.REAL,
-        beginnings=Beginnings(setup.seed, setup.exercise.level, profile.tilt_limit)
+        beginnings=Beginnings(setup.seed, setup.exercise.hand_level, profile.tilt_limit)
         if robot is None and setup.skill is None
         else None,
     )

@@ -9,16 +9,16 @@
 | lag | 0.10 s | 0.15 s | estimate |
 | depth moved by 10° turned while pushing | 0.9 mm | 2.6 mm | estimate |
 
-*Push.* What a freehand insertion under CT leaves, of which nobody sees the push: 3.4 ± 3.1° (Gruber-
-Rouh 2015, PMC4499536) and, out of the plane, 7.0 and 6.3° (doi 10.1007/s00330-019-06477-1). That
-is aim and push together; all of it is taken for the push, so it is an upper bound. That the error
-grows in proportion to the way is measured for the hand alone (Gordon 1994); how large it is with a
-needle in it is an estimate, none found: searched "directional variability of reaching movements
-degrees", "needle angle change during insertion". The way of 85 mm is that of `simulation.hands`.
+*Push.* What a freehand insertion under CT leaves, of which nobody sees the push: 3.4 ± 3.1°
+(Gruber-Rouh 2015, PMC4499536) and, out of the plane, 7.0 and 6.3° (doi 10.1007/s00330-019-06477-1).
+That is aim and push together; all of it is taken for the push, so it is an upper bound. That the
+error grows in proportion to the way is measured for the hand alone (Gordon 1994); how large it is
+with a needle in it is an estimate, none found: searched "directional variability of reaching
+movements degrees", "needle angle change during insertion". 85 mm is the way of `simulation.hands`.
 
-*No drift of its own.* A hand that is not seen drifts 5 cm in 88 movements of 15 cm (PMC5607024), the
-more the more it moves (Brown 2003, doi 10.1007/s00221-003-1601-7): 0.4 % of the way, 0.3 mm in an
-insertion, less than a tenth of a push's error. An earlier hand wandered by 5.0 to 6.5° while it
+*No drift of its own.* A hand that is not seen drifts 5 cm in 88 movements of 15 cm (PMC5607024),
+the more the more it moves (Brown 2003, doi 10.1007/s00221-003-1601-7): 0.4 % of the way, 0.3 mm in
+an insertion, less than a tenth of a push's error. An earlier hand wandered by 5.0 to 6.5° while it
 pushed: nothing published supports that, and it is gone.
 
 *Estimates*, none found: lag and damping (searched "hand weight lag mouse movement delay") and the
