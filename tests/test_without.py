@@ -93,6 +93,7 @@ def place(tmp_path_factory):
 
 
 @pytest.mark.long("journey")
+@pytest.mark.timeout(900)  # the first compiles for all
 @pytest.mark.parametrize("name", PARTS)
 def test_the_program_goes_on_without_a_part(name, place, capfd):
     assert without.goes_on(name, place), capfd.readouterr().out

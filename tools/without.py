@@ -12,8 +12,8 @@ Several names are asked for one after the other, all parts without a name. `--te
 the tests, or those of some paths, that do not concern that part either. Ends with code 3 where
 something is named or does not work.
 
-Every copy lies in the same place, one at a time, and their kernels are kept together: they are
-those of the checkout but for what is left out, and compiled once for all parts.
+Every copy lies in the same place, one at a time, and their kernels, volumes and fields of tissue are
+kept together: they are those of the checkout but for what is left out, and made once for all parts.
 """
 
 from __future__ import annotations
@@ -272,8 +272,9 @@ def tests_left(folder: Path, part: Part, pattern: re.Pattern[str], asked: list[s
 
 
 def _run(folder: Path, *arguments: str) -> int:
-    """Run Python in a copy, with data, settings and cache of its own; return how it ended."""
-    own = {name: folder.parent / name for name in ("data", "settings", "cache")}
+    """Run Python in a copy, with data, settings and cache of their own; return how it ended."""
+    own = {name: folder.parent / name for name in ("data", "settings")}
+    own["cache"] = folder.parent / "cache" / kernels_digest()
     environment = os.environ | {f"ACUS_{name.upper()}": str(own[name]) for name in own}
     environment |= {
         "PYTHONPATH": str(folder),
@@ -289,12 +290,13 @@ def goes_on(name: str, place: Path, tests: list[str] | None = None) -> bool:
 
     Args:
         name: of the part.
-        place: folder for the copy and its kernels.
+        place: folder for the copy, its kernels and its cache.
         tests: paths of tests to run too, empty for all; None runs none.
     """
     part, folder = PARTS[name], place / "acus"
-    earlier = [kernels for kernels in place.glob("kernels/*") if kernels.name != kernels_digest()]
-    for leftover in (*(place / kind for kind in ("data", "settings", "cache")), *earlier):
+    made = (*place.glob("kernels/*"), *place.glob("cache/*"))
+    earlier = [older for older in made if older.name != kernels_digest()]
+    for leftover in (*(place / kind for kind in ("data", "settings")), *earlier):
         shutil.rmtree(leftover, ignore_errors=True)
     left_out = copied(part, folder)
     print(f"{folder}: without {', '.join(left_out)}", flush=True)

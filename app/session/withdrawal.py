@@ -44,8 +44,6 @@ MOVED: Final = 1.5e-3
 MOVED_ALONG: Final = 0.5 * MILLIMETRE
 """The same along the needle [m]."""
 
-READY: Final = "ready: the attempt and its clock begin with your first movement"
-
 PATIENCE: Final = 30.0
 """Time after which a simulated needle that does not come out ends the attempt [s]."""
 
@@ -187,7 +185,7 @@ class Withdrawal:
                 if self._begins is None:
                     return self._out(OutsideBy.SIMULATED)
                 self._inputs.unsteady(self._begins.level, self._begins.seed)
-                self.ready, self.words = True, READY
+                self.ready, self.words = True, ""  # the next step says so
                 return WithdrawalStep()
             if now - self._since > PATIENCE:
                 self.stop()

@@ -97,7 +97,7 @@ PROMISES: Final[dict[str, Callable[[Exercise], bool]]] = {
     r"pushes the\s+needle aside when it is about to reach": lambda e: "forbidden_region" in e.laws,
     r"before it leans too far": lambda e: "cone_wall" in e.laws,
     r"exactly\s+on the path there is no force": lambda e: "fixture" in e.laws,
-    r"Whatever its cables or encoders show": lambda e: e.device == "tensegrity",
+    r"Whatever fails in it ends the force": lambda e: e.device == "tensegrity",
     r"below zero it pushes": lambda e: "fixture" in e.laws and Lock.ASSISTANCE not in e.locked,
     r"Find an entry": lambda e: isinstance(e.plan, OwnPlan),
     r"stiff\. Correct the angle": judged("angle_error"),

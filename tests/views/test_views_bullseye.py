@@ -129,7 +129,7 @@ def test_the_legend_is_hidden_and_shown_and_the_choice_outlives_the_window(at_wo
     assert "dot" in bullseye.legend.toolTip()
     assert not menu.legend.isChecked()
     menu.hub.trigger()
-    menu.details.trigger()
+    window.workspace.status.set_detailed(True)
     state = window.remembered._work()
     assert (state["legend"], state["moves_hub"], state["detailed"]) == (False, True, True)
     menu.legend.trigger()

@@ -219,9 +219,9 @@ def test_a_locked_hand_is_the_exercises_and_no_other_can_be_chosen(opened):
     window = opened(load_exercise("first-insertion"))
     source = window.workspace.bullseye.source
     source.set_source("tablet")
-    source.gain.setCurrentIndex(source.gain.findData("direct"))
+    source.gain.setCurrentIndex(source.gain.findData("fine"))
     window.conductor.set_exercise(load_exercise("scans-only"))
-    assert (source.name, source.gain.currentData()) == ("mouse", "normal")
+    assert (source.name, source.gain.currentData()) == ("mouse", "direct")
     assert not source.box.isEnabled()
     assert not source.gain.isEnabled()
     assert "assessment" in source.box.toolTip()
@@ -231,7 +231,7 @@ def test_a_locked_hand_is_the_exercises_and_no_other_can_be_chosen(opened):
     assert source.name == "mouse"
     assert not source.box.isEnabled()
     window.conductor.set_exercise(load_exercise("first-insertion"))
-    assert (source.name, source.gain.currentData()) == ("tablet", "direct")
+    assert (source.name, source.gain.currentData()) == ("tablet", "fine")
 
 
 def test_an_attempt_begins_with_the_hand_that_its_exercise_names(opened):

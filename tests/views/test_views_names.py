@@ -83,12 +83,14 @@ def test_an_error_that_is_shown_loses_its_path_at_once(application, destroy):
 def test_the_title_of_what_is_going_on_loses_the_folder(window, settle, tmp_path):
     folder = tmp_path / "Smith John"
     folder.mkdir()
+    window.resize(1366, 768)
+    settle()
     window.open_ct.open_folder(folder)
-    rows = window.findChildren(ProgressStrip)[0]
-    texts = [label.text() for label in rows.findChildren(QLabel)]
+    strips = window.findChildren(ProgressStrip)
+    texts = [label.text() for strip in strips for label in strip.findChildren(QLabel)]
     assert any("Smith John" in text for text in texts)
     window.projector.hide_names(True)
-    texts = [label.text() for label in rows.findChildren(QLabel)]
+    texts = [label.text() for strip in strips for label in strip.findChildren(QLabel)]
     assert not any("Smith" in text for text in texts)
     assert settle(lambda: bool(window.message_bar.text))
     assert "Smith" not in window.message_bar.text

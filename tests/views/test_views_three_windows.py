@@ -143,11 +143,12 @@ def test_keys_of_what_a_role_does_not_have_do_nothing(window, role, settle, monk
         with contextlib.suppress(SystemError, RuntimeError):
             action.triggered.disconnect()
         action.triggered.connect(lambda _=False, action=action: pressed.append(text_of(action)))
-        action.setEnabled(True)
     window.roles.choose(role)
     window.show_workspace()
     window.activateWindow()
     settle()
+    for action in window.findChildren(QAction):
+        action.setEnabled(True)
     for key, modifiers in ((Qt.Key.Key_F9, Qt.KeyboardModifier.NoModifier),
                            (Qt.Key.Key_F8, Qt.KeyboardModifier.NoModifier),
                            (Qt.Key.Key_O, Qt.KeyboardModifier.ControlModifier),

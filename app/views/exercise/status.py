@@ -248,7 +248,10 @@ class StatusStrip(QWidget):
         if robot is not None:
             self.light.show_item(robot)
         self._show()
-        self.shown.emit(self._items, robot)
+        items = (
+            self._items if self.is_detailed else tuple(item.for_student() for item in self._items)
+        )
+        self.shown.emit(items, robot)
 
     @property
     def is_detailed(self) -> bool:
@@ -332,7 +335,7 @@ class StatusCell(QWidget):
             )
         self._item = item
         self._title.set_whole(f"{symbol} {item.title}")
-        text = item.plain if plain and item.plain else item.text
+        text = item.for_student().text if plain else item.text
         self._text.set_whole(text)
         self._grow()
         self.setToolTip(literal(f"{item.title}: {text}\n\n{item.help}"))

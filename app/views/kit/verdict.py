@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from PySide6.QtWidgets import QLabel
@@ -43,6 +43,10 @@ class StatusItem:
     help: str
     plain: str = ""
     detail: bool = False
+
+    def for_student(self) -> StatusItem:
+        """Return the item with its plain words in place of the value, where it has some."""
+        return replace(self, text=self.plain) if self.plain else self
 
 
 def tell(line: QLabel, verdict: Verdict, words: str) -> None:

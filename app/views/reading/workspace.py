@@ -333,6 +333,7 @@ class WorkspacePage(QWidget):
     def _show_details(self, detailed: bool) -> None:
         self.exercise_panel.energy.set_detailed(detailed)
         self.exercise_panel.readouts.set_detailed(detailed)
+        self.exercise_panel.rail.force.set_detailed(detailed)
         self.arranged.emit()
 
     def show_cameras(self) -> None:

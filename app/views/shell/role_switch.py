@@ -24,7 +24,7 @@ from app.views.kit.roles import (
     role_title,
     role_words,
 )
-from app.views.kit.text import tr
+from app.views.kit.text import literal, tr
 from app.views.shell.shell import Shell
 from app.views.shell.shortcuts import ROLE_KEY
 
@@ -141,5 +141,5 @@ class RoleSwitch(QObject):
         self.button.setText(title)
         self.button.setAccessibleName(tr("Role: {role}", role=title))
         self.button.setToolTip(
-            tr("Who sits here: it decides what the window has ({key})", key=ROLE_KEY)
+            literal(tr("Who sits here: it decides what the window has ({key})", key=ROLE_KEY))
         )

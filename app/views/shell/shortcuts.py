@@ -166,7 +166,7 @@ def disclaimer_label(parent: QWidget | None = None) -> QLabel:
 def _table(group: Group) -> QGridLayout:
     heading, rows = group
     grid = QGridLayout()
-    grid.setVerticalSpacing(2)
+    grid.setVerticalSpacing(1)
     grid.setHorizontalSpacing(2 * theme.SPACING)
     title = PlainLabel(heading)
     title.setProperty("role", "heading")
