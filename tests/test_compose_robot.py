@@ -124,6 +124,17 @@ def test_a_whole_attempt_on_a_device_that_was_commissioned_over_the_wire(emulato
     assert device["serial"] == "E-1"
     assert device["force_cap"] == "1"
     assert "force scale" in device["clearance"]
+    no_noise(rig, result)
+
+
+def no_noise(rig, result):
+    """A hand on a robot is somebody's own: nothing is added to it, whatever the exercise says."""
+    assert rig.trainer._beginnings is None
+    assert "unsteady_hand" not in [stage.name for stage in rig.loop.table]
+    assert not rig.loop.latest().row[[sv.UNSTEADY_X, sv.UNSTEADY_Y, sv.UNSTEADY_DEPTH]].any()
+    recording = read_recording(result.record)
+    assert not recording.inputs.column("hand_level").any()
+    assert not recording.inputs.column("hand_seed").any()
 
 
 class KeptOn(MemoryLink):
@@ -152,10 +163,11 @@ def test_an_attempt_on_a_board_in_memory_stays_below_the_cap(tmp_path, monkeypat
         assert bench.clearance().force_cap == 1.0
     link._end[host.STATUS] = LinkStatus.FINE  # as after greeting it again
     robot = Robot.connect(link, PROFILE)
-    rig = build_rig(replace(setup(None, tmp_path), clock=clock), robot)
+    wished = EXERCISE.model_copy(update={"unsteady_hand": 5})
+    rig = build_rig(replace(setup(None, tmp_path), exercise=wished, clock=clock), robot)
     rig.loop.open()
     rig.trainer.step()
-    rig.trainer.begin("tester")
+    rig.trainer.begin("tester", hand="mouse")  # a mouse that says how deep the robot's needle is
     rig.trainer.assistance(1.0)
     rig.trainer.step()
     rig.trainer.confirm_outside()
@@ -171,6 +183,7 @@ def test_an_attempt_on_a_board_in_memory_stays_below_the_cap(tmp_path, monkeypat
     assert result.state is State.ENDED
     assert 0.5 < max(felt) <= max(most), "no camera has measured the depth"
     assert max(most) == pytest.approx(1.0, abs=1e-6)
+    no_noise(rig, result)
     device = read_recording(result.record).metadata["device"]
     assert device["simulated"] == "no"
     assert device["kind"] == "emulated"  # by its own word; a real board never says so

@@ -9,7 +9,7 @@ import pytest
 from scipy.signal import welch
 from virtual_student import Student
 
-from app.compose.trainer import loop_table, replay_recording
+from app.compose.trainer import build_rig, loop_table, replay_recording
 from app.compose.unsteady import LEVEL_1, LEVEL_5
 from app.core import state_vector as sv
 from app.exercises.library import load_exercise
@@ -142,6 +142,8 @@ def test_an_attempt_with_an_unsteady_hand_is_recomputed_to_the_last_bit(student:
     for k in range(150):
         student.trainer.hand(x * (1.0 - k / 150.0), y, depth + 3e-4 * k)
         student.trainer.step(20)
+    off = student.rig.loop.latest().row[[sv.UNSTEADY_X, sv.UNSTEADY_Y, sv.UNSTEADY_DEPTH]]
+    assert np.abs(off).min() > 1e-6, "there is noise to be computed anew"
     result = student.trainer.end()
     recording = read_recording(result.record)
     assert recording.inputs.column("hand_level").max() == 1.0
@@ -152,6 +154,39 @@ def test_an_attempt_with_an_unsteady_hand_is_recomputed_to_the_last_bit(student:
     values[:, recording.inputs.columns.index("hand_seed")] += 1.0
     other = replace(recording, inputs=replace(recording.inputs, values=values))
     assert not replay_recording(other).identical, "the seed is what the hand follows from"
+
+
+def test_a_steady_hand_is_recorded_as_such_and_has_no_noise(student: Student) -> None:
+    chosen = student.rig.setup.exercise.model_copy(update={"unsteady_hand": 0, "level": 3})
+    assert chosen.hand_level == 0
+    beginnings(student, level=chosen.hand_level)
+    start = make_ready(student)
+    assert np.hypot(*start) > 0.0, "it begins off the path all the same"
+    x, y, depth = wanted(student)
+    for k in range(100):
+        student.trainer.hand(x, y, depth + 3e-4 * k)
+        student.trainer.step(20)
+        row = student.rig.loop.latest().row
+        assert not row[[sv.UNSTEADY_X, sv.UNSTEADY_Y, sv.UNSTEADY_DEPTH]].any()
+    recording = read_recording(student.trainer.end().record)
+    assert not recording.inputs.column("hand_level").any()
+    assert replay_recording(recording).identical
+
+
+@pytest.mark.parametrize("unsteady", [None, 0, 4])
+def test_the_program_takes_the_hand_from_the_exercise(
+    student: Student, unsteady: int | None
+) -> None:
+    setup = student.rig.setup
+    chosen = setup.exercise.model_copy(update={"unsteady_hand": unsteady})
+    rig = build_rig(replace(setup, exercise=chosen))
+    try:
+        made = rig.trainer._beginnings
+        assert made is not None
+        assert made.level == (chosen.level if unsteady is None else unsteady)
+        assert made.next(rig.trainer._placed).level == made.level
+    finally:
+        rig.close()
 
 
 def test_no_real_robot_has_an_unsteady_hand(student: Student) -> None:

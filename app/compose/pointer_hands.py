@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from math import atan2, hypot
+from math import atan2, hypot, inf
 from typing import Final
 
 import numpy as np
@@ -22,7 +22,7 @@ from app.planning.placement import PlacedPlan
 from app.session.pad.geometry import PadScale, PathFrame
 from app.session.pad.hand import PadHand
 from app.session.shown_views import Shown
-from app.session.snapshot import NextSteps, Snapshot, StepKind
+from app.session.snapshot import NextSteps, Snapshot, StepKind, excursion
 
 LATE: Final = 0.2
 """Time from what happens on the screen to the hand that answers it [s]."""
@@ -40,6 +40,9 @@ CLICK_MM: Final = 1.0
 FINE_CLICK_MM: Final = 0.2
 """Depth by a click of the wheel, and with the key for fine movements [mm]."""
 
+REMEMBERED: Final = 3.0
+"""So far back it is known what was seen [s]."""
+
 DRAG: Final = 1.5
 """Speed of the mouse [radii of the pad in a second]."""
 
@@ -54,7 +57,7 @@ class Sight:
         tip: where on it the tip is, (2,).
         remaining: along the needle to the target [mm].
         order: the next step as the line says it.
-        rests: whether the target is where it rests, as far as it is shown.
+        rests: whether the breath strip is within its band; true where nothing breathes.
     """
 
     time: float
@@ -69,10 +72,17 @@ class Eyes:
     """Reads snapshots as the window shows them."""
 
     def __init__(
-        self, shown: Shown, placed: PlacedPlan, frame: PathFrame, scale: PadScale, steps: NextSteps
+        self,
+        shown: Shown,
+        placed: PlacedPlan,
+        frame: PathFrame,
+        scale: PadScale,
+        steps: NextSteps,
+        gate: float,
     ) -> None:
+        """`gate`: half width of the breath strip's band [m]."""
         self._shown, self._placed = shown, placed
-        self._frame, self._scale, self._steps = frame, scale, steps
+        self._frame, self._scale, self._steps, self._gate = frame, scale, steps, gate
 
     def read(self, snapshot: Snapshot) -> Sight | None:
         """Return what is there to be read; None where no needle is shown."""
@@ -92,8 +102,7 @@ class Eyes:
             heading = self._place(_grid(tilts * length_mm, CT_PX_MM))
             remaining = CT_PX_MM * round(remaining / CT_PX_MM)
         order = self._steps.of(shown, self._shown.live, self._shown.orders).kind
-        rest = float(np.abs(snapshot.p_target - snapshot.at_rest(self._placed).p_target).max())
-        rests = rest < CT_PX_MM * MILLIMETRE or not self._shown.shows(ViewName.TARGET_MOTION)
+        rests = (excursion(snapshot) or 0.0) <= self._gate
         return Sight(snapshot.time, heading, tip, remaining, order, rests)
 
     def _place(self, across_mm: FloatArray) -> FloatArray:
@@ -122,7 +131,7 @@ class Desk:
         self, hand: PadHand, ring: float, hold_breath: Callable[[bool], None] | None
     ) -> None:
         self.hand, self.ring, self.hold_breath = hand, ring, hold_breath
-        self._screens: deque[Sight] = deque(maxlen=round(1.0 / LOOK))
+        self._screens: deque[Sight] = deque(maxlen=round(REMEMBERED / LOOK))
 
     def show(self, screen: Sight | None) -> None:
         """Show the next moment."""
@@ -149,12 +158,12 @@ class Desk:
             all(one.rests for one in some),
         )
 
-    def moves(self, duration: float) -> float:
-        """Return how far all went to and fro that was seen for a `duration` [s], in pad radii."""
-        latest = self.seen.time
-        some = [one for one in self._screens if latest - duration < one.time <= latest]
-        seen = np.array([[*one.heading, *one.tip] for one in some])
-        return float(np.ptp(seen, axis=0).max())
+    @property
+    def rested(self) -> float:
+        """Return how long the breath has been seen to rest [s]; infinite where it was always so."""
+        now = self.seen
+        moving = [one.time for one in self._screens if one.time <= now.time and not one.rests]
+        return now.time - moving[-1] if moving else inf
 
 
 Moves = Iterator[None]
@@ -173,8 +182,12 @@ def _drag(desk: Desk, way: FloatArray) -> Moves:
         yield
 
 
-def _wheel(desk: Desk, way_mm: float, click_mm: float, looks: int) -> Moves:
+def _wheel(
+    desk: Desk, way_mm: float, click_mm: float, looks: int, only_at_rest: bool = False
+) -> Moves:
     for _ in range(round(abs(way_mm) / click_mm)):
+        if only_at_rest and not desk.seen.rests:
+            return
         desk.hand.advance(float(np.copysign(click_mm * MILLIMETRE, way_mm)))
         for _ in range(looks):
             yield
@@ -198,28 +211,29 @@ def perfect_mouse(desk: Desk) -> Moves:
     yield from _wait(1.2)
 
 
-STILL: Final = 0.6
-"""A thing that has not moved for so long stands still [s]."""
-
 STROKE_MM: Final = 10.0
 """So far the careful hand pushes before it looks again [mm]."""
 
+FRESH: Final = 0.5
+"""A rest of the breath that has just begun is not older [s]: there is time to act in it."""
+
 
 def careful_hand(desk: Desk) -> Moves:
-    """Look at the plan, align, wait for the breath, push in short strokes and check after each."""
+    """Look at the plan, align, and go in by short strokes while the breath rests, each checked."""
     yield from _wait(2.0)
     yield from _align(desk, tries=12)
-    while desk.watched(0.3).remaining > 1.0:
-        yield from _await_breath(desk)
+    for _ in range(60):
+        if desk.watched(0.3).remaining <= 1.0:
+            break
+        yield from _align(desk, tries=1)
         stroke = min(STROKE_MM, desk.watched(0.3).remaining)
-        yield from _wheel(desk, stroke, FINE_CLICK_MM, 2)
+        yield from _wheel(desk, stroke, FINE_CLICK_MM, 2, only_at_rest=True)
         yield from _wait(0.5)
-        yield from _align(desk, tries=4)
     for _ in range(12):
+        yield from _align(desk, tries=1)
+        yield from _wheel(desk, desk.watched(0.3).remaining, FINE_CLICK_MM, 1, only_at_rest=True)
         yield from _await_breath(desk)
-        yield from _wheel(desk, desk.watched(0.3).remaining, FINE_CLICK_MM, 1)
-        yield from _align(desk, tries=4)
-        yield from _await_breath(desk)
+        yield from _wait(0.4)
         seen = desk.watched(0.3)
         if abs(seen.remaining) < 0.6 and hypot(*seen.tip) < desk.ring and seen.rests:
             break
@@ -229,20 +243,21 @@ def _align(desk: Desk, tries: int) -> Moves:
     """Bring tip and heading to the middle by small corrections, each looked at."""
     for _ in range(tries):
         yield from _await_breath(desk)
+        yield from _wait(0.3)
         seen = desk.watched(0.3)
         error = 0.5 * (seen.heading + seen.tip) if seen.remaining < STROKE_MM else seen.heading
         if hypot(*error) < 0.5 * desk.ring:
             return
         yield from _drag(desk, -0.7 * error)
-        yield from _wait(0.5)
+        yield from _wait(0.3)
 
 
 def _await_breath(desk: Desk) -> Moves:
-    """Have the breath held, or wait for its end: nothing that is seen moves, the target rests."""
+    """Have the breath held where it can be, and wait until it has just come to rest."""
     if desk.hold_breath is not None:
         desk.hold_breath(True)
     for _ in range(round(8.0 / LOOK)):
-        if desk.seen.rests and desk.moves(STILL) < 1.6 * desk.ring:
+        if desk.seen.rests and not FRESH < desk.rested < REMEMBERED - LATE - 2.0 * LOOK:
             return
         yield
 

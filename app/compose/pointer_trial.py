@@ -85,7 +85,7 @@ def pointer_attempt(
         tissues=tissues,
         trust=DepthTrust(profile.hand.depth_speed),
         start=Start.SIMULATED,
-        beginnings=Beginnings(seed, exercise.level, profile.tilt_limit),
+        beginnings=Beginnings(seed, exercise.hand_level, profile.tilt_limit),
     )
     loop.open()
     try:
@@ -109,7 +109,7 @@ def _play(trainer: Trainer, exercise: Exercise, placed: PlacedPlan, name: str) -
     frame = path_frame(placed.axis, placed.T_world_patient.rotation)
     scale = PadScale(placed.length, rings[0])
     steps = NextSteps(placed, rings[0], depth_tolerance_of(exercise))
-    eyes = Eyes(Shown.of_exercise(exercise), placed, frame, scale, steps)
+    eyes = Eyes(Shown.of_exercise(exercise), placed, frame, scale, steps, rings[0])
     snapshot = trainer.snapshot()
     row = snapshot.device.row if snapshot.device is not None else None
     direction = (

@@ -307,7 +307,7 @@ def _build_rig(
 
 def _beginnings(setup: TrainerSetup, profile: DeviceProfile) -> Beginnings:
     """Return where attempts of a person's simulated hand begin: off the path, or on it."""
-    drill, level = setup.exercise.drill, setup.exercise.level
+    drill, level = setup.exercise.drill, setup.exercise.hand_level
     aligned = drill is not None and drill.begins_aligned
     return Beginnings(setup.seed, level, profile.tilt_limit, aligned)
 

@@ -88,6 +88,8 @@ class Exercise(Strict):
             control scans guide the assistance is locked.
         hand: what moves the simulated hand; None leaves it to the student, or is the mouse where
             it is locked.
+        unsteady_hand: level by which the simulated hand is unsteady, 0 not at all; None takes the
+            exercise's own level. No hand on a robot is made unsteady.
         touch: targets that the tip of a long tool has to touch one after the other; the hand then
             moves the tool's handle. None for a needle that goes to the plan's target.
         drill: of which exercise this is a drill, and what it practises; None for a whole one.
@@ -124,6 +126,7 @@ class Exercise(Strict):
     views: tuple[ViewName, ...] = (ViewName.LIVE_OVERLAY, ViewName.BULLSEYE, ViewName.THREE_D)
     locks: tuple[Lock, ...] | None = None
     hand: HandName | None = None
+    unsteady_hand: Annotated[int, Field(ge=0, le=9)] | None = None
     touch: TouchPart | None = None
     drill: DrillPart | None = None
     seed: Annotated[int, Field(ge=0)] = 1
@@ -317,6 +320,11 @@ class Exercise(Strict):
         help.
         """
         return self._is_probe
+
+    @property
+    def hand_level(self) -> int:
+        """Return the level by which the simulated hand is unsteady; 0 is steady."""
+        return self.level if self.unsteady_hand is None else self.unsteady_hand
 
     @property
     def holds_breath(self) -> bool:

@@ -34,7 +34,7 @@ class SeededStart:
 
     Attributes:
         x, y: of the needle's direction there.
-        level: by which the hand is unsteady from then on.
+        level: by which the hand is unsteady from then on; 0: steady.
         seed: of its unsteadiness, a whole number below 2³².
     """
 
@@ -50,7 +50,7 @@ class Beginnings:
 
     Attributes:
         seed: of the run.
-        level: of the exercise.
+        level: of the hand, as the exercise has it.
         tilt_limit: of the robot [rad].
         aligned: whether they lie on the path; else off it.
         begun: attempts so far.

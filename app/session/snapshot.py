@@ -120,6 +120,13 @@ class Snapshot:
         return placed if self.touch is None else self.touch.aim
 
 
+def excursion(snapshot: Snapshot) -> float | None:
+    """Return how far what breathes is from where the CT has it [m]; None if not told."""
+    if snapshot.device is None:
+        return None
+    return float(np.linalg.norm(snapshot.device.row[sv.BREATH]))
+
+
 _FIX_TEXT = {
     "out_of_view": "marker out of view",
     "no_picture": "a camera's picture is late",

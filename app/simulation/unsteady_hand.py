@@ -1,4 +1,4 @@
-"""A simulated hand that is not steady: weight, tremor, drift, and push and tilt that are coupled.
+"""A simulated hand that is not steady: weight, tremor, unrest, and push and tilt that are coupled.
 
 Mouse, wheel, keys, stick and pen say where the hand is wanted (HAND_*). A person's hand comes there
 late and never stands still. What it is off goes into UNSTEADY_*, which `mechanisms.hand_motion`
@@ -6,12 +6,15 @@ adds before its own bounds on speed and acceleration:
 
 - *weight*: direction and depth follow as a mass on a spring, damping ratio 0.7;
 - *tremor*: noise through a resonance at 10 Hz, half-power band 8 to 12 Hz, across and along;
-- *drift*: the direction wanders, the more the faster the hand pushes (signal-dependent noise:
-  Harris and Wolpert 1998, Nature 394:780), and stays where it has come to for some seconds;
-- *coupling*: while it pushes, the direction bends aside, each attempt to another side; turning
-  while pushing moves the depth, which stays moved.
+- *unrest*: the hub wanders, as a hand does that means to hold still;
+- *push and tilt*: no push goes straight. Off the line a hand goes in proportion to its way (Gordon,
+  Ghilardi and Ghez 1994, doi 10.1007/BF00241415), to another side in another movement; the needle
+  turns about its entry by that and stays turned. A pause or a turn back begins another push: who
+  pushes a little, looks and mends has many small errors, who does not has one great one;
+- *tilt and depth*: turning while pushing moves the depth, which stays moved.
 
 Where tissue holds the needle it goes on holding: the plant's springs pull, nothing here moves it.
+Sizes by level, and what each stands on: `compose.unsteady`.
 
 The stage rests while HAND_LEVEL is 0: for scripts, which bring their own hand, for the arm, between
 attempts. Its numbers are uniform ones of a linear congruential generator (Numerical Recipes,
@@ -33,14 +36,14 @@ from app.simulation.errors import SimulationError
 
 NAME: Final = "unsteady_hand"
 
-USUAL: Final = 0.02
-"""Speed of an ordinary insertion [m/s]."""
-
 _TREMOR: Final = 2.0 * np.pi * 10.0  # [rad/s]
 _NARROW: Final = 0.2  # damping ratio of the tremor's resonance: 4 Hz between half powers
 _DAMPING: Final = 0.7  # ratio of the weight
-_FASTEST_PUSH: Final = 0.03  # [m/s] a faster push does not bend the direction further
-_MOST_EFFORT: Final = 2.0  # of a movement at `USUAL`
+_FASTEST_PUSH: Final = 0.03  # [m/s] while a faster push turns, the depth slips no further
+_PUSHES: Final = 2e-3  # [m/s] from this speed on it is a push ...
+_RESTS: Final = 1e-3  # [m/s] ... and below this for `_PAUSE` [s] it is over
+_PAUSE: Final = 0.2
+_MOST_ASIDE: Final = 0.35  # [rad]
 _MOST_SLIP: Final = 0.005  # [m]
 _LONGEST: Final = 5e-3  # [s] as the loop clamps a step
 _MODULUS: Final = 4294967296.0
@@ -55,21 +58,20 @@ class Unsteadiness:
         lag: time by which it follows a steady movement late [s].
         tremor: standard deviation across the needle at the hub, in each of two directions [m].
         tremor_along: along the needle [m].
-        drift: standard deviation of the direction's wander, in each of two directions, in a hand
-            that pushes at `USUAL` for long [rad].
-        rest: share of it in a hand at rest.
-        memory: time in which the drift forgets where it was [s].
-        bend: turn of the direction for a speed of pushing [rad·s/m].
+        unrest: standard deviation of the hub's wander across the needle, in each of two directions,
+            in a hand that means to hold still [m].
+        memory: time in which the wander forgets where it was [s].
+        aside: standard deviation of the turn for a way that is pushed at one go, in each of two
+            directions [rad/m].
         slip: depth for a turn while pushing as fast as bends most [m/rad].
     """
 
     lag: float
     tremor: float
     tremor_along: float
-    drift: float
-    rest: float
+    unrest: float
     memory: float
-    bend: float
+    aside: float
     slip: float
 
     def __post_init__(self) -> None:
@@ -103,10 +105,14 @@ class _HandPlaces(NamedTuple):
     shake_vx: int = 0
     shake_vy: int = 0
     shake_vz: int = 0
-    drift_x: int = 0
-    drift_y: int = 0
-    side_x: int = 0
-    side_y: int = 0
+    wander_x: int = 0
+    wander_y: int = 0
+    push: int = 0
+    paused: int = 0
+    leaves_x: int = 0
+    leaves_y: int = 0
+    aside_x: int = 0
+    aside_y: int = 0
     slipped: int = 0
 
 
@@ -116,10 +122,9 @@ class _Of(NamedTuple):
     lag: int
     tremor: int
     tremor_along: int
-    drift: int
-    rest: int
+    unrest: int
     memory: int
-    bend: int
+    aside: int
     slip: int
 
 
@@ -172,8 +177,6 @@ def _begin(state: FloatArray, p: FloatArray) -> None:
     p[_AT.random] = seed - np.floor(seed / _MODULUS) * _MODULUS
     for _ in range(8):  # neighbouring seeds begin alike
         _uniform(p)
-    side = 2.0 * np.pi * _uniform(p)
-    p[_AT.side_x], p[_AT.side_y] = np.cos(side), np.sin(side)
     p[_AT.x], p[_AT.y], p[_AT.z] = state[sv.HAND_X], state[sv.HAND_Y], state[sv.HAND_DEPTH]
 
 
@@ -197,6 +200,24 @@ def _shake(p: FloatArray, i: int, size: float, h: float) -> float:
     return size * p[_AT.shake_x + i]
 
 
+@njit
+def _push(p: FloatArray, aside: float, h: float) -> None:
+    """Let the direction go aside while the hand pushes or pulls; another push, another side."""
+    v = p[_AT.vz]
+    way = 1.0 if v > 0.0 else -1.0
+    if abs(v) > _PUSHES and p[_AT.push] != way:
+        p[_AT.push] = way
+        for i in range(2):
+            p[_AT.leaves_x + i] = aside * _normal(p)
+    p[_AT.paused] = p[_AT.paused] + h if abs(v) < _RESTS else 0.0
+    if p[_AT.paused] > _PAUSE:
+        p[_AT.push] = 0.0
+    if p[_AT.push] != 0.0:
+        for i in range(2):
+            gone = p[_AT.aside_x + i] + p[_AT.leaves_x + i] * abs(v) * h
+            p[_AT.aside_x + i] = min(max(gone, -_MOST_ASIDE), _MOST_ASIDE)
+
+
 @stage
 def step(state: FloatArray, p: FloatArray) -> None:
     """Write UNSTEADY_* for this tick."""
@@ -211,20 +232,18 @@ def step(state: FloatArray, p: FloatArray) -> None:
         h = min(state[sv.DT], _LONGEST)
         pull = 2.0 * _DAMPING / _of_level(p, level, _OF.lag)
         forgets = h / _of_level(p, level, _OF.memory)
-        effort = min(abs(p[_AT.vz]) / USUAL, _MOST_EFFORT)  # its turning would feed itself
-        wander = _of_level(p, level, _OF.drift) * np.sqrt(2.0 * forgets)
-        wander *= _of_level(p, level, _OF.rest) + effort
-        push = min(max(p[_AT.vz], -_FASTEST_PUSH), _FASTEST_PUSH)
-        bend = _of_level(p, level, _OF.bend) * push
+        lever = max(p[_AT.length] - state[sv.PLANT_DEPTH], _SHORTEST)
+        wander = _of_level(p, level, _OF.unrest) * np.sqrt(2.0 * forgets)
+        _push(p, _of_level(p, level, _OF.aside), h)
         for i in range(2):
-            p[_AT.drift_x + i] += wander * _normal(p) - forgets * p[_AT.drift_x + i]
-            off = p[_AT.drift_x + i] + bend * p[_AT.side_x + i]
+            p[_AT.wander_x + i] += wander * _normal(p) - forgets * p[_AT.wander_x + i]
+            off = p[_AT.wander_x + i] / lever + p[_AT.aside_x + i]
             _follow(p, i, state[sv.HAND_X + i] + off, pull, h)
         _follow(p, 2, state[sv.HAND_DEPTH], pull, h)
         turn = np.sqrt(p[_AT.vx] ** 2 + p[_AT.vy] ** 2)
+        push = min(max(p[_AT.vz], -_FASTEST_PUSH), _FASTEST_PUSH)
         slip = _of_level(p, level, _OF.slip) * turn * (push / _FASTEST_PUSH) * h
         p[_AT.slipped] = min(max(p[_AT.slipped] + slip, -_MOST_SLIP), _MOST_SLIP)
-        lever = max(p[_AT.length] - state[sv.PLANT_DEPTH], _SHORTEST)
         across = _of_level(p, level, _OF.tremor) / lever
         along = _of_level(p, level, _OF.tremor_along)
         state[sv.UNSTEADY_X] = p[_AT.x] + _shake(p, 0, across, h) - state[sv.HAND_X]

@@ -712,6 +712,23 @@ def test_a_plan_that_an_exercise_holds_is_not_asked_for_any_more(opened, form, a
     assert plan.dirty
 
 
+def test_the_author_chooses_how_unsteady_the_simulated_hand_is(author, form):
+    write(form.task.name, "X")
+    form.show_page(3)
+    box = form.sight.fields["unsteady_hand",]
+    assert box.currentText() == "As the exercise's level has it"
+    for title, unsteady in (("Steady", 0), ("Unsteady as at level 3", 3)):
+        box.setCurrentIndex(box.findText(title))
+        box.activated.emit(box.currentIndex())
+        assert author.editor.exercise.unsteady_hand == unsteady
+        assert author.editor.exercise.hand_level == unsteady
+    box.setCurrentIndex(0)
+    box.activated.emit(0)
+    exercise = author.editor.exercise
+    assert exercise.unsteady_hand is None
+    assert exercise.hand_level == exercise.level
+
+
 def test_an_assessment_is_shown_with_the_locks_and_views_that_it_has(author, form):
     write(form.task.name, "X")
     author.editor.put("views", value=["bullseye", "three_d", "live_overlay"])

@@ -157,8 +157,8 @@ def told(looks: list[Look], broken: list[str], page: Path, seconds: float) -> in
         print(f"differs: {look.state}: {100 * (look.differs or 0.0):.1f} % of it")
     print("\n".join(broken))
     words = ", ".join(f"{count} {rule}" for rule, count in sorted(rules.items())) or "none"
-    states = {look.state for look in looks}
-    print(f"{len(looks)} pictures of {len(states)} states in {seconds:.0f} s; faults: {words}")
+    names = {look.state for look in looks}
+    print(f"{len(looks)} pictures of {len(names)} states in {seconds:.0f} s; faults: {words}")
     print(f"{len(other)} differ from what is kept; {page}")
     return int(bool(where or other or broken))
 

@@ -200,7 +200,8 @@ def luminance(rgb: NDArray[np.uint8]) -> NDArray[np.float64]:
     """Return the relative luminance in [0, 1] of sRGB colours, shape (…, 3) -> (…)."""
     c = rgb.astype(np.float64) / 255.0
     linear = np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
-    return linear @ np.array([0.2126, 0.7152, 0.0722])
+    light: NDArray[np.float64] = linear @ np.array([0.2126, 0.7152, 0.0722])
+    return light
 
 
 def contrast(ground: float, text: float) -> float:

@@ -580,7 +580,7 @@ class SightPage(Form):
     reading_wanted = Signal()
 
     def __init__(self, editor: ExerciseEditor) -> None:
-        covers = ("views", "locks", "hand", "reading", "guidance", "touch")
+        covers = ("views", "locks", "hand", "unsteady_hand", "reading", "guidance", "touch")
         super().__init__(editor, tr("What is seen"), covers)
         self.views = self.flags(
             "views", name=tr("Views"), among=[(one.value, view_title(one)) for one in ViewName]
@@ -604,6 +604,12 @@ class SightPage(Form):
             ("gamepad", tr("Gamepad")),
         )
         self.choice("hand", name=tr("Hand"), among=hands)
+        steadiness = (
+            (None, tr("As the exercise's level has it")),
+            (0, tr("Steady")),
+            *((level, tr("Unsteady as at level {n}", n=level)) for level in range(1, 6)),
+        )
+        self.choice("unsteady_hand", name=tr("Simulated hand"), among=steadiness)
         windows = [
             (None, tr("The student's own")),
             *(({"width": one.width, "level": one.level}, name) for name, one in PRESETS.items()),

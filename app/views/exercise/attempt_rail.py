@@ -25,7 +25,7 @@ from app.session.machine import State
 from app.views.exercise.breath_strip import BreathStrip
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.readouts import OFFSETS, ForceBar, figure_texts
-from app.views.exercise.steps import BRIEF, ORDER, state_word
+from app.views.exercise.steps import BRIEF, ORDER, TurningRing, state_word
 from app.views.kit import theme
 from app.views.kit.parts import FittingButton, PlainLabel
 from app.views.kit.progress_strip import ElidedLabel
@@ -64,6 +64,7 @@ class StageLine(QWidget):
         super().__init__(parent)
         self._state: State | None = None
         self._order, self._reached = ORDER, 0
+        self._ready, self.ring = False, TurningRing(self)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setAccessibleName(tr("No attempt"))
 
@@ -76,10 +77,15 @@ class StageLine(QWidget):
         self._order, self._reached = (BRIEF if brief else ORDER), 0
         self.update()
 
-    def show_state(self, state: State | None) -> None:
-        """Show a state; None before there is an attempt."""
-        if state is self._state:
+    def show_state(self, state: State | None, ready: bool = False) -> None:
+        """Show a state; None before there is an attempt.
+
+        `ready`: whether only the first movement of the hand is waited for.
+        """
+        if state is self._state and ready is self._ready:
             return
+        self._ready = ready
+        self.ring.show_state(state, ready)
         if state in self._order:
             self._reached = self._order.index(state)
         elif state is None or state is State.WITHDRAWING:
@@ -95,7 +101,7 @@ class StageLine(QWidget):
             return tr("No attempt")
         if self._order is BRIEF and self._state is State.INSERTING:
             return tr("Under way")
-        return state_word(self._state)
+        return state_word(State.READY if self._ready else self._state)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw discs and name."""
@@ -112,7 +118,11 @@ class StageLine(QWidget):
             painter.setBrush(accent if done else QColor(theme.BACKGROUND))
             at = QPointF(_DISC + 1.0 + number * step, y)
             painter.drawEllipse(at, _DISC if here else 5.0, _DISC if here else 5.0)
-            if here:
+            if here and self.ring.turns:
+                self.ring.draw(
+                    painter, QRectF(at.x() - _DISC, at.y() - _DISC, 2 * _DISC, 2 * _DISC)
+                )
+            elif here:
                 painter.setBrush(accent)
                 painter.drawEllipse(at, 4.0, 4.0)
         painter.setFont(_font(theme.FONT_PX, bold=True))
@@ -269,7 +279,9 @@ class AttemptRail(QWidget):
     def show_figures(self, figures: LiveFigures | None) -> None:
         """Show a moment of the attempt; None without one."""
         self.figures.show_figures(figures)
-        self.stage.show_state(figures.state if figures else None)
+        self.stage.show_state(
+            figures.state if figures else None, figures.ready if figures else False
+        )
         if figures is not None:
             self.force.show_force(
                 figures.force,

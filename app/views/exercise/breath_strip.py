@@ -10,14 +10,12 @@ from __future__ import annotations
 from collections import deque
 from typing import Final
 
-import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from app.core import state_vector as sv
 from app.core.units import MILLIMETRE
-from app.session.snapshot import Snapshot
+from app.session.snapshot import Snapshot, excursion
 from app.views.kit import theme
 from app.views.kit.text import literal, tr
 
@@ -29,13 +27,6 @@ _NOW: Final = 0.86
 
 _HEIGHT: Final = 72
 """Of the curve [px]; its words stand below."""
-
-
-def excursion(snapshot: Snapshot) -> float | None:
-    """Return how far what breathes is from where the CT has it [m]; None if not told."""
-    if snapshot.device is None:
-        return None
-    return float(np.linalg.norm(snapshot.device.row[sv.BREATH]))
 
 
 class BreathStrip(QWidget):

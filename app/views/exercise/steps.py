@@ -51,6 +51,37 @@ BRIEF: Final[tuple[State, ...]] = (State.READY, State.INSERTING, State.ENDED)
 """Where control scans guide: `inserting` stands for all that happens in between."""
 
 
+class TurningRing:
+    """A ring that goes round in a widget while the needle is on its way to its start."""
+
+    def __init__(self, widget: QWidget) -> None:
+        self._widget, self._turn = widget, 0
+        self._timer = QTimer(widget, interval=TURN_MS)
+        self._timer.timeout.connect(self.advance)
+
+    @property
+    def turns(self) -> bool:
+        """Return whether it goes round; else it costs nothing."""
+        return self._timer.isActive()
+
+    def show_state(self, state: State | None, ready: bool) -> None:
+        """Go round in the one state in which something is waited for."""
+        if state is not State.WITHDRAWING or ready:
+            self._timer.stop()
+        elif not self.turns:
+            self._timer.start()
+
+    def advance(self) -> None:
+        """Show the next picture."""
+        self._turn = (self._turn + 1) % TURN
+        self._widget.update()
+
+    def draw(self, painter: QPainter, box: QRectF) -> None:
+        """Draw a quarter of the ring in a square."""
+        painter.setPen(QPen(QColor(theme.TEXT), 2.5))
+        painter.drawArc(box, -16 * 360 * self._turn // TURN, 16 * 90)
+
+
 class Steps(QWidget):
     """Filled discs with ✔ for what is done, a ring for now, hollow for what comes."""
 
@@ -58,10 +89,9 @@ class Steps(QWidget):
         super().__init__(parent)
         self._state: State | None = None
         self._order = ORDER
-        self._reached = self._turn = 0
+        self._reached = 0
         self._ready = False
-        self._turns = QTimer(self, interval=TURN_MS)
-        self._turns.timeout.connect(self._go_round)
+        self.ring = TurningRing(self)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setMinimumSize(300, 48)
         self.setAccessibleName(tr("No attempt"))
@@ -78,15 +108,6 @@ class Steps(QWidget):
         self.show_state(state)
         self.update()
 
-    @property
-    def prepares(self) -> bool:
-        """Return whether a ring goes round: the needle is on its way to its start."""
-        return self._turns.isActive()
-
-    def _go_round(self) -> None:
-        self._turn = (self._turn + 1) % TURN
-        self.update()
-
     def show_state(self, state: State | None, ready: bool = False) -> None:
         """Show a state; None before there is an attempt.
 
@@ -95,10 +116,7 @@ class Steps(QWidget):
         if state is self._state and ready is self._ready:
             return
         self._ready = ready
-        if state is State.WITHDRAWING and not ready:
-            self._turns.start()
-        else:
-            self._turns.stop()
+        self.ring.show_state(state, ready)
         if state in self._order:
             self._reached = self._order.index(state)
         elif state is None or state is State.WITHDRAWING:
@@ -133,10 +151,8 @@ class Steps(QWidget):
         painter.setPen(QPen(QColor(colour), 2.5))
         painter.setBrush(QColor(theme.BACKGROUND))
         painter.drawEllipse(centre, 10, 10)
-        if here and self.prepares:
-            painter.setPen(QPen(QColor(theme.TEXT), 2.5))
-            ring = QRectF(centre.x() - 10, 4, 20, 20)
-            painter.drawArc(ring, -16 * 360 * self._turn // TURN, 16 * 90)
+        if here and self.ring.turns:
+            self.ring.draw(painter, QRectF(centre.x() - 10, 4, 20, 20))
             sign = ""
         painter.setFont(_font(painter, 11, True))
         painter.setPen(QColor(colour))

@@ -236,7 +236,7 @@ class WorkspacePage(QWidget):
         self.needle_planes.set_watched(bool(seen))
         self.viewing.set_seen(seen)
 
-    def setFocus(self, *reason: Qt.FocusReason) -> None:  # type: ignore[override]
+    def setFocus(self, *reason: Qt.FocusReason) -> None:
         """Give the keyboard to the first pane; as its proxy the page would send Tab back to it."""
         self.panes[0].setFocus(*reason)
 
