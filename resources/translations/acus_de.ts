@@ -968,8 +968,20 @@
             <translation type="unfinished">Übung {exercise_id} hat Risikostrukturen, aber kein CT, auf dem sie liegen: Öffnen Sie es</translation>
         </message>
         <message>
+            <source>layers: the exercise has them</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the field: the exercise asks for it</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>exercise {exercise_id} has tissue: field, and its CT is not open, or its values are no Hounsfield values: open its CT, or set tissue: layers</source>
             <translation type="unfinished">Übung {exercise_id} hat tissue: field, aber ihr CT ist nicht offen, oder seine Werte sind keine Hounsfield-Werte: Öffnen Sie ihr CT oder setzen Sie tissue: layers</translation>
+        </message>
+        <message>
+            <source>layers: there is no CT in Hounsfield values</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>this record cannot be replayed: it has no {tissue_file}</source>
@@ -8120,10 +8132,6 @@
             <translation type="unfinished">der Testlauf endete ohne Antwort</translation>
         </message>
         <message>
-            <source>Make an exercise from this…</source>
-            <translation type="unfinished">Übung daraus machen…</translation>
-        </message>
-        <message>
             <source>Plan</source>
             <translation type="unfinished">Plan</translation>
         </message>
@@ -8564,6 +8572,22 @@ Nein: diese unter einem anderen Namen speichern.</translation>
         <message>
             <source>Hand</source>
             <translation type="unfinished">Hand</translation>
+        </message>
+        <message>
+            <source>As the exercise's level has it</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Steady</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Unsteady as at level {n}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Simulated hand</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Window of the CT</source>
@@ -9872,6 +9896,10 @@ Anteil</translation>
             <translation type="unfinished">{file} lässt sich nicht schreiben: {why}</translation>
         </message>
         <message>
+            <source>the expert, along your plan</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>the ideal path</source>
             <translation type="unfinished">der ideale Pfad</translation>
         </message>
@@ -9978,6 +10006,10 @@ Anteil</translation>
         <message>
             <source>Let the scripted expert show it again</source>
             <translation type="unfinished">Wieder vom automatischen Experten zeigen lassen</translation>
+        </message>
+        <message>
+            <source>This exercise is no more what it was: begin it from the start page.</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Show me now shows this attempt in {title}: its movement, without a name or score.</source>
@@ -10144,6 +10176,18 @@ Anteil</translation>
         <message>
             <source>Next: {title}</source>
             <translation type="unfinished">Weiter: {title}</translation>
+        </message>
+        <message>
+            <source>All metrics</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Every metric with its value, band and points; remembered</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Drill, {drill}: {title}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>control scans: {n}</source>
@@ -10632,6 +10676,18 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">nicht bestanden</translation>
         </message>
         <message>
+            <source>Smoothness</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Largest distance from the path</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Mean distance from the path</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Void: not judged.</source>
             <translation type="unfinished">Ungültig: nicht beurteilt.</translation>
         </message>
@@ -10642,6 +10698,14 @@ Buchstaben: Richtungen des Patienten
         <message>
             <source>to the right</source>
             <translation type="unfinished">nach rechts</translation>
+        </message>
+        <message>
+            <source>to the patient's left</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>to the patient's right</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>towards the back</source>
@@ -10658,6 +10722,86 @@ Buchstaben: Richtungen des Patienten
         <message>
             <source>towards the feet</source>
             <translation type="unfinished">zu den Füßen hin</translation>
+        </message>
+        <message>
+            <source>{side} and {other_side}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>At {depth:.0f} mm depth you were {mm:.1f} mm off the line {where}.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>From {depth:.0f} mm depth on you were off the line {where}, by up to {mm:.1f} mm.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>You left the line between {low:.0f} and {high:.0f} mm depth {where}, by up to {mm:.1f} mm.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>At the skin the needle was in line: {tilt:.1f}° off.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The tilt at the skin was {tilt:.1f}° off: the tip pointed too far {where}.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The tip ended {mm:.1f} mm too deep.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The tip ended {mm:.1f} mm too deep: it passed the target's depth at {clock}.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The tip was {mm:.1f} mm too deep at {clock}, then drawn back to {short:.1f} mm short of the target.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The tip stopped {mm:.1f} mm short of the target; it came no deeper after {clock}.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>You pushed {outside:.0f} of {whole:.0f} mm while the breath had moved the target by more than {gate:.1f} mm.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{stage} took longest against its band: {seconds:.0f} s, of which {good:.0f} s are good.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{stage} took longest: {seconds:.0f} of {whole:.0f} s.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Holding still</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The force was largest at {clock}: {newton:.1f} N.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The force was largest at {depth:.0f} mm depth, at {clock}: {newton:.1f} N.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{met}, at {clock}.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The needle was inside {name} at {clock}, with its tip at {depth:.0f} mm depth.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The needle came within {mm:.1f} mm of {name} at {clock}, with its tip at {depth:.0f} mm depth.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{outside} of {n} control scans were taken before the needle was in the skin.</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>{mm:.1f} mm {side}</source>
@@ -10690,6 +10834,30 @@ Buchstaben: Richtungen des Patienten
         <message>
             <source>The same turn at {earlier:.0f} mm takes {share:.0f} % of the side force.</source>
             <translation type="unfinished">Dieselbe Drehung bei {earlier:.0f} mm braucht {share:.0f} % der Seitenkraft.</translation>
+        </message>
+        <message>
+            <source>align only</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>depth only</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>breath</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>ten times three minutes</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{drill} It counts for no course and no pass.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Practise: {drill}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Nothing cost points.</source>
@@ -10744,6 +10912,10 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">Jetzt Sie: {title}.</translation>
         </message>
         <message>
+            <source>Then the whole exercise: {title}.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>The same again: this attempt has no points.</source>
             <translation type="unfinished">Noch einmal dieselbe: Dieser Versuch hat keine Punkte.</translation>
         </message>
@@ -10776,6 +10948,10 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">✔ Bestanden</translation>
         </message>
         <message>
+            <source>✔ Reached</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Required and not met: {names}</source>
             <translation type="unfinished">Verlangt und nicht erreicht: {names}</translation>
         </message>
@@ -10786,6 +10962,10 @@ Buchstaben: Richtungen des Patienten
         <message>
             <source>✖ Not passed</source>
             <translation type="unfinished">✖ Nicht bestanden</translation>
+        </message>
+        <message>
+            <source>✖ Not reached yet</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>It counts for nothing. The pictures of the simulated cameras came too late: this computer was too busy. Close other programs, then try again.</source>
@@ -10874,6 +11054,10 @@ Buchstaben: Richtungen des Patienten
         <message>
             <source>admitted</source>
             <translation type="unfinished">anerkannt</translation>
+        </message>
+        <message>
+            <source>Drill: {title}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>{title} (version {n})</source>
@@ -11276,6 +11460,10 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">Ziel {mm:.0f}</translation>
         </message>
         <message>
+            <source>Skin 0 · Target {target:.0f} · Stop {stop:.0f} mm</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Skin</source>
             <translation type="unfinished">Haut</translation>
         </message>
@@ -11344,12 +11532,28 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">{length:.1f} mm seitlich</translation>
         </message>
         <message>
-            <source>off the path: 0.0 mm</source>
-            <translation type="unfinished">seitlicher Fehler: 0.0 mm</translation>
+            <source>off the path: {length:.1f} mm</source>
+            <translation type="unfinished" />
         </message>
         <message>
-            <source>off the path: {length:.1f} mm  ({sides})</source>
-            <translation type="unfinished">seitlicher Fehler: {length:.1f} mm  ({sides})</translation>
+            <source>The dot is where the needle will pass the target: bring it into the middle. Rings: how far off, the inner two are the tolerance</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{mm} mm off</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>▼ {mm} mm</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>▲ {mm} mm</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>✔ hold</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>CT angles: in plane {a} (path {b})
@@ -11372,10 +11576,6 @@ aus der Ebene {c:+.1f}° (Pfad {d:+.1f}°)</translation>
         <message>
             <source>▲ too deep: pull {gap:.1f} mm</source>
             <translation type="unfinished">▲ zu tief: {gap:.1f} mm zurückziehen</translation>
-        </message>
-        <message>
-            <source>● target, rings: tolerance  ·  ◆ tip  ·  □ hub  ·  ✕ where the needle is heading: bring it onto ●  ·  ○ your hand, its spring pulls the needle</source>
-            <translation type="unfinished">● Ziel, Ringe: Toleranz  ·  ◆ Spitze  ·  □ Ansatz  ·  ✕ wohin die Nadel zielt: bringen Sie es auf ●  ·  ○ Ihre Hand, ihre Feder zieht die Nadel</translation>
         </message>
         <message>
             <source>Legend</source>
@@ -12098,6 +12298,10 @@ frei wählbar</translation>
             <translation type="unfinished">Tisch</translation>
         </message>
         <message>
+            <source>All slices</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>No control scan yet.
 Set table and slices, then press the pedal (S).</source>
             <translation type="unfinished">Noch kein Kontrollscan.
@@ -12194,6 +12398,22 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Robot stopped: {why}</source>
             <translation type="unfinished">Roboter angehalten: {why}</translation>
+        </message>
+        <message>
+            <source>see the marker now and then</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>do not see the marker</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>There are no cameras here: the depth comes from elsewhere, or from nowhere.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>measured a moment ago</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>No robot</source>
@@ -12320,6 +12540,18 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Unterwegs</translation>
         </message>
         <message>
+            <source>Scans</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Live pictures (Ctrl+T)</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>All panels (Ctrl+B)</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Pull out</source>
             <translation type="unfinished">Heraus</translation>
         </message>
@@ -12360,24 +12592,28 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished"> und </translation>
         </message>
         <message>
-            <source>Tilt the tip {angle}° towards {sides}</source>
-            <translation type="unfinished">Neigen Sie die Spitze {angle}° {sides}</translation>
-        </message>
-        <message>
-            <source>Tilt the hub {angle}° towards {sides}</source>
-            <translation type="unfinished">Neigen Sie den Ansatz {angle}° {sides}</translation>
-        </message>
-        <message>
             <source>Press F5 to start the attempt</source>
             <translation type="unfinished">Drücken Sie F5, um den Versuch zu starten</translation>
         </message>
         <message>
-            <source>Wait: the needle goes back to its start</source>
-            <translation type="unfinished">Warten Sie: Die Nadel geht an ihren Anfang zurück</translation>
+            <source>Aim {mm} mm further towards {sides}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Tilt the hub towards {sides}: {mm} mm off the target</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>One moment: the needle goes to its start</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Pull the needle out of the skin</source>
             <translation type="unfinished">Ziehen Sie die Nadel aus der Haut</translation>
+        </message>
+        <message>
+            <source>Ready: the clock starts when you move</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Let both cameras see the marker</source>
@@ -12386,6 +12622,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Push by the scans: S takes one, Enter ends the attempt</source>
             <translation type="unfinished">Schieben Sie nach den Scans vor: S nimmt einen auf, Eingabe beendet den Versuch</translation>
+        </message>
+        <message>
+            <source>Steer by the CT: S takes a scan, Enter ends the attempt</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Push the needle in{how}</source>
@@ -12422,6 +12662,22 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Press Enter: the tip is at the target</source>
             <translation type="unfinished">Drücken Sie Eingabe: Die Spitze ist am Ziel</translation>
+        </message>
+        <message>
+            <source>Push deeper{how}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Pull back{how}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Aim further towards {sides}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Tilt the hub towards {sides}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Paused: the window was busy; it goes on by itself.</source>
@@ -12608,16 +12864,16 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Aufnahme des rechten Bildes nach dem linken; wird ausgeglichen</translation>
         </message>
         <message>
-            <source>Only the instructor does that: Sessions ▸ Sign in as the instructor.</source>
-            <translation type="unfinished">Das darf nur der Kursleiter: Sitzungen ▸ Als Kursleiter anmelden.</translation>
+            <source>Only the instructor does that: change the role at the top right.</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>(erased)</source>
             <translation type="unfinished">(gelöscht)</translation>
         </message>
         <message>
-            <source>it is an assessment of the course {course}. Sign in as a student who takes it (Sessions ▸ Sign in as a student…), or as the instructor</source>
-            <translation type="unfinished">sie ist eine Prüfung des Kurses {course}. Melden Sie sich als Teilnehmer an, der ihn besucht (Sitzungen ▸ Als Teilnehmer anmelden…), oder als Kursleiter</translation>
+            <source>it is an assessment of the course {course}. Sign in as a student who takes it (Sessions ▸ Sign in as a student…), or as the instructor (role, at the top right)</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>{x}   {y}   {z} mm</source>
@@ -12768,10 +13024,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">3D Slicer</translation>
         </message>
         <message>
-            <source>Export measurements (.mrk.json)…</source>
-            <translation type="unfinished">Messungen exportieren (.mrk.json)…</translation>
-        </message>
-        <message>
             <source>Export measurements</source>
             <translation type="unfinished">Messungen exportieren</translation>
         </message>
@@ -12818,6 +13070,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Searching {name}</source>
             <translation type="unfinished">Suche in {name}</translation>
+        </message>
+        <message>
+            <source>Series</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>* and ? stand for unknown characters</source>
@@ -13580,6 +13836,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Beginn nicht möglich: {why}.</translation>
         </message>
         <message>
+            <source>Progress and courses</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source> · {n} void</source>
             <translation type="unfinished"> · {n} ungültig</translation>
         </message>
@@ -14056,10 +14316,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Vorgeschlagene Drehung anwenden</translation>
         </message>
         <message>
-            <source>New</source>
-            <translation type="unfinished">Neu</translation>
-        </message>
-        <message>
             <source>Open…</source>
             <translation type="unfinished">Öffnen…</translation>
         </message>
@@ -14110,14 +14366,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Save plan as…</source>
             <translation type="unfinished">Plan speichern als…</translation>
-        </message>
-        <message>
-            <source>Open plan (.mrk.json)…</source>
-            <translation type="unfinished">Plan öffnen (.mrk.json)…</translation>
-        </message>
-        <message>
-            <source>Save plan as (.mrk.json)…</source>
-            <translation type="unfinished">Plan speichern als (.mrk.json)…</translation>
         </message>
         <message>
             <source>&amp;Edit</source>
@@ -15550,6 +15798,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Links, Mitte, rechts ziehen</translation>
         </message>
         <message>
+            <source>who sits here: student, instructor, technician</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>turn, pan, zoom</source>
             <translation type="unfinished">drehen, verschieben, zoomen</translation>
         </message>
@@ -15604,6 +15856,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>end the attempt</source>
             <translation type="unfinished">Versuch beenden</translation>
+        </message>
+        <message>
+            <source>in an attempt: all panels; live pictures or the scan</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Hold Esc</source>
@@ -15670,10 +15926,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Nicht jetzt</translation>
         </message>
         <message>
-            <source>CTs that you open are listed here.</source>
-            <translation type="unfinished">CTs, die Sie öffnen, stehen hier.</translation>
-        </message>
-        <message>
             <source>done {n}</source>
             <translation type="unfinished">gemacht: {n}</translation>
         </message>
@@ -15702,6 +15954,22 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Ihr eigenes CT</translation>
         </message>
         <message>
+            <source>CTs that you open are listed here: File ▸ Open CT folder…</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>any name: your progress is kept under it</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Your name</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>You practise as</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Difficulty</source>
             <translation type="unfinished">Schwierigkeit</translation>
         </message>
@@ -15716,6 +15984,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Done and best: {name}.</source>
             <translation type="unfinished">Gemacht und Bestwert: {name}.</translation>
+        </message>
+        <message>
+            <source>Done and best: everybody at this station.</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Sign in as a student to see what you have done.</source>
@@ -15816,10 +16088,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>The hand moves the hub, not the tip</source>
             <translation type="unfinished">Die Hand bewegt den Ansatz, nicht die Spitze</translation>
-        </message>
-        <message>
-            <source>Details of the robot (technician's strip)</source>
-            <translation type="unfinished">Einzelheiten des Roboters (Technikerzeile)</translation>
         </message>
         <message>
             <source>Shown by the exercise</source>
@@ -16622,8 +16890,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Ein Ast der Lebervene verläuft 7 mm neben dem Pfad, 1 cm vor der Läsion. Suchen Sie ihn in den Schichten, bevor Sie beginnen: Er ist dort und in 3D eingezeichnet. Halten Sie die Nadel auf dem ganzen Weg mindestens 5 mm von ihm entfernt, Spitze und Schaft; anderthalb Grad auf ihn zu sind in der Tiefe zu viel, und eine Nadel, die erst tief gedreht wird, schwenkt näher heran als eine, die von Anfang an richtig gezielt war. Der Patient hält den Atem an.</translation>
         </message>
         <message>
-            <source>A holder over the skin turns its guide to the planned path and holds it with four cables; slide the needle to the lesion, hold, and end the attempt. The patient holds the breath. With the dial below zero it pushes the needle away. Whatever its cables or encoders show to have failed ends the force, and is said.</source>
-            <translation type="unfinished">Ein Halter über der Haut richtet seine Führungshülse auf den geplanten Pfad aus und hält sie mit vier Seilen; schieben Sie die Nadel bis zur Läsion, halten Sie still und beenden Sie den Versuch. Der Patient hält den Atem an. Steht der Regler unter null, drückt der Halter die Nadel weg. Zeigen Seile oder Encoder einen Ausfall, endet die Kraft, und es wird gemeldet.</translation>
+            <source>A holder over the skin turns its guide to the planned path and holds it with four cables; slide the needle to the lesion, hold, and end the attempt. The patient holds the breath. With the dial below zero it pushes the needle away. Whatever fails in it ends the force, and is said.</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>A large vessel runs along the path, 2 cm beside it. There is hardly any guidance; the robot pushes the needle aside when it is about to reach the vessel, and back before it leans too far. A needle that meets the vessel or a rib fails. The patient holds the breath.</source>
@@ -16688,6 +16956,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Bone turns the tip aside</source>
             <translation type="unfinished">Knochen lenkt die Spitze ab</translation>
+        </message>
+        <message>
+            <source>Breath while pushing</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Breathing liver</source>
@@ -17176,6 +17448,138 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>You hold the handle of a long tool that goes through a trocar. Move the handle to the left and the tip goes to the right, the further the deeper it is. Touch the numbered targets one after the other: bring the tip onto the target that is marked, and hold it there until the next one is. Go straight to each; press Enter after the last.</source>
             <translation type="unfinished">Sie halten den Griff eines langen Instruments, das durch einen Trokar geht. Bewegen Sie den Griff nach links, geht die Spitze nach rechts, und zwar umso weiter, je tiefer sie ist. Berühren Sie die nummerierten Ziele eines nach dem anderen: Bringen Sie die Spitze auf das markierte Ziel und halten Sie sie dort, bis das nächste markiert ist. Gehen Sie zu jedem auf geradem Weg; drücken Sie nach dem letzten Eingabe.</translation>
+        </message>
+        <message>
+            <source>Align only: it ends as the tip goes through the skin, and only the tilt there counts.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Depth only: you begin aligned, and only the depth counts.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Breath only: push while the target is in its place, wait while it is not; nothing else counts.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Ten times three minutes: the whole exercise; each round ends by itself after three minutes.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the field: {because}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>layers: {because}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>a needle {angle:.0f}° from upright</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{where} meets {name} at {begin_mm:.0f} mm, which the path does not</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{where} meets {others}, the path {own}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{where} feels {most:.1f} N more or less at {depth:.0f} mm than the path</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>every needle within reach meets {names} with the same force to {most:.2f} N</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the breath does not move the target</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the needle was never pushed deeper</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>a hand's unsteadiness needs finite numbers of 0 or more, and a lag and a memory above 0, got {this}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Breath</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>How far the breath has moved the target from where the CT has it. In the band it is within the inner ring: push there, wait elsewhere.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>✔ at rest: push</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>▲ {mm:.0f} mm away: wait</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Click: this slice alone, with all that a slice can do</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Technician</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>practise, progress, help</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>also patients, exercises, courses and results</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>also robot, cameras, checks, effects and cost of accuracy</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Put panels away ({key})</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>All panels ({key})</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Live pictures ({key})</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Control scan again ({key})</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Role</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>An attempt is running: end it before the role is changed</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Role: {role}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Who sits here: it decides what the window has ({key})</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Go on to the attempt</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Back to the plan</source>
+            <translation type="unfinished" />
         </message>
     </context>
 </TS>

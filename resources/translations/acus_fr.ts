@@ -968,8 +968,20 @@
             <translation type="unfinished">l’exercice {exercise_id} a des structures à risque, mais pas de CT où les placer : ouvrez-le</translation>
         </message>
         <message>
+            <source>layers: the exercise has them</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the field: the exercise asks for it</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>exercise {exercise_id} has tissue: field, and its CT is not open, or its values are no Hounsfield values: open its CT, or set tissue: layers</source>
             <translation type="unfinished">l’exercice {exercise_id} a tissue: field, mais son CT n’est pas ouvert, ou ses valeurs ne sont pas des valeurs Hounsfield : ouvrez son CT, ou mettez tissue: layers</translation>
+        </message>
+        <message>
+            <source>layers: there is no CT in Hounsfield values</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>this record cannot be replayed: it has no {tissue_file}</source>
@@ -8120,10 +8132,6 @@
             <translation type="unfinished">le test s’est terminé sans réponse</translation>
         </message>
         <message>
-            <source>Make an exercise from this…</source>
-            <translation type="unfinished">En faire un exercice…</translation>
-        </message>
-        <message>
             <source>Plan</source>
             <translation type="unfinished">Plan</translation>
         </message>
@@ -8564,6 +8572,22 @@ Non : le conserver sous un autre nom.</translation>
         <message>
             <source>Hand</source>
             <translation type="unfinished">Main</translation>
+        </message>
+        <message>
+            <source>As the exercise's level has it</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Steady</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Unsteady as at level {n}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Simulated hand</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Window of the CT</source>
@@ -9872,6 +9896,10 @@ part</translation>
             <translation type="unfinished">Impossible d’écrire {file} : {why}</translation>
         </message>
         <message>
+            <source>the expert, along your plan</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>the ideal path</source>
             <translation type="unfinished">la trajectoire idéale</translation>
         </message>
@@ -9978,6 +10006,10 @@ part</translation>
         <message>
             <source>Let the scripted expert show it again</source>
             <translation type="unfinished">Laisser de nouveau l’expert automatique montrer</translation>
+        </message>
+        <message>
+            <source>This exercise is no more what it was: begin it from the start page.</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Show me now shows this attempt in {title}: its movement, without a name or score.</source>
@@ -10144,6 +10176,18 @@ part</translation>
         <message>
             <source>Next: {title}</source>
             <translation type="unfinished">Suite : {title}</translation>
+        </message>
+        <message>
+            <source>All metrics</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Every metric with its value, band and points; remembered</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Drill, {drill}: {title}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>control scans: {n}</source>
@@ -10632,6 +10676,18 @@ Lettres : directions du patient
             <translation type="unfinished">échoué</translation>
         </message>
         <message>
+            <source>Smoothness</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Largest distance from the path</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Mean distance from the path</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Void: not judged.</source>
             <translation type="unfinished">Nul : non jugé.</translation>
         </message>
@@ -10642,6 +10698,14 @@ Lettres : directions du patient
         <message>
             <source>to the right</source>
             <translation type="unfinished">vers la droite</translation>
+        </message>
+        <message>
+            <source>to the patient's left</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>to the patient's right</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>towards the back</source>
@@ -10658,6 +10722,86 @@ Lettres : directions du patient
         <message>
             <source>towards the feet</source>
             <translation type="unfinished">vers les pieds</translation>
+        </message>
+        <message>
+            <source>{side} and {other_side}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>At {depth:.0f} mm depth you were {mm:.1f} mm off the line {where}.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>From {depth:.0f} mm depth on you were off the line {where}, by up to {mm:.1f} mm.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>You left the line between {low:.0f} and {high:.0f} mm depth {where}, by up to {mm:.1f} mm.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>At the skin the needle was in line: {tilt:.1f}° off.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The tilt at the skin was {tilt:.1f}° off: the tip pointed too far {where}.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The tip ended {mm:.1f} mm too deep.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The tip ended {mm:.1f} mm too deep: it passed the target's depth at {clock}.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The tip was {mm:.1f} mm too deep at {clock}, then drawn back to {short:.1f} mm short of the target.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The tip stopped {mm:.1f} mm short of the target; it came no deeper after {clock}.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>You pushed {outside:.0f} of {whole:.0f} mm while the breath had moved the target by more than {gate:.1f} mm.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{stage} took longest against its band: {seconds:.0f} s, of which {good:.0f} s are good.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{stage} took longest: {seconds:.0f} of {whole:.0f} s.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Holding still</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The force was largest at {clock}: {newton:.1f} N.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The force was largest at {depth:.0f} mm depth, at {clock}: {newton:.1f} N.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{met}, at {clock}.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The needle was inside {name} at {clock}, with its tip at {depth:.0f} mm depth.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>The needle came within {mm:.1f} mm of {name} at {clock}, with its tip at {depth:.0f} mm depth.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{outside} of {n} control scans were taken before the needle was in the skin.</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>{mm:.1f} mm {side}</source>
@@ -10690,6 +10834,30 @@ Lettres : directions du patient
         <message>
             <source>The same turn at {earlier:.0f} mm takes {share:.0f} % of the side force.</source>
             <translation type="unfinished">Le même pivotement à {earlier:.0f} mm demande {share:.0f} % de la force latérale.</translation>
+        </message>
+        <message>
+            <source>align only</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>depth only</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>breath</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>ten times three minutes</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{drill} It counts for no course and no pass.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Practise: {drill}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Nothing cost points.</source>
@@ -10744,6 +10912,10 @@ Lettres : directions du patient
             <translation type="unfinished">À vous : {title}.</translation>
         </message>
         <message>
+            <source>Then the whole exercise: {title}.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>The same again: this attempt has no points.</source>
             <translation type="unfinished">Le même de nouveau : cet essai n’a pas de points.</translation>
         </message>
@@ -10776,6 +10948,10 @@ Lettres : directions du patient
             <translation type="unfinished">✔ Réussi</translation>
         </message>
         <message>
+            <source>✔ Reached</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Required and not met: {names}</source>
             <translation type="unfinished">Requis et non atteint : {names}</translation>
         </message>
@@ -10786,6 +10962,10 @@ Lettres : directions du patient
         <message>
             <source>✖ Not passed</source>
             <translation type="unfinished">✖ Échoué</translation>
+        </message>
+        <message>
+            <source>✖ Not reached yet</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>It counts for nothing. The pictures of the simulated cameras came too late: this computer was too busy. Close other programs, then try again.</source>
@@ -10874,6 +11054,10 @@ Lettres : directions du patient
         <message>
             <source>admitted</source>
             <translation type="unfinished">admis</translation>
+        </message>
+        <message>
+            <source>Drill: {title}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>{title} (version {n})</source>
@@ -11276,6 +11460,10 @@ Lettres : directions du patient
             <translation type="unfinished">Cible {mm:.0f}</translation>
         </message>
         <message>
+            <source>Skin 0 · Target {target:.0f} · Stop {stop:.0f} mm</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Skin</source>
             <translation type="unfinished">Peau</translation>
         </message>
@@ -11344,12 +11532,28 @@ Lettres : directions du patient
             <translation type="unfinished">écart {length:.1f} mm</translation>
         </message>
         <message>
-            <source>off the path: 0.0 mm</source>
-            <translation type="unfinished">écart latéral : 0.0 mm</translation>
+            <source>off the path: {length:.1f} mm</source>
+            <translation type="unfinished" />
         </message>
         <message>
-            <source>off the path: {length:.1f} mm  ({sides})</source>
-            <translation type="unfinished">écart latéral : {length:.1f} mm  ({sides})</translation>
+            <source>The dot is where the needle will pass the target: bring it into the middle. Rings: how far off, the inner two are the tolerance</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{mm} mm off</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>▼ {mm} mm</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>▲ {mm} mm</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>✔ hold</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>CT angles: in plane {a} (path {b})
@@ -11372,10 +11576,6 @@ hors du plan {c:+.1f}° (trajectoire {d:+.1f}°)</translation>
         <message>
             <source>▲ too deep: pull {gap:.1f} mm</source>
             <translation type="unfinished">▲ trop profond : retirez de {gap:.1f} mm</translation>
-        </message>
-        <message>
-            <source>● target, rings: tolerance  ·  ◆ tip  ·  □ hub  ·  ✕ where the needle is heading: bring it onto ●  ·  ○ your hand, its spring pulls the needle</source>
-            <translation type="unfinished">● cible, anneaux : tolérance  ·  ◆ pointe  ·  □ embase  ·  ✕ où se dirige l’aiguille : amenez-le sur ●  ·  ○ votre main, son ressort tire l’aiguille</translation>
         </message>
         <message>
             <source>Legend</source>
@@ -12098,6 +12298,10 @@ réglable</translation>
             <translation type="unfinished">Table</translation>
         </message>
         <message>
+            <source>All slices</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>No control scan yet.
 Set table and slices, then press the pedal (S).</source>
             <translation type="unfinished">Pas encore de scan de contrôle.
@@ -12194,6 +12398,22 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Robot stopped: {why}</source>
             <translation type="unfinished">Robot arrêté : {why}</translation>
+        </message>
+        <message>
+            <source>see the marker now and then</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>do not see the marker</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>There are no cameras here: the depth comes from elsewhere, or from nowhere.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>measured a moment ago</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>No robot</source>
@@ -12320,6 +12540,18 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">En cours</translation>
         </message>
         <message>
+            <source>Scans</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Live pictures (Ctrl+T)</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>All panels (Ctrl+B)</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Pull out</source>
             <translation type="unfinished">Retirez</translation>
         </message>
@@ -12360,24 +12592,28 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished"> et </translation>
         </message>
         <message>
-            <source>Tilt the tip {angle}° towards {sides}</source>
-            <translation type="unfinished">Inclinez la pointe de {angle}° vers {sides}</translation>
-        </message>
-        <message>
-            <source>Tilt the hub {angle}° towards {sides}</source>
-            <translation type="unfinished">Inclinez l’embase de {angle}° vers {sides}</translation>
-        </message>
-        <message>
             <source>Press F5 to start the attempt</source>
             <translation type="unfinished">Appuyez sur F5 pour démarrer l’essai</translation>
         </message>
         <message>
-            <source>Wait: the needle goes back to its start</source>
-            <translation type="unfinished">Attendez : l’aiguille revient à son départ</translation>
+            <source>Aim {mm} mm further towards {sides}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Tilt the hub towards {sides}: {mm} mm off the target</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>One moment: the needle goes to its start</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Pull the needle out of the skin</source>
             <translation type="unfinished">Retirez l’aiguille de la peau</translation>
+        </message>
+        <message>
+            <source>Ready: the clock starts when you move</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Let both cameras see the marker</source>
@@ -12386,6 +12622,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Push by the scans: S takes one, Enter ends the attempt</source>
             <translation type="unfinished">Avancez selon les scans : S en prend un, Entrée termine l’essai</translation>
+        </message>
+        <message>
+            <source>Steer by the CT: S takes a scan, Enter ends the attempt</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Push the needle in{how}</source>
@@ -12422,6 +12662,22 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Press Enter: the tip is at the target</source>
             <translation type="unfinished">Appuyez sur Entrée : la pointe est à la cible</translation>
+        </message>
+        <message>
+            <source>Push deeper{how}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Pull back{how}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Aim further towards {sides}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Tilt the hub towards {sides}</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Paused: the window was busy; it goes on by itself.</source>
@@ -12608,16 +12864,16 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Prise de l’image droite après la gauche ; c’est compensé</translation>
         </message>
         <message>
-            <source>Only the instructor does that: Sessions ▸ Sign in as the instructor.</source>
-            <translation type="unfinished">Seul le formateur peut le faire : Séances ▸ Se connecter comme formateur.</translation>
+            <source>Only the instructor does that: change the role at the top right.</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>(erased)</source>
             <translation type="unfinished">(effacé)</translation>
         </message>
         <message>
-            <source>it is an assessment of the course {course}. Sign in as a student who takes it (Sessions ▸ Sign in as a student…), or as the instructor</source>
-            <translation type="unfinished">c’est une évaluation du cours {course}. Connectez-vous comme étudiant qui le suit (Séances ▸ Se connecter comme étudiant…), ou comme formateur</translation>
+            <source>it is an assessment of the course {course}. Sign in as a student who takes it (Sessions ▸ Sign in as a student…), or as the instructor (role, at the top right)</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>{x}   {y}   {z} mm</source>
@@ -12768,10 +13024,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">3D Slicer</translation>
         </message>
         <message>
-            <source>Export measurements (.mrk.json)…</source>
-            <translation type="unfinished">Exporter les mesures (.mrk.json)…</translation>
-        </message>
-        <message>
             <source>Export measurements</source>
             <translation type="unfinished">Exporter les mesures</translation>
         </message>
@@ -12818,6 +13070,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Searching {name}</source>
             <translation type="unfinished">Recherche dans {name}</translation>
+        </message>
+        <message>
+            <source>Series</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>* and ? stand for unknown characters</source>
@@ -13580,6 +13836,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Impossible de commencer : {why}.</translation>
         </message>
         <message>
+            <source>Progress and courses</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source> · {n} void</source>
             <translation type="unfinished"> · nuls : {n}</translation>
         </message>
@@ -14056,10 +14316,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Appliquer la rotation proposée</translation>
         </message>
         <message>
-            <source>New</source>
-            <translation type="unfinished">Nouveau</translation>
-        </message>
-        <message>
             <source>Open…</source>
             <translation type="unfinished">Ouvrir…</translation>
         </message>
@@ -14110,14 +14366,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Save plan as…</source>
             <translation type="unfinished">Enregistrer le plan sous…</translation>
-        </message>
-        <message>
-            <source>Open plan (.mrk.json)…</source>
-            <translation type="unfinished">Ouvrir un plan (.mrk.json)…</translation>
-        </message>
-        <message>
-            <source>Save plan as (.mrk.json)…</source>
-            <translation type="unfinished">Enregistrer le plan sous (.mrk.json)…</translation>
         </message>
         <message>
             <source>&amp;Edit</source>
@@ -15550,6 +15798,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Glisser à gauche, au milieu, à droite</translation>
         </message>
         <message>
+            <source>who sits here: student, instructor, technician</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>turn, pan, zoom</source>
             <translation type="unfinished">tourner, déplacer, zoomer</translation>
         </message>
@@ -15604,6 +15856,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>end the attempt</source>
             <translation type="unfinished">terminer l’essai</translation>
+        </message>
+        <message>
+            <source>in an attempt: all panels; live pictures or the scan</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Hold Esc</source>
@@ -15670,10 +15926,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Pas maintenant</translation>
         </message>
         <message>
-            <source>CTs that you open are listed here.</source>
-            <translation type="unfinished">Les CT que vous ouvrez apparaissent ici.</translation>
-        </message>
-        <message>
             <source>done {n}</source>
             <translation type="unfinished">faits : {n}</translation>
         </message>
@@ -15702,6 +15954,22 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Votre propre CT</translation>
         </message>
         <message>
+            <source>CTs that you open are listed here: File ▸ Open CT folder…</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>any name: your progress is kept under it</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Your name</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>You practise as</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Difficulty</source>
             <translation type="unfinished">Difficulté</translation>
         </message>
@@ -15716,6 +15984,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Done and best: {name}.</source>
             <translation type="unfinished">Faits et meilleur : {name}.</translation>
+        </message>
+        <message>
+            <source>Done and best: everybody at this station.</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Sign in as a student to see what you have done.</source>
@@ -15816,10 +16088,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>The hand moves the hub, not the tip</source>
             <translation type="unfinished">La main déplace l’embase, pas la pointe</translation>
-        </message>
-        <message>
-            <source>Details of the robot (technician's strip)</source>
-            <translation type="unfinished">Détails du robot (bandeau du technicien)</translation>
         </message>
         <message>
             <source>Shown by the exercise</source>
@@ -16622,8 +16890,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Une branche de la veine hépatique passe à 7 mm de la trajectoire, 1 cm avant la lésion. Repérez-la dans les coupes avant de commencer : elle y est tracée, ainsi qu’en 3D. Gardez l’aiguille à 5 mm d’elle au moins, pointe et tige, tout du long ; un degré et demi vers elle, en profondeur, c’est trop, et une aiguille que l’on tourne une fois profonde balaie plus près qu’une aiguille bien orientée dès le départ. Le patient retient sa respiration.</translation>
         </message>
         <message>
-            <source>A holder over the skin turns its guide to the planned path and holds it with four cables; slide the needle to the lesion, hold, and end the attempt. The patient holds the breath. With the dial below zero it pushes the needle away. Whatever its cables or encoders show to have failed ends the force, and is said.</source>
-            <translation type="unfinished">Un porte-aiguille au-dessus de la peau oriente son guide selon la trajectoire planifiée et le tient par quatre câbles ; faites coulisser l’aiguille jusqu’à la lésion, restez immobile et terminez l’essai. Le patient retient sa respiration. Avec le réglage sous zéro, il repousse l’aiguille. Toute panne que montrent ses câbles ou ses codeurs met fin à la force, et vous est signalée.</translation>
+            <source>A holder over the skin turns its guide to the planned path and holds it with four cables; slide the needle to the lesion, hold, and end the attempt. The patient holds the breath. With the dial below zero it pushes the needle away. Whatever fails in it ends the force, and is said.</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>A large vessel runs along the path, 2 cm beside it. There is hardly any guidance; the robot pushes the needle aside when it is about to reach the vessel, and back before it leans too far. A needle that meets the vessel or a rib fails. The patient holds the breath.</source>
@@ -16688,6 +16956,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Bone turns the tip aside</source>
             <translation type="unfinished">L’os dévie la pointe</translation>
+        </message>
+        <message>
+            <source>Breath while pushing</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Breathing liver</source>
@@ -17176,6 +17448,138 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>You hold the handle of a long tool that goes through a trocar. Move the handle to the left and the tip goes to the right, the further the deeper it is. Touch the numbered targets one after the other: bring the tip onto the target that is marked, and hold it there until the next one is. Go straight to each; press Enter after the last.</source>
             <translation type="unfinished">Vous tenez la poignée d’un long instrument qui passe par un trocart. Déplacez la poignée vers la gauche et la pointe va vers la droite, d’autant plus loin qu’elle est profonde. Touchez les cibles numérotées l’une après l’autre : amenez la pointe sur la cible marquée et maintenez-la là jusqu’à ce que la suivante le soit. Allez tout droit à chacune ; appuyez sur Entrée après la dernière.</translation>
+        </message>
+        <message>
+            <source>Align only: it ends as the tip goes through the skin, and only the tilt there counts.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Depth only: you begin aligned, and only the depth counts.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Breath only: push while the target is in its place, wait while it is not; nothing else counts.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Ten times three minutes: the whole exercise; each round ends by itself after three minutes.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the field: {because}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>layers: {because}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>a needle {angle:.0f}° from upright</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{where} meets {name} at {begin_mm:.0f} mm, which the path does not</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{where} meets {others}, the path {own}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{where} feels {most:.1f} N more or less at {depth:.0f} mm than the path</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>every needle within reach meets {names} with the same force to {most:.2f} N</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the breath does not move the target</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>the needle was never pushed deeper</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>a hand's unsteadiness needs finite numbers of 0 or more, and a lag and a memory above 0, got {this}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Breath</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>How far the breath has moved the target from where the CT has it. In the band it is within the inner ring: push there, wait elsewhere.</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>✔ at rest: push</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>▲ {mm:.0f} mm away: wait</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Click: this slice alone, with all that a slice can do</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Technician</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>practise, progress, help</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>also patients, exercises, courses and results</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>also robot, cameras, checks, effects and cost of accuracy</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Put panels away ({key})</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>All panels ({key})</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Live pictures ({key})</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Control scan again ({key})</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Role</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>An attempt is running: end it before the role is changed</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Role: {role}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Who sits here: it decides what the window has ({key})</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Go on to the attempt</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Back to the plan</source>
+            <translation type="unfinished" />
         </message>
     </context>
 </TS>
