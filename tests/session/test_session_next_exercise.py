@@ -192,7 +192,7 @@ def test_the_folder_says_what_comes_next_and_which_attempts_may_stand_beside(tmp
     write(folder, "b", "ada", 85.0)
     write(folder, "c", "ben", 95.0)
     write(folder, "d", "eve", 99.0)
-    shown = SimpleNamespace(id="a", student="ada", conditions=under, score=score(0.5))
+    shown = SimpleNamespace(drill=None, id="a", student="ada", conditions=under, score=score(0.5))
     found = around(folder, shown, False, EXERCISES, False, lambda who: who != "eve", lambda _: "")
     assert [(one.id, own) for one, own in found.rivals] == [("b", True), ("c", False)]
     assert found.proposal.exercise == "thick-tissue"
@@ -206,7 +206,9 @@ def test_attempts_that_a_course_holds_stand_beside_nothing_but_for_the_instructo
     folder = tmp_path / "records"
     under = write(folder, "a", person.key, 70.0)
     write(folder, "b", person.key, 85.0)
-    shown = SimpleNamespace(id="a", student=person.key, conditions=under, score=score(0.5))
+    shown = SimpleNamespace(
+        drill=None, id="a", student=person.key, conditions=under, score=score(0.5)
+    )
     assert held_by(shown) == "Autumn"
 
     def beside(manages):
