@@ -59,6 +59,7 @@ def test_every_metric_is_finite_on_a_plain_attempt(name: str) -> None:
     base = Attempt(noise=1e-4, force=1.0).trajectory()
     facts = {
         "guide": base.felt,
+        "target_shift": np.full_like(base.tip, 1e-3),
         "risks": (RiskMark("vessel", 3.0, 2.0, inside_s=0.0),),
         "clamped": np.zeros(len(base), dtype=bool),
         "touches": Touches(2, (float(base.time[-1]),)),

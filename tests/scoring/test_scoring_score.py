@@ -178,7 +178,9 @@ def test_what_the_exercise_does_not_have_is_a_row_only_where_it_has_a_tolerance(
 
 def test_metrics_without_a_tolerance_are_shown_and_not_counted() -> None:
     result = score(PERFECT.trajectory(), {"angle_error": bands(1, 2, 3)})
-    assert {row.name for row in result.rows} == set(available()) - RISKS - TOUCHES - MET
+    assert {row.name for row in result.rows} == set(available()) - RISKS - TOUCHES - MET - {
+        "breath_offset"
+    }
     assert result.rows[0].name == "angle_error"
     assert result.row("peak_force").utility is None
     assert result.total == pytest.approx(100.0)
