@@ -79,6 +79,7 @@ check: setup  ## style, types, structure
 	$(BIN)/lint-imports
 	$(BIN)/python -m tools.structure --check
 	$(BIN)/python -m tools.words
+	$(BIN)/python -m tools.translations
 
 bench: setup  ## every figure against its peer, in one run
 	./tools/with-display $(BIN)/python -m tests.bench $(BENCH)

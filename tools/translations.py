@@ -28,12 +28,18 @@ _CODE = re.compile(r"`[^`]*`")
 
 
 def declared_texts() -> list[str]:
-    """Return titles of declarations in `app`, titles and descriptions of shipped exercises."""
+    """Return the texts that `lupdate` does not see.
+
+    Titles of declarations in `app`, texts marked inside f-strings, titles and descriptions of
+    shipped exercises.
+    """
     texts: set[str] = set()
     for path in (ROOT / "app").rglob("*.py"):
         text = path.read_text(encoding="utf-8")
+        tree = ast.parse(text)
+        texts.update(_within_texts(tree))
         if "DECLARATION" in text:
-            texts.update(_titles(ast.parse(text)))
+            texts.update(_titles(tree))
     for file in (paths.resources() / "exercises").glob("*.yaml"):
         exercise = load_exercise(file.stem)
         texts.update(text for text in (exercise.title, exercise.description) if text)
@@ -48,6 +54,17 @@ def _titles(tree: ast.Module) -> Iterator[str]:
         titled = isinstance(key, ast.Constant) and key.value == "title"
         if titled and isinstance(value, ast.Constant) and isinstance(value.value, str):
             yield value.value
+
+
+def _within_texts(tree: ast.Module) -> Iterator[str]:
+    """Yield what is marked for translation within f-strings."""
+    for text in (node for node in ast.walk(tree) if isinstance(node, ast.JoinedStr)):
+        for node in ast.walk(text):
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.args:
+                first = node.args[0]
+                marked = node.func.id in ("tr", "sentence") and isinstance(first, ast.Constant)
+                if marked and isinstance(first.value, str):
+                    yield first.value
 
 
 def update(files: Iterable[Path]) -> None:

@@ -545,11 +545,11 @@
         </message>
         <message>
             <source>{kind}, {distance:g} rad</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{kind}, {distance:g} rad</translation>
         </message>
         <message>
             <source>searches</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Suche läuft</translation>
         </message>
         <message>
             <source>no fulcrum: {result_status}; turn the tool further</source>
@@ -885,23 +885,23 @@
         </message>
         <message>
             <source>asking the camera for its first picture</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">erstes Bild der Kamera wird angefordert</translation>
         </message>
         <message>
             <source>computing what the cameras see of the needle's cone</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Berechnung, was die Kameras vom Kegel der Nadel sehen</translation>
         </message>
         <message>
             <source>asking the webcam for its first picture</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">erstes Bild der Webcam wird angefordert</translation>
         </message>
         <message>
             <source>compiling the loop</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Regelschleife wird kompiliert</translation>
         </message>
         <message>
             <source>starting robot and cameras</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Roboter und Kameras werden gestartet</translation>
         </message>
         <message>
             <source>the control loop has not ticked in {waited:.0f} s; start it again</source>
@@ -969,11 +969,11 @@
         </message>
         <message>
             <source>layers: the exercise has them</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Gewebeschichten: Die Übung hat welche</translation>
         </message>
         <message>
             <source>the field: the exercise asks for it</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">das Feld: Die Übung verlangt es</translation>
         </message>
         <message>
             <source>exercise {exercise_id} has tissue: field, and its CT is not open, or its values are no Hounsfield values: open its CT, or set tissue: layers</source>
@@ -981,7 +981,7 @@
         </message>
         <message>
             <source>layers: there is no CT in Hounsfield values</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Gewebeschichten: Es gibt kein CT in Hounsfield-Werten</translation>
         </message>
         <message>
             <source>this record cannot be replayed: it has no {tissue_file}</source>
@@ -1001,7 +1001,7 @@
         </message>
         <message>
             <source>the first start compiles what follows the marker</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">beim ersten Start wird kompiliert, was dem Marker folgt</translation>
         </message>
         <message>
             <source>{tissue}: the loop had it, the walk had not</source>
@@ -1021,7 +1021,7 @@
         </message>
         <message>
             <source>machines</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Maschinen</translation>
         </message>
         <message>
             <source>{path} must define FEATURE, a class of Feature; see 'How to add a panel'</source>
@@ -1033,15 +1033,15 @@
         </message>
         <message>
             <source>loading the routines</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Routinen werden geladen</translation>
         </message>
         <message>
             <source>greeting the board</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Platine wird angesprochen</translation>
         </message>
         <message>
             <source>waiting for joint angles</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Gelenkwinkel werden erwartet</translation>
         </message>
         <message>
             <source>the robot at {port} was greeted but sends no joint angles; see `acus device test {port}`</source>
@@ -1117,11 +1117,11 @@
         </message>
         <message>
             <source>waiting {waited:.0f} s for the program to load (the first start after an installation compiles, for a minute or two)</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">seit {waited:.0f} s wird auf das Laden des Programms gewartet (der erste Start nach einer Installation kompiliert, ein bis zwei Minuten lang)</translation>
         </message>
         <message>
             <source>loading</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">wird geladen</translation>
         </message>
         <message>
             <source>{group} has no field {unknown}; it has {places_fields}</source>
@@ -1821,7 +1821,7 @@
         </message>
         <message>
             <source>packing {name}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{name} wird gepackt</translation>
         </message>
         <message>
             <source>cannot write {path}: {error_strerror}</source>
@@ -1889,7 +1889,7 @@
         </message>
         <message>
             <source>unpacking {name}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{name} wird entpackt</translation>
         </message>
         <message>
             <source>{path}: {name} was altered after it was packed</source>
@@ -2293,15 +2293,15 @@
         </message>
         <message>
             <source>taking the table away</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Tisch wird entfernt</translation>
         </message>
         <message>
             <source>filling the lungs</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Lungen werden gefüllt</translation>
         </message>
         <message>
             <source>body found</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Körper gefunden</translation>
         </message>
         <message>
             <source>the line starts in the body, {depth:.1f} mm from the skin</source>
@@ -2441,35 +2441,35 @@
         </message>
         <message>
             <source>reading the CT on the field's grid</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">CT wird auf dem Raster des Felds gelesen</translation>
         </message>
         <message>
             <source>looking for the skin</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Haut wird gesucht</translation>
         </message>
         <message>
             <source>looking for lung and gut</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Lunge und Darm werden gesucht</translation>
         </message>
         <message>
             <source>looking for bone</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Knochen werden gesucht</translation>
         </message>
         <message>
             <source>parting fat, muscle and organs</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Fett, Muskel und Organe werden getrennt</translation>
         </message>
         <message>
             <source>laying structures over it</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Strukturen werden darübergelegt</translation>
         </message>
         <message>
             <source>placing the boundaries</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Grenzen werden gesetzt</translation>
         </message>
         <message>
             <source>the tissue field is made</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Gewebefeld ist fertig</translation>
         </message>
         <message>
             <source>no bone was found: no needle can be told that it met one</source>
@@ -2485,7 +2485,7 @@
         </message>
         <message>
             <source>labelling the built-in patient</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Gewebe des eingebauten Patienten wird zugeordnet</translation>
         </message>
         <message>
             <source>a field of {spacing_mm:g} mm: {named} mm can be chosen</source>
@@ -2509,11 +2509,11 @@
         </message>
         <message>
             <source>looking for the tissue field in the cache</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Gewebefeld wird im Zwischenspeicher gesucht</translation>
         </message>
         <message>
             <source>the tissue field was there</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Gewebefeld war schon vorhanden</translation>
         </message>
         <message>
             <source>a tissue field of {grid_spacing_mm:g} mm takes {megabytes:.0f} MB here; {most_mb:g} are allowed: {advice}</source>
@@ -2593,11 +2593,11 @@
         </message>
         <message>
             <source>slice {ready} of {count}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Schicht {ready} von {count}</translation>
         </message>
         <message>
             <source>pydicom is loaded</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">pydicom ist geladen</translation>
         </message>
         <message>
             <source>{absent} {verb} missing, without which its pixels cannot be told</source>
@@ -2649,7 +2649,7 @@
         </message>
         <message>
             <source>{files} files taken into the library</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">in die Bibliothek aufgenommene Dateien: {files}</translation>
         </message>
         <message>
             <source>this series is not taken into the library: {name} differs among its files, and they would get one pseudonym; give the files of one patient's study alone</source>
@@ -2673,7 +2673,7 @@
         </message>
         <message>
             <source>checking what was written</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Geschriebenes wird geprüft</translation>
         </message>
         <message>
             <source> beside the {open:.1f} GB of what is open</source>
@@ -2693,7 +2693,7 @@
         </message>
         <message>
             <source>reading {name}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{name} wird gelesen</translation>
         </message>
         <message>
             <source>{path} cannot be read: {error_strerror}</source>
@@ -2705,11 +2705,11 @@
         </message>
         <message>
             <source>{name} read</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{name} gelesen</translation>
         </message>
         <message>
             <source>reading</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">wird gelesen</translation>
         </message>
         <message>
             <source>it is cut off or damaged</source>
@@ -2717,7 +2717,7 @@
         </message>
         <message>
             <source>slice {current} of {size}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Schicht {current} von {size}</translation>
         </message>
         <message>
             <source>it holds values that are no numbers (NaN or infinite)</source>
@@ -2769,7 +2769,7 @@
         </message>
         <message>
             <source>connecting to {name}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Verbindung zu {name} wird hergestellt</translation>
         </message>
         <message>
             <source>{settings_name}: {limits_problem}; nothing was taken into the library</source>
@@ -2844,8 +2844,12 @@
             <translation type="unfinished">{settings_name} gab mehr als {most_pictures} Antworten ({doing})</translation>
         </message>
         <message>
-            <source>{ready} {known}pictures received</source>
-            <translation type="unfinished" />
+            <source>{ready} of {total} pictures received</source>
+            <translation type="unfinished">{ready} von {total} Bildern empfangen</translation>
+        </message>
+        <message>
+            <source>{ready} pictures received</source>
+            <translation type="unfinished">Bilder empfangen: {ready}</translation>
         </message>
         <message>
             <source>{settings_name}: C-MOVE with TLS needs a certificate of our own (tls: certificate, key); or retrieve with C-GET</source>
@@ -2981,11 +2985,11 @@
         </message>
         <message>
             <source>phantom patient {seed}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Phantompatient {seed}</translation>
         </message>
         <message>
             <source>phantom slice {ready} of {slices}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Phantomschicht {ready} von {slices}</translation>
         </message>
         <message>
             <source>HighBit {high_bit} and BitsStored {bits_stored} leave the lowest {bits_below} bits of a pixel empty, and they are not; HighBit must be {right_high_bit}</source>
@@ -3157,15 +3161,15 @@
         </message>
         <message>
             <source>file 1 of {count}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Datei 1 von {count}</translation>
         </message>
         <message>
             <source>file {current} of {count}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Datei {current} von {count}</translation>
         </message>
         <message>
             <source>checking file {current} of {count}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Datei {current} von {count} wird geprüft</translation>
         </message>
         <message>
             <source>file {file_number} of {count}: {error}</source>
@@ -3181,7 +3185,7 @@
         </message>
         <message>
             <source>{count} pictures read</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">gelesene Bilder: {count}</translation>
         </message>
         <message>
             <source>its pixels cannot be parted from what else stands with them</source>
@@ -3281,7 +3285,7 @@
         </message>
         <message>
             <source>values beyond 16 bits: reading as float32</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Werte jenseits von 16 Bit: gelesen wird als float32</translation>
         </message>
         <message>
             <source>has values beyond 16 bits and {too_large}</source>
@@ -3297,11 +3301,11 @@
         </message>
         <message>
             <source>slice {current} of {count}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Schicht {current} von {count}</translation>
         </message>
         <message>
             <source>{count} slices read, {i} × {j} × {k} voxels taken together</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">gelesene Schichten: {count}, je {i} × {j} × {k} Voxel zusammengefasst</translation>
         </message>
         <message>
             <source>right {right} and down {down} are not perpendicular unit vectors</source>
@@ -3321,7 +3325,7 @@
         </message>
         <message>
             <source>slice {current} of {count} resampled</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Schicht {current} von {count} neu berechnet</translation>
         </message>
         <message>
             <source>slices {step:g} mm apart cannot be made; ask for {finest_mm:g} to {coarsest_mm:g} mm</source>
@@ -3469,7 +3473,7 @@
         </message>
         <message>
             <source>skin found</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Haut gefunden</translation>
         </message>
         <message>
             <source>a slab of {thickness_mm} mm cannot be shown; it must be above 0 and at most {thickest_mm:g} mm</source>
@@ -3513,7 +3517,7 @@
         </message>
         <message>
             <source>unpacking {current} of {count}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{current} von {count} wird entpackt</translation>
         </message>
         <message>
             <source>leads out of the archive</source>
@@ -3569,7 +3573,7 @@
         </message>
         <message>
             <source>{count} files found</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">gefundene Dateien: {count}</translation>
         </message>
         <message>
             <source>{path} cannot be read as a DICOMDIR ({error}); open its folder instead</source>
@@ -3613,7 +3617,7 @@
         </message>
         <message>
             <source>distances of {name}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Abstände: {name}</translation>
         </message>
         <message>
             <source>no voxel has {low:g} to {high:g} HU: widen the threshold</source>
@@ -3633,7 +3637,7 @@
         </message>
         <message>
             <source>structures placed</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Strukturen platziert</translation>
         </message>
         <message>
             <source>{item_name} lies outside this CT</source>
@@ -3713,7 +3717,7 @@
         </message>
         <message>
             <source>structure {current} of {count}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Struktur {current} von {count}</translation>
         </message>
         <message>
             <source>the structures in the file are empty: nothing is drawn in them</source>
@@ -4045,7 +4049,7 @@
         </message>
         <message>
             <source>{ready} of {count} files</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Dateien: {ready} von {count}</translation>
         </message>
         <message>
             <source>{path}: {fault} (decoder {decoder}); leave it out</source>
@@ -4337,11 +4341,11 @@
         </message>
         <message>
             <source>scoring paths</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Pfade werden bewertet</translation>
         </message>
         <message>
             <source>paths scored</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Pfade bewertet</translation>
         </message>
         <message>
             <source>rotation_deg ({x:g}, {y:g}, {z:g}) must be within ±360°</source>
@@ -6189,7 +6193,7 @@
         </message>
         <message>
             <source>{label}: {current} of {evaluations}, {holes} holes</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{label}: {current} von {evaluations}, Lücken: {holes}</translation>
         </message>
         <message>
             <source>n = {shape:g} is no whole number: the sum has no end</source>
@@ -6197,7 +6201,7 @@
         </message>
         <message>
             <source>squares of {square:g} px</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Felder von {square:g} px</translation>
         </message>
         <message>
             <source>SimpleITK, which this study needs,</source>
@@ -6277,11 +6281,11 @@
         </message>
         <message>
             <source>{name}, {depth:g} mm</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{name}, {depth:g} mm</translation>
         </message>
         <message>
             <source>limits of {name}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Grenzen: {name}</translation>
         </message>
         <message>
             <source>unreachable: the ball joint stops at {profile_tilt_limit_deg:g}° of tilt</source>
@@ -6289,11 +6293,11 @@
         </message>
         <message>
             <source>reach and cost</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Reichweite und Kosten</translation>
         </message>
         <message>
             <source>by tilt</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">nach Neigung</translation>
         </message>
         <message>
             <source>camera {model_name} has no picture of a band at {p_camera} m</source>
@@ -6305,11 +6309,11 @@
         </message>
         <message>
             <source>cube of {edge_mm:g} mm</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Würfel von {edge_mm:g} mm</translation>
         </message>
         <message>
             <source>trials</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Zufallsläufe</translation>
         </message>
         <message>
             <source>cannot write the picture {path}: {error}</source>
@@ -6385,7 +6389,7 @@
         </message>
         <message>
             <source>{name}: {name_of_all}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{name}: {name_of_all}</translation>
         </message>
         <message>
             <source>study {chosen_name} compares ways by time; run() runs it</source>
@@ -6405,7 +6409,7 @@
         </message>
         <message>
             <source>{rate:g} Hz, {delay} ticks</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{rate:g} Hz, Verzögerung in Takten: {delay}</translation>
         </message>
         <message>
             <source>no ray of camera {model_name} for {pixels}</source>
@@ -6493,7 +6497,7 @@
         </message>
         <message>
             <source>adjusting</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Ausgleichung</translation>
         </message>
         <message>
             <source>{measured} pixel coordinates cannot determine {unknown} unknowns; add views</source>
@@ -6925,19 +6929,19 @@
         </message>
         <message>
             <source>{name}: first estimate</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{name}: erste Schätzung</translation>
         </message>
         <message>
             <source>{name}: views held back</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{name}: zurückgehaltene Aufnahmen</translation>
         </message>
         <message>
             <source>{name}: which coefficients the views support</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{name}: welche Koeffizienten die Aufnahmen hergeben</translation>
         </message>
         <message>
             <source>first estimate</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">erste Schätzung</translation>
         </message>
         <message>
             <source>camera {name}: {usable_views} usable views of the board; at least {least_views} are needed, 15 to 30 are good</source>
@@ -7001,11 +7005,11 @@
         </message>
         <message>
             <source>looking for the board</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Tafel wird gesucht</translation>
         </message>
         <message>
             <source>read at {name}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">gelesen: {name}</translation>
         </message>
         <message>
             <source>the board measures {fit_scale:.4f} ± {fit_scale_sd:.4f} times what its specification says: measure a square, or was the calibration made with another board?</source>
@@ -7105,11 +7109,11 @@
         </message>
         <message>
             <source>pairs held back</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Kontrollpaare</translation>
         </message>
         <message>
             <source>calibrated</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">kalibriert</translation>
         </message>
         <message>
             <source>{name} = {estimate:.3g} ± {sd:.2g}: the views do not tell; taken as 0</source>
@@ -7129,7 +7133,7 @@
         </message>
         <message>
             <source>which corner is which</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">welche Ecke welche ist</translation>
         </message>
         <message>
             <source>left and right show the same pictures: both come from one camera; choose another source for one of them</source>
@@ -8575,19 +8579,19 @@ Nein: diese unter einem anderen Namen speichern.</translation>
         </message>
         <message>
             <source>As the exercise's level has it</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Wie es die Stufe der Übung vorgibt</translation>
         </message>
         <message>
             <source>Steady</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Ruhig</translation>
         </message>
         <message>
             <source>Unsteady as at level {n}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Unruhig wie auf Stufe {n}</translation>
         </message>
         <message>
             <source>Simulated hand</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Simulierte Hand</translation>
         </message>
         <message>
             <source>Window of the CT</source>
@@ -9897,7 +9901,7 @@ Anteil</translation>
         </message>
         <message>
             <source>the expert, along your plan</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">der Experte, entlang Ihres Plans</translation>
         </message>
         <message>
             <source>the ideal path</source>
@@ -10009,7 +10013,7 @@ Anteil</translation>
         </message>
         <message>
             <source>This exercise is no more what it was: begin it from the start page.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Diese Übung ist nicht mehr, was sie war: Beginnen Sie sie auf der Startseite.</translation>
         </message>
         <message>
             <source>Show me now shows this attempt in {title}: its movement, without a name or score.</source>
@@ -10179,15 +10183,15 @@ Anteil</translation>
         </message>
         <message>
             <source>All metrics</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Alle Messgrößen</translation>
         </message>
         <message>
             <source>Every metric with its value, band and points; remembered</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Jede Messgröße mit Wert, Einstufung und Punkten; wird gemerkt</translation>
         </message>
         <message>
             <source>Drill, {drill}: {title}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Gezielte Übung, {drill}: {title}</translation>
         </message>
         <message>
             <source>control scans: {n}</source>
@@ -10677,15 +10681,15 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>Smoothness</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Bewegungsglätte</translation>
         </message>
         <message>
             <source>Largest distance from the path</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Größter Abstand vom Pfad</translation>
         </message>
         <message>
             <source>Mean distance from the path</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Mittlerer Abstand vom Pfad</translation>
         </message>
         <message>
             <source>Void: not judged.</source>
@@ -10701,11 +10705,11 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>to the patient's left</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">zur linken Patientenseite hin</translation>
         </message>
         <message>
             <source>to the patient's right</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">zur rechten Patientenseite hin</translation>
         </message>
         <message>
             <source>towards the back</source>
@@ -10725,83 +10729,83 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>{side} and {other_side}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{side} und {other_side}</translation>
         </message>
         <message>
             <source>At {depth:.0f} mm depth you were {mm:.1f} mm off the line {where}.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">In {depth:.0f} mm Tiefe wichen Sie {where} um {mm:.1f} mm von der Linie ab.</translation>
         </message>
         <message>
             <source>From {depth:.0f} mm depth on you were off the line {where}, by up to {mm:.1f} mm.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Ab {depth:.0f} mm Tiefe wichen Sie {where} von der Linie ab, um bis zu {mm:.1f} mm.</translation>
         </message>
         <message>
             <source>You left the line between {low:.0f} and {high:.0f} mm depth {where}, by up to {mm:.1f} mm.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Zwischen {low:.0f} und {high:.0f} mm Tiefe wichen Sie {where} von der Linie ab, um bis zu {mm:.1f} mm.</translation>
         </message>
         <message>
             <source>At the skin the needle was in line: {tilt:.1f}° off.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">An der Haut lag die Nadel in der Linie: {tilt:.1f}° daneben.</translation>
         </message>
         <message>
             <source>The tilt at the skin was {tilt:.1f}° off: the tip pointed too far {where}.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Die Neigung an der Haut war um {tilt:.1f}° falsch: Die Spitze zeigte zu weit {where}.</translation>
         </message>
         <message>
             <source>The tip ended {mm:.1f} mm too deep.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Am Ende lag die Spitze {mm:.1f} mm zu tief.</translation>
         </message>
         <message>
             <source>The tip ended {mm:.1f} mm too deep: it passed the target's depth at {clock}.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Am Ende lag die Spitze {mm:.1f} mm zu tief: Bei {clock} min kam sie über die Tiefe des Ziels hinaus.</translation>
         </message>
         <message>
             <source>The tip was {mm:.1f} mm too deep at {clock}, then drawn back to {short:.1f} mm short of the target.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Bei {clock} min lag die Spitze {mm:.1f} mm zu tief; dann wurde sie bis {short:.1f} mm vor das Ziel zurückgezogen.</translation>
         </message>
         <message>
             <source>The tip stopped {mm:.1f} mm short of the target; it came no deeper after {clock}.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Die Spitze blieb {mm:.1f} mm vor dem Ziel stehen; nach {clock} min kam sie nicht mehr tiefer.</translation>
         </message>
         <message>
             <source>You pushed {outside:.0f} of {whole:.0f} mm while the breath had moved the target by more than {gate:.1f} mm.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Sie haben {outside:.0f} von {whole:.0f} mm vorgeschoben, während die Atmung das Ziel um mehr als {gate:.1f} mm verschoben hatte.</translation>
         </message>
         <message>
             <source>{stage} took longest against its band: {seconds:.0f} s, of which {good:.0f} s are good.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Gemessen an der Einstufung dauerte am längsten: {stage}, {seconds:.0f} s; gut sind {good:.0f} s.</translation>
         </message>
         <message>
             <source>{stage} took longest: {seconds:.0f} of {whole:.0f} s.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Am längsten dauerte: {stage}, {seconds:.0f} von {whole:.0f} s.</translation>
         </message>
         <message>
             <source>Holding still</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Stillhalten</translation>
         </message>
         <message>
             <source>The force was largest at {clock}: {newton:.1f} N.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Am größten war die Kraft bei {clock} min: {newton:.1f} N.</translation>
         </message>
         <message>
             <source>The force was largest at {depth:.0f} mm depth, at {clock}: {newton:.1f} N.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Am größten war die Kraft in {depth:.0f} mm Tiefe, bei {clock} min: {newton:.1f} N.</translation>
         </message>
         <message>
             <source>{met}, at {clock}.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{met}, bei {clock} min.</translation>
         </message>
         <message>
             <source>The needle was inside {name} at {clock}, with its tip at {depth:.0f} mm depth.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Bei {clock} min war die Nadel in „{name}“, mit der Spitze in {depth:.0f} mm Tiefe.</translation>
         </message>
         <message>
             <source>The needle came within {mm:.1f} mm of {name} at {clock}, with its tip at {depth:.0f} mm depth.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Bei {clock} min kam die Nadel bis auf {mm:.1f} mm an „{name}“ heran, mit der Spitze in {depth:.0f} mm Tiefe.</translation>
         </message>
         <message>
             <source>{outside} of {n} control scans were taken before the needle was in the skin.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Kontrollscans, bevor die Nadel in der Haut war: {outside} von {n}.</translation>
         </message>
         <message>
             <source>{mm:.1f} mm {side}</source>
@@ -10837,27 +10841,31 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>align only</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">nur Ausrichten</translation>
         </message>
         <message>
             <source>depth only</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">nur Tiefe</translation>
         </message>
         <message>
             <source>breath</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Atmung</translation>
         </message>
         <message>
             <source>ten times three minutes</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">zehnmal drei Minuten</translation>
+        </message>
+        <message>
+            <source>Round {n} of {all} is done.</source>
+            <translation type="unfinished">Runde {n} von {all} ist geschafft.</translation>
         </message>
         <message>
             <source>{drill} It counts for no course and no pass.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{drill} Das zählt für keinen Kurs und nicht fürs Bestehen.</translation>
         </message>
         <message>
             <source>Practise: {drill}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Üben: {drill}</translation>
         </message>
         <message>
             <source>Nothing cost points.</source>
@@ -10913,7 +10921,7 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>Then the whole exercise: {title}.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Dann die ganze Übung: {title}.</translation>
         </message>
         <message>
             <source>The same again: this attempt has no points.</source>
@@ -10949,7 +10957,7 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>✔ Reached</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">✔ Erreicht</translation>
         </message>
         <message>
             <source>Required and not met: {names}</source>
@@ -10965,7 +10973,7 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>✖ Not reached yet</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">✖ Noch nicht erreicht</translation>
         </message>
         <message>
             <source>It counts for nothing. The pictures of the simulated cameras came too late: this computer was too busy. Close other programs, then try again.</source>
@@ -11057,7 +11065,7 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>Drill: {title}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Gezielte Übung: {title}</translation>
         </message>
         <message>
             <source>{title} (version {n})</source>
@@ -11165,11 +11173,11 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>◀▶ repels {percent} %</source>
-            <translation type="unfinished">◀▶ drückt weg {percent} %</translation>
+            <translation type="unfinished">◀▶ stößt ab {percent} %</translation>
         </message>
         <message>
             <source>repel</source>
-            <translation type="unfinished">wegdrücken</translation>
+            <translation type="unfinished">abstoßen</translation>
         </message>
         <message>
             <source>off</source>
@@ -11461,7 +11469,7 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>Skin 0 · Target {target:.0f} · Stop {stop:.0f} mm</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Haut 0 · Ziel {target:.0f} · Stopp {stop:.0f} mm</translation>
         </message>
         <message>
             <source>Skin</source>
@@ -11533,27 +11541,27 @@ Buchstaben: Richtungen des Patienten
         </message>
         <message>
             <source>off the path: {length:.1f} mm</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">seitlicher Fehler: {length:.1f} mm</translation>
         </message>
         <message>
             <source>The dot is where the needle will pass the target: bring it into the middle. Rings: how far off, the inner two are the tolerance</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Der Punkt zeigt, wo die Nadel am Ziel vorbeikommt: Bringen Sie ihn in die Mitte. Ringe: wie weit daneben; die inneren beiden sind die Toleranz</translation>
         </message>
         <message>
             <source>{mm} mm off</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{mm} mm daneben</translation>
         </message>
         <message>
             <source>▼ {mm} mm</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">▼ {mm} mm</translation>
         </message>
         <message>
             <source>▲ {mm} mm</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">▲ {mm} mm</translation>
         </message>
         <message>
             <source>✔ hold</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">✔ halten</translation>
         </message>
         <message>
             <source>CT angles: in plane {a} (path {b})
@@ -12299,7 +12307,7 @@ frei wählbar</translation>
         </message>
         <message>
             <source>All slices</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Alle Schichten</translation>
         </message>
         <message>
             <source>No control scan yet.
@@ -12401,19 +12409,19 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>see the marker now and then</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">sehen den Marker nur ab und zu</translation>
         </message>
         <message>
             <source>do not see the marker</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">sehen den Marker nicht</translation>
         </message>
         <message>
             <source>There are no cameras here: the depth comes from elsewhere, or from nowhere.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Hier gibt es keine Kameras: Die Tiefe kommt anderswoher oder gar nicht.</translation>
         </message>
         <message>
             <source>measured a moment ago</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">eben noch gemessen</translation>
         </message>
         <message>
             <source>No robot</source>
@@ -12541,15 +12549,15 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Scans</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Scans</translation>
         </message>
         <message>
             <source>Live pictures (Ctrl+T)</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Livebilder (Strg+T)</translation>
         </message>
         <message>
             <source>All panels (Ctrl+B)</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Alle Bereiche (Strg+B)</translation>
         </message>
         <message>
             <source>Pull out</source>
@@ -12597,15 +12605,15 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Aim {mm} mm further towards {sides}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Zielen Sie {mm} mm weiter {sides}</translation>
         </message>
         <message>
             <source>Tilt the hub towards {sides}: {mm} mm off the target</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Neigen Sie den Ansatz {sides}: {mm} mm neben dem Ziel</translation>
         </message>
         <message>
             <source>One moment: the needle goes to its start</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Einen Moment: Die Nadel fährt an ihren Start</translation>
         </message>
         <message>
             <source>Pull the needle out of the skin</source>
@@ -12613,7 +12621,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Ready: the clock starts when you move</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Bereit: Die Uhr läuft, sobald Sie sich bewegen</translation>
         </message>
         <message>
             <source>Let both cameras see the marker</source>
@@ -12625,7 +12633,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Steer by the CT: S takes a scan, Enter ends the attempt</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Richten Sie sich nach dem CT: S nimmt einen Scan auf, Eingabe beendet den Versuch</translation>
         </message>
         <message>
             <source>Push the needle in{how}</source>
@@ -12665,19 +12673,19 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Push deeper{how}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Schieben Sie tiefer vor{how}</translation>
         </message>
         <message>
             <source>Pull back{how}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Ziehen Sie zurück{how}</translation>
         </message>
         <message>
             <source>Aim further towards {sides}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Zielen Sie weiter {sides}</translation>
         </message>
         <message>
             <source>Tilt the hub towards {sides}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Neigen Sie den Ansatz {sides}</translation>
         </message>
         <message>
             <source>Paused: the window was busy; it goes on by itself.</source>
@@ -12865,7 +12873,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Only the instructor does that: change the role at the top right.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Das darf nur der Kursleiter: Wechseln Sie oben rechts die Rolle.</translation>
         </message>
         <message>
             <source>(erased)</source>
@@ -12873,7 +12881,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>it is an assessment of the course {course}. Sign in as a student who takes it (Sessions ▸ Sign in as a student…), or as the instructor (role, at the top right)</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">es ist eine Prüfung des Kurses {course}. Melden Sie sich als Teilnehmer an, der sie ablegt (Sitzungen ▸ Als Teilnehmer anmelden…), oder als Kursleiter (Rolle, oben rechts)</translation>
         </message>
         <message>
             <source>{x}   {y}   {z} mm</source>
@@ -13073,7 +13081,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Series</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Serie</translation>
         </message>
         <message>
             <source>* and ? stand for unknown characters</source>
@@ -13837,7 +13845,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Progress and courses</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Fortschritt und Kurse</translation>
         </message>
         <message>
             <source> · {n} void</source>
@@ -15391,23 +15399,23 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>body</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Körper</translation>
         </message>
         <message>
             <source>skin</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Haut</translation>
         </message>
         <message>
             <source>organs</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Organe</translation>
         </message>
         <message>
             <source>coarse versions</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">grobe Fassungen</translation>
         </message>
         <message>
             <source>surfaces</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Oberflächen</translation>
         </message>
         <message>
             <source>Viewpoint, and what is shown</source>
@@ -15799,7 +15807,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>who sits here: student, instructor, technician</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">wer hier sitzt: Teilnehmer, Kursleiter, Techniker</translation>
         </message>
         <message>
             <source>turn, pan, zoom</source>
@@ -15859,7 +15867,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>in an attempt: all panels; live pictures or the scan</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">im Versuch: alle Bereiche; Livebilder oder Scan</translation>
         </message>
         <message>
             <source>Hold Esc</source>
@@ -15955,19 +15963,19 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>CTs that you open are listed here: File ▸ Open CT folder…</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">CTs, die Sie öffnen, stehen dann hier: Datei ▸ CT-Ordner öffnen…</translation>
         </message>
         <message>
             <source>any name: your progress is kept under it</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">beliebiger Name: Ihr Fortschritt wird darunter gespeichert</translation>
         </message>
         <message>
             <source>Your name</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Ihr Name</translation>
         </message>
         <message>
             <source>You practise as</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Sie üben als</translation>
         </message>
         <message>
             <source>Difficulty</source>
@@ -15987,7 +15995,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Done and best: everybody at this station.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Gemacht und Bestwert: von allen an dieser Station.</translation>
         </message>
         <message>
             <source>Sign in as a student to see what you have done.</source>
@@ -16891,7 +16899,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>A holder over the skin turns its guide to the planned path and holds it with four cables; slide the needle to the lesion, hold, and end the attempt. The patient holds the breath. With the dial below zero it pushes the needle away. Whatever fails in it ends the force, and is said.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Ein Halter über der Haut dreht seine Führung in die Richtung des geplanten Pfads und hält sie mit vier Seilen; schieben Sie die Nadel bis zur Läsion vor, halten Sie still und beenden Sie den Versuch. Der Patient hält den Atem an. Steht der Regler unter null, drückt der Halter die Nadel weg. Fällt an ihm etwas aus, endet die Kraft, und es wird gemeldet.</translation>
         </message>
         <message>
             <source>A large vessel runs along the path, 2 cm beside it. There is hardly any guidance; the robot pushes the needle aside when it is about to reach the vessel, and back before it leans too far. A needle that meets the vessel or a rib fails. The patient holds the breath.</source>
@@ -16934,6 +16942,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Ausrichtzeit</translation>
         </message>
         <message>
+            <source>All</source>
+            <translation type="unfinished">Alle</translation>
+        </message>
+        <message>
             <source>Angle error at the skin</source>
             <translation type="unfinished">Winkelfehler an der Haut</translation>
         </message>
@@ -16944,6 +16956,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Angle error out of plane</source>
             <translation type="unfinished">Winkelfehler aus der Ebene heraus</translation>
+        </message>
+        <message>
+            <source>Archives and DICOM files</source>
+            <translation type="unfinished">Archive und DICOM-Dateien</translation>
         </message>
         <message>
             <source>Beside the vein</source>
@@ -16959,7 +16975,7 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Breath while pushing</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Atmung beim Vorschieben</translation>
         </message>
         <message>
             <source>Breathing liver</source>
@@ -16988,6 +17004,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Centre of an ellipse through the contour on rays</source>
             <translation type="unfinished">Mitte einer Ellipse durch die Kontur auf Strahlen</translation>
+        </message>
+        <message>
+            <source>Certificates</source>
+            <translation type="unfinished">Zertifikate</translation>
         </message>
         <message>
             <source>Compensation of gravity and joint friction</source>
@@ -17238,6 +17258,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Veröffentlicht: Nadeln in Gewebe, gemessen und bei uns</translation>
         </message>
         <message>
+            <source>Q, E in the pad turn it</source>
+            <translation type="unfinished">Q, E im Feld drehen sie</translation>
+        </message>
+        <message>
             <source>Rate of the recorded path</source>
             <translation type="unfinished">Rate des aufgezeichneten Wegs</translation>
         </message>
@@ -17414,6 +17438,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Tracking gültig</translation>
         </message>
         <message>
+            <source>Transforms</source>
+            <translation type="unfinished">Transformationen</translation>
+        </message>
+        <message>
             <source>Trials: the loop alone, a trainer, a trainer with rendered pictures</source>
             <translation type="unfinished">Testläufe: nur die Regelschleife, ein Trainer, ein Trainer mit gerenderten Bildern</translation>
         </message>
@@ -17451,135 +17479,135 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         </message>
         <message>
             <source>Align only: it ends as the tip goes through the skin, and only the tilt there counts.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Nur Ausrichten: Der Versuch endet, sobald die Spitze durch die Haut geht, und nur die Neigung dort zählt.</translation>
         </message>
         <message>
             <source>Depth only: you begin aligned, and only the depth counts.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Nur Tiefe: Sie beginnen mit ausgerichteter Nadel, und nur die Tiefe zählt.</translation>
         </message>
         <message>
             <source>Breath only: push while the target is in its place, wait while it is not; nothing else counts.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Nur Atmung: Schieben Sie vor, solange das Ziel an seinem Ort ist, und warten Sie, solange es das nicht ist; sonst zählt nichts.</translation>
         </message>
         <message>
             <source>Ten times three minutes: the whole exercise; each round ends by itself after three minutes.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Zehnmal drei Minuten: die ganze Übung; jede Runde endet nach drei Minuten von selbst.</translation>
         </message>
         <message>
             <source>the field: {because}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">das Feld: {because}</translation>
         </message>
         <message>
             <source>layers: {because}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Gewebeschichten: {because}</translation>
         </message>
         <message>
             <source>a needle {angle:.0f}° from upright</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">eine um {angle:.0f}° aus der Senkrechten geneigte Nadel</translation>
         </message>
         <message>
             <source>{where} meets {name} at {begin_mm:.0f} mm, which the path does not</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{where} trifft bei {begin_mm:.0f} mm auf {name}, der Pfad nicht</translation>
         </message>
         <message>
             <source>{where} meets {others}, the path {own}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{where} trifft auf {others}, der Pfad auf {own}</translation>
         </message>
         <message>
             <source>{where} feels {most:.1f} N more or less at {depth:.0f} mm than the path</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{where} spürt bei {depth:.0f} mm {most:.1f} N mehr oder weniger als der Pfad</translation>
         </message>
         <message>
             <source>every needle within reach meets {names} with the same force to {most:.2f} N</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">jede erreichbare Nadel trifft auf {names}, mit derselben Kraft auf {most:.2f} N genau</translation>
         </message>
         <message>
             <source>the breath does not move the target</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">die Atmung bewegt das Ziel nicht</translation>
         </message>
         <message>
             <source>the needle was never pushed deeper</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">die Nadel wurde nie tiefer vorgeschoben</translation>
         </message>
         <message>
             <source>a hand's unsteadiness needs finite numbers of 0 or more, and a lag and a memory above 0, got {this}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">die Unruhe einer Hand braucht endliche Zahlen ab 0 sowie eine Verzögerung und ein Gedächtnis über 0, angegeben ist {this}</translation>
         </message>
         <message>
             <source>Breath</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Atmung</translation>
         </message>
         <message>
             <source>How far the breath has moved the target from where the CT has it. In the band it is within the inner ring: push there, wait elsewhere.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Wie weit die Atmung das Ziel von seinem Ort im CT verschoben hat. Im Band liegt es innerhalb des inneren Rings: Schieben Sie dort vor, sonst warten Sie.</translation>
         </message>
         <message>
             <source>✔ at rest: push</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">✔ in Ruhe: vorschieben</translation>
         </message>
         <message>
             <source>▲ {mm:.0f} mm away: wait</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">▲ {mm:.0f} mm entfernt: warten</translation>
         </message>
         <message>
             <source>Click: this slice alone, with all that a slice can do</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Klick: diese Schicht allein, mit allem, was eine Schicht kann</translation>
         </message>
         <message>
             <source>Technician</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Techniker</translation>
         </message>
         <message>
             <source>practise, progress, help</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">üben, Fortschritt, Hilfe</translation>
         </message>
         <message>
             <source>also patients, exercises, courses and results</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">dazu Patienten, Übungen, Kurse und Ergebnisse</translation>
         </message>
         <message>
             <source>also robot, cameras, checks, effects and cost of accuracy</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">dazu Roboter, Kameras, Kontrollen, Effekte und Kosten der Genauigkeit</translation>
         </message>
         <message>
             <source>Put panels away ({key})</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Bereiche ausblenden ({key})</translation>
         </message>
         <message>
             <source>All panels ({key})</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Alle Bereiche ({key})</translation>
         </message>
         <message>
             <source>Live pictures ({key})</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Livebilder ({key})</translation>
         </message>
         <message>
             <source>Control scan again ({key})</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Wieder Kontrollscan ({key})</translation>
         </message>
         <message>
             <source>Role</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Rolle</translation>
         </message>
         <message>
             <source>An attempt is running: end it before the role is changed</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Ein Versuch läuft: Beenden Sie ihn, bevor Sie die Rolle wechseln</translation>
         </message>
         <message>
             <source>Role: {role}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Rolle: {role}</translation>
         </message>
         <message>
             <source>Who sits here: it decides what the window has ({key})</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Wer hier sitzt: Das bestimmt, was das Fenster bietet ({key})</translation>
         </message>
         <message>
             <source>Go on to the attempt</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Weiter zum Versuch</translation>
         </message>
         <message>
             <source>Back to the plan</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Zurück zum Plan</translation>
         </message>
     </context>
 </TS>

@@ -545,11 +545,11 @@
         </message>
         <message>
             <source>{kind}, {distance:g} rad</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{kind}, {distance:g} rad</translation>
         </message>
         <message>
             <source>searches</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">recherches</translation>
         </message>
         <message>
             <source>no fulcrum: {result_status}; turn the tool further</source>
@@ -885,23 +885,23 @@
         </message>
         <message>
             <source>asking the camera for its first picture</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">demande de la première image à la caméra</translation>
         </message>
         <message>
             <source>computing what the cameras see of the needle's cone</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">calcul de ce que les caméras voient du cône de l’aiguille</translation>
         </message>
         <message>
             <source>asking the webcam for its first picture</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">demande de la première image à la webcam</translation>
         </message>
         <message>
             <source>compiling the loop</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">compilation de la boucle de commande</translation>
         </message>
         <message>
             <source>starting robot and cameras</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">démarrage du robot et des caméras</translation>
         </message>
         <message>
             <source>the control loop has not ticked in {waited:.0f} s; start it again</source>
@@ -969,11 +969,11 @@
         </message>
         <message>
             <source>layers: the exercise has them</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">couches : l’exercice en a</translation>
         </message>
         <message>
             <source>the field: the exercise asks for it</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">le champ : l’exercice le demande</translation>
         </message>
         <message>
             <source>exercise {exercise_id} has tissue: field, and its CT is not open, or its values are no Hounsfield values: open its CT, or set tissue: layers</source>
@@ -981,7 +981,7 @@
         </message>
         <message>
             <source>layers: there is no CT in Hounsfield values</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">couches : il n’y a pas de CT en valeurs Hounsfield</translation>
         </message>
         <message>
             <source>this record cannot be replayed: it has no {tissue_file}</source>
@@ -1001,7 +1001,7 @@
         </message>
         <message>
             <source>the first start compiles what follows the marker</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">le premier démarrage compile ce qui suit le marqueur</translation>
         </message>
         <message>
             <source>{tissue}: the loop had it, the walk had not</source>
@@ -1021,7 +1021,7 @@
         </message>
         <message>
             <source>machines</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">machines</translation>
         </message>
         <message>
             <source>{path} must define FEATURE, a class of Feature; see 'How to add a panel'</source>
@@ -1033,15 +1033,15 @@
         </message>
         <message>
             <source>loading the routines</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">chargement des routines</translation>
         </message>
         <message>
             <source>greeting the board</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">prise de contact avec la carte</translation>
         </message>
         <message>
             <source>waiting for joint angles</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">attente des angles des articulations</translation>
         </message>
         <message>
             <source>the robot at {port} was greeted but sends no joint angles; see `acus device test {port}`</source>
@@ -1117,11 +1117,11 @@
         </message>
         <message>
             <source>waiting {waited:.0f} s for the program to load (the first start after an installation compiles, for a minute or two)</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">attente du chargement du programme depuis {waited:.0f} s (le premier démarrage après une installation compile, une minute ou deux)</translation>
         </message>
         <message>
             <source>loading</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">chargement</translation>
         </message>
         <message>
             <source>{group} has no field {unknown}; it has {places_fields}</source>
@@ -1821,7 +1821,7 @@
         </message>
         <message>
             <source>packing {name}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">compression de {name}</translation>
         </message>
         <message>
             <source>cannot write {path}: {error_strerror}</source>
@@ -1889,7 +1889,7 @@
         </message>
         <message>
             <source>unpacking {name}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">décompression de {name}</translation>
         </message>
         <message>
             <source>{path}: {name} was altered after it was packed</source>
@@ -2293,15 +2293,15 @@
         </message>
         <message>
             <source>taking the table away</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">retrait de la table</translation>
         </message>
         <message>
             <source>filling the lungs</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">remplissage des poumons</translation>
         </message>
         <message>
             <source>body found</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">corps trouvé</translation>
         </message>
         <message>
             <source>the line starts in the body, {depth:.1f} mm from the skin</source>
@@ -2441,35 +2441,35 @@
         </message>
         <message>
             <source>reading the CT on the field's grid</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">lecture du CT sur la grille du champ</translation>
         </message>
         <message>
             <source>looking for the skin</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">recherche de la peau</translation>
         </message>
         <message>
             <source>looking for lung and gut</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">recherche du poumon et de l’intestin</translation>
         </message>
         <message>
             <source>looking for bone</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">recherche des os</translation>
         </message>
         <message>
             <source>parting fat, muscle and organs</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">séparation de la graisse, du muscle et des organes</translation>
         </message>
         <message>
             <source>laying structures over it</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">superposition des structures</translation>
         </message>
         <message>
             <source>placing the boundaries</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">mise en place des limites</translation>
         </message>
         <message>
             <source>the tissue field is made</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">champ de tissus prêt</translation>
         </message>
         <message>
             <source>no bone was found: no needle can be told that it met one</source>
@@ -2485,7 +2485,7 @@
         </message>
         <message>
             <source>labelling the built-in patient</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">attribution des tissus du patient intégré</translation>
         </message>
         <message>
             <source>a field of {spacing_mm:g} mm: {named} mm can be chosen</source>
@@ -2509,11 +2509,11 @@
         </message>
         <message>
             <source>looking for the tissue field in the cache</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">recherche du champ de tissus dans le cache</translation>
         </message>
         <message>
             <source>the tissue field was there</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">champ de tissus déjà présent</translation>
         </message>
         <message>
             <source>a tissue field of {grid_spacing_mm:g} mm takes {megabytes:.0f} MB here; {most_mb:g} are allowed: {advice}</source>
@@ -2593,11 +2593,11 @@
         </message>
         <message>
             <source>slice {ready} of {count}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">coupe {ready} sur {count}</translation>
         </message>
         <message>
             <source>pydicom is loaded</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">pydicom est chargé</translation>
         </message>
         <message>
             <source>{absent} {verb} missing, without which its pixels cannot be told</source>
@@ -2649,7 +2649,7 @@
         </message>
         <message>
             <source>{files} files taken into the library</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">fichiers ajoutés à la bibliothèque : {files}</translation>
         </message>
         <message>
             <source>this series is not taken into the library: {name} differs among its files, and they would get one pseudonym; give the files of one patient's study alone</source>
@@ -2673,7 +2673,7 @@
         </message>
         <message>
             <source>checking what was written</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">vérification de ce qui a été écrit</translation>
         </message>
         <message>
             <source> beside the {open:.1f} GB of what is open</source>
@@ -2693,7 +2693,7 @@
         </message>
         <message>
             <source>reading {name}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">lecture de {name}</translation>
         </message>
         <message>
             <source>{path} cannot be read: {error_strerror}</source>
@@ -2705,11 +2705,11 @@
         </message>
         <message>
             <source>{name} read</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{name} lu</translation>
         </message>
         <message>
             <source>reading</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">lecture</translation>
         </message>
         <message>
             <source>it is cut off or damaged</source>
@@ -2717,7 +2717,7 @@
         </message>
         <message>
             <source>slice {current} of {size}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">coupe {current} sur {size}</translation>
         </message>
         <message>
             <source>it holds values that are no numbers (NaN or infinite)</source>
@@ -2769,7 +2769,7 @@
         </message>
         <message>
             <source>connecting to {name}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">connexion à {name}</translation>
         </message>
         <message>
             <source>{settings_name}: {limits_problem}; nothing was taken into the library</source>
@@ -2844,8 +2844,12 @@
             <translation type="unfinished">{settings_name} a donné plus de {most_pictures} réponses ({doing})</translation>
         </message>
         <message>
-            <source>{ready} {known}pictures received</source>
-            <translation type="unfinished" />
+            <source>{ready} of {total} pictures received</source>
+            <translation type="unfinished">{ready} images reçues sur {total}</translation>
+        </message>
+        <message>
+            <source>{ready} pictures received</source>
+            <translation type="unfinished">Images reçues : {ready}</translation>
         </message>
         <message>
             <source>{settings_name}: C-MOVE with TLS needs a certificate of our own (tls: certificate, key); or retrieve with C-GET</source>
@@ -2981,11 +2985,11 @@
         </message>
         <message>
             <source>phantom patient {seed}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">patient fantôme {seed}</translation>
         </message>
         <message>
             <source>phantom slice {ready} of {slices}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">coupe du fantôme {ready} sur {slices}</translation>
         </message>
         <message>
             <source>HighBit {high_bit} and BitsStored {bits_stored} leave the lowest {bits_below} bits of a pixel empty, and they are not; HighBit must be {right_high_bit}</source>
@@ -3157,15 +3161,15 @@
         </message>
         <message>
             <source>file 1 of {count}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">fichier 1 sur {count}</translation>
         </message>
         <message>
             <source>file {current} of {count}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">fichier {current} sur {count}</translation>
         </message>
         <message>
             <source>checking file {current} of {count}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">vérification du fichier {current} sur {count}</translation>
         </message>
         <message>
             <source>file {file_number} of {count}: {error}</source>
@@ -3181,7 +3185,7 @@
         </message>
         <message>
             <source>{count} pictures read</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">images lues : {count}</translation>
         </message>
         <message>
             <source>its pixels cannot be parted from what else stands with them</source>
@@ -3281,7 +3285,7 @@
         </message>
         <message>
             <source>values beyond 16 bits: reading as float32</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">valeurs au-delà de 16 bits : lecture en float32</translation>
         </message>
         <message>
             <source>has values beyond 16 bits and {too_large}</source>
@@ -3297,11 +3301,11 @@
         </message>
         <message>
             <source>slice {current} of {count}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">coupe {current} sur {count}</translation>
         </message>
         <message>
             <source>{count} slices read, {i} × {j} × {k} voxels taken together</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">coupes lues : {count}, voxels regroupés par {i} × {j} × {k}</translation>
         </message>
         <message>
             <source>right {right} and down {down} are not perpendicular unit vectors</source>
@@ -3321,7 +3325,7 @@
         </message>
         <message>
             <source>slice {current} of {count} resampled</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">coupe {current} sur {count} rééchantillonnée</translation>
         </message>
         <message>
             <source>slices {step:g} mm apart cannot be made; ask for {finest_mm:g} to {coarsest_mm:g} mm</source>
@@ -3469,7 +3473,7 @@
         </message>
         <message>
             <source>skin found</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">peau trouvée</translation>
         </message>
         <message>
             <source>a slab of {thickness_mm} mm cannot be shown; it must be above 0 and at most {thickest_mm:g} mm</source>
@@ -3513,7 +3517,7 @@
         </message>
         <message>
             <source>unpacking {current} of {count}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">décompression : {current} sur {count}</translation>
         </message>
         <message>
             <source>leads out of the archive</source>
@@ -3569,7 +3573,7 @@
         </message>
         <message>
             <source>{count} files found</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">fichiers trouvés : {count}</translation>
         </message>
         <message>
             <source>{path} cannot be read as a DICOMDIR ({error}); open its folder instead</source>
@@ -3613,7 +3617,7 @@
         </message>
         <message>
             <source>distances of {name}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">distances : {name}</translation>
         </message>
         <message>
             <source>no voxel has {low:g} to {high:g} HU: widen the threshold</source>
@@ -3633,7 +3637,7 @@
         </message>
         <message>
             <source>structures placed</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">structures placées</translation>
         </message>
         <message>
             <source>{item_name} lies outside this CT</source>
@@ -3713,7 +3717,7 @@
         </message>
         <message>
             <source>structure {current} of {count}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">structure {current} sur {count}</translation>
         </message>
         <message>
             <source>the structures in the file are empty: nothing is drawn in them</source>
@@ -4045,7 +4049,7 @@
         </message>
         <message>
             <source>{ready} of {count} files</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">fichiers : {ready} sur {count}</translation>
         </message>
         <message>
             <source>{path}: {fault} (decoder {decoder}); leave it out</source>
@@ -4337,11 +4341,11 @@
         </message>
         <message>
             <source>scoring paths</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">évaluation des trajectoires</translation>
         </message>
         <message>
             <source>paths scored</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">trajectoires évaluées</translation>
         </message>
         <message>
             <source>rotation_deg ({x:g}, {y:g}, {z:g}) must be within ±360°</source>
@@ -6189,7 +6193,7 @@
         </message>
         <message>
             <source>{label}: {current} of {evaluations}, {holes} holes</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{label} : {current} sur {evaluations}, failles : {holes}</translation>
         </message>
         <message>
             <source>n = {shape:g} is no whole number: the sum has no end</source>
@@ -6197,7 +6201,7 @@
         </message>
         <message>
             <source>squares of {square:g} px</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">cases de {square:g} px</translation>
         </message>
         <message>
             <source>SimpleITK, which this study needs,</source>
@@ -6277,11 +6281,11 @@
         </message>
         <message>
             <source>{name}, {depth:g} mm</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{name}, {depth:g} mm</translation>
         </message>
         <message>
             <source>limits of {name}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">limites : {name}</translation>
         </message>
         <message>
             <source>unreachable: the ball joint stops at {profile_tilt_limit_deg:g}° of tilt</source>
@@ -6289,11 +6293,11 @@
         </message>
         <message>
             <source>reach and cost</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">portée et coût</translation>
         </message>
         <message>
             <source>by tilt</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">selon l’inclinaison</translation>
         </message>
         <message>
             <source>camera {model_name} has no picture of a band at {p_camera} m</source>
@@ -6305,11 +6309,11 @@
         </message>
         <message>
             <source>cube of {edge_mm:g} mm</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">cube de {edge_mm:g} mm</translation>
         </message>
         <message>
             <source>trials</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">tirages</translation>
         </message>
         <message>
             <source>cannot write the picture {path}: {error}</source>
@@ -6385,7 +6389,7 @@
         </message>
         <message>
             <source>{name}: {name_of_all}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{name} : {name_of_all}</translation>
         </message>
         <message>
             <source>study {chosen_name} compares ways by time; run() runs it</source>
@@ -6405,7 +6409,7 @@
         </message>
         <message>
             <source>{rate:g} Hz, {delay} ticks</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{rate:g} Hz, retard en cycles : {delay}</translation>
         </message>
         <message>
             <source>no ray of camera {model_name} for {pixels}</source>
@@ -6493,7 +6497,7 @@
         </message>
         <message>
             <source>adjusting</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">ajustement</translation>
         </message>
         <message>
             <source>{measured} pixel coordinates cannot determine {unknown} unknowns; add views</source>
@@ -6925,19 +6929,19 @@
         </message>
         <message>
             <source>{name}: first estimate</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{name} : première estimation</translation>
         </message>
         <message>
             <source>{name}: views held back</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{name} : vues réservées</translation>
         </message>
         <message>
             <source>{name}: which coefficients the views support</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{name} : coefficients que les vues permettent</translation>
         </message>
         <message>
             <source>first estimate</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">première estimation</translation>
         </message>
         <message>
             <source>camera {name}: {usable_views} usable views of the board; at least {least_views} are needed, 15 to 30 are good</source>
@@ -7001,11 +7005,11 @@
         </message>
         <message>
             <source>looking for the board</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">recherche de la mire</translation>
         </message>
         <message>
             <source>read at {name}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">lu : {name}</translation>
         </message>
         <message>
             <source>the board measures {fit_scale:.4f} ± {fit_scale_sd:.4f} times what its specification says: measure a square, or was the calibration made with another board?</source>
@@ -7105,11 +7109,11 @@
         </message>
         <message>
             <source>pairs held back</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">paires réservées</translation>
         </message>
         <message>
             <source>calibrated</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">étalonnage fait</translation>
         </message>
         <message>
             <source>{name} = {estimate:.3g} ± {sd:.2g}: the views do not tell; taken as 0</source>
@@ -7129,7 +7133,7 @@
         </message>
         <message>
             <source>which corner is which</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">quel coin est lequel</translation>
         </message>
         <message>
             <source>left and right show the same pictures: both come from one camera; choose another source for one of them</source>
@@ -8575,19 +8579,19 @@ Non : le conserver sous un autre nom.</translation>
         </message>
         <message>
             <source>As the exercise's level has it</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Selon le niveau de l’exercice</translation>
         </message>
         <message>
             <source>Steady</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Stable</translation>
         </message>
         <message>
             <source>Unsteady as at level {n}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Instable comme au niveau {n}</translation>
         </message>
         <message>
             <source>Simulated hand</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Main simulée</translation>
         </message>
         <message>
             <source>Window of the CT</source>
@@ -9897,7 +9901,7 @@ part</translation>
         </message>
         <message>
             <source>the expert, along your plan</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">l’expert, selon votre plan</translation>
         </message>
         <message>
             <source>the ideal path</source>
@@ -10009,7 +10013,7 @@ part</translation>
         </message>
         <message>
             <source>This exercise is no more what it was: begin it from the start page.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Cet exercice n’est plus ce qu’il était : commencez-le depuis la page d’accueil.</translation>
         </message>
         <message>
             <source>Show me now shows this attempt in {title}: its movement, without a name or score.</source>
@@ -10179,15 +10183,15 @@ part</translation>
         </message>
         <message>
             <source>All metrics</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Tous les indicateurs</translation>
         </message>
         <message>
             <source>Every metric with its value, band and points; remembered</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Chaque indicateur avec sa valeur, son palier et ses points ; choix mémorisé</translation>
         </message>
         <message>
             <source>Drill, {drill}: {title}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Exercice ciblé, {drill} : {title}</translation>
         </message>
         <message>
             <source>control scans: {n}</source>
@@ -10677,15 +10681,15 @@ Lettres : directions du patient
         </message>
         <message>
             <source>Smoothness</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Fluidité</translation>
         </message>
         <message>
             <source>Largest distance from the path</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Plus grande distance à la trajectoire</translation>
         </message>
         <message>
             <source>Mean distance from the path</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Distance moyenne à la trajectoire</translation>
         </message>
         <message>
             <source>Void: not judged.</source>
@@ -10701,11 +10705,11 @@ Lettres : directions du patient
         </message>
         <message>
             <source>to the patient's left</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">vers la gauche du patient</translation>
         </message>
         <message>
             <source>to the patient's right</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">vers la droite du patient</translation>
         </message>
         <message>
             <source>towards the back</source>
@@ -10725,83 +10729,83 @@ Lettres : directions du patient
         </message>
         <message>
             <source>{side} and {other_side}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{side} et {other_side}</translation>
         </message>
         <message>
             <source>At {depth:.0f} mm depth you were {mm:.1f} mm off the line {where}.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">À {depth:.0f} mm de profondeur, vous déviiez de la ligne de {mm:.1f} mm {where}.</translation>
         </message>
         <message>
             <source>From {depth:.0f} mm depth on you were off the line {where}, by up to {mm:.1f} mm.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">À partir de {depth:.0f} mm de profondeur, vous déviiez de la ligne {where}, jusqu’à {mm:.1f} mm.</translation>
         </message>
         <message>
             <source>You left the line between {low:.0f} and {high:.0f} mm depth {where}, by up to {mm:.1f} mm.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Entre {low:.0f} et {high:.0f} mm de profondeur, vous avez quitté la ligne {where}, jusqu’à {mm:.1f} mm.</translation>
         </message>
         <message>
             <source>At the skin the needle was in line: {tilt:.1f}° off.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">À la peau, l’aiguille était dans la ligne : écart de {tilt:.1f}°.</translation>
         </message>
         <message>
             <source>The tilt at the skin was {tilt:.1f}° off: the tip pointed too far {where}.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">L’inclinaison à la peau était fausse de {tilt:.1f}° : la pointe était trop dirigée {where}.</translation>
         </message>
         <message>
             <source>The tip ended {mm:.1f} mm too deep.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">À la fin, la pointe était {mm:.1f} mm trop profond.</translation>
         </message>
         <message>
             <source>The tip ended {mm:.1f} mm too deep: it passed the target's depth at {clock}.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">À la fin, la pointe était {mm:.1f} mm trop profond : elle a dépassé la profondeur de la cible à {clock}.</translation>
         </message>
         <message>
             <source>The tip was {mm:.1f} mm too deep at {clock}, then drawn back to {short:.1f} mm short of the target.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">La pointe était {mm:.1f} mm trop profond à {clock}, puis a été ramenée à {short:.1f} mm avant la cible.</translation>
         </message>
         <message>
             <source>The tip stopped {mm:.1f} mm short of the target; it came no deeper after {clock}.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">La pointe s’est arrêtée {mm:.1f} mm avant la cible ; après {clock}, elle n’est pas allée plus profond.</translation>
         </message>
         <message>
             <source>You pushed {outside:.0f} of {whole:.0f} mm while the breath had moved the target by more than {gate:.1f} mm.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Vous avez avancé de {outside:.0f} mm sur {whole:.0f} alors que la respiration avait déplacé la cible de plus de {gate:.1f} mm.</translation>
         </message>
         <message>
             <source>{stage} took longest against its band: {seconds:.0f} s, of which {good:.0f} s are good.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Étape la plus longue par rapport à son palier : {stage}, {seconds:.0f} s ; {good:.0f} s, c’est bon.</translation>
         </message>
         <message>
             <source>{stage} took longest: {seconds:.0f} of {whole:.0f} s.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Étape la plus longue : {stage}, {seconds:.0f} s sur {whole:.0f}.</translation>
         </message>
         <message>
             <source>Holding still</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Maintien immobile</translation>
         </message>
         <message>
             <source>The force was largest at {clock}: {newton:.1f} N.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">La force était maximale à {clock} : {newton:.1f} N.</translation>
         </message>
         <message>
             <source>The force was largest at {depth:.0f} mm depth, at {clock}: {newton:.1f} N.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">La force était maximale à {depth:.0f} mm de profondeur, à {clock} : {newton:.1f} N.</translation>
         </message>
         <message>
             <source>{met}, at {clock}.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{met}, à {clock}.</translation>
         </message>
         <message>
             <source>The needle was inside {name} at {clock}, with its tip at {depth:.0f} mm depth.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">À {clock}, l’aiguille était dans « {name} », la pointe à {depth:.0f} mm de profondeur.</translation>
         </message>
         <message>
             <source>The needle came within {mm:.1f} mm of {name} at {clock}, with its tip at {depth:.0f} mm depth.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">À {clock}, l’aiguille est passée à {mm:.1f} mm de « {name} », la pointe à {depth:.0f} mm de profondeur.</translation>
         </message>
         <message>
             <source>{outside} of {n} control scans were taken before the needle was in the skin.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Scans de contrôle pris avant que l’aiguille soit dans la peau : {outside} sur {n}.</translation>
         </message>
         <message>
             <source>{mm:.1f} mm {side}</source>
@@ -10837,27 +10841,31 @@ Lettres : directions du patient
         </message>
         <message>
             <source>align only</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">alignement seul</translation>
         </message>
         <message>
             <source>depth only</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">profondeur seule</translation>
         </message>
         <message>
             <source>breath</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">respiration</translation>
         </message>
         <message>
             <source>ten times three minutes</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">dix fois trois minutes</translation>
+        </message>
+        <message>
+            <source>Round {n} of {all} is done.</source>
+            <translation type="unfinished">Tour {n} sur {all} terminé.</translation>
         </message>
         <message>
             <source>{drill} It counts for no course and no pass.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{drill} Cela ne compte pour aucun cours ni pour la réussite.</translation>
         </message>
         <message>
             <source>Practise: {drill}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">S’exercer : {drill}</translation>
         </message>
         <message>
             <source>Nothing cost points.</source>
@@ -10913,7 +10921,7 @@ Lettres : directions du patient
         </message>
         <message>
             <source>Then the whole exercise: {title}.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Ensuite l’exercice entier : {title}.</translation>
         </message>
         <message>
             <source>The same again: this attempt has no points.</source>
@@ -10949,7 +10957,7 @@ Lettres : directions du patient
         </message>
         <message>
             <source>✔ Reached</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">✔ Atteint</translation>
         </message>
         <message>
             <source>Required and not met: {names}</source>
@@ -10965,7 +10973,7 @@ Lettres : directions du patient
         </message>
         <message>
             <source>✖ Not reached yet</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">✖ Pas encore atteint</translation>
         </message>
         <message>
             <source>It counts for nothing. The pictures of the simulated cameras came too late: this computer was too busy. Close other programs, then try again.</source>
@@ -11057,7 +11065,7 @@ Lettres : directions du patient
         </message>
         <message>
             <source>Drill: {title}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Exercice ciblé : {title}</translation>
         </message>
         <message>
             <source>{title} (version {n})</source>
@@ -11461,7 +11469,7 @@ Lettres : directions du patient
         </message>
         <message>
             <source>Skin 0 · Target {target:.0f} · Stop {stop:.0f} mm</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Peau 0 · Cible {target:.0f} · Arrêt {stop:.0f} mm</translation>
         </message>
         <message>
             <source>Skin</source>
@@ -11533,27 +11541,27 @@ Lettres : directions du patient
         </message>
         <message>
             <source>off the path: {length:.1f} mm</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">écart latéral : {length:.1f} mm</translation>
         </message>
         <message>
             <source>The dot is where the needle will pass the target: bring it into the middle. Rings: how far off, the inner two are the tolerance</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Le point montre où l’aiguille passera la cible : amenez-le au milieu. Anneaux : de combien elle passe à côté ; les deux intérieurs sont la tolérance</translation>
         </message>
         <message>
             <source>{mm} mm off</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">écart {mm} mm</translation>
         </message>
         <message>
             <source>▼ {mm} mm</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">▼ {mm} mm</translation>
         </message>
         <message>
             <source>▲ {mm} mm</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">▲ {mm} mm</translation>
         </message>
         <message>
             <source>✔ hold</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">✔ tenir</translation>
         </message>
         <message>
             <source>CT angles: in plane {a} (path {b})
@@ -12299,7 +12307,7 @@ réglable</translation>
         </message>
         <message>
             <source>All slices</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Toutes les coupes</translation>
         </message>
         <message>
             <source>No control scan yet.
@@ -12401,19 +12409,19 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>see the marker now and then</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">voient le marqueur par moments</translation>
         </message>
         <message>
             <source>do not see the marker</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">ne voient pas le marqueur</translation>
         </message>
         <message>
             <source>There are no cameras here: the depth comes from elsewhere, or from nowhere.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Il n’y a pas de caméras ici : la profondeur vient d’ailleurs, ou de nulle part.</translation>
         </message>
         <message>
             <source>measured a moment ago</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">mesurée il y a un instant</translation>
         </message>
         <message>
             <source>No robot</source>
@@ -12541,15 +12549,15 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Scans</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Scans</translation>
         </message>
         <message>
             <source>Live pictures (Ctrl+T)</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Images en direct (Ctrl+T)</translation>
         </message>
         <message>
             <source>All panels (Ctrl+B)</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Tous les panneaux (Ctrl+B)</translation>
         </message>
         <message>
             <source>Pull out</source>
@@ -12597,15 +12605,15 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Aim {mm} mm further towards {sides}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Visez {mm} mm de plus vers {sides}</translation>
         </message>
         <message>
             <source>Tilt the hub towards {sides}: {mm} mm off the target</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Inclinez l’embase vers {sides} : {mm} mm à côté de la cible</translation>
         </message>
         <message>
             <source>One moment: the needle goes to its start</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Un instant : l’aiguille va à son point de départ</translation>
         </message>
         <message>
             <source>Pull the needle out of the skin</source>
@@ -12613,7 +12621,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Ready: the clock starts when you move</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Prêt : le chrono part dès que vous bougez</translation>
         </message>
         <message>
             <source>Let both cameras see the marker</source>
@@ -12625,7 +12633,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Steer by the CT: S takes a scan, Enter ends the attempt</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Guidez-vous par le CT : S prend un scan, Entrée termine l’essai</translation>
         </message>
         <message>
             <source>Push the needle in{how}</source>
@@ -12665,19 +12673,19 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Push deeper{how}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Avancez encore{how}</translation>
         </message>
         <message>
             <source>Pull back{how}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Retirez un peu{how}</translation>
         </message>
         <message>
             <source>Aim further towards {sides}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Visez plus vers {sides}</translation>
         </message>
         <message>
             <source>Tilt the hub towards {sides}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Inclinez l’embase vers {sides}</translation>
         </message>
         <message>
             <source>Paused: the window was busy; it goes on by itself.</source>
@@ -12865,7 +12873,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Only the instructor does that: change the role at the top right.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Seul le formateur peut le faire : changez de rôle en haut à droite.</translation>
         </message>
         <message>
             <source>(erased)</source>
@@ -12873,7 +12881,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>it is an assessment of the course {course}. Sign in as a student who takes it (Sessions ▸ Sign in as a student…), or as the instructor (role, at the top right)</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">c’est une évaluation du cours {course}. Connectez-vous comme un étudiant qui la passe (Séances ▸ Se connecter comme étudiant…), ou comme formateur (rôle, en haut à droite)</translation>
         </message>
         <message>
             <source>{x}   {y}   {z} mm</source>
@@ -13073,7 +13081,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Series</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Série</translation>
         </message>
         <message>
             <source>* and ? stand for unknown characters</source>
@@ -13837,7 +13845,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Progress and courses</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Progrès et cours</translation>
         </message>
         <message>
             <source> · {n} void</source>
@@ -15391,23 +15399,23 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>body</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">corps</translation>
         </message>
         <message>
             <source>skin</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">peau</translation>
         </message>
         <message>
             <source>organs</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">organes</translation>
         </message>
         <message>
             <source>coarse versions</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">versions grossières</translation>
         </message>
         <message>
             <source>surfaces</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">surfaces</translation>
         </message>
         <message>
             <source>Viewpoint, and what is shown</source>
@@ -15799,7 +15807,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>who sits here: student, instructor, technician</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">qui est ici : étudiant, formateur, technicien</translation>
         </message>
         <message>
             <source>turn, pan, zoom</source>
@@ -15859,7 +15867,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>in an attempt: all panels; live pictures or the scan</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">pendant un essai : tous les panneaux ; images en direct ou scan</translation>
         </message>
         <message>
             <source>Hold Esc</source>
@@ -15955,19 +15963,19 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>CTs that you open are listed here: File ▸ Open CT folder…</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Les CT que vous ouvrez apparaissent ici : Fichier ▸ Ouvrir un dossier CT…</translation>
         </message>
         <message>
             <source>any name: your progress is kept under it</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">n’importe quel nom : vos progrès y sont conservés</translation>
         </message>
         <message>
             <source>Your name</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Votre nom</translation>
         </message>
         <message>
             <source>You practise as</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">S’exercer sous le nom</translation>
         </message>
         <message>
             <source>Difficulty</source>
@@ -15987,7 +15995,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Done and best: everybody at this station.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Faits et meilleur : tous ceux de ce poste.</translation>
         </message>
         <message>
             <source>Sign in as a student to see what you have done.</source>
@@ -16891,7 +16899,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>A holder over the skin turns its guide to the planned path and holds it with four cables; slide the needle to the lesion, hold, and end the attempt. The patient holds the breath. With the dial below zero it pushes the needle away. Whatever fails in it ends the force, and is said.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Un porte-aiguille au-dessus de la peau tourne son guide vers la trajectoire planifiée et le tient par quatre câbles ; faites glisser l’aiguille jusqu’à la lésion, restez immobile, puis terminez l’essai. Le patient retient sa respiration. Avec le réglage sous zéro, le porte-aiguille repousse l’aiguille. Toute panne du porte-aiguille coupe la force et est signalée.</translation>
         </message>
         <message>
             <source>A large vessel runs along the path, 2 cm beside it. There is hardly any guidance; the robot pushes the needle aside when it is about to reach the vessel, and back before it leans too far. A needle that meets the vessel or a rib fails. The patient holds the breath.</source>
@@ -16934,6 +16942,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Temps d’alignement</translation>
         </message>
         <message>
+            <source>All</source>
+            <translation type="unfinished">Tous</translation>
+        </message>
+        <message>
             <source>Angle error at the skin</source>
             <translation type="unfinished">Erreur d’angle à la peau</translation>
         </message>
@@ -16944,6 +16956,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Angle error out of plane</source>
             <translation type="unfinished">Erreur d’angle hors du plan</translation>
+        </message>
+        <message>
+            <source>Archives and DICOM files</source>
+            <translation type="unfinished">Archives et fichiers DICOM</translation>
         </message>
         <message>
             <source>Beside the vein</source>
@@ -16959,7 +16975,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Breath while pushing</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Respiration en avançant</translation>
         </message>
         <message>
             <source>Breathing liver</source>
@@ -16988,6 +17004,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Centre of an ellipse through the contour on rays</source>
             <translation type="unfinished">Centre d’une ellipse par le contour sur des rayons</translation>
+        </message>
+        <message>
+            <source>Certificates</source>
+            <translation type="unfinished">Certificats</translation>
         </message>
         <message>
             <source>Compensation of gravity and joint friction</source>
@@ -17238,6 +17258,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Publié : aiguilles dans le tissu, mesures et nôtres</translation>
         </message>
         <message>
+            <source>Q, E in the pad turn it</source>
+            <translation type="unfinished">Q, E dans la zone la tournent</translation>
+        </message>
+        <message>
             <source>Rate of the recorded path</source>
             <translation type="unfinished">Cadence du trajet enregistré</translation>
         </message>
@@ -17414,6 +17438,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Suivi valide</translation>
         </message>
         <message>
+            <source>Transforms</source>
+            <translation type="unfinished">Transformations</translation>
+        </message>
+        <message>
             <source>Trials: the loop alone, a trainer, a trainer with rendered pictures</source>
             <translation type="unfinished">Tests : la boucle de commande seule, un simulateur, un simulateur avec images de synthèse</translation>
         </message>
@@ -17451,135 +17479,135 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Align only: it ends as the tip goes through the skin, and only the tilt there counts.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Alignement seul : l’essai se termine quand la pointe traverse la peau, et seule l’inclinaison à cet endroit compte.</translation>
         </message>
         <message>
             <source>Depth only: you begin aligned, and only the depth counts.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Profondeur seule : vous commencez avec l’aiguille alignée, et seule la profondeur compte.</translation>
         </message>
         <message>
             <source>Breath only: push while the target is in its place, wait while it is not; nothing else counts.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Respiration seule : avancez quand la cible est à sa place, attendez quand elle n’y est pas ; rien d’autre ne compte.</translation>
         </message>
         <message>
             <source>Ten times three minutes: the whole exercise; each round ends by itself after three minutes.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Dix fois trois minutes : l’exercice entier ; chaque tour se termine de lui-même après trois minutes.</translation>
         </message>
         <message>
             <source>the field: {because}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">le champ : {because}</translation>
         </message>
         <message>
             <source>layers: {because}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">couches : {because}</translation>
         </message>
         <message>
             <source>a needle {angle:.0f}° from upright</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">une aiguille à {angle:.0f}° de la verticale</translation>
         </message>
         <message>
             <source>{where} meets {name} at {begin_mm:.0f} mm, which the path does not</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{where} rencontre {name} à {begin_mm:.0f} mm, et la trajectoire non</translation>
         </message>
         <message>
             <source>{where} meets {others}, the path {own}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{where} rencontre {others}, la trajectoire {own}</translation>
         </message>
         <message>
             <source>{where} feels {most:.1f} N more or less at {depth:.0f} mm than the path</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">{where} ressent à {depth:.0f} mm {most:.1f} N de plus ou de moins que la trajectoire</translation>
         </message>
         <message>
             <source>every needle within reach meets {names} with the same force to {most:.2f} N</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">toute aiguille à portée rencontre {names}, avec la même force à {most:.2f} N près</translation>
         </message>
         <message>
             <source>the breath does not move the target</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">la respiration ne déplace pas la cible</translation>
         </message>
         <message>
             <source>the needle was never pushed deeper</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">l’aiguille n’a jamais été avancée plus profond</translation>
         </message>
         <message>
             <source>a hand's unsteadiness needs finite numbers of 0 or more, and a lag and a memory above 0, got {this}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">l’instabilité d’une main demande des nombres finis d’au moins 0, et un retard et une mémoire au-dessus de 0 ; reçu : {this}</translation>
         </message>
         <message>
             <source>Breath</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Respiration</translation>
         </message>
         <message>
             <source>How far the breath has moved the target from where the CT has it. In the band it is within the inner ring: push there, wait elsewhere.</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">De combien la respiration a déplacé la cible par rapport au CT. Dans la bande, elle est dans l’anneau intérieur : avancez là, attendez ailleurs.</translation>
         </message>
         <message>
             <source>✔ at rest: push</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">✔ au repos : avancer</translation>
         </message>
         <message>
             <source>▲ {mm:.0f} mm away: wait</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">▲ à {mm:.0f} mm : attendre</translation>
         </message>
         <message>
             <source>Click: this slice alone, with all that a slice can do</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Clic : cette coupe seule, avec tout ce que permet une coupe</translation>
         </message>
         <message>
             <source>Technician</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Technicien</translation>
         </message>
         <message>
             <source>practise, progress, help</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">s’exercer, progrès, aide</translation>
         </message>
         <message>
             <source>also patients, exercises, courses and results</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">en plus patients, exercices, cours et résultats</translation>
         </message>
         <message>
             <source>also robot, cameras, checks, effects and cost of accuracy</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">en plus robot, caméras, vérifications, effets et coût de la précision</translation>
         </message>
         <message>
             <source>Put panels away ({key})</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Masquer les panneaux ({key})</translation>
         </message>
         <message>
             <source>All panels ({key})</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Tous les panneaux ({key})</translation>
         </message>
         <message>
             <source>Live pictures ({key})</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Images en direct ({key})</translation>
         </message>
         <message>
             <source>Control scan again ({key})</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Revoir le scan de contrôle ({key})</translation>
         </message>
         <message>
             <source>Role</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Rôle</translation>
         </message>
         <message>
             <source>An attempt is running: end it before the role is changed</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Un essai est en cours : terminez-le avant de changer de rôle</translation>
         </message>
         <message>
             <source>Role: {role}</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Rôle : {role}</translation>
         </message>
         <message>
             <source>Who sits here: it decides what the window has ({key})</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Qui est ici : cela décide de ce que contient la fenêtre ({key})</translation>
         </message>
         <message>
             <source>Go on to the attempt</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Passer à l’essai</translation>
         </message>
         <message>
             <source>Back to the plan</source>
-            <translation type="unfinished" />
+            <translation type="unfinished">Retour au plan</translation>
         </message>
     </context>
 </TS>

@@ -1,5 +1,6 @@
 """The page's way to a language: its file is begun, translated, and chosen."""
 
+import ast
 import subprocess
 import sys
 from pathlib import Path
@@ -10,6 +11,7 @@ import pytest
 from app.core.messages import sentence
 from app.views.kit.language import languages, use_language
 from app.views.kit.text import declared, number, tr, translated
+from tools import translations
 
 ROOT = Path(__file__).resolve().parents[2]
 TOOLS = Path(sys.executable).parent
@@ -76,3 +78,8 @@ def test_a_file_that_is_no_translation_leaves_the_window_english(spoken, tmp_pat
     spoken("de", tmp_path)
     assert tr("no picture") == "no picture"
     assert not list((tmp_path / "cache").rglob("acus*.qm"))
+
+
+def test_a_text_that_is_marked_within_another_is_not_missed():
+    tree = ast.parse("f\"{tr('All')} (*)\"\ntr('seen without help')\nf\"{sentence('x {n}', n=1)}\"")
+    assert list(translations._within_texts(tree)) == ["All", "x {n}"]

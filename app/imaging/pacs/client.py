@@ -264,10 +264,13 @@ class _Counter:
     def arrived(self) -> None:
         """Count one more picture; a cancel is met by the watcher, not here."""
         self._done += 1
-        known = f"of {self._total} " if self._total else ""
         share = self._done / self._total if self._total else 0.5
         with suppress(Cancelled):  # the network library would swallow it: the watcher acts on it
             self.progress.report(
                 min(share, 1.0),
-                sentence("{ready} {known}pictures received", ready=self._done, known=known),
+                sentence(
+                    "{ready} of {total} pictures received", ready=self._done, total=self._total
+                )
+                if self._total
+                else sentence("{ready} pictures received", ready=self._done),
             )

@@ -129,7 +129,8 @@ def drill_words(kind: DrillKind, rounds: int = 0) -> str:
     words = translated(asks(kind))
     if kind is DrillKind.REPEAT and rounds:
         done = min(rounds, ROUNDS)
-        words = f"{tr('Round {n} of {all} is done.', n=done, all=ROUNDS)} {words}"
+        rounds_words = tr("Round {n} of {all} is done.", n=done, all=ROUNDS)
+        words = f"{rounds_words} {words}"
     return tr("{drill} It counts for no course and no pass.", drill=words)
 
 
