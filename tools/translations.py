@@ -61,9 +61,8 @@ def _within_texts(tree: ast.Module) -> Iterator[str]:
     for text in (node for node in ast.walk(tree) if isinstance(node, ast.JoinedStr)):
         for node in ast.walk(text):
             if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.args:
-                first = node.args[0]
-                marked = node.func.id in ("tr", "sentence") and isinstance(first, ast.Constant)
-                if marked and isinstance(first.value, str):
+                first, marks = node.args[0], node.func.id in ("tr", "sentence")
+                if marks and isinstance(first, ast.Constant) and isinstance(first.value, str):
                     yield first.value
 
 

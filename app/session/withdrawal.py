@@ -79,9 +79,13 @@ class Outside(StrEnum):
 
 
 WORDS: Final = {
-    Start.SIMULATED: "the needle is being withdrawn: the attempt begins once it is at its start",
-    Outside.NO: "withdraw the needle first: the attempt begins once its tip is out of the skin",
-    Outside.UNKNOWN: (
+    Start.SIMULATED: sentence(
+        "the needle is being withdrawn: the attempt begins once it is at its start"
+    ),
+    Outside.NO: sentence(
+        "withdraw the needle first: the attempt begins once its tip is out of the skin"
+    ),
+    Outside.UNKNOWN: sentence(
         "nothing measures how deep the needle is: take it out of the skin, then press "
         "“The needle is out”"
     ),
@@ -189,7 +193,9 @@ class Withdrawal:
                 return WithdrawalStep()
             if now - self._since > PATIENCE:
                 self.stop()
-                return WithdrawalStep(failure="the simulated needle did not come to its start")
+                return WithdrawalStep(
+                    failure=sentence("the simulated needle did not come to its start")
+                )
             if device is not None and _depth(device) <= OUT:
                 self._bring_out(device)
             return WithdrawalStep()

@@ -6004,6 +6004,22 @@
             <translation type="unfinished">nicht bewertet, wie geschrieben: {unscored}</translation>
         </message>
         <message>
+            <source>the needle is being withdrawn: the attempt begins once it is at its start</source>
+            <translation type="unfinished">Die Nadel wird herausgezogen: Der Versuch beginnt, sobald sie an ihrem Start ist</translation>
+        </message>
+        <message>
+            <source>withdraw the needle first: the attempt begins once its tip is out of the skin</source>
+            <translation type="unfinished">Ziehen Sie zuerst die Nadel heraus: Der Versuch beginnt, sobald ihre Spitze außerhalb der Haut ist</translation>
+        </message>
+        <message>
+            <source>nothing measures how deep the needle is: take it out of the skin, then press “The needle is out”</source>
+            <translation type="unfinished">Nichts misst, wie tief die Nadel ist: Ziehen Sie sie aus der Haut, dann drücken Sie „Die Nadel ist draußen“</translation>
+        </message>
+        <message>
+            <source>the simulated needle did not come to its start</source>
+            <translation type="unfinished">Die simulierte Nadel kam nicht an ihren Start</translation>
+        </message>
+        <message>
             <source>the cameras saw the tip {pose_depth_mm:.0f} mm inside the skin {now:.1f} s after you said that the needle is out; withdraw it and begin again</source>
             <translation type="unfinished">die Kameras sahen die Spitze {pose_depth_mm:.0f} mm innerhalb der Haut, {now:.1f} s nachdem Sie sagten, dass die Nadel draußen ist; ziehen Sie sie heraus und beginnen Sie noch einmal</translation>
         </message>

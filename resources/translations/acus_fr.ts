@@ -6004,6 +6004,22 @@
             <translation type="unfinished">sans note, comme écrit : {unscored}</translation>
         </message>
         <message>
+            <source>the needle is being withdrawn: the attempt begins once it is at its start</source>
+            <translation type="unfinished">L’aiguille est en cours de retrait : l’essai commence dès qu’elle est à son départ</translation>
+        </message>
+        <message>
+            <source>withdraw the needle first: the attempt begins once its tip is out of the skin</source>
+            <translation type="unfinished">Retirez d’abord l’aiguille : l’essai commence dès que sa pointe est hors de la peau</translation>
+        </message>
+        <message>
+            <source>nothing measures how deep the needle is: take it out of the skin, then press “The needle is out”</source>
+            <translation type="unfinished">Rien ne mesure la profondeur de l’aiguille : retirez-la de la peau, puis appuyez sur « L’aiguille est sortie »</translation>
+        </message>
+        <message>
+            <source>the simulated needle did not come to its start</source>
+            <translation type="unfinished">L’aiguille simulée n’est pas arrivée à son départ</translation>
+        </message>
+        <message>
             <source>the cameras saw the tip {pose_depth_mm:.0f} mm inside the skin {now:.1f} s after you said that the needle is out; withdraw it and begin again</source>
             <translation type="unfinished">les caméras ont vu la pointe à {pose_depth_mm:.0f} mm sous la peau {now:.1f} s après que vous avez dit que l’aiguille est sortie ; retirez-la complètement et recommencez</translation>
         </message>

@@ -1,5 +1,6 @@
 import threading
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -18,11 +19,12 @@ from app.imaging.series import Listing
 from app.planning.needle_overlay import NeedleOverlay
 from app.planning.plan import Plan
 from app.session.transitions import PAUSED_WORDS, RESUMED_WORDS, PauseCause
+from app.session.withdrawal import KIND, WORDS, Start
 from app.views.exercise.feature import ExerciseFeature
 from app.views.plan.feature import PlanFeature
 from app.views.series.browser import SeriesBrowser
 from app.views.shell.shortcuts import ShortcutSheet
-from app.views.shell.window import MainWindow
+from app.views.shell.window import MainWindow, tell_pause
 from app.views.slices.panes import PaneId
 from app.views.slices.viewing import Tool
 
@@ -294,3 +296,12 @@ def test_the_files_that_cannot_be_used_do_not_name_the_folder_once_more(without_
     told = [file for file in refused_files() if file.path == without_folder]
     assert [file.kind for file in told] == ["folder"]
     assert [one for one in unusable_files() if "gone_claw" in one] == []
+
+
+def test_that_the_needle_is_withdrawn_is_not_said_once_it_waits_for_the_student(window):
+    note = window.workspace.exercise_panel.withdrawal
+    tell_pause(window.message_bar, Event(0.0, KIND, WORDS[Start.SIMULATED], {}))
+    note.show_snapshot(SimpleNamespace(withdrawal=WORDS[Start.SIMULATED], may_confirm=False))
+    assert window.message_bar.text == WORDS[Start.SIMULATED]
+    note.show_snapshot(SimpleNamespace(withdrawal="", may_confirm=False))
+    assert window.message_bar.isHidden()

@@ -39,7 +39,7 @@ from app.views.exercise.steps import Steps
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.parts import FittingButton, PlainLabel, add_row
-from app.views.kit.text import literal, tr
+from app.views.kit.text import literal, tr, translated
 
 
 class AttemptActions(QWidget):
@@ -199,9 +199,11 @@ class WithdrawalNote(QWidget):
 
     Signals:
         confirmed(): the student says that the needle is out.
+        over(): there is no more to wait for.
     """
 
     confirmed = Signal()
+    over = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -221,9 +223,12 @@ class WithdrawalNote(QWidget):
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Show what a snapshot says, or nothing."""
-        if snapshot.withdrawal != self._words.text():
-            self._words.setText(snapshot.withdrawal)
-            self.setVisible(bool(snapshot.withdrawal))
+        words = translated(snapshot.withdrawal)
+        if words != self._words.text():
+            self._words.setText(words)
+            self.setVisible(bool(words))
+            if not words:
+                self.over.emit()
         self.button.setVisible(snapshot.may_confirm)
 
 

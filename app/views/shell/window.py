@@ -108,6 +108,7 @@ def connect_messages(
     runs.starting.connect(lambda begun: bar.forget(ROBOT) if begun else None)
     runs.starting.connect(panel.set_preparing)
     controller.event_seen.connect(lambda event: tell_pause(bar, event))
+    panel.withdrawal.over.connect(lambda: bar.forget(WITHDRAWAL))
 
 
 def tell_pause(bar: MessageBar, event: Event) -> None:
