@@ -22,6 +22,7 @@ from enum import StrEnum
 from typing import Final
 
 from app.core.events import Event as Told
+from app.core.messages import sentence
 from app.core.staleness import HEARTBEAT
 from app.session.machine import AttemptEvent, State
 from app.session.needle import NeedlePose
@@ -155,38 +156,40 @@ class PauseCause(StrEnum):
 
 
 PAUSED_WORDS: Final = {
-    PauseCause.CAMERAS: (
+    PauseCause.CAMERAS: sentence(
         "paused: for a second no picture has told how deep the needle is in the body; forces are "
         "off and the clock stands still; show the marker to the cameras, or let the computer catch "
         "up"
     ),
-    PauseCause.COMPUTER: (
+    PauseCause.COMPUTER: sentence(
         "paused: this computer was too slow to draw what its own simulated cameras see; forces are "
         "off and the clock stands still; close other programs"
     ),
-    PauseCause.WINDOW: (
+    PauseCause.WINDOW: sentence(
         "paused: the window was busy for a second; forces are off and the clock stands still; the "
         "attempt goes on by itself"
     ),
-    PauseCause.HAND: (
+    PauseCause.HAND: sentence(
         "paused: the needle swung in the simulated hand as if nobody held it, so its force was "
         "cut; the clock stands still and the attempt goes on by itself"
     ),
 }
 RESUMED_WORDS: Final = {
-    PauseCause.CAMERAS: (
+    PauseCause.CAMERAS: sentence(
         "the cameras see the marker again: the attempt goes on, forces come back; a switch that "
         "must be held has to be pressed again"
     ),
-    PauseCause.COMPUTER: (
+    PauseCause.COMPUTER: sentence(
         "the simulated cameras' pictures come again: the attempt goes on, forces come back; a "
         "switch that must be held has to be pressed again"
     ),
-    PauseCause.WINDOW: (
+    PauseCause.WINDOW: sentence(
         "the window answers again: the attempt goes on, forces come back; a switch that must be "
         "held has to be pressed again"
     ),
-    PauseCause.HAND: "the needle is at rest in the hand: the attempt goes on, forces come back",
+    PauseCause.HAND: sentence(
+        "the needle is at rest in the hand: the attempt goes on, forces come back"
+    ),
 }
 _OWN_TROUBLE: Final = (PauseCause.WINDOW, PauseCause.HAND)
 

@@ -12716,6 +12716,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Pause: Dieser Computer ist zu ausgelastet. Schließen Sie andere Programme; es geht von selbst weiter.</translation>
         </message>
         <message>
+            <source>Ended: the score is being worked out</source>
+            <translation type="unfinished">Beendet: Die Punkte werden berechnet</translation>
+        </message>
+        <message>
             <source>One moment: the robot is starting</source>
             <translation type="unfinished">Einen Moment: Der Roboter startet</translation>
         </message>
@@ -16206,6 +16210,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Der Start wartet: Ein anderer Patient wird geöffnet.</translation>
         </message>
         <message>
+            <source>An attempt is running: end it before you go to the start page</source>
+            <translation type="unfinished">Ein Versuch läuft: Beenden Sie ihn, bevor Sie zur Startseite gehen</translation>
+        </message>
+        <message>
             <source>signed in as the instructor</source>
             <translation type="unfinished">als Kursleiter angemeldet</translation>
         </message>
@@ -17624,6 +17632,38 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Back to the plan</source>
             <translation type="unfinished">Zurück zum Plan</translation>
+        </message>
+        <message>
+            <source>paused: for a second no picture has told how deep the needle is in the body; forces are off and the clock stands still; show the marker to the cameras, or let the computer catch up</source>
+            <translation type="unfinished">Pause: Seit einer Sekunde zeigt kein Bild, wie tief die Nadel im Körper ist; die Kräfte sind aus und die Uhr steht; zeigen Sie den Kameras die Markierung, oder lassen Sie den Computer nachkommen</translation>
+        </message>
+        <message>
+            <source>paused: this computer was too slow to draw what its own simulated cameras see; forces are off and the clock stands still; close other programs</source>
+            <translation type="unfinished">Pause: Dieser Computer war zu langsam, um zu zeichnen, was seine eigenen simulierten Kameras sehen; die Kräfte sind aus und die Uhr steht; schließen Sie andere Programme</translation>
+        </message>
+        <message>
+            <source>paused: the window was busy for a second; forces are off and the clock stands still; the attempt goes on by itself</source>
+            <translation type="unfinished">Pause: Das Fenster war eine Sekunde lang beschäftigt; die Kräfte sind aus und die Uhr steht; der Versuch geht von selbst weiter</translation>
+        </message>
+        <message>
+            <source>paused: the needle swung in the simulated hand as if nobody held it, so its force was cut; the clock stands still and the attempt goes on by itself</source>
+            <translation type="unfinished">Pause: Die Nadel schwang in der simulierten Hand, als hielte sie niemand; deshalb wurde ihre Kraft abgeschaltet; die Uhr steht und der Versuch geht von selbst weiter</translation>
+        </message>
+        <message>
+            <source>the cameras see the marker again: the attempt goes on, forces come back; a switch that must be held has to be pressed again</source>
+            <translation type="unfinished">Die Kameras sehen die Markierung wieder: Der Versuch geht weiter, die Kräfte kommen zurück; ein Schalter, der gehalten werden muss, ist neu zu drücken</translation>
+        </message>
+        <message>
+            <source>the simulated cameras' pictures come again: the attempt goes on, forces come back; a switch that must be held has to be pressed again</source>
+            <translation type="unfinished">Die Bilder der simulierten Kameras kommen wieder: Der Versuch geht weiter, die Kräfte kommen zurück; ein Schalter, der gehalten werden muss, ist neu zu drücken</translation>
+        </message>
+        <message>
+            <source>the window answers again: the attempt goes on, forces come back; a switch that must be held has to be pressed again</source>
+            <translation type="unfinished">Das Fenster antwortet wieder: Der Versuch geht weiter, die Kräfte kommen zurück; ein Schalter, der gehalten werden muss, ist neu zu drücken</translation>
+        </message>
+        <message>
+            <source>the needle is at rest in the hand: the attempt goes on, forces come back</source>
+            <translation type="unfinished">Die Nadel ruht in der Hand: Der Versuch geht weiter, die Kräfte kommen zurück</translation>
         </message>
     </context>
 </TS>

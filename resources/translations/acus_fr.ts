@@ -12716,6 +12716,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">En pause : cet ordinateur est trop occupé. Fermez d’autres programmes ; l’essai reprend de lui-même.</translation>
         </message>
         <message>
+            <source>Ended: the score is being worked out</source>
+            <translation type="unfinished">Terminé : les points sont en cours de calcul</translation>
+        </message>
+        <message>
             <source>One moment: the robot is starting</source>
             <translation type="unfinished">Un instant : le robot démarre</translation>
         </message>
@@ -16206,6 +16210,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Le démarrage attend : un autre patient s’ouvre.</translation>
         </message>
         <message>
+            <source>An attempt is running: end it before you go to the start page</source>
+            <translation type="unfinished">Un essai est en cours : terminez-le avant d’aller à la page d’accueil</translation>
+        </message>
+        <message>
             <source>signed in as the instructor</source>
             <translation type="unfinished">connecté comme formateur</translation>
         </message>
@@ -17624,6 +17632,38 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Back to the plan</source>
             <translation type="unfinished">Retour au plan</translation>
+        </message>
+        <message>
+            <source>paused: for a second no picture has told how deep the needle is in the body; forces are off and the clock stands still; show the marker to the cameras, or let the computer catch up</source>
+            <translation type="unfinished">Pause : depuis une seconde, aucune image ne dit à quelle profondeur l’aiguille est dans le corps ; les forces sont coupées et le chronomètre est arrêté ; montrez le marqueur aux caméras, ou laissez l’ordinateur rattraper son retard</translation>
+        </message>
+        <message>
+            <source>paused: this computer was too slow to draw what its own simulated cameras see; forces are off and the clock stands still; close other programs</source>
+            <translation type="unfinished">Pause : cet ordinateur était trop lent pour dessiner ce que voient ses propres caméras simulées ; les forces sont coupées et le chronomètre est arrêté ; fermez d’autres programmes</translation>
+        </message>
+        <message>
+            <source>paused: the window was busy for a second; forces are off and the clock stands still; the attempt goes on by itself</source>
+            <translation type="unfinished">Pause : la fenêtre était occupée pendant une seconde ; les forces sont coupées et le chronomètre est arrêté ; l’essai reprend de lui-même</translation>
+        </message>
+        <message>
+            <source>paused: the needle swung in the simulated hand as if nobody held it, so its force was cut; the clock stands still and the attempt goes on by itself</source>
+            <translation type="unfinished">Pause : l’aiguille oscillait dans la main simulée comme si personne ne la tenait, sa force a donc été coupée ; le chronomètre est arrêté et l’essai reprend de lui-même</translation>
+        </message>
+        <message>
+            <source>the cameras see the marker again: the attempt goes on, forces come back; a switch that must be held has to be pressed again</source>
+            <translation type="unfinished">Les caméras revoient le marqueur : l’essai continue, les forces reviennent ; un interrupteur à maintenir doit être pressé de nouveau</translation>
+        </message>
+        <message>
+            <source>the simulated cameras' pictures come again: the attempt goes on, forces come back; a switch that must be held has to be pressed again</source>
+            <translation type="unfinished">Les images des caméras simulées arrivent de nouveau : l’essai continue, les forces reviennent ; un interrupteur à maintenir doit être pressé de nouveau</translation>
+        </message>
+        <message>
+            <source>the window answers again: the attempt goes on, forces come back; a switch that must be held has to be pressed again</source>
+            <translation type="unfinished">La fenêtre répond de nouveau : l’essai continue, les forces reviennent ; un interrupteur à maintenir doit être pressé de nouveau</translation>
+        </message>
+        <message>
+            <source>the needle is at rest in the hand: the attempt goes on, forces come back</source>
+            <translation type="unfinished">L’aiguille est au repos dans la main : l’essai continue, les forces reviennent</translation>
         </message>
     </context>
 </TS>

@@ -109,3 +109,21 @@ def test_what_was_recorded_stays_and_the_next_start_has_nothing_to_mend(
     assert attempt.state == State.ABORTED.value
     left, _ = interrupted(folder)
     assert left == [], "nothing to be mended at the next start"
+
+
+def test_nobody_leaves_an_attempt_for_the_start_page_while_its_clock_runs(under_way):
+    under_way.show_workspace()
+    under_way.show_start()
+    assert under_way.pages.currentWidget() is not under_way.start_page
+    assert "end it before you go to the start page" in under_way.message_bar.text
+
+
+def test_while_an_ended_attempt_is_scored_the_window_says_so_and_takes_no_order(under_way, settle):
+    buttons = under_way.workspace.exercise_panel.buttons
+    assert buttons.end.isEnabled()
+    under_way.conductor.controller.ending.emit(True)
+    settle(timeout=0.3)
+    assert not any(one.isEnabled() for one in (buttons.start, buttons.scan, buttons.end))
+    assert under_way.workspace.next_step.text() == "Ended: the score is being worked out"
+    under_way.conductor.controller.ending.emit(False)
+    assert settle(buttons.end.isEnabled)

@@ -332,3 +332,9 @@ def test_a_students_window_opens_no_dropped_ct(student, monkeypatch):
     student.roles.choose(Role.INSTRUCTOR)
     student.open_dropped(Path("somewhere"))
     assert opened == [Path("somewhere")]
+
+
+def test_what_was_said_to_a_technician_is_not_said_to_the_student_after_him(window):
+    window.message_bar.show_error("run acus device emulate")
+    window.roles.choose(Role.STUDENT)
+    assert window.message_bar.isHidden()

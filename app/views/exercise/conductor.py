@@ -218,6 +218,8 @@ class Conductor(QObject):
         self.controller.attached.connect(self._show_views)
         self.controller.attached.connect(self._begin_steps)
         self.controller.snapshot_taken.connect(self._workspace.next_step.show_snapshot)
+        self.controller.ending.connect(self._workspace.next_step.set_ending)
+        self.controller.ending.connect(self._workspace.exercise_panel.buttons.set_ending)
         self.controller.beginning.connect(self._as_the_exercise_says)
         self.controller.began.connect(lambda _: self._begin_attempt())
         self.controller.attached.connect(self._workspace.room.end)

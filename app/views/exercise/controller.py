@@ -215,6 +215,7 @@ class ExerciseController(QObject):
         event_seen(Event): each event of the trainer, once.
         attached(): another run, or none, is served.
         beginning(): an attempt is about to begin; everything is to be as the exercise has it.
+        ending(on: bool): an attempt that was ended is being scored and written, or is so no more.
         began(str): session id of an attempt that began.
         finished(AttemptResult): an attempt ended or was aborted, once each.
         demonstrated(): what was only shown is over: nobody's attempt, of which nothing follows.
@@ -231,6 +232,7 @@ class ExerciseController(QObject):
     event_seen = Signal(object)
     attached = Signal()
     beginning = Signal()
+    ending = Signal(bool)
     began = Signal(str)
     finished = Signal(object)
     demonstrated = Signal()
@@ -475,14 +477,17 @@ class ExerciseController(QObject):
     def _finish(self, finish: Callable[[], AttemptResult | None]) -> None:
         if not self._ending:
             self._ending = True
+            self.ending.emit(True)
             run_in_background(self, lambda _: finish(), self._ended, self._end_failed)
 
     def _ended(self, result: AttemptResult | None) -> None:
         self._ending = False
+        self.ending.emit(False)
         self.poll()
 
     def _end_failed(self, error: Exception) -> None:
         self._ending = False
+        self.ending.emit(False)
         self._fail(translated(error))
 
     def learn_colour(self, camera: str, pixel: FloatArray) -> None:

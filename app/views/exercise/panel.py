@@ -65,6 +65,8 @@ class AttemptActions(QWidget):
             tr("Set the force to zero at once; the attempt is saved but not scored"),
         )
         self._keys: list[tuple[QShortcut, QPushButton]] = []
+        self._ends = False
+        self._state: tuple[State | None, bool, str] = (None, False, "")
         self._escape = HoldKey(Qt.Key.Key_Escape, self)
         self._escape.held.connect(self.abort.click)  # a disabled button ignores it
         self._lay_out()
@@ -92,10 +94,11 @@ class AttemptActions(QWidget):
             can_start: whether a new attempt can begin.
             reason: it cannot start now, if there is more to say than that something is missing.
         """
-        running = state in RUNNING
+        self._state = state, can_start, reason
+        running = state in RUNNING and not self._ends
         self.start.setToolTip(literal(reason or _starts()))
         for button, legal in (
-            (self.start, can_start),
+            (self.start, can_start and not self._ends),
             (self.scan, running and state is not State.WITHDRAWING),
             (self.end, running),
             (self.abort, running),
@@ -103,6 +106,11 @@ class AttemptActions(QWidget):
             button.setEnabled(legal)
         for shortcut, button in self._keys:
             shortcut.setEnabled(button.isEnabled())
+
+    def set_ending(self, ends: bool) -> None:
+        """Take no order while an attempt that was ended is being scored and written."""
+        self._ends = ends
+        self.show_state(*self._state)
 
     def _lay_out(self) -> None:
         self._grid = grid = QGridLayout(self)

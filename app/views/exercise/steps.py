@@ -270,6 +270,11 @@ def _pause_words(cause: PauseCause | None) -> str:
     return tr("Paused: this computer is too busy. Close other programs; it goes on by itself.")
 
 
+def ending_words() -> str:
+    """Say that the attempt is over and its score is to come."""
+    return tr("Ended: the score is being worked out")
+
+
 def waiting_words() -> str:
     """Say that there is a moment to wait."""
     return tr("One moment: the robot is starting")
@@ -359,7 +364,7 @@ class NextStepLine(PlainLabel):
         self._snapshot: Snapshot | None = None
         self._moves_hub = self._gives_way = self._aside = False
         self._may_start, self._why_not = False, ""
-        self._touched, self._told = 0, ""
+        self._touched, self._told, self._ends = 0, "", False
         self._tell = QTimer(self, interval=TOLD_MS, singleShot=True)
         self._tell.timeout.connect(self._stop_telling)
         self._written = Unhurried(self._write, self)
@@ -379,6 +384,12 @@ class NextStepLine(PlainLabel):
             self._steps = NextSteps(run.placed, run.rings[0], run.depth_tolerance)
         self._stand()
         self._say("" if run is None else waiting_words())
+
+    def set_ending(self, ends: bool) -> None:
+        """Say that an attempt that was ended is being scored, or give orders again."""
+        self._ends = ends
+        if ends:
+            self._say(ending_words())
 
     def give_way(self, on: bool) -> None:
         """Be there no more, because another line stands in this place, or be there again."""
@@ -474,6 +485,6 @@ class NextStepLine(PlainLabel):
             words = self._why_not or waiting_words()
         elif self._snapshot.breath is not None and step.kind not in ASIDE:
             words = breath_words(self._snapshot.breath, words, not shows)
-        words = self._told or words
+        words = ending_words() if self._ends else self._told or words
         if words != self.text():
             self._say(words)

@@ -101,6 +101,8 @@ class RoleSwitch(QObject):
         self._keep(role)
         if (role is Role.STUDENT and ACCESS.instructor) or ACCESS.student is not None:
             ACCESS.sign_in(None)
+        if role is Role.STUDENT:
+            self._shell.messages.clear()  # what was said to whoever sat here before
         self.follow()
 
     def follow(self) -> None:

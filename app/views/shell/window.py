@@ -274,7 +274,15 @@ class MainWindow(QMainWindow):
 
     # --- pages --------------------------------------------------------------------------------
     def show_start(self) -> None:
-        """Go to the start page."""
+        """Go to the start page; an attempt whose clock runs is not left behind it."""
+        controller = self.conductor.controller
+        shown = controller.run is not None and controller.run.demonstrates
+        if controller.is_running and not shown:
+            self.show_workspace()
+            self.message_bar.show_error(
+                tr("An attempt is running: end it before you go to the start page")
+            )
+            return
         self.start_page.set_recents(self.open_ct.recents.paths())
         self.pages.setCurrentWidget(self.start_page)
         if self.isVisible():  # nothing is read before the window stands
