@@ -9,11 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
+from numbers import Integral, Real
 from string import Formatter
 from types import MappingProxyType
 from typing import Any
-
-import numpy as np
 
 _IMMUTABLE = (str, int, float, bool, type(None))
 
@@ -97,8 +96,10 @@ def _remembered(template: str, values: Mapping[str, Any]) -> dict[str, Any]:
 def _plain(value: Any, conversion: str, form: str) -> Any:
     if isinstance(value, BaseException) and not conversion and not form:
         value = sentence_of(value)
-    if isinstance(value, np.floating) and not conversion:  # its decimal point is the language's
-        value = float(value)
+    is_plain = type(value) in _IMMUTABLE
+    if not is_plain and not conversion and isinstance(value, Real):
+        # numpy's: its decimal point is the language's
+        value = int(value) if isinstance(value, Integral) else float(value)
     if type(value) in _IMMUTABLE or isinstance(value, Sentence | Formatted):
         return value
     return Formatted(f"{{0{'!' * bool(conversion)}{conversion}:{form}}}".format(value))

@@ -124,6 +124,7 @@ def test_an_attempt_that_met_nothing_has_no_marks_of_the_one_before(shown, settl
 
 def test_published_odds_are_folded_away_until_somebody_wants_them(shown, settle):
     odds = shown.published
+    shown.fold.setChecked(True)
     assert odds.isVisibleTo(shown)
     assert not odds.lines.isVisibleTo(odds)
     odds.button.click()
