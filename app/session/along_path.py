@@ -29,7 +29,8 @@ GAP_S: Final = 0.5
 """What nobody measured for longer than this [s] parts what was before from what was after."""
 
 AT_SKIN_MM: Final = 10.0
-"""A stay in the body whose first measured depth is larger tells nothing of the skin [mm]."""
+"""A stay in the body whose first measured depth is larger tells nothing of the skin [mm]; nor does
+one of which nobody measured the beginning."""
 
 Rows = NDArray[np.intp]
 
@@ -108,15 +109,33 @@ class AlongPath:
         stay = self.stay()
         return stay[self.seen[stay]]
 
+    def measured_to_end(self) -> Rows:
+        """Return those of the last stay and of its pauses whose place is known.
+
+        A needle may be pushed while the attempt waits; where it ended is the last of these.
+        """
+        stay = self.stay()
+        if not len(stay):
+            return stay
+        states = self.state[stay[0] :]
+        rows = stay[0] + np.flatnonzero(np.isin(states, (*BODY, State.PAUSED.value)))
+        return rows[self.seen[rows]]
+
     def at_skin(self) -> int | None:
-        """Return the sample at which the last stay began; None where nobody saw it begin."""
+        """Return the sample at which the last stay began; None where nobody saw it begin.
+
+        A stay that begins with the end of a pause began somewhere within it.
+        """
         stay = self.stay()
         if not len(stay):
             return None
-        depths = self.depth_mm[stay]
-        first = depths[np.isfinite(depths)][:1]
-        begins = len(first) and first[0] <= AT_SKIN_MM and np.isfinite(self.tilt_deg[stay[0]])
-        return int(stay[0]) if begins else None
+        first = int(stay[0])
+        if first and self.state[first - 1] == State.PAUSED.value:
+            return None
+        seen = stay[self.seen[stay]][:1]
+        soon = len(seen) and self.time[seen[0]] - self.time[first] <= GAP_S
+        begins = soon and self.depth_mm[seen[0]] <= AT_SKIN_MM
+        return first if begins and np.isfinite(self.tilt_deg[first]) else None
 
     def worst_stretch(self, limit_mm: float) -> Rows:
         """Return the samples in a row that were farther off the line than a limit, of the last

@@ -20,7 +20,7 @@ from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.met import Met
 from app.scoring.risks import RiskMark
 from app.scoring.tolerance import Bands
-from app.session.along_path import RUNS, AlongPath
+from app.session.along_path import GAP_S, RUNS, AlongPath
 from app.session.machine import State
 
 LEAST_MM: Final = 0.3
@@ -31,6 +31,12 @@ LEAST_DEG: Final = 0.3
 
 BESIDE: Final = 0.6
 """A second side is named if it has this share of the first."""
+
+SAME_SIDE: Final = 0.5
+"""A tilt led the needle aside if it leans within 60° of where the needle ended: its cosine."""
+
+ROUNDED_MM: Final = 0.05
+"""A depth is told with one decimal: so much is no difference [mm]."""
 
 LEAST_OUTSIDE: Final = 0.2
 """The breath is spoken of from this share of the way on that was pushed outside its gate."""
@@ -49,6 +55,9 @@ ACROSS: Final = frozenset(
 
 ALONG: Final = frozenset({"depth_error", "planned_target_error", "target_error"})
 """Metrics of the depth."""
+
+ENDED_ASIDE: Final = frozenset({"lateral_error", "planned_target_error", "target_error"})
+"""Metrics of the place in which the needle ended."""
 
 FORCE: Final = frozenset({"peak_force", "mean_force", "guidance_work", "saturation"})
 RISKS: Final = frozenset({"risk_breach", "risk_distance", "risk_time"})
@@ -83,6 +92,8 @@ class AttemptEvidence:
         met: what the needle met.
         risks: how near it came to structures of risk.
         scans: moments of the control scans [s], monotonic.
+        depth_error_mm: the score's own, positive beyond the target; None where it has none.
+        depth_sd_mm: its standard deviation; 0 where not known.
     """
 
     way: AlongPath
@@ -93,6 +104,8 @@ class AttemptEvidence:
     met: Sequence[Met] = ()
     risks: Sequence[RiskMark] = ()
     scans: Sequence[float] = ()
+    depth_error_mm: float | None = None
+    depth_sd_mm: float = 0.0
 
     @property
     def line_mm(self) -> float:
@@ -114,7 +127,7 @@ def reasons(metric: str, past: AttemptEvidence) -> tuple[str, ...]:
     if metric in ALONG:
         parts.append(_depth)
     if metric in ACROSS:
-        parts += [_line, _skin]
+        parts += [_line, _skin_aside if metric in ENDED_ASIDE else _skin]
     if metric in ALONG | ACROSS or metric == "breath_offset":
         parts.append(_breath)
     if metric == "total_time" or metric in STAGES:
@@ -213,43 +226,60 @@ def _skin(past: AttemptEvidence) -> tuple[str, ...]:
     )
 
 
+def _skin_aside(past: AttemptEvidence) -> tuple[str, ...]:
+    """Say how the needle was tilted at the skin, unless it ended on another side than that."""
+    way, row, rows = past.way, past.way.at_skin(), past.way.measured_to_end()
+    if row is not None and len(rows) and float(way.tilt_deg[row]) >= LEAST_DEG:
+        lean, ended = way.lean[row], way.across_mm[rows[-1]]
+        if lean @ ended < SAME_SIDE * np.linalg.norm(lean) * np.linalg.norm(ended):
+            return ()
+    return _skin(past)
+
+
 def _depth(past: AttemptEvidence) -> tuple[str, ...]:
-    """Say how far short or too deep the tip ended, and since when it was there."""
-    way, rows = past.way, past.way.measured_stay()
-    if not len(rows):
+    """Say how far short or too deep the tip ended, and since when it was there.
+
+    It is the score's own depth error; where the last place that the cameras measured is another
+    one, nobody knows how the needle came there. No moment is told that lies in a gap.
+    """
+    way, rows, error = past.way, past.way.measured_to_end(), past.depth_error_mm
+    if not len(rows) or error is None:
         return ()
-    left = way.remaining_mm[rows]
-    short, deepest = float(left[-1]), float(left.min())
-    if short < -LEAST_MM:
-        since = rows[int(np.flatnonzero(left >= 0.0)[-1]) + 1] if (left >= 0.0).any() else None
-        if since is None:
-            return (sentence("The tip ended {mm:.1f} mm too deep.", mm=-short),)
+    left, time = way.remaining_mm[rows], way.time[rows]
+    if not abs(float(left[-1]) + error) <= max(past.depth_sd_mm, ROUNDED_MM):
+        return ()
+    if error > LEAST_MM:
+        before = np.flatnonzero(left >= 0.0)[-1:]
+        if not len(before) or time[before[0] + 1] - time[before[0]] > GAP_S:
+            return (sentence("The tip ended {mm:.1f} mm too deep.", mm=error),)
         return (
             sentence(
                 "The tip ended {mm:.1f} mm too deep: it passed the target's depth at {clock}.",
-                mm=-short,
-                clock=moment(float(way.time[since])),
+                mm=error,
+                clock=moment(float(time[before[0] + 1])),
             ),
         )
-    if short <= LEAST_MM:
+    if -error <= LEAST_MM:
         return ()
+    deepest = float(left.min())
     if deepest < -LEAST_MM:
-        at = rows[int(np.argmin(left))]
         return (
             sentence(
                 "The tip was {mm:.1f} mm too deep at {clock}, then drawn back to {short:.1f} mm "
                 "short of the target.",
                 mm=-deepest,
-                clock=moment(float(way.time[at])),
-                short=short,
+                clock=moment(float(time[int(np.argmin(left))])),
+                short=-error,
             ),
         )
-    at = rows[int(np.argmax(left <= deepest + LEAST_MM))]
+    at = int(np.argmax(left <= deepest + LEAST_MM))
+    if (np.diff(time[at:]) > GAP_S).any():
+        return (sentence("The tip ended {mm:.1f} mm short of the target.", mm=-error),)
     return (
         sentence(
             "The tip stopped {mm:.1f} mm short of the target; it came no deeper after {clock}.",
-            mm=short,
-            clock=moment(float(way.time[at])),
+            mm=-error,
+            clock=moment(float(time[at])),
         ),
     )
 

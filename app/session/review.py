@@ -294,6 +294,8 @@ def review(recording: Recording) -> Review:
     origin = float(samples.time[0]) if len(samples.time) else 0.0
     score = None if withheld else _shown(recording, found)
     tolerances = judged_by(recording, found.standing)[0]
+    rows = () if score is None else score.rows
+    deep = next((row for row in rows if row.name == "depth_error"), None)
     past = AttemptEvidence(
         AlongPath.of(samples, placed),
         tolerances,
@@ -303,6 +305,8 @@ def review(recording: Recording) -> Review:
         met=tissues_met(recording.events) or (),
         risks=risk_marks(recording.events),
         scans=tuple(event.time for event in recording.events if event.kind == "scan"),
+        depth_error_mm=None if deep is None else deep.value,
+        depth_sd_mm=0.0 if deep is None else deep.sd or 0.0,
     )
     exercise = exercise_in(recording)
     return Review(

@@ -18,10 +18,12 @@ from app.planning.plan import Plan
 from app.scoring.met import Met
 from app.scoring.metrics import available
 from app.scoring.risks import RiskMark
+from app.scoring.score import score
 from app.scoring.tolerance import Tolerance
 from app.session.along_path import AlongPath
 from app.session.reasons import AttemptEvidence, reasons
 from app.session.samples import Samples
+from app.session.scored import trajectory
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 ENTRY_MM, LENGTH_MM = np.array([-12.5, -98.0, 310.2]), 60.0
@@ -82,7 +84,16 @@ def pushed(aside_mm, orientation=PatientOrientation.SUPINE, to_mm=LENGTH_MM, sec
     return recorded(np.arange(len(depths)) * 0.05 + 7.0, state, tips, orientation)
 
 
+def ended(samples):
+    """Return how far the tip ended beyond the target [mm], along the line from the entry to it."""
+    if not len(samples.time):
+        return None
+    way = samples.target[-1] - FULCRUM
+    return 1e3 * float((samples.tip[-1] - samples.target[-1]) @ way) / np.linalg.norm(way)
+
+
 def evidence(samples, placed, **more):
+    more = {"depth_error_mm": ended(samples), **more}
     return AttemptEvidence(AlongPath.of(samples, placed), BANDS, origin=7.0, **more)
 
 
@@ -132,6 +143,68 @@ def test_the_tilt_at_the_skin_is_that_of_the_needle_there_with_its_side():
     assert straight == ("At the skin the needle was in line: 0.0° off.",)
 
 
+def steered(at_skin_deg, end_mm, orientation=PatientOrientation.SUPINE):
+    """A needle that turns about the entry: tilts at the skin [°], left and head, then steered so
+    that it ends beside the target [mm].
+    """
+    depths = np.linspace(0.2, 60.0, 1200)
+    slope = np.tan(np.radians(at_skin_deg))
+    share = np.clip((depths - 15.0) / 45.0, 0.0, 1.0)[:, None]  # straight in, then turned
+    aside = depths[:, None] * ((1.0 - share) * slope + share * np.array(end_mm) / 60.0)
+    tips = ENTRY_MM + depths[:, None] * BACK + aside[:, :1] * LEFT + aside[:, 1:] * HEAD
+    before = ENTRY_MM + np.linspace(-15.0, -0.2, 200)[:, None] * (
+        BACK + slope[0] * LEFT + slope[1] * HEAD
+    )
+    tips = np.concatenate([before, tips])
+    state = ["aligning"] * 200 + ["inserting"] * 1200
+    return recorded(7.0 + 0.05 * np.arange(1400), state, tips, orientation)
+
+
+@pytest.mark.parametrize("orientation", list(WORLD))
+@pytest.mark.parametrize(
+    ("left_deg", "head_deg", "words"),
+    [
+        (2.1, 0.0, "to the patient's left"),
+        (-2.1, 0.0, "to the patient's right"),
+        (0.0, -2.1, "towards the feet"),
+        (1.485, 1.485, "and"),  # 2.1° in all
+    ],
+)
+def test_the_tip_pointed_to_the_side_on_which_it_then_was(orientation, left_deg, head_deg, words):
+    needle = steered((left_deg, head_deg), (1.0, 3.0), orientation)
+    (text,) = reasons("angle_at_skin", evidence(*needle))
+    assert "2.1° off" in text
+    assert words in text
+    assert ("left" in text) == (left_deg > 0.0)
+    assert ("head" in text) == (head_deg > 0.0)
+
+
+def test_a_tilt_at_the_skin_is_no_reason_for_an_end_on_another_side():
+    def skin(needle, metric="lateral_error"):
+        return [text for text in reasons(metric, evidence(*needle)) if "skin" in text]
+
+    assert not skin(steered((2.1, 0.0), (1.0, 3.0)))  # to the left, but ended towards the head
+    assert not skin(steered((2.1, 0.0), (-3.0, 0.0)))
+    assert skin(steered((2.1, 0.0), (3.0, 1.0)))
+    assert skin(steered((2.1, 0.0), (-3.0, 0.0)), "path_ratio")  # it cost way all the same
+
+
+def test_nothing_is_told_of_a_skin_that_was_passed_while_nobody_saw_the_needle():
+    samples, placed = steered((2.1, 0.0), (3.0, 0.0))
+    depth = samples.depth * 1e3
+
+    def skin(**changes):
+        return reasons("angle_at_skin", evidence(replace(samples, **changes), placed))
+
+    assert skin()
+    # first seen 4 mm deep, 4 s after the skin
+    assert not skin(depth_source=np.where((depth > 0) & (depth < 4), "model", "tracked"))
+    assert skin(depth_source=np.where((depth > 0) & (depth < 0.4), "model", "tracked"))
+    # pushed in while the attempt waited
+    waited = np.where((depth > -1) & (depth < 3), "paused", samples.state)
+    assert not skin(state=waited)
+
+
 def test_short_of_the_target_and_beyond_it_are_told_with_the_moment():
     # 48 mm in 60 s after 10 s outside, then nothing more
     samples, placed = pushed(lambda _: 0.0 * HEAD, to_mm=48.0)
@@ -156,6 +229,79 @@ def test_a_target_that_was_passed_and_left_again_is_told_as_that():
     assert text == (
         "The tip was 7.0 mm too deep at 0:59, then drawn back to 3.0 mm short of the target."
     )
+
+
+def straight(depths_mm, states, blind=None, step=0.05):
+    """Needle along the path, in states; `blind` says where no camera saw it."""
+    depths = np.asarray(depths_mm, dtype=float)
+    samples, placed = recorded(
+        7.0 + step * np.arange(len(depths)), list(states), ENTRY_MM + depths[:, None] * BACK
+    )
+    if blind is None:
+        return samples, placed
+    return replace(samples, depth_source=np.where(blind, "model", "tracked")), placed
+
+
+def test_a_needle_that_was_pushed_on_while_the_attempt_waited_ended_where_it_was_seen_last():
+    # seen to 12 mm within 25 s, then lost; the attempt waits; pushed on to 51 mm, and seen there
+    depths = np.concatenate([np.linspace(0.5, 12.0, 500), np.linspace(12.0, 51.0, 500)])
+    blind = (np.arange(1000) >= 500) & (np.arange(1000) < 960)
+    states = ["inserting"] * 540 + ["paused"] * 460
+    (text,) = reasons("depth_error", evidence(*straight(depths, states, blind)))
+    assert text.startswith(
+        "The tip stopped 9.0 mm short of the target; it came no deeper after 0:4"
+    )
+    # where nobody saw it after 12 mm there is nothing to tell, whatever the score knows
+    lost = np.arange(1000) >= 500
+    assert reasons("depth_error", evidence(*straight(depths, states, lost))) == ()
+    assert reasons("depth_error", evidence(*straight(depths, states), depth_error_mm=None)) == ()
+
+
+def test_what_came_to_pass_while_nobody_looked_has_no_moment():
+    depths = np.linspace(0.5, 66.0, 1000)
+    blind = (depths > 55.0) & (depths < 64.0)
+    (text,) = reasons("depth_error", evidence(*straight(depths, ["inserting"] * 1000, blind)))
+    assert text == "The tip ended 6.0 mm too deep."
+    depths = np.concatenate([np.linspace(0.5, 48.0, 500), np.full(500, 48.0)])
+    blind = (np.arange(1000) > 600) & (np.arange(1000) < 800)
+    (text,) = reasons("depth_error", evidence(*straight(depths, ["inserting"] * 1000, blind)))
+    assert text == "The tip ended 12.0 mm short of the target."
+
+
+def test_no_reason_on_depth_differs_from_the_scores_own_depth_error():
+    """Two hundred needles pushed at random, lost and waited for at random."""
+    told = 0
+    for seed in range(200):
+        random = np.random.default_rng(seed)
+        places = np.concatenate([[0.5], random.uniform(10.0, 75.0, 4)])
+        depths = np.interp(np.arange(600), np.linspace(0, 599, 5), places)
+        blind, states = np.zeros(600, bool), np.full(600, "inserting", dtype="<U9")
+        for flags in (blind, blind, states, states):
+            begin = int(random.integers(20, 600))
+            until = begin + int(random.integers(5, 150))
+            flags[begin:until] = True if flags is blind else "paused"
+        samples, placed = straight(depths, states, blind)
+        row = next(
+            row for row in score(trajectory(samples, placed)).rows if row.name == "depth_error"
+        )
+        past = evidence(samples, placed, depth_error_mm=row.value, depth_sd_mm=row.sd or 0.0)
+        for text in reasons("depth_error", past):
+            told += 1
+            seen = float(depths[~blind][-1]) - 60.0  # the tip where it was seen last
+            size = numbers(text)[-1 if "drawn back" in text else 0]
+            assert size == pytest.approx(abs(seen), abs=0.051)
+            assert ("ended" in text and "too deep" in text) == (seen > 0.0)
+            assert row.value == pytest.approx(seen, abs=max(0.05, row.sd or 0.0))
+    assert told > 100
+
+
+def test_a_depth_error_that_is_not_where_the_needle_was_seen_last_has_no_reason():
+    samples, placed = pushed(lambda _: 0.0 * HEAD, to_mm=48.0)
+    for error, sd in ((-11.5, 0.4), (-12.6, 0.5), (5.0, 1.0)):
+        past = evidence(samples, placed, depth_error_mm=error, depth_sd_mm=sd)
+        assert reasons("depth_error", past) == ()
+    near = evidence(samples, placed, depth_error_mm=-12.3, depth_sd_mm=0.5)
+    assert "12.3 mm short" in reasons("depth_error", near)[0]
 
 
 def test_the_stage_is_the_longest_against_its_band_not_the_longest():

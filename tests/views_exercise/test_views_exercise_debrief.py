@@ -1,3 +1,4 @@
+import re
 from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType, SimpleNamespace
@@ -6,7 +7,7 @@ import numpy as np
 import pyqtgraph as pg
 import pytest
 from PySide6.QtCore import QPointF
-from PySide6.QtWidgets import QPushButton
+from PySide6.QtWidgets import QApplication, QPushButton
 from views_exercise_attempts import placed_plan, review, score
 
 from app.core.disclaimer import DISCLAIMER
@@ -18,6 +19,7 @@ from app.scoring.risks import RiskMark
 from app.scoring.rows import Row
 from app.session.curves import Curves
 from app.session.facts import plan_record
+from app.session.next_exercise import Proposal, ProposalReason
 from app.session.recording import Inputs, Recording
 from app.session.review import Correction, Span, TimeMark, marks, only_measured, spans
 from app.session.review import review as review_of
@@ -36,6 +38,7 @@ from app.views.debrief.score_words import (
 )
 from app.views.exercise.briefing import AttemptsLeft
 from app.views.kit import theme
+from app.views.kit.language import use_language
 
 
 @pytest.fixture
@@ -503,7 +506,7 @@ def test_the_card_offers_the_drill_and_begins_exactly_that(page):
     for kind in DrillKind:
         page.offer_drill(kind)
         assert page.card.drill.isVisibleTo(page)
-        assert drill_title(kind) in page.card.drill.text()
+        assert drill_title(kind) in page.card.drill.accessibleName()
         assert "no course" in page.card.drill.accessibleDescription()
         page.card.drill.click()
     assert asked == list(DrillKind)
@@ -511,6 +514,107 @@ def test_the_card_offers_the_drill_and_begins_exactly_that(page):
     assert "Round 3 of 10 is done" in page.card.practise.text()
     page.offer_drill(None)
     assert not page.card.drill.isVisibleTo(page)
+
+
+@pytest.fixture(params=["en", "de", "fr"])
+def language(qt, request):
+    yield use_language(qt, request.param)
+    use_language(qt, "en")
+
+
+@pytest.mark.parametrize("size", [1.0, theme.LARGE])
+def test_the_card_is_never_wider_than_its_column(qt, language, size):
+    theme.apply_theme(qt, theme.DARK, size)
+    page = DebriefPage()
+    page.resize(1366, 768)
+    page.show()
+    column = page.card.parentWidget()
+    for changes in ({}, {"drill": DrillPart(kind="depth", of="liver-01")}):
+        page.show_review(replace(lost_all(-9.0), **changes))
+        for kind in DrillKind:
+            page.offer_drill(kind)
+            qt.processEvents()
+            card = page.card
+            room = column.parentWidget().width()  # what of the column can be seen
+            assert card.minimumSizeHint().width() <= room
+            assert column.width() <= room
+            for part in (card.verdict, card.total, card.drill):
+                place = part.mapTo(card, part.rect().topRight()).x()
+                assert place < card.width()
+                words = part.fontMetrics().horizontalAdvance(part.text())
+                assert part is card.drill or words <= part.width()  # whole, in one line
+    page.close()
+    page.deleteLater()
+    theme.apply_theme(qt, theme.DARK)
+
+
+def test_verdict_and_total_stand_side_by_side_where_there_is_room(page):
+    page.show_review(review())
+    page.show()
+    for width, beside in ((700, True), (270, False), (700, True)):
+        page.card.setParent(None)
+        page.card.show()
+        page.card.resize(width, 400)
+        QApplication.processEvents()
+        card = page.card
+        assert (card.verdict.geometry().top() == card.total.geometry().top()) == beside
+        assert card.width() == width
+
+
+def lost_all(depth=-4.05):
+    """An attempt that missed its target in depth, and with it nearly all points."""
+    rows = tuple(
+        replace(row, value=depth) if row.name == "depth_error" else row for row in score().rows
+    )
+    return review(score=replace(score(), rows=rows).recomputed())
+
+
+@pytest.mark.parametrize(("depth", "words"), [(-4.05, "4.05 mm short"), (4.05, "4.05 mm too deep")])
+def test_the_depth_error_is_told_by_its_size_and_in_words_to_which_side(depth, words):
+    texts = [cost.loss for cost in costs(lost_all(depth))]
+    (text,) = [text for text in texts if text.startswith("Depth error")]
+    assert text.startswith(f"Depth error: {words} cost ")
+    assert "or less costs none" in text
+
+
+def test_no_value_is_told_with_a_sign_as_only_its_size_counts():
+    rows = tuple(
+        replace(row, value=-abs(row.value)) if row.tolerance else row for row in score().rows
+    )
+    for cost in costs(review(score=replace(score(), rows=rows).recomputed())):
+        assert not re.search(r"[-−]\d", cost.loss)
+
+
+def test_the_points_that_are_told_make_up_what_is_missing(page):
+    for depth in np.linspace(-8.0, 8.0, 33):
+        shown = lost_all(float(depth))
+        page.show_review(shown)
+        told = re.findall(r"cost (\d+) point", page.card.words)
+        missing = 100 - int(page.card.total.text().split()[0])
+        assert sum(map(int, told)) == pytest.approx(missing, abs=1)
+        rest = [line for line in page.card.words.splitlines() if line.startswith("The rest cost ")]
+        lost = [points for points, _ in shown.score.losses]
+        if sum(lost[2:]) > 2.0:
+            assert sum(map(int, told)) == missing
+            assert len(rest) == 1
+    page.show_review(review(score=all_expert(score())))
+    assert "rest" not in page.card.words
+
+
+def test_where_a_drill_is_offered_nothing_else_is_said_to_come_next(page):
+    page.show_review(lost_all(-9.0))
+    again = Proposal("liver-01", "Liver", ProposalReason.AGAIN)
+    page.show_proposal(again)
+    assert page.proposal.isVisibleTo(page)
+    page.offer_drill(DrillKind.DEPTH)
+    assert page.card.drill.isVisibleTo(page)
+    assert not page.proposal.isVisibleTo(page)
+    page.offer_drill(None)
+    assert page.proposal.isVisibleTo(page)
+    page.show_review(review(score=all_expert(score())))  # passed: what comes next comes first
+    page.show_proposal(Proposal("liver-02", "Liver", ProposalReason.LEVEL, level=2))
+    page.offer_drill(DrillKind.DEPTH)
+    assert page.proposal.isVisibleTo(page)
 
 
 def test_the_metrics_are_folded_until_somebody_wants_them(page):

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import Final
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QBoxLayout, QFrame, QVBoxLayout, QWidget
 
 from app.core.units import MILLIMETRE
 from app.exercises.drill import ROUNDS, DrillKind, asks
@@ -23,7 +24,7 @@ from app.views.debrief.score_words import (
 )
 from app.views.kit import theme
 from app.views.kit.names import NAMES
-from app.views.kit.parts import PlainLabel
+from app.views.kit.parts import FittingButton, PlainLabel
 from app.views.kit.text import literal, tr, translated
 
 STEERED: Final = frozenset({"lateral_error", "angle_error", "path_ratio", "tip_error"})
@@ -35,8 +36,15 @@ MOST_COSTS: Final = 2
 HELD_BACK: Final = 0.95
 """That the target was missed is told where all else counts less than this."""
 
+LEAST_REST: Final = 0.5
+"""Fewer points than this are no rest, but the rounding of the others."""
+
 MOST_REASONS: Final = 3
 """So many sentences are told of one."""
+
+
+_MARGIN, _AROUND = 16, 4
+"""Beside what is on the card, and what a label takes round its words [px]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,12 +108,37 @@ def turn_words(review: Review) -> tuple[str, ...]:
     return (words,)
 
 
+def rest_words(review: Review) -> str:
+    """Say how many points went that `costs` does not tell of; empty where it tells of all.
+
+    What is told adds up to the total as it is shown: whole points.
+    """
+    score = review.score
+    if score is None or score.total is None:
+        return ""
+    named = [points for points, _ in score.losses[:MOST_COSTS]]
+    rest = 100 - round(score.total) - sum(round(points) for points in named)
+    if not named or rest < 1 or 100.0 - score.total - sum(named) < LEAST_REST:
+        return ""
+    return tr("The rest cost {points}.", points=points_words(rest))
+
+
+def _size(row: Row) -> str:
+    """Say how large a value is, as it is judged: its sign in words, or not at all."""
+    if row.value is None:
+        return "–"
+    size = with_unit(abs(row.value), row.unit)
+    if row.name != "depth_error":
+        return size
+    return tr("{size} too deep", size=size) if row.value > 0.0 else tr("{size} short", size=size)
+
+
 def _loss(points: float, row: Row) -> str:
     expert = row.tolerance.knots[0] if row.tolerance else 0.0
     more = row.tolerance is not None and row.tolerance.knots[0] > row.tolerance.knots[2]
     values = {
         "label": metric_title(row),
-        "value": "–" if row.value is None else with_unit(row.value, row.unit),
+        "value": _size(row),
         "points": points_words(points),
         "expert": with_unit(expert, row.unit),
     }
@@ -144,6 +177,7 @@ class DebriefCard(QFrame):
         verdict, total, reason: of the score.
         ending: where the needle ended.
         costs: what cost most, each with its reasons.
+        headline: verdict and total side by side, or one above the other where that is too wide.
         practise: what the drill asks for.
         drill: begins it; hidden where none is offered.
     """
@@ -156,7 +190,8 @@ class DebriefCard(QFrame):
         self.ending, self.practise = PlainLabel(self), PlainLabel(self)
         self.costs = QVBoxLayout()
         self._labels: list[PlainLabel] = []
-        self.drill = QPushButton(self)
+        self.headline = QBoxLayout(QBoxLayout.Direction.LeftToRight)
+        self.drill = FittingButton("", self)
         self._kind: DrillKind | None = None
         self.setObjectName("card")
         self.setAccessibleName(tr("Result"))
@@ -176,6 +211,12 @@ class DebriefCard(QFrame):
         self.ending.setText(ending_words(review))
         self.ending.setVisible(bool(self.ending.text()))
         self._show_costs(review)
+        self._turn()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Give the headline a second line where there is no room in one."""
+        super().resizeEvent(event)
+        self._turn()
 
     def offer(self, kind: DrillKind | None, rounds: int = 0, first: bool = True) -> None:
         """Offer a drill; None offers none.
@@ -223,6 +264,8 @@ class DebriefCard(QFrame):
             self._add(cost.loss, "font-weight: 600;")
             if cost.reasons:
                 self._add("\n".join(f"•  {text}" for text in cost.reasons), "")
+        if rest := rest_words(review):
+            self._add(rest, "")
 
     def _add(self, text: str, style: str) -> None:
         label = PlainLabel(text, self)
@@ -230,6 +273,20 @@ class DebriefCard(QFrame):
         label.setStyleSheet(style)
         self.costs.addWidget(label)
         self._labels.append(label)
+
+    def _turn(self) -> None:
+        """Lay verdict and total side by side if both fit into the width that there is."""
+        widths = []
+        for label in (self.verdict, self.total):
+            label.ensurePolished()  # its font is that of its style
+            widths.append(label.fontMetrics().horizontalAdvance(label.text()) + _AROUND)
+        beside = sum(widths) <= self.width() - 2 * _MARGIN - self.headline.spacing()
+        direction = QBoxLayout.Direction
+        self.headline.setDirection(direction.LeftToRight if beside else direction.TopToBottom)
+        for place, width in enumerate(widths):  # each gets its share, so that neither is broken
+            self.headline.setStretch(place, width if beside else 0)
+        side = Qt.AlignmentFlag.AlignRight if beside else Qt.AlignmentFlag.AlignLeft
+        self.total.setAlignment(side | Qt.AlignmentFlag.AlignVCenter)
 
     def _begin(self) -> None:
         if self._kind is not None:
@@ -242,18 +299,18 @@ class DebriefCard(QFrame):
         )
         self.total.setStyleSheet(f"font-size: {theme.TITLE_PX}px; font-weight: 600;")
         self.practise.setProperty("role", "dim")
-        for label in (self.reason, self.ending, self.practise):
+        for label in (self.verdict, self.total, self.reason, self.ending, self.practise):
             label.setWordWrap(True)
 
     def _lay_out(self) -> None:
-        headline = QHBoxLayout()
-        headline.addWidget(self.verdict)
-        headline.addWidget(self.total, 1, Qt.AlignmentFlag.AlignRight)
+        self.headline.addWidget(self.verdict)
+        self.headline.addWidget(self.total)
+        self.headline.setSpacing(8)
         self.costs.setSpacing(4)
         column = QVBoxLayout(self)
-        column.setContentsMargins(16, 8, 16, 16)
+        column.setContentsMargins(_MARGIN, 8, _MARGIN, 16)
         column.setSpacing(8)
-        column.addLayout(headline)
+        column.addLayout(self.headline)
         column.addWidget(self.reason)
         column.addWidget(self.ending)
         column.addLayout(self.costs)

@@ -376,8 +376,9 @@ class DebriefPage(QWidget):
         """Say what comes next and why; None while nobody has looked."""
         self._proposal = proposal
         words = proposal_words(proposal) if proposal is not None else ""
+        drills = self.card.kind is not None and not self._passed
         self.proposal.setText(words)
-        self.proposal.setVisible(bool(words))
+        self.proposal.setVisible(bool(words) and not drills)  # the drill is what comes next
         other = proposal is not None and bool(proposal.exercise) and proposal.reason not in SAME
         self.next.setVisible(other)
         if proposal is not None and other:
@@ -386,7 +387,6 @@ class DebriefPage(QWidget):
                 title = title[: _AGAIN_LONGEST - 1].rstrip() + "…"
             self.next.setText(tr("Next: {title}", title=title))
             self.next.setToolTip(literal(words))
-        drills = self.card.kind is not None and not self._passed
         for button, primary in ((self.next, other), (self.retry, not other)):
             button.setProperty("role", "primary" if primary and not drills else "")
             button.style().unpolish(button)
