@@ -10780,6 +10780,10 @@ Buchstaben: Richtungen des Patienten
             <translation type="unfinished">Bei {clock} min lag die Spitze {mm:.1f} mm zu tief; dann wurde sie bis {short:.1f} mm vor das Ziel zurückgezogen.</translation>
         </message>
         <message>
+            <source>The tip ended {mm:.1f} mm short of the target.</source>
+            <translation type="unfinished">Die Spitze endete {mm:.1f} mm vor dem Ziel.</translation>
+        </message>
+        <message>
             <source>The tip stopped {mm:.1f} mm short of the target; it came no deeper after {clock}.</source>
             <translation type="unfinished">Die Spitze blieb {mm:.1f} mm vor dem Ziel stehen; nach {clock} min kam sie nicht mehr tiefer.</translation>
         </message>
@@ -10854,6 +10858,18 @@ Buchstaben: Richtungen des Patienten
         <message>
             <source>The same turn at {earlier:.0f} mm takes {share:.0f} % of the side force.</source>
             <translation type="unfinished">Dieselbe Drehung bei {earlier:.0f} mm braucht {share:.0f} % der Seitenkraft.</translation>
+        </message>
+        <message>
+            <source>The rest cost {points}.</source>
+            <translation type="unfinished">Alles Übrige kostete {points}.</translation>
+        </message>
+        <message>
+            <source>{size} too deep</source>
+            <translation type="unfinished">{size} zu tief</translation>
+        </message>
+        <message>
+            <source>{size} short</source>
+            <translation type="unfinished">{size} zu kurz</translation>
         </message>
         <message>
             <source>align only</source>

@@ -10780,6 +10780,10 @@ Lettres : directions du patient
             <translation type="unfinished">La pointe était {mm:.1f} mm trop profond à {clock}, puis a été ramenée à {short:.1f} mm avant la cible.</translation>
         </message>
         <message>
+            <source>The tip ended {mm:.1f} mm short of the target.</source>
+            <translation type="unfinished">La pointe a fini {mm:.1f} mm avant la cible.</translation>
+        </message>
+        <message>
             <source>The tip stopped {mm:.1f} mm short of the target; it came no deeper after {clock}.</source>
             <translation type="unfinished">La pointe s’est arrêtée {mm:.1f} mm avant la cible ; après {clock}, elle n’est pas allée plus profond.</translation>
         </message>
@@ -10854,6 +10858,18 @@ Lettres : directions du patient
         <message>
             <source>The same turn at {earlier:.0f} mm takes {share:.0f} % of the side force.</source>
             <translation type="unfinished">Le même pivotement à {earlier:.0f} mm demande {share:.0f} % de la force latérale.</translation>
+        </message>
+        <message>
+            <source>The rest cost {points}.</source>
+            <translation type="unfinished">Le reste a coûté {points}.</translation>
+        </message>
+        <message>
+            <source>{size} too deep</source>
+            <translation type="unfinished">{size} trop profond</translation>
+        </message>
+        <message>
+            <source>{size} short</source>
+            <translation type="unfinished">{size} trop court</translation>
         </message>
         <message>
             <source>align only</source>

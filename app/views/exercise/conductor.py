@@ -558,9 +558,9 @@ class Conductor(QObject):
         running = snapshot.state in RUNNING
         if running != self._editor.locked:
             self._editor.set_locked(running)
-            if not running:
-                self._workspace.room.end()
             self.views_changed.emit()
+        if not running:  # also of one that ended before it was ever seen to run
+            self._workspace.room.end()
 
     def close(self) -> None:
         """Let go of everything that runs; idempotent."""

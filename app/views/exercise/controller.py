@@ -321,6 +321,12 @@ class ExerciseController(QObject):
         return self._run is not None and self._run.trainer.snapshot().state in RUNNING
 
     @property
+    def is_running_by_hand(self) -> bool:
+        """Return whether an attempt runs in which somebody's own hand leads the needle."""
+        run = self._run
+        return self.is_running and run is not None and not (run.demonstrates or self._led_as)
+
+    @property
     def rates(self) -> tuple[float, float]:
         """Rate of the loop [Hz], and the share of deadlines it missed of late, at the last poll."""
         return self._display.rates

@@ -275,9 +275,7 @@ class MainWindow(QMainWindow):
     # --- pages --------------------------------------------------------------------------------
     def show_start(self) -> None:
         """Go to the start page; an attempt whose clock runs is not left behind it."""
-        controller = self.conductor.controller
-        shown = controller.run is not None and controller.run.demonstrates
-        if controller.is_running and not shown:
+        if self.conductor.controller.is_running_by_hand:
             self.show_workspace()
             self.message_bar.show_error(
                 tr("An attempt is running: end it before you go to the start page")

@@ -254,7 +254,7 @@ def test_taken_over_the_mouse_goes_on_from_exactly_there(planned, settle) -> Non
     bullseye.pad.advanced.emit(0.002)
     assert settle(lambda: trainer.hands[-1][2] == pytest.approx(before[2] + 0.002))
     assert arm.bar.isHidden()
-    assert window.workspace.next_step.isVisible()
+    assert window.workspace.rail.isVisible()  # it gives the orders in an attempt
     assert not arm._keys[-1].isEnabled()  # Esc is the attempt's own again
     trainer.state = State.ENDED
     window.conductor.controller.finished.emit(None)
@@ -283,7 +283,7 @@ def test_it_is_stopped_at_any_time_and_all_is_as_before(planned, settle, at, car
         State.READY if at in (PlayState.WAITING, PlayState.FETCHING) else State.ABORTED
     )
     assert arm.bar.isHidden()
-    assert window.workspace.next_step.isVisible()
+    assert settle(window.workspace.next_step.isVisible)
     assert window.workspace.scene.is_home
     assert window.workspace.bullseye.source.name == "tablet"
     assert window.workspace.bullseye.source.source is not None  # it moves the hand again
