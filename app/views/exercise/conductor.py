@@ -26,7 +26,7 @@ from app.planning.needle_overlay import NeedleOverlay
 from app.planning.patient import Patient
 from app.planning.placement import Placement
 from app.session.ct_facts import CtFacts
-from app.session.machine import RUNNING
+from app.session.machine import RUNNING, State
 from app.session.pad.view import rings_of
 from app.session.shown_views import Shown
 from app.session.snapshot import Snapshot
@@ -558,8 +558,10 @@ class Conductor(QObject):
         running = snapshot.state in RUNNING
         if running != self._editor.locked:
             self._editor.set_locked(running)
+            if not running:
+                self._workspace.room.end()
             self.views_changed.emit()
-        if not running:  # also of one that ended before it was ever seen to run
+        elif snapshot.state in (State.ENDED, State.ABORTED):  # before it was ever seen to run
             self._workspace.room.end()
 
     def close(self) -> None:

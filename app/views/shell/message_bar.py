@@ -64,7 +64,7 @@ class Notices(QWidget):
         self.place()
 
     def place(self) -> None:
-        """Take the room right of the menus, as high as the notices need."""
+        """Take the room right of the menus, or below them, as high as the notices need."""
         shown = [part for part in self._parts if not part.isHidden()]
         self.setVisible(bool(shown))
         if not shown:
@@ -74,9 +74,10 @@ class Notices(QWidget):
         left = max(ends, default=0) + GAP_PX
         corner = bar.cornerWidget()
         width = self._window.width() - left - (0 if corner is None else corner.width())
+        top = 0
         if width < NARROWEST_PX:
-            left, width = 0, self._window.width()
-        top, needed = 0, self._needed(width)
+            left, top, width = 0, bar.height(), self._window.width()
+        needed = self._needed(width)
         if self._clear is not None and self._clear.isVisible() and needed > bar.height():
             below = self._clear.mapTo(self._window, self._clear.rect().bottomLeft())
             left, top, width = below.x(), below.y() + 1, self._window.width() - below.x()
