@@ -13,7 +13,6 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.planning.placement import PlacedPlan
-from app.simulation.trainee import tangent_basis
 
 LEAST_OFF: Final = radians(8.0)
 MOST_OFF: Final = radians(14.0)
@@ -71,6 +70,8 @@ class Beginnings:
         return SeededStart(float(direction[0]), float(direction[1]), self.level, hand)
 
     def _direction(self, axis: FloatArray, random: np.random.Generator) -> FloatArray:
+        from app.simulation.trainee import tangent_basis  # compiled: not for the start page
+
         basis = tangent_basis(axis)
         for _ in range(TRIES):
             off, around = random.uniform(LEAST_OFF, MOST_OFF), random.uniform(0.0, 2.0 * pi)

@@ -272,6 +272,8 @@ def with_attempt(window, patient, settle):
     assert settle(lambda: window.runs.run is not None)
     window.conductor.controller.begin("")
     assert settle(lambda: window.editor.locked)
+    # The needle is told once the panes of the attempt have their pictures.
+    assert settle(lambda: window.workspace.viewing.needle is not None)
 
 
 def test_what_would_be_replaced_is_named_and_cancelling_changes_nothing(

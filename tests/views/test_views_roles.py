@@ -51,7 +51,10 @@ STUDENTS_MAY = listed(
     # exercises to do, and what comes of them
     "Briefing of this exercise|Show me this exercise|Watch the arm do my plan|Past sessions|"
     "Workspace|Start page|"
-    "Progress, students and courses|Curve|Attempts…|Sign in as a student…|"
+    "Role|Student: practise, progress, help|"
+    "Instructor: also patients, exercises, courses and results|"  # asks for the password
+    "Technician: also robot, cameras, checks, effects and cost of accuracy|"
+    "Progress and courses|Progress, students and courses|Curve|Attempts…|Sign in as a student…|"
     "Sign in as the instructor…|Sign out|Three-minute tour|User guide|Help on this part|"
     "Keys and mouse|Report a problem…|About Acus|Quit"
 )
@@ -62,6 +65,7 @@ NOT_OURS = frozenset({"Export...", ""})
 """Texts of a library's own actions, in menus that the window does not show."""
 
 BUTTONS_MAY = listed(
+    "All metrics|Details|"
     "Back|Open|Again|Next|Sessions|Export CSV|Save report (PDF)|▶ Play|❚❚ Pause|Curve|Attempts…|"
     "Begin|Open its CT…|Scroll Left|Scroll Right"
 )
