@@ -67,7 +67,7 @@ def study(
     seed: Annotated[
         int | None, typer.Option(min=0, help="`adversary`: of search and noise")
     ] = None,
-    needles: Annotated[
+    paths: Annotated[
         int | None, typer.Option("--paths", min=1, help="`tissue_field`: random needles")
     ] = None,
     full: Annotated[
@@ -75,7 +75,7 @@ def study(
     ] = False,
 ) -> Answer:
     """Run a study, or `all`, or `list` them: error against time."""
-    options = {"exercise": exercise, "evaluations": evaluations, "seed": seed, "paths": needles}
+    options = {"exercise": exercise, "evaluations": evaluations, "seed": seed, "paths": paths}
     options["full"] = full or None
     asked = {key: value for key, value in options.items() if value is not None}
     _refuse_options(name, asked)

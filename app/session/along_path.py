@@ -15,15 +15,12 @@ from app.core.arrays import FloatArray, read_only
 from app.core.units import DEGREE, MILLIMETRE
 from app.planning.off_path import angles, path_to, split
 from app.planning.placement import PlacedPlan
-from app.session.machine import State
+from app.session.machine import COUNTING, IN_BODY, State
 from app.session.needle import FROM_CAMERAS
 from app.session.samples import Samples
 
-BODY: Final = (State.INSERTING.value, State.HOLDING.value)
-"""States with the needle in the body."""
-
-RUNS: Final = (State.ALIGNING.value, *BODY)
-"""States of an attempt that runs."""
+BODY: Final = tuple(state.value for state in IN_BODY)
+RUNS: Final = tuple(state.value for state in COUNTING)
 
 GAP_S: Final = 0.5
 """What nobody measured for longer than this [s] parts what was before from what was after."""
@@ -153,13 +150,17 @@ class AlongPath:
         return rows[number == number[peak]]
 
     def pushed(self) -> tuple[FloatArray, FloatArray]:
-        """Return each measured step deeper in the last stay [mm], and the target's shift then [mm].
+        """Return each measured step deeper in the body [mm], and the target's shift then [mm].
+
+        The rule is that of the metric `breath_offset`: between two measured places of one stay in
+        the body the needle was pushed as far as they lie apart, whatever lay between.
 
         Both have the same shape, (m,).
         """
-        rows = self.measured_stay()
-        steps, waits = np.diff(self.depth_mm[rows]), np.diff(self.time[rows])
-        deeper = (steps > 0.0) & (waits <= GAP_S)
+        rows = np.flatnonzero(np.isin(self.state, BODY) & self.seen)
+        stays = np.cumsum(self.state == State.ALIGNING.value)[rows]  # of another, another number
+        steps = np.diff(self.depth_mm[rows])
+        deeper = (steps > 0.0) & (np.diff(stays) == 0)
         return steps[deeper], self.shift_mm[rows[1:]][deeper]
 
     def lasted(self) -> dict[str, float]:

@@ -14,7 +14,7 @@ from app.core.messages import sentence
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
 from app.session.effect_models import choices_of
 from app.session.errors import SessionError
-from app.session.machine import State
+from app.session.machine import COUNTING
 from app.session.samples import Samples
 from app.session.ticker import SLOWED
 from app.session.transitions import waited_for_computer
@@ -74,8 +74,6 @@ AGREEMENT: Final = "agreement"
 
 EXERCISE_FILE: Final = "exercise.json"
 """Attachment that holds the exercise."""
-
-_RUNNING: Final = (State.ALIGNING.value, State.INSERTING.value, State.HOLDING.value)
 
 Metadata = Mapping[str, Mapping[str, str]]
 
@@ -150,7 +148,7 @@ def assistance_of(samples: Samples, start: float | None = None) -> Assistance | 
     dial = samples.assistance
     if dial is None or len(dial) == 0:
         return None
-    known = np.isfinite(dial) & np.isin(samples.state, _RUNNING)
+    known = np.isfinite(dial) & np.isin(samples.state, [state.value for state in COUNTING])
     if not known.any():
         return None
     spans = np.maximum(np.diff(samples.time, append=samples.time[-1]), 0.0)[known]

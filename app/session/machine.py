@@ -74,6 +74,12 @@ RUNNING: Final = frozenset(
 )
 """States in which the attempt is being recorded; it counts from `aligning` on."""
 
+IN_BODY: Final = frozenset({State.INSERTING, State.HOLDING})
+"""States with the needle in the body, but for a pause, which stands wherever it is."""
+
+COUNTING: Final = IN_BODY | {State.ALIGNING}
+"""States in which the time of an attempt counts."""
+
 FINAL: Final = frozenset({State.ENDED, State.ABORTED})
 """States that nothing leaves."""
 

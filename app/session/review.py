@@ -27,17 +27,16 @@ from app.scoring.score import with_shown
 from app.scoring.tolerance import Bands
 from app.session.along_path import AlongPath
 from app.session.calibration_flag import CalibrationFlags
-from app.session.conditions import EXERCISE_FILE
 from app.session.control_scan import ControlScan
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.session.curves import Curves, at_rest, curves
+from app.session.drill_choice import drill_for, exercise_in
 from app.session.errors import SessionError
 from app.session.motion import NeedleMotion, motion, needle_length
 from app.session.needle import FROM_CAMERAS
 from app.session.pad.geometry import PadScale, PathFrame, path_frame
 from app.session.pad.view import rings, touch_rings
 from app.session.people import NOTHING_SAID, Remarks
-from app.session.practising import called_for, exercise_in
 from app.session.reasons import AttemptEvidence, reasons
 from app.session.recording import Recording
 from app.session.result import AttemptResult
@@ -131,16 +130,16 @@ def correction(
     return Correction(at, float(turned[best]), earlier, share)
 
 
-def side_force(recording: Recording) -> Callable[[float], float] | None:
+def side_force(recording: Recording, exercise: Exercise | None) -> Callable[[float], float] | None:
     """Side force of an attempt's tissue on its needle: depth [m] -> [N/rad] at the hand.
 
     None where the exercise has no side stiffness, or the record does not say what it was.
     """
+    if exercise is None:
+        return None
     with ONE_AT_A_TIME:  # compiled: loaded only where a record has tissue
         from app.simulation.effects import lateral_tissue
     try:
-        said = json.loads(recording.attachments[EXERCISE_FILE])
-        exercise = Exercise.model_validate(said | {"ct": {"phantom": {}}})  # no part of the tissue
         profile = parse_profile(json.loads(recording.attachments[DEVICE_FILE]), DEVICE_FILE)
         part = exercise.effects["lateral_tissue"]
         known = lateral_tissue.DECLARATION["parameters"]
@@ -336,13 +335,13 @@ def review(recording: Recording) -> Review:
         ct=recording.ct,
         risks=risk_marks(recording.events),
         met=tissues_met(recording.events),
-        correction=correction(samples, measured, side_force(recording)),
+        correction=correction(samples, measured, side_force(recording, exercise)),
         touches=tuple(event for event in recording.events if event.kind in (TASK, KIND)),
         tolerances=tolerances,
         motion=motion(samples, placed, needle_length(recording)) if len(samples.time) else None,
         reasons={row.name: reasons(row.name, past) for _, row in score.losses} if score else {},
         drill=None if exercise is None else exercise.drill,
-        practise=called_for(score, past, exercise),
+        practise=drill_for(score, past, exercise),
     )
 
 

@@ -23,7 +23,7 @@ from app.core.units import MILLIMETRE
 from app.planning.placement import PlacedPlan
 from app.scoring.errors import TrajectoryError
 from app.scoring.risks import RiskMark
-from app.session.machine import State
+from app.session.machine import IN_BODY, State
 from app.session.needle import FROM_CAMERAS
 from app.session.samples import Samples
 
@@ -45,7 +45,7 @@ SAME_MM: Final = 0.1
 CLOSEST: Final = 24
 """So many needles, the nearest by the grid of distances, are measured exactly."""
 
-IN_BODY: Final = (State.INSERTING.value, State.HOLDING.value, State.PAUSED.value)
+_LOOKED_AT: Final = tuple(state.value for state in IN_BODY | {State.PAUSED})
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -166,7 +166,7 @@ def needles_seen(samples: Samples, placed: PlacedPlan) -> tuple[Any, FloatArray,
     Two corners each, entry and tip, in world; as many as a bent needle has where one is bent.
     """
     seen = samples.valid & np.isin(samples.depth_source, FROM_CAMERAS)
-    seen &= np.isin(samples.state, IN_BODY) & (samples.depth > 0.0)
+    seen &= np.isin(samples.state, _LOOKED_AT) & (samples.depth > 0.0)
     seen &= np.isfinite(samples.tip).all(axis=1) & np.isfinite(samples.axis).all(axis=1)
     rows = np.flatnonzero(seen)
     if not len(rows):

@@ -96,7 +96,7 @@ def trajectory(
         touches: targets that were to be touched; None where there were none.
         met: what the needle met; None where nothing could tell.
         computer: time of pauses for simulated pictures that came late [s].
-        seen_from: see the function of this name [m].
+        seen_from: depth from which on the cameras can see the marker, as the record has it [m].
 
     Raises:
         SessionError: if no sample has a direction of the needle.

@@ -26,7 +26,7 @@ from app.session.effect_models import KIND, ModelChoice
 from app.session.errors import ControlLockedError, IllegalTransitionError, SessionError
 from app.session.fixes import TRUST, DepthTrust
 from app.session.inputs import Arming, ClearanceOf, LoopInputs
-from app.session.machine import AttemptEvent, State
+from app.session.machine import IN_BODY, AttemptEvent
 from app.session.observation import BreathWatch, Observation, RobotAndCameras
 from app.session.result import AttemptResult
 from app.session.risks import Risk
@@ -461,7 +461,7 @@ class Trainer:
         """Judge whether the tip has touched the present target; the next one is aimed at then."""
         if self._touching is None:
             return
-        inside = self._running.attempt.state in (State.INSERTING, State.HOLDING)
+        inside = self._running.attempt.state in IN_BODY
         measured = measured_at(seen.pose) if inside else None
         if self._touching.take(seen.pose.p_tip, measured):
             words, data = touch_words(self._touching.state, seen.pose)
@@ -491,7 +491,7 @@ class Trainer:
         drill, attempt = self._exercise.drill, self._running.attempt
         if drill is None or not self._running.counts:
             return False
-        in_body = attempt.state in (State.INSERTING, State.HOLDING)
+        in_body = attempt.state in IN_BODY
         return drill.is_over(in_body, now - attempt.since, attempt.duration(now))
 
     def _observe(self, now: float) -> str:

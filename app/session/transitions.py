@@ -24,7 +24,7 @@ from typing import Final
 from app.core.events import Event as Told
 from app.core.messages import sentence
 from app.core.staleness import HEARTBEAT
-from app.session.machine import AttemptEvent, State
+from app.session.machine import IN_BODY, AttemptEvent, State
 from app.session.needle import NeedlePose
 from app.tracking.fix import FixStatus
 
@@ -97,7 +97,7 @@ def classify(
     memory = _remember(memory, time, depth, limits)
     if state is State.ALIGNING:
         return memory, AttemptEvent.INSERT if depth > limits.insert_depth else None
-    if state not in (State.INSERTING, State.HOLDING):
+    if state not in IN_BODY:
         return memory, None
     if depth < limits.withdraw_depth:
         return Classifier(), AttemptEvent.WITHDRAW
@@ -254,7 +254,7 @@ class Pauses:
             if self.cause is None or not self._watched[self.cause].over(now):
                 return None
             return AttemptEvent.RESUME if self._inside else AttemptEvent.WITHDRAW
-        inside = state in (State.INSERTING, State.HOLDING)
+        inside = state in IN_BODY
         if inside or state is State.ALIGNING:
             for cause, there in own.items():
                 if there:

@@ -69,7 +69,9 @@ class NeedleFeel:
     punctures: FloatArray
 
 
-def straight_paths(entry_mm: FloatArray, target_mm: FloatArray, count: int, seed: int) -> Any:
+def straight_paths(
+    entry_mm: FloatArray, target_mm: FloatArray, count: int, seed: int
+) -> tuple[NeedlePath, ...]:
     """Return straight paths tilted from the plan, which is the first, without breathing."""
     rng, way = np.random.default_rng(seed), unit(target_mm - entry_mm, "plan")
     paths = [_path(entry_mm, way, np.zeros(3), np.zeros(3), 0.0)]

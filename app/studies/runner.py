@@ -119,7 +119,7 @@ def run(
         if progress is not None:
             progress.report(
                 number / len(chosen.settings),
-                sentence("{name}: {name_of_all}", name=chosen.name, name_of_all=setting.name),
+                sentence("{study}: {setting}", study=chosen.name, setting=setting.name),
             )
         case = chosen.case(setting, *lent)
         for way in chosen.ways:

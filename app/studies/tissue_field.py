@@ -19,6 +19,7 @@ import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
+from app.core.messages import sentence
 from app.core.progress import Progress
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
@@ -39,6 +40,7 @@ from app.simulation.effects.lateral_tissue import step
 from app.simulation.scene import Binding, Scene, TissueLayer
 from app.simulation.tissues import tissue_values
 from app.studies import field_errors, field_paths
+from app.studies.errors import StudyError
 from app.studies.field_errors import (
     GRAZING_DEG,
     THIN_MM,
@@ -159,10 +161,10 @@ def _no_field(subject: _Subject) -> TissueField:
     return TissueField(nothing, nothing.astype(np.int8), np.eye(4), subject.tissues)
 
 
-def _same_codes(made: TissueField, tissues: Sequence[FieldTissue]) -> Codes:
-    """Return codes of the reference's table by those of a field."""
-    codes = {(tissue.kind, tissue.name): tissue.code for tissue in tissues}
-    return np.array([codes.get((t.kind, t.name), 0) for t in made.tissues], np.intp)
+def _codes_by(own: Sequence[FieldTissue], other: Sequence[FieldTissue]) -> Codes:
+    """Return codes of one table by those of another; what it has not is unknown."""
+    codes = {(tissue.kind, tissue.name): tissue.code for tissue in own}
+    return np.array([codes.get((t.kind, t.name), 0) for t in other], np.intp)
 
 
 def _layers(subject: _Subject, n: int) -> Codes:
@@ -257,7 +259,7 @@ def _straight(
         start = perf_counter()
         from_bytes(content, check=False)
         loaded = perf_counter() - start
-        bound, table = _bound(made, subject), _same_codes(made, subject.tissues)
+        bound, table = _bound(made, subject), _codes_by(subject.tissues, made.tissues)
         hand = PushingHand(tissue_values(made.tissues), bound)
         felt = [_renamed(hand.in_field(path), table) for path in paths]
         cost = _look_up_ns(bound, np.concatenate([path.points for path in paths]))
@@ -291,7 +293,11 @@ def _bent(
     """
     report(0.0, f"{subject.name}: the field in use")
     made = make(subject.volume, (), subject.entry, _REACH_MM, SPACING_MM)
-    bound, table, values = _bound(made, subject), _same_codes(made, subject.tissues), subject.values
+    bound, table, values = (
+        _bound(made, subject),
+        _codes_by(subject.tissues, made.tissues),
+        subject.values,
+    )
     hand = PushingHand(tissue_values(made.tissues), bound)
     told = PushingHand(values, _bound(_no_field(subject), subject))
     errors: list[PathErrors] = []
@@ -299,7 +305,7 @@ def _bent(
     across: list[float] = []
     seed = sum(subject.name.encode())
     paths = field_paths.random_paths(subject.entry, subject.target, count, seed)
-    back = _same_codes_back(made, subject)
+    back = _codes_by(made.tissues, subject.tissues)
     for number, path in enumerate(paths):
         report((number + 1) / (count + 1), f"{subject.name}: path {number + 1} of {count}")
         rest = bound.at_rest(
@@ -324,12 +330,6 @@ def _bent(
         ]
         across += (found.places[far] * np.cos(np.radians(slant))).tolist()
     return errors, missing, across
-
-
-def _same_codes_back(made: TissueField, subject: _Subject) -> Codes:
-    """Return codes of a field by those of the reference; what it has not is unknown."""
-    codes = {(tissue.kind, tissue.name): tissue.code for tissue in made.tissues}
-    return np.array([codes.get((t.kind, t.name), 0) for t in subject.tissues], np.intp)
 
 
 def _spread(values: Sequence[FloatArray]) -> tuple[float, float, float]:
@@ -448,7 +448,12 @@ def _measured(
             f"Of {len(listed)} that are not there the {_LISTED} are listed, the thickest first."
         )
     sheets = (
-        Sheet("ways", "What needles meet, by each way", _WAYS, tuple(map(_way_row, *_zip(joined)))),
+        Sheet(
+            "ways",
+            "What needles meet, by each way",
+            _WAYS,
+            tuple(_way_row(*pair) for pair in joined.items()),
+        ),
         Sheet("in_use", "The field in use on bent needles, with breathing", _IN_USE, tuple(rows)),
         Sheet(
             "missing",
@@ -458,10 +463,6 @@ def _measured(
         ),
     )
     return Findings(sheets, lines=tuple(lines), passed=met)
-
-
-def _zip(joined: dict[str, _FieldWay]) -> tuple[Sequence[str], Sequence[_FieldWay]]:
-    return tuple(joined), tuple(joined.values())
 
 
 def _joined(ways: Sequence[_FieldWay]) -> _FieldWay:
@@ -497,6 +498,8 @@ def _all(progress: Progress | None = None, paths: int = PATHS, full: bool = Fals
 
 
 def _quick(progress: Progress | None = None, paths: int = _QUICK, full: bool = False) -> Findings:
+    if full:
+        raise StudyError(sentence("--full and --quick ask for both: leave one of them out"))
     return _measured(_COMPARED[1:2], _COMPARED[1:2], SPACINGS_MM[:3], paths, progress)
 
 

@@ -27,7 +27,7 @@ from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.exchange.csv_export import score_table, trajectory_table, write_csv
 from app.exercises.drill import ROUNDS, DrillKind
-from app.exercises.practice import drilled
+from app.exercises.drilled import drilled
 from app.exercises.schema import Exercise
 from app.imaging.volume import Volume
 from app.planning.draft import DraftPlan

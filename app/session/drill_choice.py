@@ -31,7 +31,7 @@ def exercise_in(recording: Recording) -> Exercise | None:
         return None
 
 
-def called_for(
+def drill_for(
     score: Score | None, past: AttemptEvidence, exercise: Exercise | None
 ) -> DrillKind | None:
     """Return the drill for what cost most; None where nothing did, or nothing may be practised.

@@ -12,9 +12,9 @@ from test_session_reasons import ENTRY_MM as ENTRY
 
 from app.compose.run_context import conditions_of as metadata_of
 from app.exercises.drill import ROUND_S, THROUGH_S, DrillKind, DrillPart
+from app.exercises.drilled import drilled
 from app.exercises.guidance import Purpose
 from app.exercises.library import load_exercise
-from app.exercises.practice import drilled
 from app.exercises.schema import Exercise
 from app.scoring.conditions import Conditions, comparable
 from app.scoring.result import judge
@@ -22,8 +22,8 @@ from app.scoring.rows import Row, ScoreRules
 from app.scoring.score import score
 from app.scoring.tolerance import Tolerance
 from app.session.beginnings import Beginnings
+from app.session.drill_choice import drill_for, exercise_in
 from app.session.next_exercise import ProposalReason, _whole
-from app.session.practising import called_for, exercise_in
 from app.session.scored import trajectory
 
 
@@ -60,15 +60,15 @@ def breathing():
     ],
 )
 def test_the_drill_is_of_what_cost_most(metric, past, kind):
-    assert called_for(lost(metric), past, WHOLE) is kind
+    assert drill_for(lost(metric), past, WHOLE) is kind
 
 
 def test_no_drill_where_nothing_was_lost_or_judged_and_none_of_an_assessment():
-    assert called_for(None, ASKEW, WHOLE) is None
-    assert called_for(lost("depth_error", 0.5), ASKEW, WHOLE) is None
-    assert called_for(lost("depth_error"), ASKEW, None) is None
+    assert drill_for(None, ASKEW, WHOLE) is None
+    assert drill_for(lost("depth_error", 0.5), ASKEW, WHOLE) is None
+    assert drill_for(lost("depth_error"), ASKEW, None) is None
     exam = WHOLE.model_copy(update={"purpose": Purpose.ASSESSMENT})
-    assert called_for(lost("depth_error"), ASKEW, exam) is None
+    assert drill_for(lost("depth_error"), ASKEW, exam) is None
 
 
 @pytest.mark.parametrize("kind", list(DrillKind))
