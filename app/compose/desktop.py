@@ -6,6 +6,7 @@ import contextlib
 import shutil
 from dataclasses import replace
 from pathlib import Path
+from secrets import randbits
 from typing import TYPE_CHECKING, Any, Final
 
 from app.compose.first_start import TrackerKernels
@@ -230,6 +231,8 @@ class Desktop:
             source=needle_source("pen", setup.robot.pen) if setup.robot.pen else None,
             risks=risks,
             tissues=tissues,
+            # Each start is another one; who asks for a seed has the same again.
+            hand_seed=randbits(32) if self._seed is None else None,
             script=None if shown is None else shown.script(setup.placed),
         )
         rig = build_rig(trainer)

@@ -95,6 +95,8 @@ class TrainerSetup:
         risks: structures that the needle has to keep away from.
         tissues: field of the patient: tells what the needle met, and is what the loop looks into
             where the exercise's tissue is the field; None for none.
+        hand_seed: of where a simulated hand begins and how it trembles, which attempts record;
+            None takes `seed`.
     """
 
     exercise: Exercise
@@ -110,6 +112,7 @@ class TrainerSetup:
     source: Callable[[DeviceProfile], NeedleSource] | None = None
     risks: tuple[Risk, ...] = ()
     tissues: TissueField | None = None
+    hand_seed: int | None = None
     script: TraineeScript | None = None
 
     def bound_field(self) -> BoundField | None:
@@ -309,7 +312,8 @@ def _beginnings(setup: TrainerSetup, profile: DeviceProfile) -> Beginnings:
     """Return where attempts of a person's simulated hand begin: off the path, or on it."""
     drill, level = setup.exercise.drill, setup.exercise.hand_level
     aligned = drill is not None and drill.begins_aligned
-    return Beginnings(setup.seed, level, profile.tilt_limit, aligned)
+    seed = setup.seed if setup.hand_seed is None else setup.hand_seed
+    return Beginnings(seed, level, profile.tilt_limit, aligned)
 
 
 def _build_source_rig(setup: TrainerSetup, source: NeedleSource) -> Rig:

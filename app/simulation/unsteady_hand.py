@@ -9,8 +9,9 @@ adds before its own bounds on speed and acceleration:
 - *unrest*: the hub wanders, as a hand does that means to hold still;
 - *push and tilt*: no push goes straight. Off the line a hand goes in proportion to its way (Gordon,
   Ghilardi and Ghez 1994, doi 10.1007/BF00241415), to another side in another movement; the needle
-  turns about its entry by that and stays turned. A pause or a turn back begins another push: who
-  pushes a little, looks and mends has many small errors, who does not has one great one;
+  turns about its entry by that and stays turned, however slow the push. A pause or a way back
+  begins another push: who pushes a little, looks and mends has many small errors, who does not has
+  one great one;
 - *tilt and depth*: turning while pushing moves the depth, which stays moved.
 
 Where tissue holds the needle it goes on holding: the plant's springs pull, nothing here moves it.
@@ -40,9 +41,8 @@ _TREMOR: Final = 2.0 * np.pi * 10.0  # [rad/s]
 _NARROW: Final = 0.2  # damping ratio of the tremor's resonance: 4 Hz between half powers
 _DAMPING: Final = 0.7  # ratio of the weight
 _FASTEST_PUSH: Final = 0.03  # [m/s] while a faster push turns, the depth slips no further
-_PUSHES: Final = 2e-3  # [m/s] from this speed on it is a push ...
-_RESTS: Final = 1e-3  # [m/s] ... and below this for `_PAUSE` [s] it is over
-_PAUSE: Final = 0.2
+_PAUSE: Final = 0.2  # [s] so long no way was wanted: the push is over
+_BACK: Final = 5e-4  # [m] so far the other way it is another push
 _MOST_ASIDE: Final = 0.35  # [rad]
 _MOST_SLIP: Final = 0.005  # [m]
 _LONGEST: Final = 5e-3  # [s] as the loop clamps a step
@@ -108,7 +108,9 @@ class _HandPlaces(NamedTuple):
     wander_x: int = 0
     wander_y: int = 0
     push: int = 0
+    wanted: int = 0
     paused: int = 0
+    back: int = 0
     leaves_x: int = 0
     leaves_y: int = 0
     aside_x: int = 0
@@ -178,6 +180,7 @@ def _begin(state: FloatArray, p: FloatArray) -> None:
     for _ in range(8):  # neighbouring seeds begin alike
         _uniform(p)
     p[_AT.x], p[_AT.y], p[_AT.z] = state[sv.HAND_X], state[sv.HAND_Y], state[sv.HAND_DEPTH]
+    p[_AT.wanted] = p[_AT.z]
 
 
 @njit
@@ -201,21 +204,21 @@ def _shake(p: FloatArray, i: int, size: float, h: float) -> float:
 
 
 @njit
-def _push(p: FloatArray, aside: float, h: float) -> None:
+def _push(p: FloatArray, wanted: float, aside: float, h: float) -> None:
     """Let the direction go aside while the hand pushes or pulls; another push, another side."""
-    v = p[_AT.vz]
-    way = 1.0 if v > 0.0 else -1.0
-    if abs(v) > _PUSHES and p[_AT.push] != way:
-        p[_AT.push] = way
-        for i in range(2):
-            p[_AT.leaves_x + i] = aside * _normal(p)
-    p[_AT.paused] = p[_AT.paused] + h if abs(v) < _RESTS else 0.0
+    way = wanted - p[_AT.wanted]
+    p[_AT.wanted] = wanted
+    p[_AT.paused] = p[_AT.paused] + h if way == 0.0 else 0.0
+    p[_AT.back] = 0.0 if way * p[_AT.push] > 0.0 else p[_AT.back] + abs(way)
     if p[_AT.paused] > _PAUSE:
         p[_AT.push] = 0.0
-    if p[_AT.push] != 0.0:
+    if way != 0.0 and (p[_AT.push] == 0.0 or p[_AT.back] > _BACK):
+        p[_AT.push], p[_AT.back] = np.sign(way), 0.0
         for i in range(2):
-            gone = p[_AT.aside_x + i] + p[_AT.leaves_x + i] * abs(v) * h
-            p[_AT.aside_x + i] = min(max(gone, -_MOST_ASIDE), _MOST_ASIDE)
+            p[_AT.leaves_x + i] = aside * _normal(p)
+    for i in range(2):
+        gone = p[_AT.aside_x + i] + p[_AT.leaves_x + i] * abs(p[_AT.vz]) * h
+        p[_AT.aside_x + i] = min(max(gone, -_MOST_ASIDE), _MOST_ASIDE)
 
 
 @stage
@@ -234,7 +237,7 @@ def step(state: FloatArray, p: FloatArray) -> None:
         forgets = h / _of_level(p, level, _OF.memory)
         lever = max(p[_AT.length] - state[sv.PLANT_DEPTH], _SHORTEST)
         wander = _of_level(p, level, _OF.unrest) * np.sqrt(2.0 * forgets)
-        _push(p, _of_level(p, level, _OF.aside), h)
+        _push(p, state[sv.HAND_DEPTH], _of_level(p, level, _OF.aside), h)
         for i in range(2):
             p[_AT.wander_x + i] += wander * _normal(p) - forgets * p[_AT.wander_x + i]
             off = p[_AT.wander_x + i] / lever + p[_AT.aside_x + i]

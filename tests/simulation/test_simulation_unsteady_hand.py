@@ -136,3 +136,30 @@ def test_sizes_that_are_none_are_refused() -> None:
     for name, value in (("aside", -0.1), ("unrest", np.nan), ("lag", 0.0), ("memory", 0.0)):
         with pytest.raises(SimulationError, match="unsteadiness"):
             Unsteadiness(**{**good, name: value})
+
+
+def left(seed: int, speed: float = SPEED, click: float = 0.0) -> float:
+    """Angle after 20 mm at one go [°]; `click`: seconds from one click of the wheel to the next."""
+    hand, way = Hand(1, seed), 0.02
+    hand.wait(0.001)  # it is there: all draw the same side
+    if not click:
+        hand.push(way, speed)
+    for _ in range(round(way / (speed * click)) if click else 0):
+        hand.state[sv.HAND_DEPTH] += speed * click
+        hand.wait(click)
+    return hand.turned
+
+
+@pytest.mark.parametrize(("speed", "click"), [(5e-4, 0.0), (1.9e-3, 0.0), (0.2e-3 / 0.12, 0.12)])
+def test_a_push_leaves_its_line_however_slow_it_is(speed: float, click: float) -> None:
+    """The last is a fine wheel: 0.2 mm each 120 ms, as somebody turns who means to outwit it."""
+    fast = np.mean([left(seed) for seed in range(1, 9)])
+    slow = np.mean([left(seed, speed, click) for seed in range(1, 9)])
+    assert slow == pytest.approx(fast, rel=0.1)
+
+
+def test_a_hand_that_swings_back_after_a_click_makes_no_other_push_of_it() -> None:
+    """Coarse clicks without a rest: 1 mm each 150 ms, faster than the weight comes to rest."""
+    clicked = np.array([left(seed, 1e-3 / 0.15, 0.15) for seed in range(1, 60)])
+    fast = np.array([left(seed) for seed in range(1, 60)])
+    assert np.sqrt((clicked**2).mean()) == pytest.approx(np.sqrt((fast**2).mean()), rel=0.15)
