@@ -13,6 +13,7 @@ from app.session.pad.view import depth_tolerance_of, rings_of
 from app.session.shown_views import Shown
 from app.session.snapshot import NextStep, StepKind
 from app.views.exercise.attempt_rail import AttemptRail
+from app.views.exercise.bullseye import Bullseye, figure_of
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.steps import NextStepLine, Steps, step_words
 
@@ -108,10 +109,19 @@ def test_the_line_over_the_views_says_less_from_level_to_level(qt, level, words)
         FakeTrainer(PLACED), PLACED, PROFILE, shown=Shown.of_exercise(of_level),
         rings=rings_of(EXERCISE), depth_tolerance=depth_tolerance_of(EXERCISE), interactive=True,
     )  # fmt: skip
-    line = NextStepLine()
+    line, pad = NextStepLine(), Bullseye()
+    line.stepped.connect(pad.show_step)
     line.begin(run)
     line.show_snapshot(moment(level, PLACED.length / MILLIMETRE - 20.0))
     assert line.text() == words
+    assert pad._figure.text() == ("▼ 20 mm" if level == 1 else "")
+
+
+@pytest.mark.parametrize("kind", StepKind)
+def test_the_pad_says_no_figure_where_the_order_says_none(kind):
+    words = figure_of(NextStep(kind, towards="IL", distance=0.012, across=0.003), numbers=False)
+    assert not DIGITS & set(words)
+    assert (words == "✔ hold") == (kind in (StepKind.HOLD, StepKind.STAY, StepKind.FINISH))
 
 
 @pytest.mark.parametrize("steadiness", [None, 0, 5])

@@ -282,9 +282,12 @@ class Bullseye(QWidget):
             label.setVisible(not (plain or self._hides_needle))
         self._fit_words()
 
-    def show_step(self, step: NextStep) -> None:
-        """Say the one figure that belongs to the order: nothing here speaks for itself."""
-        words = figure_of(step)
+    def show_step(self, step: NextStep, numbers: bool = True) -> None:
+        """Say the one figure that belongs to the order: nothing here speaks for itself.
+
+        `numbers`: whether the order itself says how far.
+        """
+        words = figure_of(step, numbers)
         if words != self._figure.text():
             self._figure.setText(words)
 
@@ -539,8 +542,18 @@ class Bullseye(QWidget):
         grid.setColumnStretch(0, 1)
 
 
-def figure_of(step: NextStep) -> str:
-    """Return the one figure of an order, in millimetres; a tick where there is nothing to do."""
+_TICKED: Final = (StepKind.HOLD, StepKind.STAY, StepKind.FINISH)
+
+
+def figure_of(step: NextStep, numbers: bool = True) -> str:
+    """Return the one figure of an order, in millimetres; a tick where there is nothing to do.
+
+    Empty where there is a way to go and `numbers` are not to be said.
+    """
+    if step.kind in _TICKED:
+        return tr("✔ hold")
+    if not numbers:
+        return ""
     across, along = 1e3 * step.across, 1e3 * abs(step.distance)
     return {
         StepKind.TILT: tr("{mm} mm off", mm=amount(across)),
@@ -548,9 +561,6 @@ def figure_of(step: NextStep) -> str:
         StepKind.INSERT: tr("▼ {mm} mm", mm=amount(along)),
         StepKind.DEEPER: tr("▼ {mm} mm", mm=amount(along)),
         StepKind.BACK: tr("▲ {mm} mm", mm=amount(along)),
-        StepKind.HOLD: tr("✔ hold"),
-        StepKind.STAY: tr("✔ hold"),
-        StepKind.FINISH: tr("✔ hold"),
     }.get(step.kind, "")
 
 

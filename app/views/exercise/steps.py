@@ -351,11 +351,11 @@ class NextStepLine(PlainLabel):
     Signals:
         spoken(str, bool): what it says, and whether that something was reached; whoever has taken
             its place says the same.
-        stepped(NextStep): the step that it says, as a value.
+        stepped(NextStep, bool): the step that it says, as a value, and whether it is said how far.
     """
 
     spoken = Signal(str, bool)
-    stepped = Signal(object)
+    stepped = Signal(object, bool)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -475,7 +475,7 @@ class NextStepLine(PlainLabel):
             return
         shown = self._run.shown
         step = self._steps.of(self._snapshot, shown.live, shown.orders)
-        self.stepped.emit(step)
+        self.stepped.emit(step, shown.numbers)
         shows = self._run.demonstrates
         tip = not (self._run.held_at_hub or self._moves_hub)
         words = step_words(step, self._run.interactive or shows, tip, shown.numbers)
