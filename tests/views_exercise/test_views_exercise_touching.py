@@ -25,6 +25,7 @@ from app.views.debrief.curves import curves_of
 from app.views.exercise.briefing import BriefingPage, aid_words, scored_words
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.controller import ExerciseDisplay
+from app.views.exercise.depth_bar import DepthBar
 from app.views.exercise.hands.chooser import HandChooser
 from app.views.exercise.offer import BriefingOffer
 from app.views.exercise.pad_canvas import PadCanvas
@@ -142,6 +143,15 @@ def test_the_bullseye_has_the_present_target_in_its_middle_and_the_hand_goes_on(
     np.testing.assert_allclose(widget.hand.direction, hand.direction, atol=1e-12)
     assert scene.target_depth == pytest.approx(TASK.plans[1].length)
     assert scene.rings == (0.004, 0.012)
+
+
+def test_the_narrow_depth_bar_names_the_depth_of_the_present_target(qt):
+    run, bar = the_run(), DepthBar()
+    bar.set_scene(run.scene(TASK.plans[0]))
+    bar.set_narrow(True)
+    scene = run.scene(TASK.plans[1])
+    bar.retarget(scene)
+    assert f"Target {1e3 * scene.target_depth:.0f} " in bar.toolTip()
 
 
 def test_the_mouse_moves_the_handle_and_the_tip_goes_the_other_way(qt):
