@@ -3,11 +3,14 @@
 import json
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from attempt_windows import begun, judged
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from app.core import state_vector as sv
@@ -119,6 +122,40 @@ def test_the_new_scan_stands_over_the_last_one_slice_by_slice(volume, destroy):
     above, below = wall.tiles
     assert len(above) == len(below) >= 2
     assert [tile.words for tile in above] == [tile.words for tile in below]
+
+
+def shifted(volume, millimetres):
+    moved = volume.affine_mm.copy()
+    moved[2, 3] += millimetres
+    return replace(volume, affine_mm=moved)
+
+
+def test_beside_a_slice_that_the_scan_before_has_not_nothing_is_shown(volume, destroy):
+    step = float(volume.spacing_mm[2])
+    for share, is_there in ((0.4, True), (0.0, True), (volume.size[2] + 1.0, False)):
+        wall = wall_of(shifted(volume, share * step), "first")
+        destroy(wall)
+        wall.add(ScanPicture(volume, "second"))
+        above, below = wall.tiles
+        assert all(tile.words for tile in above)
+        assert all(bool(tile.words) is is_there for tile in below)
+
+
+def test_a_click_opens_a_slice_of_the_newest_scan_and_none_of_the_one_before(volume, destroy):
+    wall = wall_of(volume, "first", "second")
+    destroy(wall)
+    wall.show()
+    opened = []
+    wall.slice_wanted.connect(opened.append)
+    above, below = wall.tiles
+    for tile in below:
+        assert tile.toolTip() == ""
+        assert tile.cursor().shape() is Qt.CursorShape.ArrowCursor
+        QTest.mouseClick(tile, Qt.MouseButton.LeftButton)
+    assert opened == []
+    QTest.mouseClick(above[-1], Qt.MouseButton.LeftButton)
+    assert "alone" in above[-1].toolTip()
+    assert len(opened) == 1
 
 
 def test_a_tile_is_zoomed_on_the_path_and_shows_its_ends(volume, destroy):
