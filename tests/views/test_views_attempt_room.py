@@ -182,12 +182,28 @@ class Told:
         self.time, self.device = time, type("Device", (), {"row": row})()
 
 
-def test_the_breath_strip_is_there_once_the_patient_breathes_and_knows_its_gate(application):
+def test_the_breath_strip_is_there_from_the_beginning_or_never(application):
     strip = BreathStrip()
-    strip.begin(0.002)
+    for breathes in (True, False):
+        strip.begin(0.002, breathes)
+        assert strip.isHidden() is not breathes
+        strip.show_snapshot(Told(0.0, 0.012))
+        assert strip.isHidden() is not breathes
+
+
+def test_just_outside_its_band_the_breath_is_not_said_to_be_within_it(application):
+    strip = BreathStrip()
+    strip.begin(0.002, True)
+    strip.show_snapshot(Told(0.0, 0.0022))
+    assert not strip.in_gate
+    assert "2.2 mm away" in strip.words
+
+
+def test_the_breath_strip_knows_its_gate(application):
+    strip = BreathStrip()
+    strip.begin(0.002, True)
     for tick in range(50):
         strip.show_snapshot(Told(0.1 * tick, 0.0))
-    assert strip.isHidden()
     assert strip.in_gate
     lowest = np.inf
     for tick in range(50, 130):
@@ -197,7 +213,7 @@ def test_the_breath_strip_is_there_once_the_patient_breathes_and_knows_its_gate(
     assert lowest < strip.level(strip.gate) < strip.level(0.0)
     strip.show_snapshot(Told(14.0, 0.012))
     assert not strip.in_gate
-    assert "12 mm" in strip.words
+    assert "12.0 mm" in strip.words
     strip.show_snapshot(Told(14.1, 0.001))
     assert "push" in strip.words
 

@@ -98,7 +98,7 @@ class ExerciseDisplay:
         if run.touches:  # its phases are those of one insertion; here there are many targets
             self._views.panel.steps.set_brief(True)
             self._views.panel.rail.stage.set_brief(True)
-        self._views.panel.rail.breath.begin(run.rings[0])
+        self._views.panel.rail.breath.begin(run.rings[0], run.breathes)
         self._views.panel.set_offsets(shows(ViewName.BULLSEYE))
 
     def take_hand(self, snapshot: Snapshot) -> None:
