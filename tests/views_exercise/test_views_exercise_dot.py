@@ -163,6 +163,10 @@ def test_in_an_attempt_the_bullseye_says_one_figure_and_no_other_word(pad, qt):
     assert pad._figure.text() == "4 mm off"
     assert pad._figure.isVisible()
     assert not any(label.isVisible() for label in (*pad._words, pad._marks, pad.source))
+    before = pad._remaining.text()
+    pad.show_view(replace(pad._view, measured=False))
+    assert pad._remaining.text() == before, "nobody sees it: nothing is written"
     pad.set_plain(False)
     assert not pad._figure.isVisible()
     assert pad._remaining.isVisible()
+    assert pad._remaining.text() == "–" != before

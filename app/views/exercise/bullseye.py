@@ -453,7 +453,8 @@ class Bullseye(QWidget):
         hub = scene.handle is None and (self.source.moves_hub or self._held_at_hub)
         self.pad.show_view(view, hub)
         self.depth_bar.show_depth(view.depth, view.measured, hand.pose.depth if hand else None)
-        self._write(scene, view)
+        if not self._plain:  # nobody sees them in an attempt; afterwards they are written anew
+            self._write(scene, view)
 
     def _write(self, scene: PadScene, view: PadView) -> None:
         """Say in words what the pad shows; what is said in short stands in full in the tooltip."""
