@@ -15,7 +15,8 @@ from app.session.snapshot import NextStep, StepKind
 from app.views.exercise.attempt_rail import AttemptRail
 from app.views.exercise.bullseye import Bullseye, figure_of
 from app.views.exercise.run import ExerciseRun
-from app.views.exercise.steps import NextStepLine, Steps, step_words
+from app.views.exercise.stages import Steps
+from app.views.exercise.steps import NextStepLine, step_words
 
 EXERCISE = load_exercise("first-insertion")
 PROFILE = device_of(EXERCISE)
@@ -62,6 +63,21 @@ def test_nothing_turns_in_any_other_state(steps, state):
     steps.show_state(State.WITHDRAWING)
     steps.show_state(state)
     assert not steps.ring.turns, "an idle window costs nothing"
+
+
+def test_fewer_steps_are_another_row_of_the_same_moment(steps):
+    steps.show_state(State.WITHDRAWING, ready=True)
+    steps.set_brief(True)
+    assert steps.accessibleName() == "Ready"
+    steps.show_state(State.INSERTING)
+    assert steps.accessibleName() == "Under way"
+    inserting = pixels(steps)
+    steps.show_state(State.READY)
+    assert pixels(steps) != inserting
+    steps.set_brief(False)
+    steps.show_state(State.INSERTING)
+    steps.set_brief(True)
+    assert pixels(steps) == inserting, "however it came there"
 
 
 # --- orders -------------------------------------------------------------------------------------

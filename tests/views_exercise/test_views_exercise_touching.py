@@ -246,15 +246,15 @@ def test_the_steps_of_one_insertion_are_not_told_where_many_targets_are_touched(
         """Keeps what it is told."""
 
         def __init__(self):
-            self.steps, self.is_brief = self, None
-            breath = SimpleNamespace(begin=lambda gate: None)
-            self.rail = SimpleNamespace(stage=self, breath=breath)
+            self.is_brief = None
+            breath = SimpleNamespace(begin=lambda gate, breathes: None)
+            self.rail = SimpleNamespace(breath=breath)
 
         def set_brief(self, brief):
             self.is_brief = brief
 
         def set_guidance(self, guidance, plan):
-            self.steps.set_brief(guidance is not None)
+            pass
 
         def set_forceful(self, forceful):
             pass

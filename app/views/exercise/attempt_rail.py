@@ -10,9 +10,8 @@ from collections.abc import Sequence
 from typing import Final
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QColor, QFontMetrics, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import (
-    QApplication,
     QGridLayout,
     QPushButton,
     QScrollArea,
@@ -25,7 +24,7 @@ from app.session.machine import State
 from app.views.exercise.breath_strip import BreathStrip
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.readouts import OFFSETS, ForceBar, figure_texts
-from app.views.exercise.steps import BRIEF, ORDER, TurningRing, state_word
+from app.views.exercise.stages import Stages
 from app.views.kit import theme
 from app.views.kit.parts import FittingButton, PlainLabel
 from app.views.kit.progress_strip import ElidedLabel
@@ -57,51 +56,12 @@ def rail_width(window: int) -> int:
     return int(widest) // GRID * GRID
 
 
-class StageLine(QWidget):
+class StageLine(Stages):
     """Discs for what is done, now and to come, and the name of now below them."""
-
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self._state: State | None = None
-        self._order, self._reached = ORDER, 0
-        self._ready, self.ring = False, TurningRing(self)
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setAccessibleName(tr("No attempt"))
 
     def sizeHint(self) -> QSize:
         """Preferred size."""
         return QSize(160, 3 * GRID + theme.FONT_PX + GRID)
-
-    def set_brief(self, brief: bool) -> None:
-        """Show what lies between beginning and end as one: it is read from the needle."""
-        self._order, self._reached = (BRIEF if brief else ORDER), 0
-        self.update()
-
-    def show_state(self, state: State | None, ready: bool = False) -> None:
-        """Show a state; None before there is an attempt.
-
-        `ready`: whether only the first movement of the hand is waited for.
-        """
-        if state is self._state and ready is self._ready:
-            return
-        self._ready = ready
-        self.ring.show_state(state, ready)
-        if state in self._order:
-            self._reached = self._order.index(state)
-        elif state is None or state is State.WITHDRAWING:
-            self._reached = 0
-        self._state = state
-        self.setAccessibleName(self.word)
-        self.update()
-
-    @property
-    def word(self) -> str:
-        """Return the name of the state."""
-        if self._state is None:
-            return tr("No attempt")
-        if self._order is BRIEF and self._state is State.INSERTING:
-            return tr("Under way")
-        return state_word(State.READY if self._ready else self._state)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw discs and name."""
@@ -125,7 +85,7 @@ class StageLine(QWidget):
             elif here:
                 painter.setBrush(accent)
                 painter.drawEllipse(at, 4.0, 4.0)
-        painter.setFont(_font(theme.FONT_PX, bold=True))
+        painter.setFont(theme.font_of(theme.FONT_PX, bold=True))
         painter.setPen(QColor(theme.WARNING if self._state is State.PAUSED else theme.TEXT))
         below = QRectF(0.0, 3.0 * GRID, self.width(), theme.FONT_PX + GRID)
         painter.drawText(below, Qt.AlignmentFlag.AlignLeft, self.word)
@@ -155,7 +115,7 @@ class OrderBlock(PlainLabel):
         """Take the larger letters in which all of it can be read at a width [px], else the usual
         ones.
         """
-        high = ORDER_LINES * QFontMetrics(_font(theme.TITLE_PX, bold=True)).lineSpacing()
+        high = ORDER_LINES * QFontMetrics(theme.font_of(theme.TITLE_PX, bold=True)).lineSpacing()
         self.setFixedHeight((high + 2 * GRID) // GRID * GRID)
         room = width - 2 * GRID
         pixels = theme.TITLE_PX
@@ -171,16 +131,9 @@ class OrderBlock(PlainLabel):
 
 
 def _fits(words: str, pixels: int, width: int, height: int) -> bool:
-    metrics, flags = QFontMetrics(_font(pixels, bold=True)), Qt.TextFlag.TextWordWrap
+    metrics, flags = QFontMetrics(theme.font_of(pixels, bold=True)), Qt.TextFlag.TextWordWrap
     box = metrics.boundingRect(0, 0, max(1, width), 10_000, int(flags), words)
     return box.height() <= height and box.width() <= width
-
-
-def _font(pixels: int, bold: bool = False) -> QFont:
-    font = QFont(QApplication.font())
-    font.setPixelSize(pixels)
-    font.setWeight(QFont.Weight.DemiBold if bold else QFont.Weight.Normal)
-    return font
 
 
 class RailFigures(QWidget):
@@ -190,8 +143,6 @@ class RailFigures(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._telling: frozenset[str] | None = None
-        self._offsets = True
         self._titles: dict[str, PlainLabel] = {}
         self._values: dict[str, PlainLabel] = {}
         grid = QGridLayout(self)
@@ -224,15 +175,14 @@ class RailFigures(QWidget):
 
     def set_telling(self, keys: frozenset[str] | None, offsets: bool) -> None:
         """Leave only these, None for all; `offsets`: whether the way left may be told."""
-        self._telling, self._offsets = keys, offsets
         for key, value in self._values.items():
-            told = self._telling is None or key in self._telling
+            shown = (keys is None or key in keys) and (offsets or key not in OFFSETS)
             for label in (value, self._titles[key]):
-                label.setVisible(told and (offsets or key not in OFFSETS))
+                label.setVisible(shown)
 
     def suit_width(self, width: int) -> None:
         """Take the largest letters in which two numbers stand side by side in a width [px]."""
-        longest = QFontMetrics(_font(theme.TITLE_PX, bold=True)).horizontalAdvance(LONGEST)
+        longest = QFontMetrics(theme.font_of(theme.TITLE_PX, bold=True)).horizontalAdvance(LONGEST)
         pixels = theme.TITLE_PX if longest <= (width - GRID) // 2 else theme.FONT_PX
         for label in self._titles.values():
             label.setStyleSheet(f"font-size: {theme.SMALL_PX}px; color: {theme.TEXT_DIM};")
@@ -245,7 +195,7 @@ class AttemptRail(QWidget):
 
     Signals:
         panel_wanted(): the side panel is to come back, or to go again.
-        scan_closed(): the live pictures are to come back in place of a scan, or the scan again.
+        pictures_wanted(): the live pictures are to come back in place of a scan, or the scan again.
 
     Attributes:
         order: what is to be done next.
@@ -253,21 +203,21 @@ class AttemptRail(QWidget):
     """
 
     panel_wanted = Signal()
-    scan_closed = Signal()
+    pictures_wanted = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.stage, self.order = StageLine(self), OrderBlock(self)
         self.figures, self.force = RailFigures(self), ForceBar(self)
         self.breath = BreathStrip(self)
-        self.pictures = _quiet(tr("Live pictures (Ctrl+T)"))
-        self.panel = _quiet(tr("All panels (Ctrl+B)"))
+        self.pictures = _quiet()
+        self.panel = _quiet()
         self._place = QVBoxLayout()
         self._note, self._health = PlainLabel(self), PlainLabel(self)
         self._lay_out()
         self._health.hide()
         self.pictures.hide()
-        self.pictures.clicked.connect(self.scan_closed)
+        self.pictures.clicked.connect(self.pictures_wanted)
         self.panel.clicked.connect(self.panel_wanted)
         self.hide()
 
@@ -338,8 +288,9 @@ def _health(item: StatusItem) -> str:
     return f"{symbol} {item.title}: {item.text}" if item.text else f"{symbol} {item.title}"
 
 
-def _quiet(words: str) -> QPushButton:
-    button = FittingButton(words)
+def _quiet() -> QPushButton:
+    """Return a button whose words follow what it would do now."""
+    button = FittingButton("")
     # A button that keeps the focus would swallow the pad's keys.
     button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
     return button

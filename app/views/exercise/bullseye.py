@@ -12,7 +12,6 @@ from PySide6.QtGui import (
     QResizeEvent,
 )
 from PySide6.QtWidgets import (
-    QApplication,
     QGridLayout,
     QHBoxLayout,
     QLabel,
@@ -296,7 +295,9 @@ class Bullseye(QWidget):
         self.pad.setMinimumSize(SMALLEST_PAD, SMALLEST_PAD)
         self.depth_bar.setMinimumHeight(SMALLEST_PAD // 2)
         self._figure.setStyleSheet(_label_style(theme.TITLE_PX, theme.TEXT))
-        self._figure.setFixedHeight(QFontMetrics(_font_of(theme.TITLE_PX)).height() + theme.SPACING)
+        self._figure.setFixedHeight(
+            QFontMetrics(theme.font_of(theme.TITLE_PX)).height() + theme.SPACING
+        )
 
     def _fit_words(self) -> None:
         """Say as much as there is room for: in full, without the legend, without the angles,
@@ -563,12 +564,6 @@ def figure_of(step: NextStep, numbers: bool = True) -> str:
         StepKind.DEEPER: tr("▼ {mm} mm", mm=amount(along)),
         StepKind.BACK: tr("▲ {mm} mm", mm=amount(along)),
     }.get(step.kind, "")
-
-
-def _font_of(pixels: int) -> QFont:
-    font = QFont(QApplication.font())
-    font.setPixelSize(pixels)
-    return font
 
 
 def _label(pixels: int, colour: str = "") -> QLabel:

@@ -95,9 +95,8 @@ class ExerciseDisplay:
         self._views.bullseye.set_scene(run.scene(), by_hand, run.is_real, run.held_at_hub)
         self._views.panel.set_forceful(run.forceful)
         self._views.panel.set_guidance(None if live else run.guidance, run.placed.plan)
-        if run.touches:  # its phases are those of one insertion; here there are many targets
-            self._views.panel.steps.set_brief(True)
-            self._views.panel.rail.stage.set_brief(True)
+        # The phases are read from the needle, and are those of one insertion, not of many targets.
+        self._views.panel.set_brief(not live or run.touches)
         self._views.panel.rail.breath.begin(run.rings[0], run.breathes)
         self._views.panel.set_offsets(shows(ViewName.BULLSEYE))
 

@@ -104,7 +104,7 @@ class AttemptRoom(QObject):
         self._panels = self._key(PANELS_KEY, self.toggle_panels)
         self._pictures = self._key(PICTURES_KEY, self.toggle_scan)
         rail.panel_wanted.connect(self.toggle_panels)
-        rail.scan_closed.connect(self.toggle_scan)
+        rail.pictures_wanted.connect(self.toggle_scan)
         page.scan_view.arrived.connect(self._take_scan)
 
     def _key(self, keys: str, command: Callable[[], None]) -> QShortcut:
