@@ -135,11 +135,10 @@ def test_the_bullseye_has_the_present_target_in_its_middle_and_the_hand_goes_on(
     later = moment(1, tip=TASK.p_targets[1])
     scene = run.scene(later.touch.aim)
     widget.retarget(scene)
-    view = pad_view(later, PROFILE.needle_length, 5.0)
+    view = pad_view(later)
     widget.show_view(view)
     assert view.frame(scene) is scene.frame
-    np.testing.assert_allclose(view.place(scene, np.zeros(3)), 0.0, atol=1e-9)
-    np.testing.assert_allclose(view.place(scene, view.offset.across), 0.0, atol=1e-9)
+    np.testing.assert_allclose(view.dot(scene), 0.0, atol=1e-9)
     np.testing.assert_allclose(widget.hand.direction, hand.direction, atol=1e-12)
     assert scene.target_depth == pytest.approx(TASK.plans[1].length)
     assert scene.rings == (0.004, 0.012)
@@ -161,7 +160,7 @@ def test_the_mouse_moves_the_handle_and_the_tip_goes_the_other_way(qt):
     widget.source.fix_sense(True, "because")
     axis = TASK.plans[0].axis
     widget.take_hand(HandPose(axis, 0.05, True))
-    widget.show_view(pad_view(moment(0), PROFILE.needle_length, 5.0))
+    widget.show_view(pad_view(moment(0)))
     widget.pad.dragged.emit(0.5, 0.0)  # to the right, half the pad's radius, at a gain of 1
     turn = widget.hand.direction - axis
     assert turn @ scene.frame.right < 0.0

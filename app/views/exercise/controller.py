@@ -123,7 +123,7 @@ class ExerciseDisplay:
         self._follow(snapshot.state)
         limit = force_limit(snapshot, run.profile.limits.hand_force)
         self._show_panel(run, snapshot, limit, now)
-        self._show_pad(run, snapshot, limit)
+        self._show_pad(run, snapshot)
         rate, missing = self.rates = self._rates.read(snapshot, now)
         self._show_tracker(run, snapshot, now)
         if now - self._status_time >= STATUS_PERIOD:
@@ -161,12 +161,12 @@ class ExerciseDisplay:
         views.panel.show_figures(figures(snapshot, limit, hidden))
         views.panel.energy.show_energy(energy_figures(snapshot))
 
-    def _show_pad(self, run: ExerciseRun, snapshot: Snapshot, limit: float) -> None:
+    def _show_pad(self, run: ExerciseRun, snapshot: Snapshot) -> None:
         bullseye = self._views.bullseye
         if snapshot.touch is not None and snapshot.touch.aim is not self._aimed:
             self._aimed = snapshot.touch.aim
             bullseye.retarget(run.scene(self._aimed))
-        view = pad_view(snapshot, run.profile.needle_length, limit)
+        view = pad_view(snapshot)
         if view is not None:
             bullseye.show_view(view)
         if run.shown.shows(ViewName.FORCE_GAUGE):
