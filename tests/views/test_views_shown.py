@@ -317,7 +317,7 @@ def test_an_attempt_that_waits_for_the_computer_blames_the_computer_in_large_let
 @pytest.mark.parametrize("kind", list(StepKind))
 @pytest.mark.parametrize("by_mouse", [True, False])
 def test_every_step_is_an_order_in_words(kind, by_mouse):
-    words = step_words(NextStep(kind, 0.05, "IL", 0.012, 0.003), by_mouse)
+    words = step_words(NextStep(kind, "IL", 0.012, 0.003), by_mouse)
     assert words
     assert "{" not in words
     if kind is StepKind.TILT:

@@ -659,7 +659,7 @@ def test_the_orders_name_the_end_that_the_hand_moves(pad):
 
 
 def test_an_order_for_the_tip_is_the_opposite_of_the_one_for_the_hub():
-    step = NextStep(StepKind.TILT, 0.05, "IL", across=0.003)
+    step = NextStep(StepKind.TILT, "IL", across=0.003)
     hub = "Tilt the hub towards the feet and the patient's left: 3 mm off the target"
     assert step_words(step, True) == hub
     words = step_words(step, True, tip=True)

@@ -88,7 +88,7 @@ ORDERS = (StepKind.TILT, StepKind.DEEPER, StepKind.BACK)
 @pytest.mark.parametrize("by_mouse", [True, False])
 @pytest.mark.parametrize("tip", [True, False])
 def test_an_order_without_numbers_says_which_way_and_no_figure(kind, by_mouse, tip):
-    step = NextStep(kind, 0.05, "IL", 0.012, 0.003)
+    step = NextStep(kind, "IL", 0.012, 0.003)
     with_them = step_words(step, by_mouse, tip)
     without = step_words(step, by_mouse, tip, numbers=False)
     assert DIGITS & set(with_them)

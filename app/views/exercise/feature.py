@@ -141,8 +141,12 @@ class ExerciseFeature(Feature):
         found = {exercise.id: declared(exercise.title) for exercise in self.exercises.values()}
         taken = self._conductor.exercise
         if taken is not None and taken.id not in found:
-            words = tr("{title} (not kept)") if taken.drill is None else tr("Drill: {title}")
-            found[taken.id] = words.format(title=declared(taken.title))
+            title = declared(taken.title)
+            found[taken.id] = (
+                tr("{title} (not kept)", title=title)
+                if taken.drill is None
+                else tr("Drill: {title}", title=title)
+            )
         return list(found.items())
 
     def begin(self, identifier: str) -> None:
