@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QFontMetrics, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QColor, QFontMetrics, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import (
     QGridLayout,
     QPushButton,
@@ -109,15 +109,18 @@ class OrderBlock(PlainLabel):
         self._good = good
         self.setText(words)
         self.setToolTip(literal(words))
-        self.fit(self.width())
+        self.fit()
 
-    def fit(self, width: int) -> None:
-        """Take the larger letters in which all of it can be read at a width [px], else the usual
-        ones.
-        """
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Take letters that fit the new width."""
+        super().resizeEvent(event)
+        self.fit()
+
+    def fit(self) -> None:
+        """Take the larger letters in which all of it can be read, else the usual ones."""
         high = ORDER_LINES * QFontMetrics(theme.font_of(theme.TITLE_PX, bold=True)).lineSpacing()
         self.setFixedHeight((high + 2 * GRID) // GRID * GRID)
-        room = width - 2 * GRID
+        room = self.width() - 2 * GRID
         pixels = theme.TITLE_PX
         if not _fits(self.text(), pixels, room, self.height() - 2 * GRID):
             pixels = theme.FONT_PX
@@ -198,6 +201,7 @@ class AttemptRail(QWidget):
         pictures_wanted(): the live pictures are to come back in place of a scan, or the scan again.
 
     Attributes:
+        drill: names the drill where one is done.
         order: what is to be done next.
         breath: how the patient breathes.
     """
@@ -207,6 +211,7 @@ class AttemptRail(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self.drill = ElidedLabel("", self)
         self.stage, self.order = StageLine(self), OrderBlock(self)
         self.figures, self.force = RailFigures(self), ForceBar(self)
         self.breath = BreathStrip(self)
@@ -215,8 +220,8 @@ class AttemptRail(QWidget):
         self._place = QVBoxLayout()
         self._note, self._health = PlainLabel(self), PlainLabel(self)
         self._lay_out()
-        self._health.hide()
-        self.pictures.hide()
+        for part in (self._health, self.pictures, self.drill):
+            part.hide()
         self.pictures.clicked.connect(self.pictures_wanted)
         self.panel.clicked.connect(self.panel_wanted)
         self.hide()
@@ -251,6 +256,11 @@ class AttemptRail(QWidget):
             self._health.setToolTip(literal(worst[0].help) if worst else "")
             self._health.setVisible(bool(words))
 
+    def set_drill(self, words: str) -> None:
+        """Name the drill that is done, above all else; empty where none is."""
+        self.drill.set_whole(words)
+        self.drill.setVisible(bool(words))
+
     def set_note(self, words: str) -> None:
         """Say at the foot what is always to be said: what this program is not for."""
         self._note.setText(words)
@@ -258,15 +268,16 @@ class AttemptRail(QWidget):
     def suit_window(self, width: int) -> None:
         """Take the width that belongs to a window's [px], and what depends on it."""
         self.setFixedWidth(rail_width(width))
-        self.order.fit(self.width() - 2 * GRID)
-        self.figures.suit_width(self.width() - 2 * GRID)
+        self.order.fit()
+        bar = self._area.verticalScrollBar().sizeHint().width()  # it may come at any moment
+        self.figures.suit_width(self.width() - 2 * GRID - bar)
 
     def _lay_out(self) -> None:
         inner = QWidget(self)
         column = QVBoxLayout(inner)
         column.setContentsMargins(GRID, GRID, GRID, GRID)
         column.setSpacing(GRID)
-        for widget in (self.stage, self.order, self.figures, self.force, self.breath):
+        for widget in (self.drill, self.stage, self.order, self.figures, self.force, self.breath):
             column.addWidget(widget)
         column.addLayout(self._place)
         column.addWidget(self.pictures)
