@@ -11,14 +11,19 @@ import pytest
 from attempt_windows import begun, judged
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QLabel, QScrollArea
 
 from app.core import state_vector as sv
 from app.imaging.window import WindowLevel
 from app.planning.draft import DraftPlan
+from app.session.machine import State
+from app.views.exercise.attempt_rail import AttemptRail
 from app.views.exercise.breath_strip import BreathStrip
+from app.views.exercise.live import LiveFigures
 from app.views.exercise.scan_wall import ScanPicture, ScanWall
 from app.views.kit import theme
+
+FIGURES = LiveFigures(State.INSERTING, 83.0, 0.0888, True, 0.0, 0.0, 0.0888, 0.4, True, 5.0, 3)
 
 SIZES = [(1366, 768), (1920, 1080), (2560, 1440)]
 
@@ -103,6 +108,61 @@ def test_without_bullseye_and_3d_the_ct_has_all_of_it(window, patient, settle):
     assert workspace.grid.shown.panes == ("in_plane", "in_plane_90")
     assert workspace.grid.shown.columns == 20
     workspace.room.end()
+
+
+@pytest.mark.parametrize("width", [900, 1024, 1366])
+def test_the_bar_of_a_low_rail_covers_no_word(application, width):
+    rail = AttemptRail()
+    rail.suit_window(width)
+    rail.resize(rail.width(), 330)
+    rail.order.say("Aim 3 mm further towards the head and the patient's right")
+    rail.show_figures(FIGURES)
+    rail.show()
+    QApplication.processEvents()
+    area = rail.findChild(QScrollArea)
+    assert area.verticalScrollBar().isVisible()
+    assert area.widget().width() == area.viewport().width()
+    for label in area.widget().findChildren(QLabel):
+        if label.isVisible() and label.text():
+            assert label.mapTo(area, label.rect().topRight()).x() < area.viewport().width()
+            assert label.wordWrap() or label.sizeHint().width() <= label.width() + 1
+    words = rail.order.fontMetrics().boundingRect(
+        rail.order.contentsRect().adjusted(8, 0, -8, 0), Qt.TextFlag.TextWordWrap, rail.order.text()
+    )
+    assert words.height() <= rail.order.height()
+
+
+def test_the_rail_names_a_drill_in_one_line_and_else_has_no_line_for_it(application):
+    rail = AttemptRail()
+    rail.suit_window(1366)
+    assert rail.drill.isHidden()
+    rail.set_drill("Drill: a long way through the ribs to the liver, breathing")
+    rail.resize(rail.width(), 700)
+    rail.show()
+    QApplication.processEvents()
+    assert rail.drill.isVisible()
+    assert rail.drill.text().startswith("Drill: a long")
+    assert rail.drill.height() < 2 * rail.drill.fontMetrics().lineSpacing()
+    assert rail.drill.geometry().bottom() < rail.order.geometry().top()
+    rail.set_drill("")
+    assert rail.drill.isHidden()
+
+
+def test_the_menu_ticks_the_layout_that_the_attempt_shows(window, patient):
+    begun(window, patient, start=False)
+    workspace, layouts = window.workspace, window.view_menu.layouts
+
+    def ticked():
+        return [str(name) for name, action in layouts.items() if action.isChecked()]
+
+    assert ticked() == ["2x2"]
+    workspace.room.begin()
+    assert workspace.grid.shown.panes[:2] == ("in_plane", "in_plane_90")
+    assert ticked() == []
+    workspace.show_layout("1+3")
+    assert ticked() == ["1+3"]
+    workspace.room.end()
+    assert ticked() == ["2x2"]
 
 
 # --- the control scan -------------------------------------------------------------------------

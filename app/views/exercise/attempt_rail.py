@@ -140,7 +140,9 @@ def _fits(words: str, pixels: int, width: int, height: int) -> bool:
 
 
 class RailFigures(QWidget):
-    """Time, depth, the way left and the scans: small names, large numbers, two in a row."""
+    """Time, depth, the way left and the scans: small names, large numbers, two in a row where two
+    have room.
+    """
 
     SHOWN: Final = ("elapsed", "scans", "depth", "to_target")
 
@@ -148,7 +150,7 @@ class RailFigures(QWidget):
         super().__init__(parent)
         self._titles: dict[str, PlainLabel] = {}
         self._values: dict[str, PlainLabel] = {}
-        grid = QGridLayout(self)
+        self._grid = grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(GRID)
         grid.setVerticalSpacing(0)
@@ -158,13 +160,9 @@ class RailFigures(QWidget):
             "to_target": tr("To target"),
             "scans": tr("Scans"),
         }
-        for number, key in enumerate(self.SHOWN):
+        for key in self.SHOWN:
             title, value = ElidedLabel(names[key], self), PlainLabel("–", self)
             title.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Preferred)
-            row, column = 2 * (number // 2), number % 2
-            grid.addWidget(title, row, column)
-            grid.addWidget(value, row + 1, column)
-            grid.setColumnStretch(column, 1)
             self._titles[key], self._values[key] = title, value
         self.suit_width(0)
 
@@ -184,9 +182,21 @@ class RailFigures(QWidget):
                 label.setVisible(shown)
 
     def suit_width(self, width: int) -> None:
-        """Take the largest letters in which two numbers stand side by side in a width [px]."""
-        longest = QFontMetrics(theme.font_of(theme.TITLE_PX, bold=True)).horizontalAdvance(LONGEST)
-        pixels = theme.TITLE_PX if longest <= (width - GRID) // 2 else theme.FONT_PX
+        """Take the largest letters in which two numbers stand side by side in a width [px]; where
+        they do in none, one stands above the other.
+        """
+        half = (width - GRID) // 2
+        large, usual = (
+            QFontMetrics(theme.font_of(pixels, bold=True)).horizontalAdvance(LONGEST) <= half
+            for pixels in (theme.TITLE_PX, theme.FONT_PX)
+        )
+        pixels, columns = theme.TITLE_PX if large else theme.FONT_PX, 2 if usual else 1
+        for number, key in enumerate(self.SHOWN):
+            row, column = 2 * (number // columns), number % columns
+            self._grid.addWidget(self._titles[key], row, column)
+            self._grid.addWidget(self._values[key], row + 1, column)
+        self._grid.setColumnStretch(0, 1)
+        self._grid.setColumnStretch(1, columns - 1)
         for label in self._titles.values():
             label.setStyleSheet(f"font-size: {theme.SMALL_PX}px; color: {theme.TEXT_DIM};")
         for label in self._values.values():
