@@ -327,11 +327,6 @@ class Exercise(Strict):
         return self.level if self.unsteady_hand is None else self.unsteady_hand
 
     @property
-    def breathes(self) -> bool:
-        """Return whether the patient breathes."""
-        return "breathing" in self.effects
-
-    @property
     def holds_breath(self) -> bool:
         """Return whether the patient holds the breath on command."""
         part = self.effects.get("breathing")
