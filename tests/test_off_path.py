@@ -19,7 +19,7 @@ from app.exercises.scene import device_of, placed_plan_of
 from app.planning.off_path import offset, path_to
 from app.planning.plan import Plan
 from app.session.curves import curves
-from app.session.pad.view import depth_tolerance, rings
+from app.session.pad.view import PadView, depth_tolerance, rings
 from app.session.recording import read_recording
 from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
@@ -121,7 +121,7 @@ def test_panel_bullseye_slices_record_and_score_say_the_same_of_a_tick(
         if not snapshot.pose.measured:
             continue
         panel = figures(snapshot, 5.0)
-        widget.show_view(pad_view(snapshot, 0.2, 5.0))
+        widget.show_view(pad_view(snapshot))
         motion.show(run, snapshot)
         live.show(run, snapshot)
         away = said(widget._lateral.text())
@@ -179,14 +179,13 @@ def test_a_bent_needle_is_one_needle_for_panel_slices_record_and_score(
     # The needle, tilted, has bent back: nearer to its channel than the straight line says.
     straight = offset(pose.p_straight, pose.axis, run.placed, last.p_target)
     assert last.offset.lateral < 0.7 * straight.lateral
-    kept, panel, view = Kept(), figures(last, 5.0), pad_view(last, 0.2, 5.0)
+    kept, panel, view = Kept(), figures(last, 5.0), pad_view(last)
     LiveNeedle(kept).show(run, last)
     way = run.placed.plan.direction
     beyond = kept.needle.tip_mm - run.placed.plan.target_mm
     assert np.linalg.norm(beyond - (beyond @ way) * way) == pytest.approx(1e3 * panel.lateral)
     assert len(kept.needle.points_mm) > 5
     assert view.offset.lateral == panel.lateral
-    np.testing.assert_allclose(view.curve_across[-1], view.offset.across, atol=1e-15)
     recording = read_recording(result.record)
     row = np.flatnonzero(np.isfinite(recording.samples.tip).all(axis=1))[-1]
     bend = Bend.of_numbers(recording.samples.bend[row])
@@ -208,7 +207,6 @@ def test_without_the_tissue_the_needle_is_straight_to_the_last_bit(tmp_path, app
         assert row[sv.BENT_LENGTH] == 0.0
         assert pose.p_straight is pose.p_tip
         assert pose.tip_axis is pose.axis
-        assert pad_view(snapshot, 0.2, 5.0).curve_across is None
     assert read_recording(result.record).samples.bend is None
     assert run.placed is not None
 
@@ -227,7 +225,7 @@ def test_at_target_is_said_only_within_the_tolerance_across_too(tmp_path, applic
     run, snapshots, _ = attempt("first-insertion", tmp_path, seconds=5.0, steer=steer)
     widget.set_scene(run.scene(), interactive=False)
     for snapshot in snapshots[::10]:
-        widget.show_view(pad_view(snapshot, 0.2, 5.0))
+        widget.show_view(pad_view(snapshot))
         texts.append((widget._remaining.text(), snapshot.offset))
     near = [(text, off) for text, off in texts if abs(off.remaining) < run.depth_tolerance]
     assert near, "the needle came as deep as the target"
@@ -239,16 +237,16 @@ def test_rings_and_target_stand_where_breathing_has_the_target(tmp_path, applica
     run, snapshots, _ = attempt("breathing-liver", tmp_path, seconds=6.0)
     scene = run.scene()
     farthest = max(snapshots, key=lambda s: float(np.linalg.norm(s.p_target - run.placed.p_target)))
-    view = pad_view(farthest, 0.2, 5.0)
-    middle = view.place(scene, np.zeros(3))
-    assert np.linalg.norm(middle) > 0.1
-    # A needle that points at the target as it is now has its cross in the middle of the rings.
-    way = farthest.p_target - run.placed.p_entry
-    assert np.allclose(scene.scale.place(scene.frame.tilts(way)), middle, atol=1e-12)
-    # On the ring means as far off the path as the ring says.
-    frame = view.frame(scene)
-    on = view.place(scene, scene.rings[0] * frame.right)
-    assert not np.allclose(on, middle)
+    entry, target, depth = run.placed.p_entry, farthest.p_target, 0.02
+
+    def dot(to):
+        axis = (to - entry) / np.linalg.norm(to - entry)
+        away = offset(entry + depth * axis, axis, run.placed, target)
+        return PadView(axis, away, depth, True).dot(scene)
+
+    # A needle that points at the target as it is now has its dot in the middle of the rings.
+    assert np.allclose(dot(target), 0.0, atol=1e-9)
+    assert np.linalg.norm(dot(run.placed.p_target)) > 0.1
 
 
 def test_a_target_at_rest_has_the_planned_path_to_the_last_bit():

@@ -316,6 +316,7 @@ class DesktopRun:
             rings=rings_of(setup.exercise),
             depth_tolerance=depth_tolerance_of(setup.exercise),
             touches=setup.exercise.touch is not None,
+            breathes="breathing" in setup.exercise.effects and source is None,
             inspect=tracker.inspect,
             touched=None if tracker.stereo is None else tracker.stereo.touched,
             learn_colour=_learner(tracker.stereo, setup.cameras),

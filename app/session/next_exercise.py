@@ -53,7 +53,7 @@ class Proposal:
         points: what it cost, of 100.
         course: title of the course that it follows; empty without one.
         level: of the proposed exercise.
-        tries: attempts in a row that did not pass; of a drill, those of that day.
+        tries: attempts in a row that did not pass; of a drill, those of that day with a score.
     """
 
     exercise: str
@@ -274,7 +274,8 @@ def around(
     seen = not_void((one for one in own if is_open(one)), remarks)
     score = None if held else shown.score
     if shown.drill is not None:
-        rounds = sum(one.exercise == done and _same_day(one, shown) for one in own)
+        scored = [one for one in not_void(own, remarks) if one.total is not None]
+        rounds = sum(one.exercise == done and _same_day(one, shown) for one in scored)
         proposal = _whole(shown.drill.of, exercises, refusal, rounds)
     elif under is not None and not under.by_person:
         proposal = _yourself(done, exercises, refusal)

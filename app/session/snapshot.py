@@ -240,7 +240,6 @@ class NextStep:
 
     Attributes:
         kind: what.
-        angle: by which the needle is to be tilted [rad].
         towards: sides of the patient to which the hub goes, the larger part first, of `LRAPSI`.
         distance: along the needle that is left, or too much [m].
         across: way of the tip to a target that is to be touched, across the path to it [m]; of a
@@ -250,7 +249,6 @@ class NextStep:
     """
 
     kind: StepKind
-    angle: float = 0.0
     towards: str = ""
     distance: float = 0.0
     across: float = 0.0
@@ -335,7 +333,7 @@ class NextSteps:
         )
         miss = float(np.linalg.norm(wrong))
         if miss > self._within(StepKind.TILT, across, sigma_across, held):
-            return NextStep(StepKind.TILT, miss / length, self._sides(wrong), across=miss)
+            return NextStep(StepKind.TILT, self._sides(wrong), across=miss)
         if not pose.measured:
             return NextStep(StepKind.FEEL)
         if pose.depth <= 0.0:

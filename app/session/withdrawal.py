@@ -163,9 +163,7 @@ class Withdrawal:
         self.active, self.asks, self.ready, self.words = False, False, False, ""
         self._inputs.unsteady(0, 0)
         if self._start is Start.SIMULATED:
-            if self._begins is None and device is None:
-                return OutsideBy.SIMULATED
-            if self._begins is None and device is not None and self._stands(device, INSIDE):
+            if self._begins is None and (device is None or self._stands(device, INSIDE)):
                 return OutsideBy.SIMULATED
             self.active = True  # before the hand moves: nobody else may move it from now on
             if device is not None:

@@ -6,6 +6,7 @@ from types import MappingProxyType, SimpleNamespace
 
 import pytest
 
+from app.exercises.drill import DrillPart
 from app.exercises.guidance import Purpose
 from app.exercises.library import library
 from app.scoring.conditions import Conditions, DeviceKind
@@ -174,7 +175,7 @@ def write(folder, name, student, total, exercise="first-insertion"):
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"{name}.mcap"
     path.write_bytes(b"not opened: the sidecar is enough")
-    score = {"total": total, "passed": total >= 60.0, "void_reason": "", "rows": []}
+    score = {"total": total, "passed": (total or 0.0) >= 60.0, "void_reason": "", "rows": []}
     under = Conditions(exercise, 1, kind=DeviceKind.SIMULATED, hand="mouse", scoring_version=2)
     write_summary(
         path,
@@ -198,6 +199,19 @@ def test_the_folder_says_what_comes_next_and_which_attempts_may_stand_beside(tmp
     assert found.proposal.exercise == "thick-tissue"
     held = around(folder, shown, True, EXERCISES, False, lambda _: True, lambda _: "")
     assert (held.rivals, held.proposal.exercise) == ((), "")
+
+
+def test_a_round_of_a_drill_is_an_attempt_with_a_score(tmp_path):
+    folder, drill = tmp_path / "records", "drill-repeat-first-insertion"
+    under = write(folder, "a", "ada", 70.0, drill)
+    write(folder, "b", "ada", 85.0, drill)
+    write(folder, "c", "ada", None, drill)  # aborted, or void
+    shown = SimpleNamespace(
+        drill=DrillPart(kind="repeat", of="first-insertion", version=1), id="b", student="ada",
+        conditions=under, score=score(0.5), started="2026-11-20T10:00:00+00:00",
+    )  # fmt: skip
+    found = around(folder, shown, False, EXERCISES, False, lambda _: True, lambda _: "")
+    assert found.proposal.tries == 2
 
 
 def test_attempts_that_a_course_holds_stand_beside_nothing_but_for_the_instructor(tmp_path):

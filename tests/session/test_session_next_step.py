@@ -104,7 +104,8 @@ def test_the_hub_goes_to_the_side_of_the_tip_however_the_patient_lies(orientatio
     step = steps(plan).of(moment(plan, 0.03, turn))
     assert step.kind is StepKind.TILT
     assert step.towards == sides
-    assert step.angle == pytest.approx(np.arctan(np.linalg.norm(turn)), rel=1e-6)
+    tilt = np.arctan(np.linalg.norm(turn))
+    assert step.across == pytest.approx(plan.length * tilt, rel=1e-6)
 
 
 def test_who_follows_the_tilt_is_on_the_path():
@@ -112,7 +113,8 @@ def test_who_follows_the_tilt_is_on_the_path():
     wrong = moment(plan, 0.03, (0.08, 0.0, -0.05))
     step = steps(plan).of(wrong)
     towards = -np.cross(wrong.pose.axis, plan.axis)
-    turned = rotation_exp(-step.angle * towards / np.linalg.norm(towards)) @ wrong.pose.axis
+    angle = step.across / plan.length
+    turned = rotation_exp(-angle * towards / np.linalg.norm(towards)) @ wrong.pose.axis
     np.testing.assert_allclose(turned, plan.axis, atol=1e-9)
 
 
@@ -142,7 +144,7 @@ def test_control_scans_alone_tell_nothing_of_the_needle():
     plan = placed()
     for depth, turn in ((0.02, (0.1, 0.0, 0.0)), (0.09, None)):
         step = steps(plan).of(moment(plan, depth, turn), live=False)
-        assert (step.kind, step.angle, step.towards, step.distance) == (StepKind.SCAN, 0.0, "", 0.0)
+        assert (step.kind, step.across, step.towards, step.distance) == (StepKind.SCAN, 0, "", 0)
 
 
 def test_a_depth_that_nobody_measures_is_not_told():

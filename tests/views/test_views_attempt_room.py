@@ -3,19 +3,27 @@
 import json
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from attempt_windows import begun, judged
-from PySide6.QtWidgets import QApplication
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QLabel, QScrollArea
 
 from app.core import state_vector as sv
 from app.imaging.window import WindowLevel
 from app.planning.draft import DraftPlan
+from app.session.machine import State
+from app.views.exercise.attempt_rail import AttemptRail
 from app.views.exercise.breath_strip import BreathStrip
+from app.views.exercise.live import LiveFigures
 from app.views.exercise.scan_wall import ScanPicture, ScanWall
 from app.views.kit import theme
+
+FIGURES = LiveFigures(State.INSERTING, 83.0, 0.0888, True, 0.0, 0.0, 0.0888, 0.4, True, 5.0, 3)
 
 SIZES = [(1366, 768), (1920, 1080), (2560, 1440)]
 
@@ -102,6 +110,61 @@ def test_without_bullseye_and_3d_the_ct_has_all_of_it(window, patient, settle):
     workspace.room.end()
 
 
+@pytest.mark.parametrize("width", [900, 1024, 1366])
+def test_the_bar_of_a_low_rail_covers_no_word(application, width):
+    rail = AttemptRail()
+    rail.suit_window(width)
+    rail.resize(rail.width(), 330)
+    rail.order.say("Aim 3 mm further towards the head and the patient's right")
+    rail.show_figures(FIGURES)
+    rail.show()
+    QApplication.processEvents()
+    area = rail.findChild(QScrollArea)
+    assert area.verticalScrollBar().isVisible()
+    assert area.widget().width() == area.viewport().width()
+    for label in area.widget().findChildren(QLabel):
+        if label.isVisible() and label.text():
+            assert label.mapTo(area, label.rect().topRight()).x() < area.viewport().width()
+            assert label.wordWrap() or label.sizeHint().width() <= label.width() + 1
+    words = rail.order.fontMetrics().boundingRect(
+        rail.order.contentsRect().adjusted(8, 0, -8, 0), Qt.TextFlag.TextWordWrap, rail.order.text()
+    )
+    assert words.height() <= rail.order.height()
+
+
+def test_the_rail_names_a_drill_in_one_line_and_else_has_no_line_for_it(application):
+    rail = AttemptRail()
+    rail.suit_window(1366)
+    assert rail.drill.isHidden()
+    rail.set_drill("Drill: a long way through the ribs to the liver, breathing")
+    rail.resize(rail.width(), 700)
+    rail.show()
+    QApplication.processEvents()
+    assert rail.drill.isVisible()
+    assert rail.drill.text().startswith("Drill: a long")
+    assert rail.drill.height() < 2 * rail.drill.fontMetrics().lineSpacing()
+    assert rail.drill.geometry().bottom() < rail.order.geometry().top()
+    rail.set_drill("")
+    assert rail.drill.isHidden()
+
+
+def test_the_menu_ticks_the_layout_that_the_attempt_shows(window, patient):
+    begun(window, patient, start=False)
+    workspace, layouts = window.workspace, window.view_menu.layouts
+
+    def ticked():
+        return [str(name) for name, action in layouts.items() if action.isChecked()]
+
+    assert ticked() == ["2x2"]
+    workspace.room.begin()
+    assert workspace.grid.shown.panes[:2] == ("in_plane", "in_plane_90")
+    assert ticked() == []
+    workspace.show_layout("1+3")
+    assert ticked() == ["1+3"]
+    workspace.room.end()
+    assert ticked() == ["2x2"]
+
+
 # --- the control scan -------------------------------------------------------------------------
 def wall_of(volume, *captions):
     wall = ScanWall()
@@ -119,6 +182,40 @@ def test_the_new_scan_stands_over_the_last_one_slice_by_slice(volume, destroy):
     above, below = wall.tiles
     assert len(above) == len(below) >= 2
     assert [tile.words for tile in above] == [tile.words for tile in below]
+
+
+def shifted(volume, millimetres):
+    moved = volume.affine_mm.copy()
+    moved[2, 3] += millimetres
+    return replace(volume, affine_mm=moved)
+
+
+def test_beside_a_slice_that_the_scan_before_has_not_nothing_is_shown(volume, destroy):
+    step = float(volume.spacing_mm[2])
+    for share, is_there in ((0.4, True), (0.0, True), (volume.size[2] + 1.0, False)):
+        wall = wall_of(shifted(volume, share * step), "first")
+        destroy(wall)
+        wall.add(ScanPicture(volume, "second"))
+        above, below = wall.tiles
+        assert all(tile.words for tile in above)
+        assert all(bool(tile.words) is is_there for tile in below)
+
+
+def test_a_click_opens_a_slice_of_the_newest_scan_and_none_of_the_one_before(volume, destroy):
+    wall = wall_of(volume, "first", "second")
+    destroy(wall)
+    wall.show()
+    opened = []
+    wall.slice_wanted.connect(opened.append)
+    above, below = wall.tiles
+    for tile in below:
+        assert tile.toolTip() == ""
+        assert tile.cursor().shape() is Qt.CursorShape.ArrowCursor
+        QTest.mouseClick(tile, Qt.MouseButton.LeftButton)
+    assert opened == []
+    QTest.mouseClick(above[-1], Qt.MouseButton.LeftButton)
+    assert "alone" in above[-1].toolTip()
+    assert len(opened) == 1
 
 
 def test_a_tile_is_zoomed_on_the_path_and_shows_its_ends(volume, destroy):
@@ -145,12 +242,28 @@ class Told:
         self.time, self.device = time, type("Device", (), {"row": row})()
 
 
-def test_the_breath_strip_is_there_once_the_patient_breathes_and_knows_its_gate(application):
+def test_the_breath_strip_is_there_from_the_beginning_or_never(application):
     strip = BreathStrip()
-    strip.begin(0.002)
+    for breathes in (True, False):
+        strip.begin(0.002, breathes)
+        assert strip.isHidden() is not breathes
+        strip.show_snapshot(Told(0.0, 0.012))
+        assert strip.isHidden() is not breathes
+
+
+def test_just_outside_its_band_the_breath_is_not_said_to_be_within_it(application):
+    strip = BreathStrip()
+    strip.begin(0.002, True)
+    strip.show_snapshot(Told(0.0, 0.0022))
+    assert not strip.in_gate
+    assert "2.2 mm away" in strip.words
+
+
+def test_the_breath_strip_knows_its_gate(application):
+    strip = BreathStrip()
+    strip.begin(0.002, True)
     for tick in range(50):
         strip.show_snapshot(Told(0.1 * tick, 0.0))
-    assert strip.isHidden()
     assert strip.in_gate
     lowest = np.inf
     for tick in range(50, 130):
@@ -160,7 +273,7 @@ def test_the_breath_strip_is_there_once_the_patient_breathes_and_knows_its_gate(
     assert lowest < strip.level(strip.gate) < strip.level(0.0)
     strip.show_snapshot(Told(14.0, 0.012))
     assert not strip.in_gate
-    assert "12 mm" in strip.words
+    assert "12.0 mm" in strip.words
     strip.show_snapshot(Told(14.1, 0.001))
     assert "push" in strip.words
 

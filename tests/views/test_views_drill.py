@@ -48,6 +48,9 @@ def test_the_button_begins_exactly_that_drill_on_the_plan_of_the_attempt(window,
     assert np.allclose(draft.target_mm, PLAN.target_mm)
     titles = dict(window.feature(ExerciseFeature).titles)
     assert titles[drill.id].startswith("Drill: ")
+    assert window.workspace.rail.drill.whole == titles[drill.id]
+    window.conductor.set_exercise(WHOLE)
+    assert window.workspace.rail.drill.whole == ""
 
 
 def test_again_after_a_drill_is_the_drill_and_next_is_the_whole_exercise(window, shown, settle):

@@ -250,7 +250,7 @@ def test_without_its_ct_it_says_so_offers_to_open_it_and_replays_the_rest(window
     assert "not open" in page.views.why.text()
     assert page.views.open.isVisibleTo(page)
     page.replayer.seek(8.0)
-    assert page.path._now[0] is not None
+    assert page.path._now is not None
     window.show_patient(patient)
     assert settle(lambda: page.views.has_ct)
 

@@ -1,5 +1,6 @@
 import threading
 import time
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -287,3 +288,10 @@ def test_the_message_list_keeps_its_last_lines(qt):
         messages.add_event(Event(float(i), "scan", f"control scan {i}"))
     assert messages.count() == LONGEST
     assert messages.item(LONGEST - 1).text().endswith(f"control scan {LONGEST + 19}")
+
+
+@pytest.mark.parametrize("breathes", [True, False])
+def test_the_strip_of_the_breath_is_in_the_rail_where_the_patient_breathes(desk, breathes):
+    desk.controller.attach(replace(run(desk.trainer), breathes=breathes))
+    desk.controller._timer.stop()
+    assert desk.views.panel.rail.breath.isHidden() is not breathes

@@ -42,8 +42,7 @@ def moment(plan, depth, tilt, bend=(0.0, 0.0), breath=(0.0, 0.0, 0.0), measured=
 
 
 def view_of(now):
-    return PadView(now.pose.axis, now.offset, np.zeros(3), now.p_target, now.pose.depth,
-                   now.pose.measured, 0.0, 5.0)  # fmt: skip
+    return PadView(now.pose.axis, now.offset, now.pose.depth, now.pose.measured)
 
 
 @settings(max_examples=300, deadline=None)
@@ -131,7 +130,7 @@ def pad(qt):
     widget = Bullseye()
     widget.resize(300, 430)
     widget.set_scene(run(FakeTrainer()).scene(), interactive=True)
-    widget.show_view(pad_view(snapshot(), 0.2, 5.0))
+    widget.show_view(pad_view(snapshot()))
     widget.show()
     qt.processEvents()
     yield widget
@@ -163,6 +162,10 @@ def test_in_an_attempt_the_bullseye_says_one_figure_and_no_other_word(pad, qt):
     assert pad._figure.text() == "4 mm off"
     assert pad._figure.isVisible()
     assert not any(label.isVisible() for label in (*pad._words, pad._marks, pad.source))
+    before = pad._remaining.text()
+    pad.show_view(replace(pad._view, measured=False))
+    assert pad._remaining.text() == before, "nobody sees it: nothing is written"
     pad.set_plain(False)
     assert not pad._figure.isVisible()
     assert pad._remaining.isVisible()
+    assert pad._remaining.text() == "–" != before

@@ -58,7 +58,7 @@ def pad(qt):
     widget = Bullseye()
     widget.resize(560, 470)
     widget.set_scene(run(FakeTrainer()).scene(), interactive=True)
-    widget.show_view(pad_view(snapshot(), 0.2, 5.0))
+    widget.show_view(pad_view(snapshot()))
     widget.show()
     widget.source.gain.setCurrentIndex(2)
     qt.processEvents()
@@ -493,7 +493,7 @@ def test_what_is_held_is_let_go_and_moves_again_only_when_pressed_anew(held, wha
         "patient": lambda: held.bullseye.set_scene(scene, interactive=True),
         "controller": held.bullseye.let_go,
     }[what]()
-    held.bullseye.show_view(pad_view(snapshot(), 0.2, 5.0))
+    held.bullseye.show_view(pad_view(snapshot()))
     before = held.bullseye.hand.depth
     held.hold(0.5)
     again = QKeyEvent(QEvent.Type.KeyPress, PUSH, Qt.KeyboardModifier.NoModifier, "", True)
@@ -600,7 +600,7 @@ def test_a_drag_takes_the_end_that_was_chosen_where_the_mouse_goes_however_the_p
     frame = path_frame((0.1, 0.05, -1.0), rotation)
     pad.set_scene(replace(pad._scene, frame=frame), interactive=True)
     pad.take_hand(HandPose(frame.axis, 0.0, True))
-    pad.show_view(replace(pad_view(snapshot(), 0.2, 5.0), direction=frame.axis))
+    pad.show_view(replace(pad_view(snapshot()), direction=frame.axis))
     pad.source.set_moves_hub(hub)
     middle = pad.pad.rect().center()
     before = drawn(pad)
@@ -659,7 +659,7 @@ def test_the_orders_name_the_end_that_the_hand_moves(pad):
 
 
 def test_an_order_for_the_tip_is_the_opposite_of_the_one_for_the_hub():
-    step = NextStep(StepKind.TILT, 0.05, "IL", across=0.003)
+    step = NextStep(StepKind.TILT, "IL", across=0.003)
     hub = "Tilt the hub towards the feet and the patient's left: 3 mm off the target"
     assert step_words(step, True) == hub
     words = step_words(step, True, tip=True)

@@ -13,8 +13,10 @@ from app.session.pad.view import depth_tolerance_of, rings_of
 from app.session.shown_views import Shown
 from app.session.snapshot import NextStep, StepKind
 from app.views.exercise.attempt_rail import AttemptRail
+from app.views.exercise.bullseye import Bullseye, figure_of
 from app.views.exercise.run import ExerciseRun
-from app.views.exercise.steps import NextStepLine, Steps, step_words
+from app.views.exercise.stages import Steps
+from app.views.exercise.steps import NextStepLine, step_words
 
 EXERCISE = load_exercise("first-insertion")
 PROFILE = device_of(EXERCISE)
@@ -63,6 +65,21 @@ def test_nothing_turns_in_any_other_state(steps, state):
     assert not steps.ring.turns, "an idle window costs nothing"
 
 
+def test_fewer_steps_are_another_row_of_the_same_moment(steps):
+    steps.show_state(State.WITHDRAWING, ready=True)
+    steps.set_brief(True)
+    assert steps.accessibleName() == "Ready"
+    steps.show_state(State.INSERTING)
+    assert steps.accessibleName() == "Under way"
+    inserting = pixels(steps)
+    steps.show_state(State.READY)
+    assert pixels(steps) != inserting
+    steps.set_brief(False)
+    steps.show_state(State.INSERTING)
+    steps.set_brief(True)
+    assert pixels(steps) == inserting, "however it came there"
+
+
 # --- orders -------------------------------------------------------------------------------------
 ORDERS = (StepKind.TILT, StepKind.DEEPER, StepKind.BACK)
 
@@ -71,7 +88,7 @@ ORDERS = (StepKind.TILT, StepKind.DEEPER, StepKind.BACK)
 @pytest.mark.parametrize("by_mouse", [True, False])
 @pytest.mark.parametrize("tip", [True, False])
 def test_an_order_without_numbers_says_which_way_and_no_figure(kind, by_mouse, tip):
-    step = NextStep(kind, 0.05, "IL", 0.012, 0.003)
+    step = NextStep(kind, "IL", 0.012, 0.003)
     with_them = step_words(step, by_mouse, tip)
     without = step_words(step, by_mouse, tip, numbers=False)
     assert DIGITS & set(with_them)
@@ -108,10 +125,19 @@ def test_the_line_over_the_views_says_less_from_level_to_level(qt, level, words)
         FakeTrainer(PLACED), PLACED, PROFILE, shown=Shown.of_exercise(of_level),
         rings=rings_of(EXERCISE), depth_tolerance=depth_tolerance_of(EXERCISE), interactive=True,
     )  # fmt: skip
-    line = NextStepLine()
+    line, pad = NextStepLine(), Bullseye()
+    line.stepped.connect(pad.show_step)
     line.begin(run)
     line.show_snapshot(moment(level, PLACED.length / MILLIMETRE - 20.0))
     assert line.text() == words
+    assert pad._figure.text() == ("▼ 20 mm" if level == 1 else "")
+
+
+@pytest.mark.parametrize("kind", StepKind)
+def test_the_pad_says_no_figure_where_the_order_says_none(kind):
+    words = figure_of(NextStep(kind, towards="IL", distance=0.012, across=0.003), numbers=False)
+    assert not DIGITS & set(words)
+    assert (words == "✔ hold") == (kind in (StepKind.HOLD, StepKind.STAY, StepKind.FINISH))
 
 
 @pytest.mark.parametrize("steadiness", [None, 0, 5])

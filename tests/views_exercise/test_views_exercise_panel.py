@@ -17,11 +17,12 @@ from app.planning.plan import Plan
 from app.session.machine import State
 from app.tracking.cameras.watch import CameraHealth, CameraState
 from app.tracking.fix import FixStatus
-from app.views.exercise.bullseye import DepthBar
+from app.views.exercise.depth_bar import DepthBar
 from app.views.exercise.felt import guidance_limit
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.panel import HOLD_MS, ExercisePanel
 from app.views.exercise.readings import figures, problem, status_items, tracker_figures
+from app.views.exercise.readouts import ForceBar
 from app.views.exercise.status import StatusStrip
 from app.views.exercise.status_items import (
     LoopFigures,
@@ -462,3 +463,13 @@ def test_the_light_is_told_apart_by_its_shape_without_any_colour(qt):
     for one, other in combinations(pictures, 2):
         assert (one ^ other).mean() > 0.05
     strip.close()
+
+
+@pytest.mark.parametrize(("width", "is_written"), [(124, False), (216, True)])
+def test_the_limit_of_the_force_is_written_where_it_covers_no_other_word(qt, width, is_written):
+    bar, pictures = ForceBar(), []
+    bar.resize(width, bar.sizeHint().height())
+    for limit in (5.0, 8.0):  # its line stands at the same share of the bar
+        bar.show_force(0.0, limit, measured=True)
+        pictures.append(bar.grab().toImage())
+    assert (pictures[0] != pictures[1]) is is_written

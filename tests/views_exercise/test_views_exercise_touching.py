@@ -25,6 +25,7 @@ from app.views.debrief.curves import curves_of
 from app.views.exercise.briefing import BriefingPage, aid_words, scored_words
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.controller import ExerciseDisplay
+from app.views.exercise.depth_bar import DepthBar
 from app.views.exercise.hands.chooser import HandChooser
 from app.views.exercise.offer import BriefingOffer
 from app.views.exercise.pad_canvas import PadCanvas
@@ -134,14 +135,22 @@ def test_the_bullseye_has_the_present_target_in_its_middle_and_the_hand_goes_on(
     later = moment(1, tip=TASK.p_targets[1])
     scene = run.scene(later.touch.aim)
     widget.retarget(scene)
-    view = pad_view(later, PROFILE.needle_length, 5.0)
+    view = pad_view(later)
     widget.show_view(view)
     assert view.frame(scene) is scene.frame
-    np.testing.assert_allclose(view.place(scene, np.zeros(3)), 0.0, atol=1e-9)
-    np.testing.assert_allclose(view.place(scene, view.offset.across), 0.0, atol=1e-9)
+    np.testing.assert_allclose(view.dot(scene), 0.0, atol=1e-9)
     np.testing.assert_allclose(widget.hand.direction, hand.direction, atol=1e-12)
     assert scene.target_depth == pytest.approx(TASK.plans[1].length)
     assert scene.rings == (0.004, 0.012)
+
+
+def test_the_narrow_depth_bar_names_the_depth_of_the_present_target(qt):
+    run, bar = the_run(), DepthBar()
+    bar.set_scene(run.scene(TASK.plans[0]))
+    bar.set_narrow(True)
+    scene = run.scene(TASK.plans[1])
+    bar.retarget(scene)
+    assert f"Target {1e3 * scene.target_depth:.0f} " in bar.toolTip()
 
 
 def test_the_mouse_moves_the_handle_and_the_tip_goes_the_other_way(qt):
@@ -151,7 +160,7 @@ def test_the_mouse_moves_the_handle_and_the_tip_goes_the_other_way(qt):
     widget.source.fix_sense(True, "because")
     axis = TASK.plans[0].axis
     widget.take_hand(HandPose(axis, 0.05, True))
-    widget.show_view(pad_view(moment(0), PROFILE.needle_length, 5.0))
+    widget.show_view(pad_view(moment(0)))
     widget.pad.dragged.emit(0.5, 0.0)  # to the right, half the pad's radius, at a gain of 1
     turn = widget.hand.direction - axis
     assert turn @ scene.frame.right < 0.0
@@ -236,15 +245,15 @@ def test_the_steps_of_one_insertion_are_not_told_where_many_targets_are_touched(
         """Keeps what it is told."""
 
         def __init__(self):
-            self.steps, self.is_brief = self, None
-            breath = SimpleNamespace(begin=lambda gate: None)
-            self.rail = SimpleNamespace(stage=self, breath=breath)
+            self.is_brief = None
+            breath = SimpleNamespace(begin=lambda gate, breathes: None)
+            self.rail = SimpleNamespace(breath=breath)
 
         def set_brief(self, brief):
             self.is_brief = brief
 
         def set_guidance(self, guidance, plan):
-            self.steps.set_brief(guidance is not None)
+            pass
 
         def set_forceful(self, forceful):
             pass

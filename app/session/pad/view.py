@@ -59,25 +59,14 @@ class PadView:
     Attributes:
         direction: needle direction in world, shape (3,).
         offset: from the tip to the target as it is now, by which everybody says "off the path".
-        hub_across: from the path to the hub point, across the path [m], shape (3,).
-        p_target: target as it is now [m], shape (3,).
         depth: depth of the tip beyond the entry [m].
         measured: whether the depth is a fresh measurement (else held or from the model).
-        force: force felt at the hand [N], estimated.
-        force_limit: largest force that the device may give [N].
-        curve_across: from the path to points of the bent part, entry to tip [m], shape (n, 3);
-            None for a straight needle.
     """
 
     direction: FloatArray
     offset: Offset
-    hub_across: FloatArray
-    p_target: FloatArray
     depth: float
     measured: bool
-    force: float
-    force_limit: float
-    curve_across: FloatArray | None = None
 
     def frame(self, scene: PadScene) -> PathFrame:
         """Frame of the path to the target as it is now: the scene's while that is at rest."""
@@ -115,14 +104,6 @@ class PadView:
         sign = -1.0 if hub else 1.0
         way = sign * np.array([miss @ frame.right, miss @ frame.up])
         return scene.scale.place(way / scene.scale.length)
-
-    def place(self, scene: PadScene, across: FloatArray) -> FloatArray:
-        """Place on the pad of what lies so far off the path [m], (3,) -> (2,).
-
-        By the direction from the entry that leads as far past the target: so tip, hub, rings and
-        direction share one scale, whose middle goes with the target.
-        """
-        return scene.scale.place(scene.frame.tilts(self.p_target + across - scene.p_entry))
 
 
 def depth_tolerance(tolerances: Mapping[str, Bands] = DEFAULT_TOLERANCES) -> float:

@@ -18,7 +18,7 @@ from app.session.review import Review
 from app.session.timeline import Span, TimeMark
 from app.views.debrief.path_view import FORCE_COLOUR
 from app.views.exercise.felt import origin_word
-from app.views.exercise.steps import state_word
+from app.views.exercise.stages import state_word
 from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
 from app.views.kit.text import literal, number, tr

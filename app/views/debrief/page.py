@@ -57,7 +57,7 @@ from app.views.debrief.score_words import (
     whose_words,
 )
 from app.views.exercise.readouts import clock_text
-from app.views.exercise.steps import state_word
+from app.views.exercise.stages import state_word
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.coordinates import axis_words

@@ -1,5 +1,6 @@
 """The tip's track in the bull's-eye plane, from the entry to where it ended."""
 
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -18,9 +19,9 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from app.core.arrays import FloatArray
 from app.planning.off_path import offset
 from app.session.pad.hand import HandLimits
-from app.session.pad.view import PadScene, PadView
+from app.session.pad.view import PadScene
 from app.session.review import Review
-from app.views.exercise.pad_canvas import PadArea, paint_background, paint_needle
+from app.views.exercise.pad_canvas import PadArea, paint_background
 from app.views.kit import theme
 from app.views.kit.text import tr
 
@@ -30,6 +31,23 @@ _FINENESS: Final = 2000.0
 
 _MOST: Final = 6000
 """A track of more places that a screen could tell apart is drawn by every second one, or fewer."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NeedleMoment:
+    """The needle at one sample of a replay, as places on the pad, shape (2,).
+
+    Attributes:
+        tip: of the needle.
+        hub: of the needle.
+        aim: where it is heading.
+        force: at the hand, in world [N], shape (3,); None where nothing could push.
+    """
+
+    tip: FloatArray
+    hub: FloatArray
+    aim: FloatArray
+    force: FloatArray | None
 
 
 class PathView(QWidget):
@@ -44,7 +62,7 @@ class PathView(QWidget):
         self._review: Review | None = None
         self._track: FloatArray = np.empty((0, 2))
         self._ghost: FloatArray = np.empty((0, 2))
-        self._now: tuple[PadView | None, FloatArray | None] = (None, None)
+        self._now: NeedleMoment | None = None
         self._ground: QPixmap | None = None
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMinimumSize(160, 160)
@@ -58,7 +76,7 @@ class PathView(QWidget):
     def show_review(self, review: Review) -> None:
         """Draw an attempt."""
         self._review, self._track = review, thinned(review.track())
-        self._ghost, self._now = np.empty((0, 2)), (None, None)
+        self._ghost, self._now = np.empty((0, 2)), None
         self._draw_anew()
 
     def show_ghost(self, track: FloatArray) -> None:
@@ -68,7 +86,7 @@ class PathView(QWidget):
 
     def show_row(self, row: int) -> None:
         """Draw the needle where it was at a sample."""
-        self._now = (None, None) if self._review is None else moment(self._review, row)
+        self._now = None if self._review is None else moment(self._review, row)
         self.update()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -87,12 +105,9 @@ class PathView(QWidget):
         painter = QPainter(self)
         painter.drawPixmap(0, 0, self._ground)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        view, force = self._now
-        if view is not None:
-            scene = pad_scene(review)
-            paint_needle(painter, area, scene, view)
-            if force is not None:
-                _paint_force(painter, area, scene, view, force, review.force_limit)
+        if self._now is not None:
+            _paint_needle(painter, area, self._now)
+            _paint_force(painter, area, pad_scene(review), self._now, review.force_limit)
 
     def _area(self) -> PadArea:
         return PadArea.inside(self.width(), self.height(), margin=28)
@@ -117,34 +132,55 @@ class PathView(QWidget):
         return picture
 
 
-def moment(review: Review, row: int) -> tuple[PadView | None, FloatArray | None]:
-    """Return what the pad shows of a sample: needle, and force at the hand [N], shape (3,).
+def moment(review: Review, row: int) -> NeedleMoment | None:
+    """Return what the pad shows of a sample; None where nothing measured the needle then.
 
-    None where nothing measured the needle then, or nothing could push.
+    A place is that of the direction from the entry that leads as far past the target: so tip, hub
+    and rings share one scale.
     """
     motion, placed = review.motion, review.placed
     if motion is None or not len(motion) or not motion.measured[row]:
-        return None, None
+        return None
     tip, axis, target = motion.tip[row], motion.axis[row], motion.target[row]
     if not (np.isfinite(tip).all() and np.isfinite(axis).all()):
-        return None, None
+        return None
     if not np.isfinite(target).all():
         target = placed.p_target
     away = offset(tip, axis, placed, target)
     hub = tip - motion.length * axis - target
     felt = motion.felt[row]
-    force = felt if review.renders and np.isfinite(felt).all() else None
-    view = PadView(
-        direction=axis,
-        offset=away,
-        hub_across=hub - (hub @ away.path) * away.path,
-        p_target=placed.p_target,
-        depth=float(motion.depth[row]),
-        measured=True,
-        force=0.0 if force is None else float(np.linalg.norm(force)),
-        force_limit=review.force_limit,
+    frame, scale = review.frame, review.scale
+
+    def place(across: FloatArray) -> FloatArray:
+        return scale.place(frame.tilts(placed.p_target + across - placed.p_entry))
+
+    return NeedleMoment(
+        tip=place(away.across),
+        hub=place(hub - (hub @ away.path) * away.path),
+        aim=scale.place(frame.tilts(axis)),
+        force=felt if review.renders and np.isfinite(felt).all() else None,
     )
-    return view, force
+
+
+def _paint_needle(painter: QPainter, area: PadArea, now: NeedleMoment) -> None:
+    """Needle from hub to tip, and where it is heading: a dashed line to the aim's cross."""
+    tip, hub, aim = area.point(now.tip), area.point(now.hub), area.point(now.aim)
+    dashed = theme.NEEDLE.pen(1.5, 0.9)
+    dashed.setDashPattern([4.0, 3.0])
+    painter.setPen(dashed)
+    painter.drawLine(tip, aim)
+    painter.setPen(theme.NEEDLE.pen(2.0))
+    painter.drawLine(aim + QPointF(-7, -7), aim + QPointF(7, 7))
+    painter.drawLine(aim + QPointF(-7, 7), aim + QPointF(7, -7))
+    painter.setPen(theme.NEEDLE.pen(4.0))
+    painter.drawLine(hub, tip)
+    painter.setPen(theme.NEEDLE.pen(2.0))
+    painter.setBrush(QColor(theme.IMAGE_GROUND))
+    painter.drawRect(QRectF(hub.x() - 6, hub.y() - 6, 12, 12))
+    painter.setPen(theme.NEEDLE_TIP.pen(2.0))
+    painter.setBrush(theme.NEEDLE_TIP.qcolor())
+    corners = ((0, -9), (9, 0), (0, 9), (-9, 0))
+    painter.drawPolygon(QPolygonF([tip + QPointF(x, y) for x, y in corners]))
 
 
 _ARROW: Final = 0.45
@@ -155,19 +191,16 @@ _LEAST_N: Final = 0.05
 
 
 def _paint_force(
-    painter: QPainter,
-    area: PadArea,
-    scene: PadScene,
-    view: PadView,
-    force: FloatArray,
-    limit: float,
+    painter: QPainter, area: PadArea, scene: PadScene, now: NeedleMoment, limit: float
 ) -> None:
     """Arrow of the force across the path from the hub, and how large it is."""
-    across = np.array([force @ scene.frame.right, -(force @ scene.frame.up)])
+    if now.force is None:
+        return
+    across = np.array([now.force @ scene.frame.right, -(now.force @ scene.frame.up)])
     size = float(np.hypot(*across))
     if size < _LEAST_N:
         return
-    start = area.point(view.place(scene, view.hub_across))
+    start = area.point(now.hub)
     step = across / max(limit, size) * _ARROW * area.radius
     end = start + QPointF(float(step[0]), float(step[1]))
     side = QPointF(-float(across[1]), float(across[0])) * (4.0 / size)

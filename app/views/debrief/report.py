@@ -47,7 +47,7 @@ from app.views.debrief.score_words import (
 )
 from app.views.exercise.pad_canvas import PadArea
 from app.views.exercise.readouts import clock_text
-from app.views.exercise.steps import state_word
+from app.views.exercise.stages import state_word
 from app.views.kit.access import ACCESS
 from app.views.kit.text import declared, disclaimer, number, tr, translated
 

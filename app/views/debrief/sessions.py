@@ -44,7 +44,7 @@ from app.views.debrief.page import date_text
 from app.views.debrief.remarks import RemarkActions, said_words
 from app.views.debrief.score_words import facts_of, short_words, whose_words
 from app.views.exercise.readouts import clock_text
-from app.views.exercise.steps import state_word
+from app.views.exercise.stages import state_word
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.background import run_in_background

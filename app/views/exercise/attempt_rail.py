@@ -10,9 +10,8 @@ from collections.abc import Sequence
 from typing import Final
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QColor, QFontMetrics, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import (
-    QApplication,
     QGridLayout,
     QPushButton,
     QScrollArea,
@@ -25,7 +24,7 @@ from app.session.machine import State
 from app.views.exercise.breath_strip import BreathStrip
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.readouts import OFFSETS, ForceBar, figure_texts
-from app.views.exercise.steps import BRIEF, ORDER, TurningRing, state_word
+from app.views.exercise.stages import Stages
 from app.views.kit import theme
 from app.views.kit.parts import FittingButton, PlainLabel
 from app.views.kit.progress_strip import ElidedLabel
@@ -57,51 +56,12 @@ def rail_width(window: int) -> int:
     return int(widest) // GRID * GRID
 
 
-class StageLine(QWidget):
+class StageLine(Stages):
     """Discs for what is done, now and to come, and the name of now below them."""
-
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self._state: State | None = None
-        self._order, self._reached = ORDER, 0
-        self._ready, self.ring = False, TurningRing(self)
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setAccessibleName(tr("No attempt"))
 
     def sizeHint(self) -> QSize:
         """Preferred size."""
         return QSize(160, 3 * GRID + theme.FONT_PX + GRID)
-
-    def set_brief(self, brief: bool) -> None:
-        """Show what lies between beginning and end as one: it is read from the needle."""
-        self._order, self._reached = (BRIEF if brief else ORDER), 0
-        self.update()
-
-    def show_state(self, state: State | None, ready: bool = False) -> None:
-        """Show a state; None before there is an attempt.
-
-        `ready`: whether only the first movement of the hand is waited for.
-        """
-        if state is self._state and ready is self._ready:
-            return
-        self._ready = ready
-        self.ring.show_state(state, ready)
-        if state in self._order:
-            self._reached = self._order.index(state)
-        elif state is None or state is State.WITHDRAWING:
-            self._reached = 0
-        self._state = state
-        self.setAccessibleName(self.word)
-        self.update()
-
-    @property
-    def word(self) -> str:
-        """Return the name of the state."""
-        if self._state is None:
-            return tr("No attempt")
-        if self._order is BRIEF and self._state is State.INSERTING:
-            return tr("Under way")
-        return state_word(State.READY if self._ready else self._state)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw discs and name."""
@@ -125,7 +85,7 @@ class StageLine(QWidget):
             elif here:
                 painter.setBrush(accent)
                 painter.drawEllipse(at, 4.0, 4.0)
-        painter.setFont(_font(theme.FONT_PX, bold=True))
+        painter.setFont(theme.font_of(theme.FONT_PX, bold=True))
         painter.setPen(QColor(theme.WARNING if self._state is State.PAUSED else theme.TEXT))
         below = QRectF(0.0, 3.0 * GRID, self.width(), theme.FONT_PX + GRID)
         painter.drawText(below, Qt.AlignmentFlag.AlignLeft, self.word)
@@ -149,15 +109,18 @@ class OrderBlock(PlainLabel):
         self._good = good
         self.setText(words)
         self.setToolTip(literal(words))
-        self.fit(self.width())
+        self.fit()
 
-    def fit(self, width: int) -> None:
-        """Take the larger letters in which all of it can be read at a width [px], else the usual
-        ones.
-        """
-        high = ORDER_LINES * QFontMetrics(_font(theme.TITLE_PX, bold=True)).lineSpacing()
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Take letters that fit the new width."""
+        super().resizeEvent(event)
+        self.fit()
+
+    def fit(self) -> None:
+        """Take the larger letters in which all of it can be read, else the usual ones."""
+        high = ORDER_LINES * QFontMetrics(theme.font_of(theme.TITLE_PX, bold=True)).lineSpacing()
         self.setFixedHeight((high + 2 * GRID) // GRID * GRID)
-        room = width - 2 * GRID
+        room = self.width() - 2 * GRID
         pixels = theme.TITLE_PX
         if not _fits(self.text(), pixels, room, self.height() - 2 * GRID):
             pixels = theme.FONT_PX
@@ -171,30 +134,23 @@ class OrderBlock(PlainLabel):
 
 
 def _fits(words: str, pixels: int, width: int, height: int) -> bool:
-    metrics, flags = QFontMetrics(_font(pixels, bold=True)), Qt.TextFlag.TextWordWrap
+    metrics, flags = QFontMetrics(theme.font_of(pixels, bold=True)), Qt.TextFlag.TextWordWrap
     box = metrics.boundingRect(0, 0, max(1, width), 10_000, int(flags), words)
     return box.height() <= height and box.width() <= width
 
 
-def _font(pixels: int, bold: bool = False) -> QFont:
-    font = QFont(QApplication.font())
-    font.setPixelSize(pixels)
-    font.setWeight(QFont.Weight.DemiBold if bold else QFont.Weight.Normal)
-    return font
-
-
 class RailFigures(QWidget):
-    """Time, depth, the way left and the scans: small names, large numbers, two in a row."""
+    """Time, depth, the way left and the scans: small names, large numbers, two in a row where two
+    have room.
+    """
 
     SHOWN: Final = ("elapsed", "scans", "depth", "to_target")
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._telling: frozenset[str] | None = None
-        self._offsets = True
         self._titles: dict[str, PlainLabel] = {}
         self._values: dict[str, PlainLabel] = {}
-        grid = QGridLayout(self)
+        self._grid = grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(GRID)
         grid.setVerticalSpacing(0)
@@ -204,13 +160,9 @@ class RailFigures(QWidget):
             "to_target": tr("To target"),
             "scans": tr("Scans"),
         }
-        for number, key in enumerate(self.SHOWN):
+        for key in self.SHOWN:
             title, value = ElidedLabel(names[key], self), PlainLabel("–", self)
             title.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Preferred)
-            row, column = 2 * (number // 2), number % 2
-            grid.addWidget(title, row, column)
-            grid.addWidget(value, row + 1, column)
-            grid.setColumnStretch(column, 1)
             self._titles[key], self._values[key] = title, value
         self.suit_width(0)
 
@@ -224,16 +176,27 @@ class RailFigures(QWidget):
 
     def set_telling(self, keys: frozenset[str] | None, offsets: bool) -> None:
         """Leave only these, None for all; `offsets`: whether the way left may be told."""
-        self._telling, self._offsets = keys, offsets
         for key, value in self._values.items():
-            told = self._telling is None or key in self._telling
+            shown = (keys is None or key in keys) and (offsets or key not in OFFSETS)
             for label in (value, self._titles[key]):
-                label.setVisible(told and (offsets or key not in OFFSETS))
+                label.setVisible(shown)
 
     def suit_width(self, width: int) -> None:
-        """Take the largest letters in which two numbers stand side by side in a width [px]."""
-        longest = QFontMetrics(_font(theme.TITLE_PX, bold=True)).horizontalAdvance(LONGEST)
-        pixels = theme.TITLE_PX if longest <= (width - GRID) // 2 else theme.FONT_PX
+        """Take the largest letters in which two numbers stand side by side in a width [px]; where
+        they do in none, one stands above the other.
+        """
+        half = (width - GRID) // 2
+        large, usual = (
+            QFontMetrics(theme.font_of(pixels, bold=True)).horizontalAdvance(LONGEST) <= half
+            for pixels in (theme.TITLE_PX, theme.FONT_PX)
+        )
+        pixels, columns = theme.TITLE_PX if large else theme.FONT_PX, 2 if usual else 1
+        for number, key in enumerate(self.SHOWN):
+            row, column = 2 * (number // columns), number % columns
+            self._grid.addWidget(self._titles[key], row, column)
+            self._grid.addWidget(self._values[key], row + 1, column)
+        self._grid.setColumnStretch(0, 1)
+        self._grid.setColumnStretch(1, columns - 1)
         for label in self._titles.values():
             label.setStyleSheet(f"font-size: {theme.SMALL_PX}px; color: {theme.TEXT_DIM};")
         for label in self._values.values():
@@ -245,29 +208,31 @@ class AttemptRail(QWidget):
 
     Signals:
         panel_wanted(): the side panel is to come back, or to go again.
-        scan_closed(): the live pictures are to come back in place of a scan, or the scan again.
+        pictures_wanted(): the live pictures are to come back in place of a scan, or the scan again.
 
     Attributes:
+        drill: names the drill where one is done.
         order: what is to be done next.
         breath: how the patient breathes.
     """
 
     panel_wanted = Signal()
-    scan_closed = Signal()
+    pictures_wanted = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self.drill = ElidedLabel("", self)
         self.stage, self.order = StageLine(self), OrderBlock(self)
         self.figures, self.force = RailFigures(self), ForceBar(self)
         self.breath = BreathStrip(self)
-        self.pictures = _quiet(tr("Live pictures (Ctrl+T)"))
-        self.panel = _quiet(tr("All panels (Ctrl+B)"))
+        self.pictures = _quiet()
+        self.panel = _quiet()
         self._place = QVBoxLayout()
         self._note, self._health = PlainLabel(self), PlainLabel(self)
         self._lay_out()
-        self._health.hide()
-        self.pictures.hide()
-        self.pictures.clicked.connect(self.scan_closed)
+        for part in (self._health, self.pictures, self.drill):
+            part.hide()
+        self.pictures.clicked.connect(self.pictures_wanted)
         self.panel.clicked.connect(self.panel_wanted)
         self.hide()
 
@@ -301,6 +266,11 @@ class AttemptRail(QWidget):
             self._health.setToolTip(literal(worst[0].help) if worst else "")
             self._health.setVisible(bool(words))
 
+    def set_drill(self, words: str) -> None:
+        """Name the drill that is done, above all else; empty where none is."""
+        self.drill.set_whole(words)
+        self.drill.setVisible(bool(words))
+
     def set_note(self, words: str) -> None:
         """Say at the foot what is always to be said: what this program is not for."""
         self._note.setText(words)
@@ -308,15 +278,16 @@ class AttemptRail(QWidget):
     def suit_window(self, width: int) -> None:
         """Take the width that belongs to a window's [px], and what depends on it."""
         self.setFixedWidth(rail_width(width))
-        self.order.fit(self.width() - 2 * GRID)
-        self.figures.suit_width(self.width() - 2 * GRID)
+        self.order.fit()
+        bar = self._area.verticalScrollBar().sizeHint().width()  # it may come at any moment
+        self.figures.suit_width(self.width() - 2 * GRID - bar)
 
     def _lay_out(self) -> None:
         inner = QWidget(self)
         column = QVBoxLayout(inner)
         column.setContentsMargins(GRID, GRID, GRID, GRID)
         column.setSpacing(GRID)
-        for widget in (self.stage, self.order, self.figures, self.force, self.breath):
+        for widget in (self.drill, self.stage, self.order, self.figures, self.force, self.breath):
             column.addWidget(widget)
         column.addLayout(self._place)
         column.addWidget(self.pictures)
@@ -338,8 +309,9 @@ def _health(item: StatusItem) -> str:
     return f"{symbol} {item.title}: {item.text}" if item.text else f"{symbol} {item.title}"
 
 
-def _quiet(words: str) -> QPushButton:
-    button = FittingButton(words)
+def _quiet() -> QPushButton:
+    """Return a button whose words follow what it would do now."""
+    button = FittingButton("")
     # A button that keeps the focus would swallow the pad's keys.
     button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
     return button

@@ -170,12 +170,11 @@ class Beginning(QObject):
     def brief(self, identifier: str) -> None:
         """Show the briefing of an exercise; begin at once where the student knows it."""
         exercise = self._exercises().get(identifier)
-        if exercise is None or self._conductor.controller.is_running:
-            self._shell.messages.show_error(
-                tr("An attempt is running: end it before another exercise is begun")
-                if exercise is not None
-                else tr("There is no exercise {name} any more.", name=identifier)
-            )
+        if exercise is None:
+            words = tr("There is no exercise {name} any more.", name=identifier)
+            self._shell.messages.show_error(words)
+            return
+        if self._refuse_running():
             return
         self._end_wish()
         self.exercise, self._was_working = exercise, self._shell.is_working
@@ -189,20 +188,26 @@ class Beginning(QObject):
         exercise = self._exercises().get(identifier)
         if exercise is None or self._briefed != _key(exercise):
             self.brief(identifier)
-            return
-        self._end_wish()
-        self.exercise, self._was_working = exercise, True
-        self.begin()
+        else:
+            self._begin_now(exercise)
 
     def practise(self, drill: Exercise) -> None:
         """Begin a drill of an exercise that was attempted, at once: its patient and plan stay."""
-        if self._conductor.controller.is_running:
-            self._shell.messages.show_error(
-                tr("An attempt is running: end it before another exercise is begun")
-            )
-            return
+        if not self._refuse_running():
+            self._begin_now(drill)
+
+    def _refuse_running(self) -> bool:
+        """Say that an attempt is running, where one is; return whether one is."""
+        if not self._conductor.controller.is_running:
+            return False
+        self._shell.messages.show_error(
+            tr("An attempt is running: end it before another exercise is begun")
+        )
+        return True
+
+    def _begin_now(self, exercise: Exercise) -> None:
         self._end_wish()
-        self.exercise, self._was_working = drill, True
+        self.exercise, self._was_working = exercise, True
         self.begin()
 
     def trust(self, identifier: str) -> None:

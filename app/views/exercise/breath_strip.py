@@ -30,7 +30,7 @@ _HEIGHT: Final = 72
 
 
 class BreathStrip(QWidget):
-    """Draws the last seconds; hidden until the patient is seen to breathe.
+    """Draws the last seconds; hidden where the patient does not breathe.
 
     Attributes:
         gate: half width of the band [m].
@@ -41,7 +41,6 @@ class BreathStrip(QWidget):
         self.gate = 0.0
         self._curve: deque[tuple[float, float]] = deque()
         self._deepest = 0.0
-        self._breathes = False
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setAccessibleName(tr("Breath"))
         self.setToolTip(
@@ -62,14 +61,15 @@ class BreathStrip(QWidget):
         """Return the height that curve and words need."""
         return QSize(120, _HEIGHT + self._line())
 
-    def begin(self, gate: float, breathes: bool = False) -> None:
+    def begin(self, gate: float, breathes: bool) -> None:
         """Begin another curve.
 
         Args:
             gate: half width of the band [m].
-            breathes: whether the patient does, so that the strip is there from the beginning.
+            breathes: whether the patient does. The strip is there from the beginning or never:
+                what stands below it does not move in an attempt.
         """
-        self.gate, self._breathes, self._deepest = gate, breathes, 0.0
+        self.gate, self._deepest = gate, 0.0
         self._curve.clear()
         self.setVisible(breathes)
 
@@ -82,12 +82,8 @@ class BreathStrip(QWidget):
         while snapshot.time - self._curve[0][0] > SPAN_S:
             self._curve.popleft()
         self._deepest = max(self._deepest, moved)
-        if moved > 0.0 and not self._breathes:
-            self._breathes = True
-            self.show()
-        if self._breathes:
-            self.setAccessibleName(self.words)
-            self.update()
+        self.setAccessibleName(self.words)
+        self.update()
 
     @property
     def in_gate(self) -> bool:
@@ -102,7 +98,7 @@ class BreathStrip(QWidget):
         away = self._curve[-1][1] / MILLIMETRE
         if self.in_gate:
             return tr("✔ at rest: push")
-        return tr("▲ {mm:.0f} mm away: wait", mm=away)
+        return tr("▲ {mm:.1f} mm away: wait", mm=away)
 
     @property
     def points(self) -> QPolygonF:

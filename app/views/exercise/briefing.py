@@ -30,7 +30,7 @@ from app.scoring.tolerance import Tolerance
 from app.views.exercise.offer import BriefingOffer
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
-from app.views.kit.parts import FittingButton, PlainLabel, label
+from app.views.kit.parts import FittingButton, PlainLabel, button, label
 from app.views.kit.text import declared, literal, number, tr
 from app.views.reading.lock_words import view_title
 from app.views.shell.shortcuts import disclaimer_label
@@ -448,10 +448,7 @@ class BriefingPage(QWidget):
 
 
 def _key_button(text: str, role: str = "") -> QPushButton:
-    made = FittingButton(text)
-    made.setAutoDefault(False)
-    if role:
-        made.setProperty("role", role)
+    made = button(text, role, FittingButton)
     made.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
     return made
 

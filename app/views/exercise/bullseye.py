@@ -12,7 +12,6 @@ from PySide6.QtGui import (
     QResizeEvent,
 )
 from PySide6.QtWidgets import (
-    QApplication,
     QGridLayout,
     QHBoxLayout,
     QLabel,
@@ -282,9 +281,12 @@ class Bullseye(QWidget):
             label.setVisible(not (plain or self._hides_needle))
         self._fit_words()
 
-    def show_step(self, step: NextStep) -> None:
-        """Say the one figure that belongs to the order: nothing here speaks for itself."""
-        words = figure_of(step)
+    def show_step(self, step: NextStep, numbers: bool = True) -> None:
+        """Say the one figure that belongs to the order: nothing here speaks for itself.
+
+        `numbers`: whether the order itself says how far.
+        """
+        words = figure_of(step, numbers)
         if words != self._figure.text():
             self._figure.setText(words)
 
@@ -293,7 +295,9 @@ class Bullseye(QWidget):
         self.pad.setMinimumSize(SMALLEST_PAD, SMALLEST_PAD)
         self.depth_bar.setMinimumHeight(SMALLEST_PAD // 2)
         self._figure.setStyleSheet(_label_style(theme.TITLE_PX, theme.TEXT))
-        self._figure.setFixedHeight(QFontMetrics(_font_of(theme.TITLE_PX)).height() + theme.SPACING)
+        self._figure.setFixedHeight(
+            QFontMetrics(theme.font_of(theme.TITLE_PX)).height() + theme.SPACING
+        )
 
     def _fit_words(self) -> None:
         """Say as much as there is room for: in full, without the legend, without the angles,
@@ -450,7 +454,8 @@ class Bullseye(QWidget):
         hub = scene.handle is None and (self.source.moves_hub or self._held_at_hub)
         self.pad.show_view(view, hub)
         self.depth_bar.show_depth(view.depth, view.measured, hand.pose.depth if hand else None)
-        self._write(scene, view)
+        if not self._plain:  # nobody sees them in an attempt; afterwards they are written anew
+            self._write(scene, view)
 
     def _write(self, scene: PadScene, view: PadView) -> None:
         """Say in words what the pad shows; what is said in short stands in full in the tooltip."""
@@ -539,8 +544,18 @@ class Bullseye(QWidget):
         grid.setColumnStretch(0, 1)
 
 
-def figure_of(step: NextStep) -> str:
-    """Return the one figure of an order, in millimetres; a tick where there is nothing to do."""
+_TICKED: Final = (StepKind.HOLD, StepKind.STAY, StepKind.FINISH)
+
+
+def figure_of(step: NextStep, numbers: bool = True) -> str:
+    """Return the one figure of an order, in millimetres; a tick where there is nothing to do.
+
+    Empty where there is a way to go and `numbers` are not to be said.
+    """
+    if step.kind in _TICKED:
+        return tr("✔ hold")
+    if not numbers:
+        return ""
     across, along = 1e3 * step.across, 1e3 * abs(step.distance)
     return {
         StepKind.TILT: tr("{mm} mm off", mm=amount(across)),
@@ -548,16 +563,7 @@ def figure_of(step: NextStep) -> str:
         StepKind.INSERT: tr("▼ {mm} mm", mm=amount(along)),
         StepKind.DEEPER: tr("▼ {mm} mm", mm=amount(along)),
         StepKind.BACK: tr("▲ {mm} mm", mm=amount(along)),
-        StepKind.HOLD: tr("✔ hold"),
-        StepKind.STAY: tr("✔ hold"),
-        StepKind.FINISH: tr("✔ hold"),
     }.get(step.kind, "")
-
-
-def _font_of(pixels: int) -> QFont:
-    font = QFont(QApplication.font())
-    font.setPixelSize(pixels)
-    return font
 
 
 def _label(pixels: int, colour: str = "") -> QLabel:

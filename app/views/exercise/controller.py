@@ -95,10 +95,9 @@ class ExerciseDisplay:
         self._views.bullseye.set_scene(run.scene(), by_hand, run.is_real, run.held_at_hub)
         self._views.panel.set_forceful(run.forceful)
         self._views.panel.set_guidance(None if live else run.guidance, run.placed.plan)
-        if run.touches:  # its phases are those of one insertion; here there are many targets
-            self._views.panel.steps.set_brief(True)
-            self._views.panel.rail.stage.set_brief(True)
-        self._views.panel.rail.breath.begin(run.rings[0])
+        # The phases are read from the needle, and are those of one insertion, not of many targets.
+        self._views.panel.set_brief(not live or run.touches)
+        self._views.panel.rail.breath.begin(run.rings[0], run.breathes)
         self._views.panel.set_offsets(shows(ViewName.BULLSEYE))
 
     def take_hand(self, snapshot: Snapshot) -> None:
@@ -124,7 +123,7 @@ class ExerciseDisplay:
         self._follow(snapshot.state)
         limit = force_limit(snapshot, run.profile.limits.hand_force)
         self._show_panel(run, snapshot, limit, now)
-        self._show_pad(run, snapshot, limit)
+        self._show_pad(run, snapshot)
         rate, missing = self.rates = self._rates.read(snapshot, now)
         self._show_tracker(run, snapshot, now)
         if now - self._status_time >= STATUS_PERIOD:
@@ -162,12 +161,12 @@ class ExerciseDisplay:
         views.panel.show_figures(figures(snapshot, limit, hidden))
         views.panel.energy.show_energy(energy_figures(snapshot))
 
-    def _show_pad(self, run: ExerciseRun, snapshot: Snapshot, limit: float) -> None:
+    def _show_pad(self, run: ExerciseRun, snapshot: Snapshot) -> None:
         bullseye = self._views.bullseye
         if snapshot.touch is not None and snapshot.touch.aim is not self._aimed:
             self._aimed = snapshot.touch.aim
             bullseye.retarget(run.scene(self._aimed))
-        view = pad_view(snapshot, run.profile.needle_length, limit)
+        view = pad_view(snapshot)
         if view is not None:
             bullseye.show_view(view)
         if run.shown.shows(ViewName.FORCE_GAUGE):

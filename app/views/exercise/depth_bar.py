@@ -55,6 +55,7 @@ class DepthBar(QWidget):
     def retarget(self, scene: PadScene) -> None:
         """Take the path to another target; the needle stays where it is."""
         self._scene = scene
+        self._explain()
         self.update()
 
     def show_depth(self, depth: float, measured: bool, hand: float | None) -> None:

@@ -141,8 +141,8 @@ class ExerciseFeature(Feature):
         found = {exercise.id: declared(exercise.title) for exercise in self.exercises.values()}
         taken = self._conductor.exercise
         if taken is not None and taken.id not in found:
-            words = tr("{title} (not kept)") if taken.drill is None else tr("Drill: {title}")
-            found[taken.id] = words.format(title=declared(taken.title))
+            words = tr("{title} (not kept)", title=declared(taken.title))
+            found[taken.id] = _drill_words(taken) or words
         return list(found.items())
 
     def begin(self, identifier: str) -> None:
@@ -234,6 +234,7 @@ class ExerciseFeature(Feature):
         taken = self._conductor.exercise
         chosen = None if taken is None else taken.id
         self._panel.set_exercises(self.titles, chosen)
+        self._panel.rail.set_drill("" if taken is None else _drill_words(taken))
 
     def show_patient(self, patient: Patient) -> None:
         """Show a patient that was opened, in the first exercise where none is taken."""
@@ -269,3 +270,9 @@ def _same_points(plan: DraftPlan, other: DraftPlan) -> bool:
     """Return whether two plans have the same entry and target, both whole."""
     pairs = ((plan.entry_mm, other.entry_mm), (plan.target_mm, other.target_mm))
     return all(a is not None and b is not None and np.allclose(a, b) for a, b in pairs)
+
+
+def _drill_words(exercise: Exercise) -> str:
+    """Name a drill by the exercise that it is of; empty for a whole exercise."""
+    title = declared(exercise.title)
+    return "" if exercise.drill is None else tr("Drill: {title}", title=title)

@@ -122,26 +122,6 @@ def paint_background(painter: QPainter, area: PadArea, scene: PadScene) -> list[
     return unnamed
 
 
-def paint_needle(painter: QPainter, area: PadArea, scene: PadScene, view: PadView) -> None:
-    """Needle from hub to tip, and where it is heading: a dashed line to the aim's cross."""
-    tip, hub = (
-        area.point(view.place(scene, across)) for across in (view.offset.across, view.hub_across)
-    )
-    aim = area.point(scene.scale.place(scene.frame.tilts(view.direction)))
-    painter.setPen(theme.NEEDLE.pen(1.5, 0.9))
-    dashed = painter.pen()
-    dashed.setDashPattern([4.0, 3.0])
-    painter.setPen(dashed)
-    painter.drawLine(tip, aim)
-    _cross_mark(painter, aim)
-    painter.setPen(theme.NEEDLE.pen(4.0))
-    between = () if view.curve_across is None else view.curve_across[:-1]
-    bent = [area.point(view.place(scene, across)) for across in between]
-    painter.drawPolyline(QPolygonF([hub, *bent, tip]))
-    _hub_mark(painter, hub)
-    _tip_mark(painter, tip, view.measured)
-
-
 def paint_dot(
     painter: QPainter, area: PadArea, places: Sequence[FloatArray], measured: bool
 ) -> None:
@@ -256,26 +236,6 @@ def _letters(painter: QPainter, area: PadArea, letters: Sequence[str]) -> None:
         centre = area.centre + QPointF(reach * x, reach * y)
         box = QRectF(centre.x() - 24, centre.y() - 12, 48, 24)
         painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
-
-
-def _cross_mark(painter: QPainter, at: QPointF) -> None:
-    painter.setPen(theme.NEEDLE.pen(2.0))
-    painter.drawLine(at + QPointF(-7, -7), at + QPointF(7, 7))
-    painter.drawLine(at + QPointF(-7, 7), at + QPointF(7, -7))
-
-
-def _hub_mark(painter: QPainter, at: QPointF) -> None:
-    painter.setPen(theme.NEEDLE.pen(2.0))
-    painter.setBrush(QColor(theme.IMAGE_GROUND))
-    painter.drawRect(QRectF(at.x() - 6, at.y() - 6, 12, 12))
-
-
-def _tip_mark(painter: QPainter, at: QPointF, measured: bool) -> None:
-    """Diamond; hollow while the depth is not measured."""
-    painter.setPen(theme.NEEDLE_TIP.pen(2.0))
-    painter.setBrush(theme.NEEDLE_TIP.qcolor() if measured else QColor(theme.IMAGE_GROUND))
-    corners = ((0, -9), (9, 0), (0, 9), (-9, 0))
-    painter.drawPolygon(QPolygonF([at + QPointF(x, y) for x, y in corners]))
 
 
 def _font(painter: QPainter, pixels: int, bold: bool = False) -> QFont:

@@ -35,7 +35,7 @@ from app.views.exercise.energy_gauge import EnergyGauge
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.readouts import AttemptReadouts
 from app.views.exercise.scan_view import ScanPanel
-from app.views.exercise.steps import Steps
+from app.views.exercise.stages import Steps
 from app.views.kit import theme
 from app.views.kit.access import ACCESS
 from app.views.kit.parts import FittingButton, PlainLabel, add_row
@@ -520,12 +520,15 @@ class ExercisePanel(QWidget):
     def set_guidance(self, guidance: GuidancePart | None, plan: Plan | None) -> None:
         """Let control scans guide, with the table about the plan's middle; None shows all live."""
         self.scan.set_guidance(guidance, plan)
-        self.steps.set_brief(guidance is not None)
         self._telling = None if guidance is None else TELLING_NOTHING
         self.readouts.set_telling(self._telling)
-        self.rail.stage.set_brief(guidance is not None)
         self._tell_rail()
         self.buttons.set_pedal(guidance is not None)
+
+    def set_brief(self, brief: bool) -> None:
+        """Show what lies between beginning and end of an attempt as one step, or each by itself."""
+        self.steps.set_brief(brief)
+        self.rail.stage.set_brief(brief)
 
     def lend_tools(self, lent: bool) -> None:
         """Let the rail have what is pressed in an attempt, or take it back to its place."""
@@ -567,6 +570,7 @@ class ExercisePanel(QWidget):
         """Say nothing of the patient who leaves."""
         self.show_figures(None)
         self.set_guidance(None, None)
+        self.set_brief(False)
         self.set_offsets(True)
         self.scan.forget()
         self.breath.show_breath(None, False)

@@ -4,12 +4,9 @@ from collections.abc import Sequence
 from math import inf
 from typing import Final
 
-import numpy as np
-
 from app.core import state_vector as sv
 from app.device.faults import Fault
 from app.device.state import DeviceState
-from app.planning.off_path import split
 from app.session.machine import State
 from app.session.pad.geometry import downward
 from app.session.pad.hand import HandPose
@@ -65,27 +62,10 @@ def figures(snapshot: Snapshot, force_limit: float, hidden: bool = False) -> Liv
     )
 
 
-def pad_view(snapshot: Snapshot, needle_length: float, force_limit: float) -> PadView | None:
+def pad_view(snapshot: Snapshot) -> PadView | None:
     """Return what the bull's-eye shows; None while there is no valid pose."""
-    pose, device = snapshot.pose, snapshot.device
-    if not pose.valid:
-        return None
-    hub = pose.p_tip - needle_length * pose.axis
-    if device is not None and np.isfinite(device.hub).all():
-        hub = device.hub
-    return PadView(
-        direction=pose.axis,
-        offset=snapshot.offset,
-        hub_across=split(hub - snapshot.p_target, snapshot.offset.path)[0],
-        p_target=snapshot.p_target,
-        depth=pose.depth,
-        measured=pose.measured,
-        force=felt(snapshot).force,
-        force_limit=force_limit,
-        curve_across=None
-        if pose.bend is None
-        else split(pose.curve - snapshot.p_target, snapshot.offset.path)[0],
-    )
+    pose = snapshot.pose
+    return PadView(pose.axis, snapshot.offset, pose.depth, pose.measured) if pose.valid else None
 
 
 def hand_pose(snapshot: Snapshot) -> HandPose | None:

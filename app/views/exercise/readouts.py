@@ -137,13 +137,16 @@ class ForceBar(QWidget):
         painter.setFont(font)
         below = QRectF(0, 19, self.width(), 19)
         painter.setPen(QColor(theme.TEXT))
-        painter.drawText(below, Qt.AlignmentFlag.AlignLeft, f"{symbol} {self.words}")
+        metrics, force = painter.fontMetrics(), f"{symbol} {self.words}"
+        shown = metrics.elidedText(force, Qt.TextElideMode.ElideRight, self.width())
+        painter.drawText(below, Qt.AlignmentFlag.AlignLeft, shown)
         painter.setPen(QColor(theme.TEXT_DIM))
         limit = tr("limit {limit:g} N", limit=self._limit)
-        painter.drawText(below, Qt.AlignmentFlag.AlignRight, limit)
+        if metrics.horizontalAdvance(f"{force}  {limit}") <= self.width():  # else its line is there
+            painter.drawText(below, Qt.AlignmentFlag.AlignRight, limit)
         if self._guidance is not None and self._detailed:
             painter.setPen(QColor(theme.VERDICTS["warning"][0]))
-            words = painter.fontMetrics().elidedText(
+            words = metrics.elidedText(
                 self.words_of_guidance, Qt.TextElideMode.ElideRight, self.width()
             )
             painter.drawText(below.translated(0, 19), Qt.AlignmentFlag.AlignLeft, words)

@@ -52,6 +52,7 @@ class ExerciseRun:
         shown: what may be told of the needle.
         demonstrates: whether a scripted expert shows the exercise: it is nobody's attempt.
         touches: whether targets are to be touched with a tool whose handle the hand moves.
+        breathes: whether the exercise has a patient who breathes, and something computes it.
     """
 
     trainer: Trainer
@@ -74,6 +75,7 @@ class ExerciseRun:
     shown: Shown = field(default_factory=Shown)
     demonstrates: bool = False
     touches: bool = False
+    breathes: bool = False
 
     @property
     def is_real(self) -> bool:

@@ -42,6 +42,9 @@ LEAST_PX: Final = 200
 
 _NOTCH: Final = 120
 
+_SAME_MM: Final = 1e-3
+"""Places along the patient that differ by less are one."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ScanPicture:
@@ -66,19 +69,24 @@ class ScanTile(QWidget):
 
     Signals:
         clicked(): somebody wants to see it larger.
+
+    Args:
+        opens: whether a click opens the slice; else there is nothing to click.
     """
 
     clicked = Signal()
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, parent: QWidget | None = None, opens: bool = True) -> None:
         super().__init__(parent)
+        self._opens = opens
         self._image: QImage | None = None
         self._to_mm = QTransform()
         self._box = QRectF(-50.0, -50.0, 100.0, 100.0)
         self.words = ""
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored)
-        self.setCursor(Qt.CursorShape.PointingHandCursor)
-        self.setToolTip(literal(tr("Click: this slice alone, with all that a slice can do")))
+        if opens:
+            self.setCursor(Qt.CursorShape.PointingHandCursor)
+            self.setToolTip(literal(tr("Click: this slice alone, with all that a slice can do")))
 
     def show_slice(
         self, shot: ScanPicture | None, number: int, window: WindowLevel, box: QRectF
@@ -94,6 +102,7 @@ class ScanTile(QWidget):
         self._box = box
         if shot is None or not 0 <= number < shot.picture.size[2]:
             self._image, self.words = None, ""
+            self.setAccessibleName("")
             self.update()
             return
         volume = shot.picture
@@ -146,7 +155,7 @@ class ScanTile(QWidget):
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Ask for the slice alone."""
-        if event.button() == Qt.MouseButton.LeftButton:
+        if self._opens and event.button() == Qt.MouseButton.LeftButton:
             self.clicked.emit()
 
 
@@ -234,11 +243,16 @@ class ScanWall(QWidget):
                 tile.show_slice(shot, self._alike(row, number), self._window, self._box)
 
     def _alike(self, row: int, number: int) -> int:
-        """Return the slice that lies where this one of the newest scan does."""
+        """Return the slice that lies where this one of the newest scan does; -1 if none does.
+
+        No slice does that is farther away than half of its own thickness.
+        """
         if row == 0:
             return number
-        wanted = float(self._shots[0].heights()[number])
-        return int(np.argmin(np.abs(self._shots[row].heights() - wanted)))
+        away = np.abs(self._shots[row].heights() - self._shots[0].heights()[number])
+        nearest = int(np.argmin(away))
+        half = 0.5 * float(self._shots[row].picture.spacing_mm[2])
+        return nearest if away[nearest] <= half + _SAME_MM else -1
 
     def _make(self, row: int, tiles: list[ScanTile], columns: int) -> None:
         while len(tiles) > columns:
@@ -247,7 +261,8 @@ class ScanWall(QWidget):
             gone.setParent(None)
             gone.deleteLater()
         while len(tiles) < columns:
-            tile, column = ScanTile(self), len(tiles)
+            # Of the scan before no slice can be opened: what is seen alone is the newest one's.
+            tile, column = ScanTile(self, opens=row == 0), len(tiles)
             tile.clicked.connect(lambda column=column: self._want(column))
             tiles.append(tile)
             self._grid.addWidget(tile, 2 * row + 1, column)

@@ -1,13 +1,12 @@
-"""What is done, what comes: the attempt's states in a row, and the next step in one line."""
+"""The next step of an attempt as an order, and the one line that says it."""
 
 from typing import Final
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPaintEvent, QPen, QResizeEvent
-from PySide6.QtWidgets import QApplication, QSizePolicy, QWidget
+from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtGui import QFontMetrics, QResizeEvent
+from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.core.units import MILLIMETRE
-from app.session.machine import State
 from app.session.snapshot import BreathHold, NextStep, NextSteps, Snapshot, StepKind
 from app.session.touching import TouchState
 from app.session.transitions import PauseCause
@@ -16,165 +15,6 @@ from app.views.kit import theme
 from app.views.kit.parts import PlainLabel
 from app.views.kit.text import literal, number, tr
 from app.views.slices.pace import Unhurried
-
-
-def state_word(state: str) -> str:
-    """Name of a recorded state; unknown ones as they stand."""
-    return {
-        "ready": tr("Ready"),
-        "withdrawing": tr("Withdrawing"),
-        "aligning": tr("Aligning"),
-        "inserting": tr("Inserting"),
-        "holding": tr("Holding"),
-        "paused": tr("Paused"),
-        "ended": tr("Ended"),
-        "aborted": tr("Aborted"),
-        "unfinished": tr("Unfinished"),
-        "broken": tr("Broken"),
-    }.get(state, state)
-
-
-ORDER: Final[tuple[State, ...]] = (
-    State.READY,
-    State.ALIGNING,
-    State.INSERTING,
-    State.HOLDING,
-    State.ENDED,
-)
-
-
-TURN_MS: Final = 60
-TURN: Final = 16
-"""A ring goes round in so many pictures, so far apart."""
-
-BRIEF: Final[tuple[State, ...]] = (State.READY, State.INSERTING, State.ENDED)
-"""Where control scans guide: `inserting` stands for all that happens in between."""
-
-
-class TurningRing:
-    """A ring that goes round in a widget while the needle is on its way to its start."""
-
-    def __init__(self, widget: QWidget) -> None:
-        self._widget, self._turn = widget, 0
-        self._timer = QTimer(widget, interval=TURN_MS)
-        self._timer.timeout.connect(self.advance)
-
-    @property
-    def turns(self) -> bool:
-        """Return whether it goes round; else it costs nothing."""
-        return self._timer.isActive()
-
-    def show_state(self, state: State | None, ready: bool) -> None:
-        """Go round in the one state in which something is waited for."""
-        if state is not State.WITHDRAWING or ready:
-            self._timer.stop()
-        elif not self.turns:
-            self._timer.start()
-
-    def advance(self) -> None:
-        """Show the next picture."""
-        self._turn = (self._turn + 1) % TURN
-        self._widget.update()
-
-    def draw(self, painter: QPainter, box: QRectF) -> None:
-        """Draw a quarter of the ring in a square."""
-        painter.setPen(QPen(QColor(theme.TEXT), 2.5))
-        painter.drawArc(box, -16 * 360 * self._turn // TURN, 16 * 90)
-
-
-class Steps(QWidget):
-    """Filled discs with ✔ for what is done, a ring for now, hollow for what comes."""
-
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self._state: State | None = None
-        self._order = ORDER
-        self._reached = 0
-        self._ready = False
-        self.ring = TurningRing(self)
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setMinimumSize(300, 48)
-        self.setAccessibleName(tr("No attempt"))
-
-    def sizeHint(self) -> QSize:
-        """Preferred size."""
-        return QSize(330, 48)
-
-    def set_brief(self, brief: bool) -> None:
-        """Show the steps between beginning and end as one: they are read from the needle."""
-        self._order = BRIEF if brief else ORDER
-        self._reached = 0
-        state, self._state = self._state, None
-        self.show_state(state)
-        self.update()
-
-    def show_state(self, state: State | None, ready: bool = False) -> None:
-        """Show a state; None before there is an attempt.
-
-        `ready`: whether only the first movement of the hand is waited for.
-        """
-        if state is self._state and ready is self._ready:
-            return
-        self._ready = ready
-        self.ring.show_state(state, ready)
-        if state in self._order:
-            self._reached = self._order.index(state)
-        elif state is None or state is State.WITHDRAWING:
-            self._reached = 0
-        self._state = state
-        brief = self._order is BRIEF and state is State.INSERTING
-        word = tr("Under way") if brief else state_word(state) if state else tr("No attempt")
-        word = state_word(State.READY) if ready else word
-        self.setAccessibleName(word)
-        self.update()
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        """Draw the row."""
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        step = self.width() / len(self._order)
-        painter.setPen(QPen(QColor(theme.BORDER), 2.0))
-        painter.drawLine(QPointF(step / 2, 14), QPointF(self.width() - step / 2, 14))
-        for i, state in enumerate(self._order):
-            self._paint_step(painter, i, state, QRectF(i * step, 0, step, self.height()))
-
-    def _paint_step(self, painter: QPainter, i: int, state: State, box: QRectF) -> None:
-        aborted = self._state is State.ABORTED
-        here = self._state is not None and i == self._reached
-        done = self._state is not None and (i < self._reached or self._state is State.ENDED)
-        paused = here and self._state is State.PAUSED
-        colour = theme.BAD if here and aborted else theme.ACCENT if here or done else theme.BORDER
-        colour = theme.WARNING if paused else colour
-        sign = "✖" if here and aborted else "✔" if done else "●" if here else ""
-        sign = "Ⅱ" if paused else sign
-        centre = QPointF(box.center().x(), 14)
-        painter.setPen(QPen(QColor(colour), 2.5))
-        painter.setBrush(QColor(theme.BACKGROUND))
-        painter.drawEllipse(centre, 10, 10)
-        if here and self.ring.turns:
-            self.ring.draw(painter, QRectF(centre.x() - 10, 4, 20, 20))
-            sign = ""
-        painter.setFont(_font(painter, 11, True))
-        painter.setPen(QColor(colour))
-        disc = QRectF(centre.x() - 10, 4, 20, 20)
-        painter.drawText(disc, Qt.AlignmentFlag.AlignCenter, sign)
-        painter.setFont(_font(painter, theme.SMALL_PX, here))
-        painter.setPen(QColor(theme.TEXT if here else theme.TEXT_DIM))
-        name = state_word(State.ABORTED) if here and aborted else state_word(state)
-        if self._order is BRIEF and state is State.INSERTING:
-            name = tr("Under way")
-        name = tr("Paused") if paused else name
-        if here and self._state is State.WITHDRAWING and not self._ready:
-            name = tr("Pull out")  # what fits below a step
-        top = Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop
-        painter.drawText(box.adjusted(0, 26, 0, 0), top, name)
-
-
-def _font(painter: QPainter, pixels: int, bold: bool) -> QFont:
-    font = QFont(painter.font())
-    font.setPixelSize(pixels)
-    font.setBold(bold)
-    return font
 
 
 def side_word(letter: str) -> str:
@@ -338,24 +178,17 @@ PADDING: Final = theme.SPACING // 2
 """Round the words of the line [px]."""
 
 
-def _font_of(pixels: int) -> QFont:
-    font = QFont(QApplication.font())
-    font.setPixelSize(pixels)
-    font.setWeight(QFont.Weight.DemiBold)
-    return font
-
-
 class NextStepLine(PlainLabel):
     """The one line that always says the next step, over the views, to be read at arm's length.
 
     Signals:
         spoken(str, bool): what it says, and whether that something was reached; whoever has taken
             its place says the same.
-        stepped(NextStep): the step that it says, as a value.
+        stepped(NextStep, bool): the step that it says, as a value, and whether it is said how far.
     """
 
     spoken = Signal(str, bool)
-    stepped = Signal(object)
+    stepped = Signal(object, bool)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -442,7 +275,8 @@ class NextStepLine(PlainLabel):
         if style != self.styleSheet():
             self.setStyleSheet(style)
         # As high as for its largest letters: the views below do not move with the words.
-        self.setFixedHeight(QFontMetrics(_font_of(theme.TITLE_PX)).height() + 2 * PADDING + 1)
+        high = QFontMetrics(theme.font_of(theme.TITLE_PX, bold=True)).height()
+        self.setFixedHeight(high + 2 * PADDING + 1)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Take letters that fit the new width."""
@@ -456,7 +290,8 @@ class NextStepLine(PlainLabel):
         """
         room, least = self.width() - 2 * PADDING, round(theme.SMALL_PX / theme.scale())
         for pixels in range(theme.TITLE_PX, least, -1):
-            if QFontMetrics(_font_of(pixels)).horizontalAdvance(self.text()) <= room:
+            metrics = QFontMetrics(theme.font_of(pixels, bold=True))
+            if metrics.horizontalAdvance(self.text()) <= room:
                 return pixels
         return least
 
@@ -475,7 +310,7 @@ class NextStepLine(PlainLabel):
             return
         shown = self._run.shown
         step = self._steps.of(self._snapshot, shown.live, shown.orders)
-        self.stepped.emit(step)
+        self.stepped.emit(step, shown.numbers)
         shows = self._run.demonstrates
         tip = not (self._run.held_at_hub or self._moves_hub)
         words = step_words(step, self._run.interactive or shows, tip, shown.numbers)

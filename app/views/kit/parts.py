@@ -77,9 +77,9 @@ def message_box(parent: QWidget | None, title: str, words: str, more: str = "") 
     return box
 
 
-def button(text: str, role: str = "") -> QPushButton:
-    """Return a button that Enter does not press by itself."""
-    made = QPushButton(text)
+def button(text: str, role: str = "", kind: type[QPushButton] = QPushButton) -> QPushButton:
+    """Return a button that Enter does not press by itself; `kind`: its class."""
+    made = kind(text)
     made.setAutoDefault(False)
     if role:
         made.setProperty("role", role)

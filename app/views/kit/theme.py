@@ -151,6 +151,14 @@ def style_sheet() -> str:
     )
 
 
+def font_of(pixels: int, bold: bool = False) -> QFont:
+    """Return the application's font in a size [px], as a style sheet gives it to a widget."""
+    font = QFont(QApplication.font())
+    font.setPixelSize(pixels)
+    font.setWeight(QFont.Weight.DemiBold if bold else QFont.Weight.Normal)
+    return font
+
+
 def apply_theme(application: QApplication, theme: Theme = DARK, size: float = 1.0) -> None:
     """Give the whole application, and what is open of it, a theme and a size of the text.
 

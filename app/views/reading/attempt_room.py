@@ -14,6 +14,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QLabel, QWidget
 
+from app.exercises.reading import LayoutName
 from app.views.exercise.attempt_rail import AttemptRail
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.panel import ExercisePanel
@@ -22,7 +23,15 @@ from app.views.exercise.status import StatusStrip
 from app.views.exercise.steps import NextStepLine
 from app.views.kit.side_panel import SidePanel
 from app.views.kit.text import tr
-from app.views.reading.layouts import BULLSEYE, SCAN, SCENE, Layout, ViewGrid, attempt_layout
+from app.views.reading.layouts import (
+    ATTEMPT,
+    BULLSEYE,
+    SCAN,
+    SCENE,
+    Layout,
+    ViewGrid,
+    attempt_layout,
+)
 from app.views.scene.view import SceneView
 
 PANELS_KEY: Final = "Ctrl+B"
@@ -104,7 +113,7 @@ class AttemptRoom(QObject):
         self._panels = self._key(PANELS_KEY, self.toggle_panels)
         self._pictures = self._key(PICTURES_KEY, self.toggle_scan)
         rail.panel_wanted.connect(self.toggle_panels)
-        rail.scan_closed.connect(self.toggle_scan)
+        rail.pictures_wanted.connect(self.toggle_scan)
         page.scan_view.arrived.connect(self._take_scan)
 
     def _key(self, keys: str, command: Callable[[], None]) -> QShortcut:
@@ -183,8 +192,16 @@ class AttemptRoom(QObject):
         beside = [BULLSEYE] if page.has_cell else []
         if not page.scene.off:
             beside.append(SCENE)
-        name = SCAN if self.shows_scan else self._own or ("attempt" if self._live else "2x2")
-        return attempt_layout(name, tuple(beside), page.is_left_handed)
+        return attempt_layout(self.layout_name, tuple(beside), page.is_left_handed)
+
+    @property
+    def layout_name(self) -> str:
+        """Return the name of the layout whose slices are shown; one that is in no menu where the
+        attempt chose them itself.
+        """
+        if self.shows_scan:
+            return SCAN
+        return self._own or (ATTEMPT if self._live else LayoutName.FOUR)
 
     def suit_window(self) -> None:
         """Take the room that the window has now."""

@@ -18,6 +18,8 @@ COLUMNS = 12
 AXIAL, SAGITTAL, CORONAL = "axial", "sagittal", "coronal"
 IN_PLANE, IN_PLANE_90, PROBE = "in_plane", "in_plane_90", "probe"
 SCENE, BULLSEYE, SCAN = "scene", "bullseye", "scan"
+ATTEMPT = "attempt"
+"""Name of the layout of an attempt for which none was chosen."""
 
 Cell = tuple[int, int, int, int]
 """First row and column, height in the layout's rows and width in `COLUMNS`."""
@@ -150,22 +152,22 @@ _ATTEMPT: dict[str, tuple[tuple[str, Cell], ...]] = {
         (IN_PLANE_90, (5, 10, 7, 10)),
     ),
     LayoutName.NEEDLE: ((IN_PLANE, (0, 0, 12, 10)), (PROBE, (0, 10, 12, 10))),
-    "attempt": ((IN_PLANE, (0, 0, 12, 10)), (IN_PLANE_90, (0, 10, 12, 10))),
+    ATTEMPT: ((IN_PLANE, (0, 0, 12, 10)), (IN_PLANE_90, (0, 10, 12, 10))),
     SCAN: ((SCAN, (0, 0, 12, 20)),),
 }
-"""The CT's panes in an attempt by the layout that was chosen; `attempt` where none was."""
+"""The CT's panes in an attempt by the layout that was chosen."""
 
 
 def attempt_layout(name: str, beside: tuple[str, ...], mirrored: bool) -> Layout:
     """Arrange an attempt: the CT large, at most two panes in a column beside it.
 
     Args:
-        name: of the layout whose slices are shown; `attempt` or an unknown one shows the two planes
+        name: of the layout whose slices are shown; `ATTEMPT` or an unknown one shows the two planes
             along the needle, `SCAN` the control scan.
         beside: the panes in the column, from the top; none gives the CT all of it.
         mirrored: whether the column stands on the left.
     """
-    cells = _ATTEMPT.get(name, _ATTEMPT["attempt"])
+    cells = _ATTEMPT.get(name, _ATTEMPT[ATTEMPT])
     columns = ATTEMPT_COLUMNS if beside else ATTEMPT_CT
     heights = (7, 5) if len(beside) > 1 else (ATTEMPT_ROWS,)
     top, width = 0, ATTEMPT_COLUMNS - ATTEMPT_CT

@@ -246,6 +246,11 @@ class WorkspacePage(QWidget):
         """Names of the layouts whose panes are all there."""
         return possible(self.grid.names)
 
+    @property
+    def shown_layout(self) -> str:
+        """Return the name of the layout that is shown: in an attempt that of its own slices."""
+        return self.room.layout_name if self.room.is_on else self.layout_name
+
     def show_layout(self, name: str) -> None:
         """Arrange the panes otherwise, unless they are fixed; the bull's-eye stays."""
         if not self.is_layout_fixed:

@@ -63,7 +63,7 @@ class RoleSwitch(QObject):
         self.button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextOnly)
         self.button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.button.setAutoRaise(True)
-        self.button.setProperty("role", "notice")
+        self.button.setProperty("role", "menu")
         self._menu = QMenu(self.button)
         self._group = QActionGroup(self)
         self.actions = {role: self._entry(role) for role in Role}

@@ -212,7 +212,7 @@ class ViewMenu:
         for name, action in self.layouts.items():
             action.setVisible(name in workspace.layouts)
             action.setEnabled(name in workspace.layouts and not workspace.is_layout_fixed)
-            action.setChecked(name == workspace.layout_name)
+            action.setChecked(name == workspace.shown_layout)
         self._locked.setEnabled(not greys.is_fixed)
         why = why_locked(self._conductor.exercise, Lock.READING)
         for action in (*self.layouts.values(), self._locked):
