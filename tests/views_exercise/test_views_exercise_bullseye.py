@@ -14,9 +14,10 @@ from app.core import state_vector as sv
 from app.core.arrays import angle_between
 from app.device.state import DeviceState
 from app.session.pad.hand import HandPose
+from app.session.pad.readings import hand_pose
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.pad_canvas import PadArea, free_corner, is_inside
-from app.views.exercise.readings import hand_pose, pad_view
+from app.views.exercise.readings import pad_view
 from app.views.kit import theme
 
 

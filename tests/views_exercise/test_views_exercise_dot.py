@@ -42,8 +42,8 @@ def moment(plan, depth, tilt, bend=(0.0, 0.0), breath=(0.0, 0.0, 0.0), measured=
 
 
 def view_of(now):
-    return PadView(now.pose.axis, now.offset, np.zeros(3), now.p_target, now.pose.depth,
-                   now.pose.measured, 0.0, 5.0)  # fmt: skip
+    return PadView(now.pose.axis, now.offset, now.pose.depth, now.pose.measured, np.zeros(3),
+                   now.p_target, 0.0, 5.0)  # fmt: skip
 
 
 @settings(max_examples=300, deadline=None)

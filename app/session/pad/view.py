@@ -2,14 +2,16 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, Self
 
 import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
 from app.exercises.schema import Exercise
+from app.mechanisms.profile import DeviceProfile
 from app.planning.off_path import Offset
+from app.planning.placement import PlacedPlan
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.tolerance import Bands
 from app.session.pad.aim import passes
@@ -47,37 +49,57 @@ class PadScene:
     stop_depth: float
     handle: Handle | None = None
 
+    @classmethod
+    def of(
+        cls,
+        placed: PlacedPlan,
+        profile: DeviceProfile,
+        rings: tuple[float, ...],
+        depth_tolerance: float,
+        touches: bool = False,
+    ) -> Self:
+        """Return the pad of a plan at a device.
+
+        Args:
+            placed: the plan.
+            profile: of the device.
+            rings: radii of the tolerance rings [m], from the inside.
+            depth_tolerance: see `depth_tolerance`.
+            touches: whether the hand holds the handle of a long tool.
+        """
+        shallowest, deepest = profile.depth_range
+        return cls(
+            frame=path_frame(placed.axis, placed.T_world_patient.rotation),
+            scale=PadScale(placed.length, rings[0]),
+            rings=rings,
+            limits=HandLimits(profile.tilt_limit, shallowest, deepest),
+            p_entry=placed.p_entry,
+            target_depth=placed.length,
+            depth_tolerance=depth_tolerance,
+            stop_depth=min(placed.length + rings[-1], deepest),
+            handle=Handle(profile.needle_length) if touches else None,
+        )
+
     def hand(self, pose: HandPose) -> PadHand:
         """Return the hand that moves what the exercise has it hold, from where it is now."""
         return PadHand(self.frame, self.scale, self.limits, pose, self.handle)
 
 
 @dataclass(frozen=True, slots=True)
-class PadView:
-    """What changes from frame to frame.
+class NeedleLine:
+    """A needle as the pad's dot needs it.
 
     Attributes:
         direction: needle direction in world, shape (3,).
         offset: from the tip to the target as it is now, by which everybody says "off the path".
-        hub_across: from the path to the hub point, across the path [m], shape (3,).
-        p_target: target as it is now [m], shape (3,).
         depth: depth of the tip beyond the entry [m].
         measured: whether the depth is a fresh measurement (else held or from the model).
-        force: force felt at the hand [N], estimated.
-        force_limit: largest force that the device may give [N].
-        curve_across: from the path to points of the bent part, entry to tip [m], shape (n, 3);
-            None for a straight needle.
     """
 
     direction: FloatArray
     offset: Offset
-    hub_across: FloatArray
-    p_target: FloatArray
     depth: float
     measured: bool
-    force: float
-    force_limit: float
-    curve_across: FloatArray | None = None
 
     def frame(self, scene: PadScene) -> PathFrame:
         """Frame of the path to the target as it is now: the scene's while that is at rest."""
@@ -115,6 +137,26 @@ class PadView:
         sign = -1.0 if hub else 1.0
         way = sign * np.array([miss @ frame.right, miss @ frame.up])
         return scene.scale.place(way / scene.scale.length)
+
+
+@dataclass(frozen=True, slots=True)
+class PadView(NeedleLine):
+    """What changes from frame to frame.
+
+    Attributes:
+        hub_across: from the path to the hub point, across the path [m], shape (3,).
+        p_target: target as it is now [m], shape (3,).
+        force: force felt at the hand [N], estimated.
+        force_limit: largest force that the device may give [N].
+        curve_across: from the path to points of the bent part, entry to tip [m], shape (n, 3);
+            None for a straight needle.
+    """
+
+    hub_across: FloatArray
+    p_target: FloatArray
+    force: float
+    force_limit: float
+    curve_across: FloatArray | None = None
 
     def place(self, scene: PadScene, across: FloatArray) -> FloatArray:
         """Place on the pad of what lies so far off the path [m], (3,) -> (2,).

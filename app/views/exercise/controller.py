@@ -17,6 +17,7 @@ from app.exercises.parts import ViewName
 from app.planning.placement import PlacedPlan
 from app.session.machine import RUNNING, State
 from app.session.pad.hand import HandPose
+from app.session.pad.readings import hand_pose
 from app.session.result import AttemptResult
 from app.session.shown_views import without_needle
 from app.session.snapshot import Snapshot
@@ -28,7 +29,6 @@ from app.views.exercise.felt import force_limit
 from app.views.exercise.panel import ExercisePanel
 from app.views.exercise.readings import (
     figures,
-    hand_pose,
     pad_view,
     robot_status,
     status_items,

@@ -6,13 +6,9 @@ from typing import Final
 
 import numpy as np
 
-from app.core import state_vector as sv
 from app.device.faults import Fault
-from app.device.state import DeviceState
 from app.planning.off_path import split
 from app.session.machine import State
-from app.session.pad.geometry import downward
-from app.session.pad.hand import HandPose
 from app.session.pad.view import PadView
 from app.session.snapshot import Snapshot
 from app.tracking.cameras.watch import CameraState
@@ -86,15 +82,6 @@ def pad_view(snapshot: Snapshot, needle_length: float, force_limit: float) -> Pa
         if pose.bend is None
         else split(pose.curve - snapshot.p_target, snapshot.offset.path)[0],
     )
-
-
-def hand_pose(snapshot: Snapshot) -> HandPose | None:
-    """Return where the loop has the simulated hand now; None where the robot does not tell."""
-    device = snapshot.device
-    if not isinstance(device, DeviceState):
-        return None
-    x, y, depth, holds = device.row[[sv.HAND_X, sv.HAND_Y, sv.HAND_DEPTH, sv.HAND_HOLDS]].tolist()
-    return HandPose(downward(x, y), depth, bool(holds))
 
 
 def status_items(
