@@ -8,7 +8,7 @@ import pytest
 from app.compose import trial
 from app.compose.exercise_ct import load_risks
 from app.compose.exercise_field import trial_plan
-from app.compose.skill_scores import SkillOutcome, ordered_seeds, ordered_share, run_trial
+from app.compose.skill_scores import SkillOutcome, ordered_seeds, ordered_share, skill_outcomes
 from app.compose.trainer import TrainerSetup, build_loop, pictures_of
 from app.compose.trial import Trials, attempt
 from app.compose.trial_parts import PlayedHand
@@ -365,7 +365,7 @@ def test_in_every_shipped_exercise_novices_fail_and_experts_pass_in_their_order(
     if exercise.structures:  # on a coarse CT, which is made in a moment; measuring takes longer
         coarse = load_ct(phantom_series(exercise.ct.phantom.seed, slices=100, rows=160))
         seeds, risks = 1, load_risks(exercise, coarse)
-    found = run_trial(exercise, seeds, ("novice", "competent", "expert"), risks)
+    found = skill_outcomes(exercise, seeds, ("novice", "competent", "expert"), risks)
     assert ordered_seeds(found) == 1.0, found
     assert not any(found[0].passed)
     assert all(found[-1].passed)
@@ -427,7 +427,7 @@ def test_the_command_prints_a_row_for_each_skill_and_the_same_as_json(monkeypatc
         one = SkillOutcome("novice", (40.0, 50.0, 60.0), (False, False, True), 24.0)
         return one, SkillOutcome("expert", (90.0, 95.0, 99.0), (True, True, True), 12.0)
 
-    monkeypatch.setattr(skill_scores, "run_trial", quick)
+    monkeypatch.setattr(skill_scores, "skill_outcomes", quick)
     shown = CliRunner().invoke(command.app, ["trial", "first-insertion"])
     assert shown.exit_code == 0, shown.output
     assert "novice         50.0   45.0  55.0    33 %   24 s" in shown.output
