@@ -1,18 +1,32 @@
 """The two scripts at the window: what they see of the breath, when, and when they act."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
 from virtual_student import Student
 
-from app.compose.pointer_hands import LATE, LOOK, STROKE_MM, Desk, Eyes, Sight, careful_hand
+from app.compose.pointer_hands import (
+    LATE,
+    LOOK,
+    PAD_PX,
+    STROKE_MM,
+    Desk,
+    Eyes,
+    Sight,
+    careful_hand,
+)
 from app.core import state_vector as sv
 from app.core.units import MILLIMETRE
-from app.session.pad.geometry import PadScale, path_frame
-from app.session.pad.hand import HandLimits, HandPose, PadHand
+from app.exercises.parts import ViewName
+from app.planning.off_path import offset
+from app.session.needle import DepthSource
+from app.session.pad.geometry import path_frame
+from app.session.pad.hand import HandPose
+from app.session.pad.readings import needle_line
+from app.session.pad.view import NeedleLine, PadScene
 from app.session.shown_views import Shown
-from app.session.snapshot import NextSteps, StepKind, excursion
+from app.session.snapshot import NextSteps, Snapshot, StepKind, excursion
 
 GATE = 2e-3
 """Half width of the breath strip's band [m]."""
@@ -25,16 +39,18 @@ def student(tmp_path):
     made.close()
 
 
-def eyes_of(student: Student) -> tuple[Eyes, PadScale]:
+def scene_of(student: Student) -> PadScene:
+    return PadScene.of(student.trainer._placed, student.rig.profile, (2e-3, 5e-3), 2e-3)
+
+
+def eyes_of(student: Student, shown: Shown | None = None) -> Eyes:
     placed = student.trainer._placed
-    frame = path_frame(placed.axis, placed.T_world_patient.rotation)
-    scale = PadScale(placed.length, 2e-3)
     steps = NextSteps(placed, 2e-3, 2e-3)
-    return Eyes(Shown(), placed, frame, scale, steps, GATE), scale
+    return Eyes(shown or Shown(), placed, scene_of(student), steps, GATE)
 
 
 def test_the_breath_is_seen_as_the_strip_shows_it(student: Student) -> None:
-    eyes, _ = eyes_of(student)
+    eyes = eyes_of(student)
     student.trainer.begin()
     for _ in range(60):
         snapshot = student.trainer.step(20)
@@ -51,15 +67,72 @@ def test_the_breath_is_seen_as_the_strip_shows_it(student: Student) -> None:
 
 
 def sight(time: float, remaining: float, rests: bool) -> Sight:
-    return Sight(time, np.zeros(2), np.zeros(2), remaining, StepKind.LOOK, rests)
+    return Sight(time, np.zeros(2), remaining, StepKind.LOOK, rests)
+
+
+def bent_beside_a_moved_target(student: Student) -> tuple[Snapshot, NeedleLine]:
+    """A needle in the body, its tip bent off its line, the target moved by the breath."""
+    student.trainer.begin()
+    for _ in range(60):
+        snapshot = student.trainer.step(20)
+    placed = student.trainer._placed
+    frame = path_frame(placed.axis, placed.T_world_patient.rotation)
+    axis = placed.axis + 0.05 * frame.right - 0.03 * frame.up
+    axis /= np.linalg.norm(axis)
+    tip = placed.p_entry + 0.04 * axis + 3e-3 * frame.up
+    pose = replace(snapshot.pose, p_tip=tip, axis=axis, depth=0.04, valid=True,
+                   depth_source=DepthSource.TRACKED)  # fmt: skip
+    target = placed.p_target + np.array([2e-3, 1e-3, -4e-3])
+    away = offset(tip, axis, placed, target)
+    moved = replace(snapshot, pose=pose, p_target=target, offset=away)
+    view = needle_line(moved, student.rig.profile.needle_length, 5.0)
+    assert view is not None
+    return moved, view
+
+
+def test_they_see_the_dot_that_the_pad_draws_and_nothing_else_of_the_needle(
+    student: Student,
+) -> None:
+    moved, view = bent_beside_a_moved_target(student)
+    scene = scene_of(student)
+    sight = eyes_of(student).read(moved)
+    assert sight is not None
+    assert sight.dot == pytest.approx(view.dot(scene), abs=0.5 / PAD_PX + 1e-12)
+    tip = view.place(scene, view.offset.across)
+    assert np.hypot(*(tip - sight.dot)) > 5.0 / PAD_PX, "the tip is elsewhere, and not seen"
+    assert {one.name for one in fields(Sight)} == {"time", "dot", "remaining", "order", "rests"}
+    assert sight.remaining == pytest.approx(view.offset.remaining / MILLIMETRE, abs=0.05)
+
+
+def test_a_way_left_that_nobody_measures_is_no_figure(student: Student) -> None:
+    moved, _ = bent_beside_a_moved_target(student)
+    guessed = replace(moved, pose=replace(moved.pose, depth_source=DepthSource.MODEL))
+    assert eyes_of(student).read(guessed) is None
+    eyes = eyes_of(student)
+    before = eyes.read(moved)
+    further = replace(guessed, offset=replace(guessed.offset, remaining=0.0))
+    assert eyes.read(further).remaining == before.remaining, "the last figure is remembered"
+
+
+def test_without_a_pad_they_read_dot_and_way_off_the_slices_by_pixels(student: Student) -> None:
+    moved, view = bent_beside_a_moved_target(student)
+    scene = scene_of(student)
+    views = frozenset({ViewName.LIVE_OVERLAY, ViewName.TARGET_MOTION})
+    sight = eyes_of(student, Shown(views=views, orders=False)).read(moved)
+    assert sight is not None
+    assert sight.order is StepKind.LOOK
+    assert sight.remaining == round(view.offset.remaining / MILLIMETRE)
+    pixels = scene.scale.tilts(sight.dot) * scene.scale.length / MILLIMETRE
+    assert pixels == pytest.approx(np.round(pixels), abs=1e-6)
+    seen = scene.scale.tilts(view.dot(scene)) * scene.scale.length / MILLIMETRE
+    assert pixels == pytest.approx(seen, abs=0.5 + 1e-6)
+    assert eyes_of(student, Shown(views=frozenset())).read(moved) is None
 
 
 def test_the_careful_hand_pushes_only_while_the_strip_is_in_its_band(student: Student) -> None:
     """A needle that follows at once, a breath of 4 s that rests for 1.7 s, the screen seen late."""
-    _, scale = eyes_of(student)
     placed = student.trainer._placed
-    frame = path_frame(placed.axis, placed.T_world_patient.rotation)
-    hand = PadHand(frame, scale, HandLimits(0.6, -0.05, 0.15), HandPose(placed.axis, 0.0, True))
+    hand = scene_of(student).hand(HandPose(placed.axis, 0.0, True))
     desk, pushed, last = Desk(hand, 0.3, None), [], 0.0
     moves = careful_hand(desk)
 

@@ -5,19 +5,20 @@ import json
 import numpy as np
 import pytest
 
-from app.compose import trial
+from app.compose import pointer_trial, skill_scores, trial
 from app.compose.exercise_ct import load_risks
 from app.compose.exercise_field import trial_plan
-from app.compose.skill_scores import SkillOutcome, ordered_seeds, ordered_share, run_trial
+from app.compose.skill_scores import SkillOutcome, ordered_seeds, ordered_share, skill_outcomes
 from app.compose.trainer import TrainerSetup, build_loop, pictures_of
 from app.compose.trial import Trials, attempt
-from app.compose.trial_parts import PlayedHand
+from app.compose.trial_parts import PlayedHand, Trial
 from app.core import paths
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.exercises.library import load_exercise
-from app.exercises.parts import LawPart
+from app.exercises.parts import LawPart, LayersFrom
 from app.exercises.scene import device_of, placed_plan_of
+from app.exercises.tissue import layers_along
 from app.imaging.phantom.series import phantom_series
 from app.imaging.reading import load_ct
 from app.session.fusion import fix_depth
@@ -365,7 +366,7 @@ def test_in_every_shipped_exercise_novices_fail_and_experts_pass_in_their_order(
     if exercise.structures:  # on a coarse CT, which is made in a moment; measuring takes longer
         coarse = load_ct(phantom_series(exercise.ct.phantom.seed, slices=100, rows=160))
         seeds, risks = 1, load_risks(exercise, coarse)
-    found = run_trial(exercise, seeds, ("novice", "competent", "expert"), risks)
+    found = skill_outcomes(exercise, seeds, ("novice", "competent", "expert"), risks)
     assert ordered_seeds(found) == 1.0, found
     assert not any(found[0].passed)
     assert all(found[-1].passed)
@@ -421,13 +422,12 @@ def test_the_command_prints_a_row_for_each_skill_and_the_same_as_json(monkeypatc
     from typer.testing import CliRunner
 
     from app.commands import exercise as command
-    from app.compose import skill_scores
 
     def quick(exercise, seeds, risks=(), progress=None, script="hand"):
         one = SkillOutcome("novice", (40.0, 50.0, 60.0), (False, False, True), 24.0)
         return one, SkillOutcome("expert", (90.0, 95.0, 99.0), (True, True, True), 12.0)
 
-    monkeypatch.setattr(skill_scores, "run_trial", quick)
+    monkeypatch.setattr(skill_scores, "skill_outcomes", quick)
     shown = CliRunner().invoke(command.app, ["trial", "first-insertion"])
     assert shown.exit_code == 0, shown.output
     assert "novice         50.0   45.0  55.0    33 %   24 s" in shown.output
@@ -435,3 +435,31 @@ def test_the_command_prints_a_row_for_each_skill_and_the_same_as_json(monkeypatc
     found = json.loads(told.stdout)["facts"]
     assert [row["median"] for row in found["skills"]] == [50.0, 95.0]
     assert found["ordered_share"] == 1.0
+
+
+def test_skills_and_hands_at_the_window_meet_the_layers_of_the_ct(monkeypatch):
+    drawn = layered("first-insertion").model_copy(update={"layers_from": LayersFrom.CT})
+    coarse = load_ct(phantom_series(drawn.ct.phantom.seed, slices=100, rows=160))
+    monkeypatch.setattr(skill_scores, "read_ct", lambda _: coarse)
+    met, there = [], layers_along(coarse, placed_of(drawn).plan)
+    assert there != drawn.layers
+
+    def quick(exercise, placed, name, seed, risks, tissues):
+        met.append((name, seed, exercise.layers))
+        return Trial(None, 10.0 * seed)
+
+    monkeypatch.setattr(pointer_trial, "pointer_attempt", quick)
+    mouse, careful = pointer_trial.pointer_outcomes(drawn, 3)
+    assert met == [(name, seed, there) for name in ("mouse", "careful") for seed in (1, 2, 3)]
+    assert (mouse.skill, careful.skill, mouse.void, mouse.duration) == ("mouse", "careful", 3, 20.0)
+
+    class Quick:
+        def __init__(self, exercise, *rest):
+            met.append(exercise.layers)
+
+        def score(self, skill, seed):
+            return Trial(None, float(seed))
+
+    monkeypatch.setattr(skill_scores, "Trials", Quick)
+    assert skill_outcomes(drawn, 1, ("expert",))[0].duration == 1.0
+    assert met[-1] == there

@@ -1,4 +1,4 @@
-"""The hand of mouse, keys, pen and gamepad: its start, its clock, its unsteadiness, its replay."""
+"""The hand of mouse, keys, pen tablet and gamepad: its start, clock, unsteadiness and replay."""
 
 from dataclasses import replace
 from math import degrees
@@ -10,7 +10,6 @@ from scipy.signal import welch
 from virtual_student import Student
 
 from app.compose.trainer import build_rig, loop_table, replay_recording
-from app.compose.unsteady import LEVEL_1, LEVEL_5
 from app.core import state_vector as sv
 from app.exercises.library import load_exercise
 from app.session.beginnings import LEAST_OFF, MOST_OFF, Beginnings
@@ -19,6 +18,7 @@ from app.session.recording import read_recording
 from app.session.shown_views import Shown
 from app.session.snapshot import NextSteps, StepKind
 from app.session.trainer import Trainer
+from app.simulation.unsteady import LEVEL_1, LEVEL_5
 from app.simulation.unsteady_hand import NAME
 
 MEASURED_TREMOR = (15e-6, 254e-6)
@@ -154,6 +154,42 @@ def test_an_attempt_with_an_unsteady_hand_is_recomputed_to_the_last_bit(student:
     values[:, recording.inputs.columns.index("hand_seed")] += 1.0
     other = replace(recording, inputs=replace(recording.inputs, values=values))
     assert not replay_recording(other).identical, "the seed is what the hand follows from"
+
+
+def test_a_hand_that_takes_over_from_the_arm_is_as_unsteady_as_one_that_began(
+    student: Student,
+) -> None:
+    beginnings(student, level=4)
+    student.trainer.begin(hand="arm")
+    for _ in range(50):
+        student.trainer.step(20)
+    row = student.rig.loop.latest().row
+    assert not row[[sv.HAND_LEVEL, sv.UNSTEADY_X, sv.UNSTEADY_DEPTH]].any(), "the arm is steady"
+    student.trainer.take_over("mouse")
+    x, y, depth = wanted(student)
+    sizes = []
+    for k in range(150):
+        student.trainer.hand(x, y, depth + 2e-4 * k)
+        student.trainer.step(20)
+        row = student.rig.loop.latest().row
+        sizes.append(np.abs(row[[sv.UNSTEADY_X, sv.UNSTEADY_Y, sv.UNSTEADY_DEPTH]]))
+    assert sizes[0].max() < 1e-3, "taken over without a jump"
+    assert np.max(sizes, axis=0).min() > 1e-5
+    seed = row[sv.HAND_SEED]
+    recording = read_recording(student.trainer.end().record)
+    levels = recording.inputs.column("hand_level")
+    assert (levels.min(), levels.max()) == (0.0, 4.0)
+    assert recording.inputs.column("hand_seed").max() == seed > 0.0
+    assert replay_recording(recording).identical
+    student.trainer.begin(hand="arm")
+    student.trainer.step(20)
+    student.trainer.take_over("keyboard")
+    student.trainer.step(20)
+    assert student.rig.loop.latest().row[sv.HAND_SEED] != seed, "another time, another hand"
+    student.trainer.take_over("arm")
+    student.trainer.step(20)
+    assert student.rig.loop.latest().row[sv.HAND_LEVEL] == 0.0
+    student.trainer.end()
 
 
 def test_a_steady_hand_is_recorded_as_such_and_has_no_noise(student: Student) -> None:

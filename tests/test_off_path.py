@@ -19,13 +19,14 @@ from app.exercises.scene import device_of, placed_plan_of
 from app.planning.off_path import offset, path_to
 from app.planning.plan import Plan
 from app.session.curves import curves
-from app.session.pad.view import PadView, depth_tolerance, rings
+from app.session.pad.readings import needle_line
+from app.session.pad.view import NeedleLine, depth_tolerance, rings
 from app.session.recording import read_recording
 from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.conductor import LiveNeedle
-from app.views.exercise.readings import figures, pad_view
+from app.views.exercise.readings import figures
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.target_motion import TargetMotion
 from tests.layered import layered
@@ -121,7 +122,7 @@ def test_panel_bullseye_slices_record_and_score_say_the_same_of_a_tick(
         if not snapshot.pose.measured:
             continue
         panel = figures(snapshot, 5.0)
-        widget.show_view(pad_view(snapshot))
+        widget.show_view(needle_line(snapshot))
         motion.show(run, snapshot)
         live.show(run, snapshot)
         away = said(widget._lateral.text())
@@ -179,7 +180,7 @@ def test_a_bent_needle_is_one_needle_for_panel_slices_record_and_score(
     # The needle, tilted, has bent back: nearer to its channel than the straight line says.
     straight = offset(pose.p_straight, pose.axis, run.placed, last.p_target)
     assert last.offset.lateral < 0.7 * straight.lateral
-    kept, panel, view = Kept(), figures(last, 5.0), pad_view(last)
+    kept, panel, view = Kept(), figures(last, 5.0), needle_line(last)
     LiveNeedle(kept).show(run, last)
     way = run.placed.plan.direction
     beyond = kept.needle.tip_mm - run.placed.plan.target_mm
@@ -225,7 +226,7 @@ def test_at_target_is_said_only_within_the_tolerance_across_too(tmp_path, applic
     run, snapshots, _ = attempt("first-insertion", tmp_path, seconds=5.0, steer=steer)
     widget.set_scene(run.scene(), interactive=False)
     for snapshot in snapshots[::10]:
-        widget.show_view(pad_view(snapshot))
+        widget.show_view(needle_line(snapshot))
         texts.append((widget._remaining.text(), snapshot.offset))
     near = [(text, off) for text, off in texts if abs(off.remaining) < run.depth_tolerance]
     assert near, "the needle came as deep as the target"
@@ -242,7 +243,7 @@ def test_rings_and_target_stand_where_breathing_has_the_target(tmp_path, applica
     def dot(to):
         axis = (to - entry) / np.linalg.norm(to - entry)
         away = offset(entry + depth * axis, axis, run.placed, target)
-        return PadView(axis, away, depth, True).dot(scene)
+        return NeedleLine(axis, away, depth, True).dot(scene)
 
     # A needle that points at the target as it is now has its dot in the middle of the rings.
     assert np.allclose(dot(target), 0.0, atol=1e-9)

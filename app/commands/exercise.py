@@ -306,10 +306,12 @@ def trial(
         ),
     ] = "hand",
 ) -> Answer:
-    """Try an exercise: what five scripted skills score (instructor). Nothing is recorded."""
+    """Try an exercise: what scripts score, five skills or two hands at the window (instructor).
+
+    Nothing is recorded.
+    """
     from app.commands.calibrate_parts import with_progress
-    from app.compose.pointer_trial import pointer_outcomes
-    from app.compose.skill_scores import ordered_seeds, ordered_share, risks_of, run_trial
+    from app.compose.skill_scores import ordered_seeds, ordered_share, risks_of, skill_outcomes
     from app.core.errors import AcusError
     from app.core.messages import sentence
     from app.exercises.library import load_exercise
@@ -329,8 +331,10 @@ def trial(
     def work(progress: "Progress") -> "tuple[SkillOutcome, ...]":
         risks, rest = risks_of(chosen, progress.part(0.0, 0.2)), progress.part(0.2, 1.0)
         if script == WINDOW:
+            from app.compose.pointer_trial import pointer_outcomes
+
             return pointer_outcomes(chosen, seeds, risks, rest)
-        return run_trial(chosen, seeds, risks=risks, progress=rest, script=Script(script))
+        return skill_outcomes(chosen, seeds, risks=risks, progress=rest, script=Script(script))
 
     outcomes = with_progress(work)
     rows: list[dict[str, Any]] = []

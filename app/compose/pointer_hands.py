@@ -1,7 +1,8 @@
 """Two scripted people at the window: one who only drags and wheels, one who plans and checks.
 
-Both see what the screen shows at the exercise's level, a fifth of a second late, and move the hand
-that mouse and wheel move (`session.pad.hand`); nothing else is known to them. They are scripts: no
+Both see what the screen shows at the exercise's level, a fifth of a second late: the one dot of the
+pad, or the needle on the slices, the way left, the order, the breath. They move the hand that mouse
+and wheel move (`session.pad.hand`); nothing else is known to them. They are scripts: no
 person has been measured against them.
 """
 
@@ -10,7 +11,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from math import atan2, hypot, inf
+from math import hypot, inf
 from typing import Final
 
 import numpy as np
@@ -19,8 +20,9 @@ from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
 from app.exercises.parts import ViewName
 from app.planning.placement import PlacedPlan
-from app.session.pad.geometry import PadScale, PathFrame
 from app.session.pad.hand import PadHand
+from app.session.pad.readings import needle_line
+from app.session.pad.view import PadScene
 from app.session.shown_views import Shown
 from app.session.snapshot import NextSteps, Snapshot, StepKind, excursion
 
@@ -49,20 +51,19 @@ DRAG: Final = 1.5
 
 @dataclass(frozen=True, slots=True)
 class Sight:
-    """All that can be read off the screen at one moment.
+    """The part of the screen that both look at, at one moment; nothing else of the needle.
 
     Attributes:
         time: moment [s].
-        heading: where on the pad the needle is heading, (2,), in radii of the pad.
-        tip: where on it the tip is, (2,).
-        remaining: along the needle to the target [mm].
-        order: the next step as the line says it.
+        dot: place of the pad's dot, (2,), in radii of the pad: where the needle's line passes the
+            target; without a pad, as the slices show it.
+        remaining: to the target [mm]: the rail's figure; without it, as the slices show it.
+        order: the next step as the line says it, none from the level on where nobody orders.
         rests: whether the breath strip is within its band; true where nothing breathes.
     """
 
     time: float
-    heading: FloatArray
-    tip: FloatArray
+    dot: FloatArray
     remaining: float
     order: StepKind
     rests: bool
@@ -72,45 +73,37 @@ class Eyes:
     """Reads snapshots as the window shows them."""
 
     def __init__(
-        self,
-        shown: Shown,
-        placed: PlacedPlan,
-        frame: PathFrame,
-        scale: PadScale,
-        steps: NextSteps,
-        gate: float,
+        self, shown: Shown, placed: PlacedPlan, scene: PadScene, steps: NextSteps, gate: float
     ) -> None:
         """`gate`: half width of the breath strip's band [m]."""
-        self._shown, self._placed = shown, placed
-        self._frame, self._scale, self._steps, self._gate = frame, scale, steps, gate
+        self._shown, self._placed, self._scene = shown, placed, scene
+        self._steps, self._gate = steps, gate
+        self._figure: float | None = None
 
     def read(self, snapshot: Snapshot) -> Sight | None:
         """Return what is there to be read; None where no needle is shown."""
         shown = self._shown.of(snapshot, self._placed)
+        line = needle_line(shown)
         pad = self._shown.shows(ViewName.BULLSEYE)
-        if not shown.pose.valid or not (pad or self._shown.shows(ViewName.LIVE_OVERLAY)):
+        if line is None or not (pad or self._shown.shows(ViewName.LIVE_OVERLAY)):
             return None
-        across = shown.offset.across
-        tip_mm = np.array([across @ self._frame.right, across @ self._frame.up]) / MILLIMETRE
-        tilts, remaining = self._frame.tilts(shown.pose.axis), shown.offset.remaining / MILLIMETRE
+        dot, remaining = line.dot(self._scene), line.offset.remaining / MILLIMETRE
         if pad:
-            tip = _grid(self._place(tip_mm), 1.0 / PAD_PX)
-            heading, remaining = _grid(self._scale.place(tilts), 1.0 / PAD_PX), round(remaining, 1)
-        else:  # read off the slices: the tip, and a line from it back to the entry
-            length_mm = self._placed.length / MILLIMETRE
-            tip = self._place(_grid(tip_mm, CT_PX_MM))
-            heading = self._place(_grid(tilts * length_mm, CT_PX_MM))
-            remaining = CT_PX_MM * round(remaining / CT_PX_MM)
+            dot = _grid(dot, 1.0 / PAD_PX)
+            if line.measured:  # else the rail has no figure: the last one is remembered
+                self._figure = round(remaining, 1)
+        else:
+            dot, self._figure = self._on_slices(dot), CT_PX_MM * round(remaining / CT_PX_MM)
+        if self._figure is None:
+            return None
         order = self._steps.of(shown, self._shown.live, self._shown.orders).kind
         rests = (excursion(snapshot) or 0.0) <= self._gate
-        return Sight(snapshot.time, heading, tip, remaining, order, rests)
+        return Sight(snapshot.time, dot, self._figure, order, rests)
 
-    def _place(self, across_mm: FloatArray) -> FloatArray:
-        """Place on the pad of what lies so far off the path [mm] at the target."""
-        away = hypot(*across_mm) * MILLIMETRE
-        angle = atan2(away, self._placed.length)
-        tilts = across_mm * (angle / max(hypot(*across_mm), 1e-9))
-        return self._scale.place(tilts)
+    def _on_slices(self, dot: FloatArray) -> FloatArray:
+        """Return the dot where the needle's line passes the target to a pixel of the CT."""
+        scale, length_mm = self._scene.scale, self._scene.scale.length / MILLIMETRE
+        return scale.place(_grid(scale.tilts(dot) * length_mm, CT_PX_MM) / length_mm)
 
 
 def _grid(values: FloatArray, step: float) -> FloatArray:
@@ -151,8 +144,7 @@ class Desk:
         some = [one for one in self._screens if seen.time - duration < one.time <= seen.time]
         return Sight(
             seen.time,
-            np.mean([one.heading for one in some], axis=0),
-            np.mean([one.tip for one in some], axis=0),
+            np.mean([one.dot for one in some], axis=0),
             float(np.mean([one.remaining for one in some])),
             seen.order,
             all(one.rests for one in some),
@@ -197,9 +189,9 @@ def perfect_mouse(desk: Desk) -> Moves:
     """Drag the dot straight to the middle and wheel in until the depth is right: no second look."""
     yield from _wait(0.5)
     for _ in range(4):
-        yield from _drag(desk, -desk.seen.heading)
+        yield from _drag(desk, -desk.seen.dot)
         yield from _wait(0.5)
-        if hypot(*desk.seen.heading) <= desk.ring:
+        if hypot(*desk.seen.dot) <= desk.ring:
             break
     for _ in range(6):
         if desk.seen.order in (StepKind.HOLD, StepKind.FINISH):
@@ -235,20 +227,19 @@ def careful_hand(desk: Desk) -> Moves:
         yield from _await_breath(desk)
         yield from _wait(0.4)
         seen = desk.watched(0.3)
-        if abs(seen.remaining) < 0.6 and hypot(*seen.tip) < desk.ring and seen.rests:
+        if abs(seen.remaining) < 0.6 and hypot(*seen.dot) < desk.ring and seen.rests:
             break
 
 
 def _align(desk: Desk, tries: int) -> Moves:
-    """Bring tip and heading to the middle by small corrections, each looked at."""
+    """Bring the dot to the middle by small corrections, each looked at."""
     for _ in range(tries):
         yield from _await_breath(desk)
         yield from _wait(0.3)
         seen = desk.watched(0.3)
-        error = 0.5 * (seen.heading + seen.tip) if seen.remaining < STROKE_MM else seen.heading
-        if hypot(*error) < 0.5 * desk.ring:
+        if hypot(*seen.dot) < 0.5 * desk.ring:
             return
-        yield from _drag(desk, -0.7 * error)
+        yield from _drag(desk, -0.7 * seen.dot)
         yield from _wait(0.3)
 
 

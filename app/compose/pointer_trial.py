@@ -6,27 +6,23 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from app.compose.exercise_field import resolve_tissue, tissues_of, trial_plan
 from app.compose.needle import measured_axis, needle_scene
 from app.compose.pointer_hands import HANDS, Desk, Eyes
-from app.compose.skill_scores import SkillOutcome, outcome
-from app.compose.trainer import TrainerSetup, build_loop, pictures_of
-from app.compose.trial import BEGIN, SETTLED, STEP_TICKS
-from app.compose.trial_parts import NoRecords
-from app.core import state_vector as sv
+from app.compose.skill_scores import Resolved, SkillOutcome, run_trial
+from app.compose.trainer import TrainerSetup, beginnings_of, build_loop, pictures_of
+from app.compose.trial_parts import BEGIN, STEP_TICKS, virtual_trainer
 from app.core.clock import VirtualClock
 from app.core.progress import Progress
-from app.exercises.scene import device_of, placed_plan_of
-from app.session.beginnings import Beginnings
-from app.session.fixes import DepthTrust
+from app.exercises.scene import device_of
 from app.session.machine import State
-from app.session.pad.geometry import PadScale, downward, path_frame
-from app.session.pad.hand import HandLimits, HandPose, PadHand
-from app.session.pad.view import depth_tolerance_of, rings_of
+from app.session.pad.geometry import downward
+from app.session.pad.hand import HandPose
+from app.session.pad.readings import hand_pose
+from app.session.pad.view import PadScene, depth_tolerance_of, rings_of
 from app.session.shown_views import Shown
 from app.session.snapshot import NextSteps
 from app.session.trainer import Trainer
-from app.session.withdrawal import WAITS, Start
+from app.session.withdrawal import WAITS
 from app.tracking.optics.rig import load_rig
 from app.tracking.simulated.sampled import SampledTracker, Spoiled
 
@@ -68,31 +64,8 @@ def pointer_attempt(
     scene, axis = needle_scene(loop, profile, rig.needle.marker_offset), measured_axis(loop)
     spoiled = Spoiled.by(pictures_of(exercise, profile), rig.blur_px)
     tracker = SampledTracker(rig, profile.fulcrum, scene, axis, seed, spoiled)
-
-    def measure(now: float) -> None:
-        for fix in tracker.due(now):
-            trainer.on_fix(fix)
-
-    trainer = Trainer(
-        loop,
-        None,
-        placed,
-        exercise,
-        NoRecords.of(exercise, seed),
-        clock,
-        measure,
-        risks=risks,
-        tissues=tissues,
-        trust=DepthTrust(profile.hand.depth_speed),
-        start=Start.SIMULATED,
-        beginnings=Beginnings(seed, exercise.hand_level, profile.tilt_limit),
-    )
-    loop.open()
-    try:
-        trainer.step(STEP_TICKS)
-        tracker.begin(clock.now())
-        while clock.now() < BEGIN + SETTLED:
-            trainer.step(STEP_TICKS)
+    begins = beginnings_of(setup, profile)
+    with virtual_trainer(setup, loop, profile, tracker, risks, begins) as trainer:
         trainer.begin(hand="mouse")
         snapshot = trainer.step(STEP_TICKS)
         while snapshot.state is State.WITHDRAWING and not snapshot.ready:
@@ -100,27 +73,18 @@ def pointer_attempt(
         _play(trainer, exercise, placed, name)
         result = trainer.result
         return trainer.end() if result is None else result
-    finally:
-        loop.close()
 
 
 def _play(trainer: Trainer, exercise: Exercise, placed: PlacedPlan, name: str) -> None:
     profile, rings = device_of(exercise), rings_of(exercise)
-    frame = path_frame(placed.axis, placed.T_world_patient.rotation)
-    scale = PadScale(placed.length, rings[0])
-    steps = NextSteps(placed, rings[0], depth_tolerance_of(exercise))
-    eyes = Eyes(Shown.of_exercise(exercise), placed, frame, scale, steps, rings[0])
-    snapshot = trainer.snapshot()
-    row = snapshot.device.row if snapshot.device is not None else None
-    direction = (
-        downward(0.0, 0.0)
-        if row is None
-        else downward(float(row[sv.HAND_X]), float(row[sv.HAND_Y]))
-    )
-    limits = HandLimits(profile.tilt_limit, *profile.depth_range)
-    hand = PadHand(frame, scale, limits, HandPose(direction, WAITS, True))
+    along = depth_tolerance_of(exercise)
+    scene = PadScene.of(placed, profile, rings, along, exercise.touch is not None)
+    steps = NextSteps(placed, rings[0], along)
+    eyes = Eyes(Shown.of_exercise(exercise), placed, scene, steps, rings[0])
+    nowhere = HandPose(downward(0.0, 0.0), WAITS, True)
+    hand = scene.hand(hand_pose(trainer.snapshot()) or nowhere)
     told = trainer.hold_breath if exercise.longest_hold is not None else None
-    ring = float(np.hypot(*scale.place(np.array([rings[0] / placed.length, 0.0]))))
+    ring = float(np.hypot(*scene.scale.place(np.array([rings[0] / placed.length, 0.0]))))
     desk, moves = Desk(hand, ring, told), None
     while trainer.snapshot().elapsed < LONGEST and trainer.result is None:
         desk.show(eyes.read(trainer.step(STEP_TICKS)))
@@ -147,17 +111,9 @@ def pointer_outcomes(
         AcusError: if the exercise cannot be used at all; says why.
         Cancelled: if `progress` was cancelled.
     """
-    progress, outcomes = progress or Progress(), []
-    placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
-    tissues = tissues_of(exercise, placed.plan)
-    exercise, _ = resolve_tissue(exercise, placed, tissues)
-    for number, name in enumerate(HANDS):
-        part = progress.part(number / len(HANDS), (number + 1) / len(HANDS))
-        results = []
-        for seed in range(1, seeds + 1):
-            part.report((seed - 1) / seeds, name)
-            results.append(pointer_attempt(exercise, placed, name, seed, risks, tissues))
-        scores, durations = [r.score for r in results], [r.duration for r in results]
-        outcomes.append(outcome(name, scores, durations))
-    progress.report(1.0)
-    return tuple(outcomes)
+    on = Resolved.of(exercise)
+
+    def play(name: str, seed: int) -> AttemptResult:
+        return pointer_attempt(on.exercise, on.placed, name, seed, risks, on.tissues)
+
+    return run_trial(tuple(HANDS), play, seeds, progress)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol, Self
 
 import numpy as np
 
@@ -21,6 +21,8 @@ from app.simulation.skills import SKILLS
 
 if TYPE_CHECKING:
     from app.exercises.schema import Exercise
+    from app.imaging.field import TissueField
+    from app.planning.placement import PlacedPlan
     from app.scoring.result import Score
     from app.session.risks import Risk
 
@@ -86,7 +88,80 @@ def outcome(skill: str, scores: Sequence[Score | None], durations: Sequence[floa
     )
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Resolved:
+    """An exercise as attempts at it need it.
+
+    Attributes:
+        exercise: with its layers and its tissue.
+        placed: its plan in the robot's frame.
+        tissues: field of the patient; None without one.
+    """
+
+    exercise: Exercise
+    placed: PlacedPlan
+    tissues: TissueField | None
+
+    @classmethod
+    def of(cls, exercise: Exercise) -> Self:
+        """Read what the exercise takes from its CT.
+
+        Raises:
+            AcusError: if the exercise cannot be used; says why.
+        """
+        placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
+        if exercise.layers_from is LayersFrom.CT:
+            exercise = with_tissue(exercise, read_ct(exercise), placed.plan)
+        tissues = tissues_of(exercise, placed.plan)
+        exercise, _ = resolve_tissue(exercise, placed, tissues)
+        return cls(exercise, placed, tissues)
+
+
+class Attempted(Protocol):
+    """An attempt that is over."""
+
+    @property
+    def score(self) -> Score | None:
+        """Return its score; None where it could not be scored."""
+
+    @property
+    def duration(self) -> float:
+        """Return how long it took [s]."""
+
+
 def run_trial(
+    players: Sequence[str],
+    play: Callable[[str, int], Attempted],
+    seeds: int = 20,
+    progress: Progress | None = None,
+) -> tuple[SkillOutcome, ...]:
+    """Let every player play once per seed.
+
+    An attempt that the robot's safety ends counts as one without a score.
+
+    Args:
+        players: by name.
+        play: does an attempt of a player with a seed.
+        seeds: how many; they are 1 and on.
+        progress: of all attempts.
+
+    Raises:
+        Cancelled: if `progress` was cancelled.
+    """
+    progress, outcomes = progress or Progress(), []
+    for number, player in enumerate(players):
+        part = progress.part(number / len(players), (number + 1) / len(players))
+        results = []
+        for seed in range(1, seeds + 1):
+            part.report((seed - 1) / seeds, player)
+            results.append(play(player, seed))
+        scores = [result.score for result in results]
+        outcomes.append(outcome(player, scores, [result.duration for result in results]))
+    progress.report(1.0)
+    return tuple(outcomes)
+
+
+def skill_outcomes(
     exercise: Exercise,
     seeds: int = 20,
     skills: Sequence[str] = tuple(SKILLS),
@@ -96,29 +171,13 @@ def run_trial(
 ) -> tuple[SkillOutcome, ...]:
     """Let every skill do the exercise once per seed; the least skilled first.
 
-    An attempt that the robot's safety ends counts as one without a score.
-
     Raises:
         AcusError: if the exercise cannot be used at all; says why.
         Cancelled: if `progress` was cancelled.
     """
-    progress = progress or Progress()
-    placed = placed_plan_of(exercise, device_of(exercise), trial_plan(exercise))
-    if exercise.layers_from is LayersFrom.CT:
-        exercise = with_tissue(exercise, read_ct(exercise), placed.plan)
-    tissues = tissues_of(exercise, placed.plan)
-    exercise, _ = resolve_tissue(exercise, placed, tissues)
-    trials, outcomes = Trials(exercise, placed, risks, tissues, script), []
-    for number, skill in enumerate(skills):
-        part = progress.part(number / len(skills), (number + 1) / len(skills))
-        results = []
-        for seed in range(1, seeds + 1):
-            part.report((seed - 1) / seeds, skill)
-            results.append(trials.score(skill, seed))
-        scores = [result.score for result in results]
-        outcomes.append(outcome(skill, scores, [result.duration for result in results]))
-    progress.report(1.0)
-    return tuple(outcomes)
+    on = Resolved.of(exercise)
+    trials = Trials(on.exercise, on.placed, risks, on.tissues, script)
+    return run_trial(skills, trials.score, seeds, progress)
 
 
 def ordered_share(outcomes: Sequence[SkillOutcome]) -> float:

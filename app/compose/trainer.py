@@ -21,7 +21,6 @@ from app.compose.needle_sources import NeedleSource, recorded_table
 from app.compose.robot import Robot, connect
 from app.compose.run_context import agreement_of, run_context, with_exercise
 from app.compose.trainee import trainee_of
-from app.compose.unsteady import hand_unsteady_by_level
 from app.core import paths
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
@@ -55,6 +54,7 @@ from app.session.trainer import Trainer
 from app.session.withdrawal import Start
 from app.simulation.plant import initial_plant, plant_stage
 from app.simulation.trainee import TraineeScript, script_stage
+from app.simulation.unsteady import hand_unsteady_by_level
 from app.tracking.cameras.settings import CameraSettings
 from app.tracking.errors import TrackingError
 from app.tracking.motion.depth_filter import FASTEST
@@ -303,12 +303,12 @@ def _build_rig(
         tissues=setup.tissues,
         trust=DepthTrust(profile.hand.depth_speed, seen=robot is None or real is not None),
         start=Start.SIMULATED if robot is None else Start.REAL,
-        beginnings=_beginnings(setup, profile) if robot is None and setup.skill is None else None,
+        beginnings=beginnings_of(setup, profile) if robot is None and setup.skill is None else None,
     )
     return Rig(setup, profile, loop, tracker, trainer, robot)
 
 
-def _beginnings(setup: TrainerSetup, profile: DeviceProfile) -> Beginnings:
+def beginnings_of(setup: TrainerSetup, profile: DeviceProfile) -> Beginnings:
     """Return where attempts of a person's simulated hand begin: off the path, or on it."""
     drill, level = setup.exercise.drill, setup.exercise.hand_level
     aligned = drill is not None and drill.begins_aligned

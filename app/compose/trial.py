@@ -28,7 +28,16 @@ from app.compose.needle import UPRIGHT, measured_axis, needle_scene
 from app.compose.trainee import trainee_of
 from app.compose.trainer import START_DEPTH, TrainerSetup, build_loop, loop_table, pictures_of
 from app.compose.trial_course import TrialCourse
-from app.compose.trial_parts import NoRecords, PlayedHand, PlayedTrial, RenderedTracker, Trial
+from app.compose.trial_parts import (
+    BEGIN,
+    SETTLED,
+    STEP_TICKS,
+    PlayedHand,
+    PlayedTrial,
+    RenderedTracker,
+    Trial,
+    virtual_trainer,
+)
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.bend import tips_beside
@@ -39,7 +48,7 @@ from app.core.units import MILLIMETRE, MILLISECOND
 from app.device.control import Loop, Table
 from app.exercises.parts import TissueSource
 from app.exercises.scene import device_of
-from app.session.fixes import AGREEING, FORGOTTEN, DepthTrust
+from app.session.fixes import AGREEING, FORGOTTEN
 from app.session.fusion import across_noise, depth_noise
 from app.session.inputs import LoopInputs
 from app.session.machine import State
@@ -50,9 +59,7 @@ from app.session.samples import Samples
 from app.session.scored import scorer, trajectory
 from app.session.tissues import tissues_met_of
 from app.session.touching import Touching
-from app.session.trainer import Trainer
 from app.session.transitions import LOST
-from app.session.withdrawal import Start
 from app.simulation.hands import Script, named
 from app.simulation.plant import initial_plant
 from app.simulation.skills import find_skill
@@ -77,13 +84,8 @@ if TYPE_CHECKING:
     from app.session.result import AttemptResult
     from app.session.risks import Risk
 
-STEP_TICKS: Final = 20
-"""Ticks of the loop between two looks of the trainer, as in the program at 1 kHz."""
-
-BEGIN: Final = 10.0
-SETTLED: Final = 0.6
 LONGEST: Final = 900.0
-"""Virtual time [s]: of the beginning, for the cameras to be believed, and of an attempt at most."""
+"""Virtual time of an attempt at most [s]."""
 
 STEP: Final = 1.0 * MILLIMETRE
 BEYOND: Final = 20.0 * MILLIMETRE
@@ -154,32 +156,11 @@ def attempt(
 
     began = inf
 
-    def measure(now: float) -> None:
+    def covered(now: float) -> float | None:
         until = None if hand is None else hand.covers(now - began)
-        if until is not None:
-            tracker.cover(began + until)
-        for fix in tracker.due(now):
-            trainer.on_fix(fix)
+        return None if until is None else began + until
 
-    trainer = Trainer(
-        loop,
-        None,
-        placed,
-        exercise,
-        NoRecords.of(exercise, seed),
-        clock,
-        measure,
-        risks=risks,
-        tissues=tissues,
-        trust=DepthTrust(profile.hand.depth_speed),
-        start=Start.SIMULATED,
-    )
-    loop.open()
-    try:
-        trainer.step(STEP_TICKS)
-        tracker.begin(clock.now())
-        while clock.now() < BEGIN + SETTLED:
-            trainer.step(STEP_TICKS)
+    with virtual_trainer(setup, loop, profile, tracker, risks, covered=covered) as trainer:
         trainer.begin()
         began = clock.now()
         while clock.now() < BEGIN + LONGEST:
@@ -191,8 +172,6 @@ def attempt(
             if trainer.result is not None:  # aborted: a fault of the robot, say
                 return trainer.result
         return trainer.end()
-    finally:
-        loop.close()
 
 
 class Trials:

@@ -2,26 +2,44 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from app.core.arrays import FloatArray
 from app.core.units import MILLISECOND
 from app.exercises.parts import TissueSource
+from app.session.beginnings import Beginnings
 from app.session.context import RunContext
+from app.session.fixes import DepthTrust
 from app.session.header import FIELD_FACTS
 from app.session.recorder import Recorder
+from app.session.trainer import Trainer
+from app.session.withdrawal import Start
 from app.simulation.trainee import TraineeScript
 from app.tracking.optics.rig import RigProfile
-from app.tracking.simulated.sampled import PROCESSING
+from app.tracking.simulated.sampled import PROCESSING, SampledTracker
 from app.tracking.tracker import Tracker
 
 if TYPE_CHECKING:
+    from app.compose.trainer import TrainerSetup
+    from app.device.control import Loop
     from app.exercises.schema import Exercise
+    from app.mechanisms.profile import DeviceProfile
     from app.scoring.result import Score
+    from app.session.risks import Risk
     from app.tracking.cameras.camera import Camera
     from app.tracking.fix import NeedleFix
+
+
+STEP_TICKS: Final = 20
+"""Ticks of the loop between two looks of the trainer, as in the program at 1 kHz."""
+
+BEGIN: Final = 10.0
+SETTLED: Final = 0.6
+"""Virtual time [s]: of the beginning, and for the cameras to be believed."""
 
 
 class _Unrecorded(Recorder):
@@ -79,6 +97,62 @@ class RenderedTracker:
         there = [fix for time, fix in self._late if time <= now]
         self._late = [(time, fix) for time, fix in self._late if time > now]
         return there
+
+
+@contextmanager
+def virtual_trainer(
+    setup: TrainerSetup,
+    loop: Loop,
+    profile: DeviceProfile,
+    tracker: SampledTracker | RenderedTracker,
+    risks: tuple[Risk, ...] = (),
+    beginnings: Beginnings | None = None,
+    covered: Callable[[float], float | None] = lambda now: None,
+) -> Iterator[Trainer]:
+    """Put a trainer round a loop, in virtual time, until its cameras are believed; close the loop.
+
+    Args:
+        setup: of the run, with a virtual clock.
+        loop: its own.
+        profile: of the device.
+        tracker: measures the needle.
+        risks: structures that the needle has to keep away from.
+        beginnings: where a person's simulated hand begins; None for where scripts do.
+        covered: says until when the cameras are covered at a time [s]; None where they are not.
+    """
+    clock, exercise = setup.clock, setup.exercise
+
+    def measure(now: float) -> None:
+        until = covered(now)
+        if until is not None:
+            tracker.cover(until)
+        for fix in tracker.due(now):
+            trainer.on_fix(fix)
+
+    trainer = Trainer(
+        loop,
+        None,
+        setup.placed,
+        exercise,
+        NoRecords.of(exercise, setup.seed),
+        clock,
+        measure,
+        risks=risks,
+        tissues=setup.tissues,
+        trust=DepthTrust(profile.hand.depth_speed),
+        start=Start.SIMULATED,
+        beginnings=beginnings,
+    )
+    loop.open()
+    try:
+        begin = clock.now()
+        trainer.step(STEP_TICKS)
+        tracker.begin(clock.now())
+        while clock.now() < begin + SETTLED:
+            trainer.step(STEP_TICKS)
+        yield trainer
+    finally:
+        loop.close()
 
 
 @dataclass(frozen=True, slots=True, eq=False)

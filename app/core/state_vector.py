@@ -316,7 +316,7 @@ BONE_PUSH_X: Final = _scene()  # [N] of bone on the tip across the needle, along
 BONE_PUSH_Y: Final = _scene()
 BONE_PUSH_Z: Final = _scene()
 
-# --- how far the simulated hand is from where it is asked to be: weight, tremor, drift ------------
+# --- the hand is off by this from where it is asked: weight, tremor, unrest, push and tilt --------
 UNSTEADY_X: Final = next(_next)  # [-] added to HAND_X and HAND_Y
 UNSTEADY_Y: Final = next(_next)
 UNSTEADY_DEPTH: Final = next(_next)  # [m] added to HAND_DEPTH

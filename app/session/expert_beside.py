@@ -40,7 +40,7 @@ def expert_beside(own: Review) -> Review | None:
         return None
     with ONE_AT_A_TIME:  # compiled: for who looks at it
         from app.simulation.skills import EXPERT
-        from app.simulation.trainee import write_script
+        from app.simulation.trainee import directions, write_script
     placed, under = own.placed, own.conditions
     exercise = own.drill.of if own.drill is not None else under.exercise
     version = own.drill.version if own.drill is not None else under.version
@@ -63,17 +63,6 @@ def expert_beside(own: Review) -> Review | None:
         origin=0.0,
         measured_force=None,
     )
-
-
-def directions(
-    first: FloatArray, second: FloatArray, axis: FloatArray, basis: FloatArray
-) -> FloatArray:
-    """Turn a path's direction by angles [rad], shapes (n,), towards two others: shape (n, 3)."""
-    angle = np.hypot(first, second)[:, None]
-    share = np.divide(np.sin(angle), angle, out=np.ones_like(angle), where=angle > 1e-9)
-    aside = first[:, None] * basis[0] + second[:, None] * basis[1]
-    turned: FloatArray = np.cos(angle) * axis + share * aside
-    return turned
 
 
 def _samples(

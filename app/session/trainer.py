@@ -298,6 +298,8 @@ class Trainer:
     def take_over(self, hand: str) -> None:
         """Let another hand go on with the needle of a running attempt: told and recorded.
 
+        A person's simulated hand is as unsteady from then on as one that began the attempt.
+
         Args:
             hand: which, one of `session.conditions.HANDS`.
 
@@ -320,8 +322,10 @@ class Trainer:
             depth = float(pose.depth) if pose.measured else None
             at = "" if depth is None else f" at {depth / MILLIMETRE:.0f} mm"
             words = f"taken over by {hand}{at}"
-            if hand not in POINTERS:  # it brings its own steadiness
-                self._inputs.unsteady(0, 0)
+            level, seed = 0, 0  # who leads by itself brings its own steadiness
+            if hand in POINTERS and self._beginnings is not None and self._withdrawal.simulated:
+                level, seed = self._beginnings.goes_on()
+            self._inputs.unsteady(level, seed)
             self._running.say(TAKEN_OVER, words, now, {"hand": hand, "depth_m": depth})
 
     def roll(self, step: float) -> None:

@@ -332,12 +332,24 @@ def tangents(
 ) -> tuple[FloatArray, FloatArray]:
     """Angles e1, e2 [rad] by which directions, (n, 3), are turned from the path, shapes (n,).
 
-    The inverse of the exponential map that the script is played by.
+    The inverse of `directions`.
     """
     along, a, b = axes @ axis, axes @ basis[0], axes @ basis[1]
     sine = np.hypot(a, b)
     turn = np.divide(np.arctan2(sine, along), sine, out=np.ones_like(sine), where=sine > 1e-9)
     return turn * a, turn * b
+
+
+def directions(e1: FloatArray, e2: FloatArray, axis: FloatArray, basis: FloatArray) -> FloatArray:
+    """Directions turned from the path by angles e1, e2 [rad], shapes (n,): shape (n, 3).
+
+    The exponential map that the script is played by.
+    """
+    angle = np.hypot(e1, e2)[:, None]
+    sinc = np.divide(np.sin(angle), angle, out=np.ones_like(angle), where=angle > 1e-9)
+    aside = e1[:, None] * basis[0] + e2[:, None] * basis[1]
+    turned: FloatArray = np.cos(angle) * axis + sinc * aside
+    return turned
 
 
 def _parameters(

@@ -1,8 +1,8 @@
 """A simulated hand that is not steady: weight, tremor, unrest, and push and tilt that are coupled.
 
-Mouse, wheel, keys, stick and pen say where the hand is wanted (HAND_*). A person's hand comes there
-late and never stands still. What it is off goes into UNSTEADY_*, which `mechanisms.hand_motion`
-adds before its own bounds on speed and acceleration:
+Mouse, wheel, keys, pen tablet and gamepad say where the hand is wanted (HAND_*). A person's hand
+comes there late and never stands still. What it is off goes into UNSTEADY_*, which
+`mechanisms.hand_motion` adds before its own bounds on speed and acceleration:
 
 - *weight*: direction and depth follow as a mass on a spring, damping ratio 0.7;
 - *tremor*: noise through a resonance at 10 Hz, half-power band 8 to 12 Hz, across and along;
@@ -15,7 +15,7 @@ adds before its own bounds on speed and acceleration:
 - *tilt and depth*: turning while pushing moves the depth, which stays moved.
 
 Where tissue holds the needle it goes on holding: the plant's springs pull, nothing here moves it.
-Sizes by level, and what each stands on: `compose.unsteady`.
+Sizes by level, and what each stands on: `simulation.unsteady`.
 
 The stage rests while HAND_LEVEL is 0: for scripts, which bring their own hand, for the arm, between
 attempts. Its numbers are uniform ones of a linear congruential generator (Numerical Recipes,

@@ -100,6 +100,6 @@ STUDY: Final = Study(
         "app.compose.trial:Trials",
         "app.compose.trial:attempt",
         "app.compose.exercise_field:trial_plan",
-        "app.compose.skill_scores:run_trial",
+        "app.compose.skill_scores:skill_outcomes",
     ),
 )

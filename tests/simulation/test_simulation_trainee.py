@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, unit
@@ -14,6 +15,7 @@ from app.simulation.skills import EXPERT, NOVICE
 from app.simulation.trainee import (
     STEP,
     ScriptPhase,
+    directions,
     tangent_basis,
     tangents,
     traced_script,
@@ -254,6 +256,9 @@ def test_a_movement_becomes_the_script_that_plays_it(moments):
         e1[:, None] * basis[0] + e2[:, None] * basis[1]
     )
     np.testing.assert_allclose(np.array(tangents(axes, axis, basis)), [e1, e2], atol=1e-9)
+    aside = e1[:, None] * basis[0] + e2[:, None] * basis[1]
+    turned = Rotation.from_rotvec(np.cross(axis, aside)).apply(axis)
+    np.testing.assert_allclose(directions(e1, e2, axis, basis), turned, atol=1e-9)
     script = traced_script(np.arange(len(depth)) * 0.5, axes, depth, axis)
     assert np.isfinite(script.rows).all()
     np.testing.assert_allclose(script.rows[-1, :3], [e1[-1], e2[-1], depth[-1]], atol=1e-9)

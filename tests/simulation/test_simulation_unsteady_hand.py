@@ -8,11 +8,11 @@ Rader and Khosla 1997); errors across a movement grow in proportion to it (doi 1
 import numpy as np
 import pytest
 
-from app.compose.unsteady import HIGHEST, LEVEL_1, LEVEL_5, hand_unsteady_by_level
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.mechanisms.profile import load_profile
 from app.simulation.errors import SimulationError
+from app.simulation.unsteady import HIGHEST, LEVEL_1, LEVEL_5, hand_unsteady_by_level
 from app.simulation.unsteady_hand import Unsteadiness
 
 PROFILE = load_profile("icube")

@@ -14,9 +14,9 @@ from app.core import state_vector as sv
 from app.core.arrays import angle_between
 from app.device.state import DeviceState
 from app.session.pad.hand import HandPose
+from app.session.pad.readings import hand_pose, needle_line
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.pad_canvas import PadArea, free_corner, is_inside
-from app.views.exercise.readings import hand_pose, pad_view
 from app.views.kit import theme
 
 
@@ -26,7 +26,7 @@ def pad(qt):
     widget = Bullseye()
     widget.resize(560, 470)
     widget.set_scene(exercise.scene(), interactive=True)
-    widget.show_view(pad_view(snapshot()))
+    widget.show_view(needle_line(snapshot()))
     widget.show()
     qt.processEvents()
     yield widget
@@ -44,7 +44,7 @@ def wheel(widget, notches, modifiers=Qt.KeyboardModifier.NoModifier):
 
 
 def test_the_hand_takes_the_needle_without_a_jump(pad):
-    view = pad_view(snapshot())
+    view = needle_line(snapshot())
     assert np.allclose(pad.hand.direction, view.direction)
     assert pad.hand.depth == pytest.approx(view.depth)
     assert pad.hand.holds
@@ -149,7 +149,7 @@ def test_the_hand_stays_inside_the_cone_and_the_depth_range_and_answers_at_once(
 def test_without_a_simulated_hand_the_mouse_moves_nothing(qt):
     widget = Bullseye()
     widget.set_scene(run().scene(), interactive=False)
-    widget.show_view(pad_view(snapshot()))
+    widget.show_view(needle_line(snapshot()))
     widget.pad.dragged.emit(0.5, 0.5)
     assert widget.hand is None
 
@@ -157,7 +157,7 @@ def test_without_a_simulated_hand_the_mouse_moves_nothing(qt):
 def test_a_depth_that_is_only_the_models_never_moves_the_hand(qt):
     widget = Bullseye()
     widget.set_scene(run().scene(), interactive=True)
-    guess = replace(pad_view(snapshot()), measured=False, depth=0.11)
+    guess = replace(needle_line(snapshot()), measured=False, depth=0.11)
     widget.show_view(guess)
     assert widget.hand is None
     widget.take_hand(HandPose(np.array([0.0, 0.0, -1.0]), -0.015, True))
@@ -180,7 +180,7 @@ def test_a_pad_without_a_plan_is_drawn_and_ignores_the_mouse(qt):
     widget = Bullseye()
     widget.resize(400, 400)
     widget.pad.dragged.emit(0.5, 0.5)
-    widget.show_view(pad_view(snapshot()))
+    widget.show_view(needle_line(snapshot()))
     assert not widget.grab().isNull()
 
 
@@ -277,7 +277,7 @@ def test_in_a_small_cell_no_word_is_cut(pad, qt, width, height):
 @pytest.mark.parametrize(("width", "height"), [(495, 390), (440, 380), (681, 446), (700, 480)])
 def test_no_word_is_cut_where_the_depth_is_not_measured(pad, qt, width, height):
     pad.resize(width, height)
-    pad.show_view(replace(pad_view(snapshot()), measured=False))
+    pad.show_view(replace(needle_line(snapshot()), measured=False))
     qt.processEvents()
     assert "not measured" in pad._source.text()
     assert all(words_are_whole(label) for label in pad._words if label.isVisible())
@@ -289,7 +289,7 @@ def test_no_word_is_cut_in_large_text_where_the_depth_is_not_measured(pad, qt, w
         theme.apply_theme(qt, size=theme.LARGE)
         pad.resize(width, height)
         pad.suit_text()
-        pad.show_view(replace(pad_view(snapshot()), measured=False))
+        pad.show_view(replace(needle_line(snapshot()), measured=False))
         qt.processEvents()
         assert all(words_are_whole(label) for label in pad._words if label.isVisible())
     finally:
@@ -313,7 +313,7 @@ def test_in_a_cell_of_any_height_words_cover_neither_pad_nor_each_other(
         cell.show()
         pad.show()
         pad.setGeometry(0, 0, width, height)
-        view = pad_view(snapshot())
+        view = needle_line(snapshot())
         pad.show_view(replace(view, measured=measured))
         qt.processEvents()
         assert pad.size().toTuple() == (width, height)

@@ -14,10 +14,10 @@ from views_exercise_fakes import FakeTrainer, run, snapshot
 
 from app.planning.off_path import offset
 from app.session.machine import State
-from app.session.pad.view import PadView
+from app.session.pad.readings import needle_line
+from app.session.pad.view import NeedleLine
 from app.session.snapshot import NextSteps, StepKind
 from app.views.exercise.bullseye import Bullseye, figure_of
-from app.views.exercise.readings import pad_view
 from app.views.exercise.steps import OTHER_SIDE
 
 SIDES = {"L": (1, 0, 0), "R": (-1, 0, 0), "P": (0, 1, 0), "A": (0, -1, 0), "S": (0, 0, 1),
@@ -42,7 +42,7 @@ def moment(plan, depth, tilt, bend=(0.0, 0.0), breath=(0.0, 0.0, 0.0), measured=
 
 
 def view_of(now):
-    return PadView(now.pose.axis, now.offset, now.pose.depth, now.pose.measured)
+    return NeedleLine(now.pose.axis, now.offset, now.pose.depth, now.pose.measured)
 
 
 @settings(max_examples=300, deadline=None)
@@ -130,7 +130,7 @@ def pad(qt):
     widget = Bullseye()
     widget.resize(300, 430)
     widget.set_scene(run(FakeTrainer()).scene(), interactive=True)
-    widget.show_view(pad_view(snapshot()))
+    widget.show_view(needle_line(snapshot()))
     widget.show()
     qt.processEvents()
     yield widget

@@ -23,6 +23,7 @@ from views_exercise_fakes import FakeTrainer, run, snapshot
 
 from app.session.pad.geometry import path_frame
 from app.session.pad.hand import HandPose
+from app.session.pad.readings import needle_line
 from app.session.snapshot import NextStep, StepKind
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.hands import chooser
@@ -43,7 +44,6 @@ from app.views.exercise.hands.source import (
     pressed_speed,
 )
 from app.views.exercise.pad_canvas import PadCanvas
-from app.views.exercise.readings import pad_view
 from app.views.exercise.steps import step_words
 from app.views.kit.theme import apply_theme
 from tests.careless.texts import cut_texts
@@ -58,7 +58,7 @@ def pad(qt):
     widget = Bullseye()
     widget.resize(560, 470)
     widget.set_scene(run(FakeTrainer()).scene(), interactive=True)
-    widget.show_view(pad_view(snapshot()))
+    widget.show_view(needle_line(snapshot()))
     widget.show()
     widget.source.gain.setCurrentIndex(2)
     qt.processEvents()
@@ -493,7 +493,7 @@ def test_what_is_held_is_let_go_and_moves_again_only_when_pressed_anew(held, wha
         "patient": lambda: held.bullseye.set_scene(scene, interactive=True),
         "controller": held.bullseye.let_go,
     }[what]()
-    held.bullseye.show_view(pad_view(snapshot()))
+    held.bullseye.show_view(needle_line(snapshot()))
     before = held.bullseye.hand.depth
     held.hold(0.5)
     again = QKeyEvent(QEvent.Type.KeyPress, PUSH, Qt.KeyboardModifier.NoModifier, "", True)
@@ -600,7 +600,7 @@ def test_a_drag_takes_the_end_that_was_chosen_where_the_mouse_goes_however_the_p
     frame = path_frame((0.1, 0.05, -1.0), rotation)
     pad.set_scene(replace(pad._scene, frame=frame), interactive=True)
     pad.take_hand(HandPose(frame.axis, 0.0, True))
-    pad.show_view(replace(pad_view(snapshot()), direction=frame.axis))
+    pad.show_view(replace(needle_line(snapshot()), direction=frame.axis))
     pad.source.set_moves_hub(hub)
     middle = pad.pad.rect().center()
     before = drawn(pad)

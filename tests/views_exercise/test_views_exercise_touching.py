@@ -18,6 +18,7 @@ from app.exercises.scene import device_of, placed_plan_of
 from app.session.curves import offset
 from app.session.machine import State
 from app.session.pad.hand import HandPose
+from app.session.pad.readings import needle_line
 from app.session.pad.view import depth_tolerance_of, rings_of
 from app.session.snapshot import NextStep, StepKind
 from app.session.touching import TargetMarks, TouchState
@@ -30,7 +31,6 @@ from app.views.exercise.hands.chooser import HandChooser
 from app.views.exercise.offer import BriefingOffer
 from app.views.exercise.pad_canvas import PadCanvas
 from app.views.exercise.panel import TouchNote, hand_words
-from app.views.exercise.readings import pad_view
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.steps import PADDING, NextStepLine, touch_words
 from app.views.kit import theme
@@ -135,7 +135,7 @@ def test_the_bullseye_has_the_present_target_in_its_middle_and_the_hand_goes_on(
     later = moment(1, tip=TASK.p_targets[1])
     scene = run.scene(later.touch.aim)
     widget.retarget(scene)
-    view = pad_view(later)
+    view = needle_line(later)
     widget.show_view(view)
     assert view.frame(scene) is scene.frame
     np.testing.assert_allclose(view.dot(scene), 0.0, atol=1e-9)
@@ -160,7 +160,7 @@ def test_the_mouse_moves_the_handle_and_the_tip_goes_the_other_way(qt):
     widget.source.fix_sense(True, "because")
     axis = TASK.plans[0].axis
     widget.take_hand(HandPose(axis, 0.05, True))
-    widget.show_view(pad_view(moment(0)))
+    widget.show_view(needle_line(moment(0)))
     widget.pad.dragged.emit(0.5, 0.0)  # to the right, half the pad's radius, at a gain of 1
     turn = widget.hand.direction - axis
     assert turn @ scene.frame.right < 0.0

@@ -2,14 +2,16 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, Self
 
 import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
 from app.exercises.schema import Exercise
+from app.mechanisms.profile import DeviceProfile
 from app.planning.off_path import Offset
+from app.planning.placement import PlacedPlan
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.tolerance import Bands
 from app.session.pad.aim import passes
@@ -47,14 +49,45 @@ class PadScene:
     stop_depth: float
     handle: Handle | None = None
 
+    @classmethod
+    def of(
+        cls,
+        placed: PlacedPlan,
+        profile: DeviceProfile,
+        rings: tuple[float, ...],
+        depth_tolerance: float,
+        touches: bool = False,
+    ) -> Self:
+        """Return the pad of a plan at a device.
+
+        Args:
+            placed: the plan.
+            profile: of the device.
+            rings: radii of the tolerance rings [m], from the inside.
+            depth_tolerance: see `depth_tolerance`.
+            touches: whether the hand holds the handle of a long tool.
+        """
+        shallowest, deepest = profile.depth_range
+        return cls(
+            frame=path_frame(placed.axis, placed.T_world_patient.rotation),
+            scale=PadScale(placed.length, rings[0]),
+            rings=rings,
+            limits=HandLimits(profile.tilt_limit, shallowest, deepest),
+            p_entry=placed.p_entry,
+            target_depth=placed.length,
+            depth_tolerance=depth_tolerance,
+            stop_depth=min(placed.length + rings[-1], deepest),
+            handle=Handle(profile.needle_length) if touches else None,
+        )
+
     def hand(self, pose: HandPose) -> PadHand:
         """Return the hand that moves what the exercise has it hold, from where it is now."""
         return PadHand(self.frame, self.scale, self.limits, pose, self.handle)
 
 
 @dataclass(frozen=True, slots=True)
-class PadView:
-    """What changes from frame to frame.
+class NeedleLine:
+    """A needle as the pad's dot needs it.
 
     Attributes:
         direction: needle direction in world, shape (3,).

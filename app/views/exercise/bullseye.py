@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
 from app.planning.off_path import Offset
 from app.session.pad.geometry import PathFrame
 from app.session.pad.hand import HandPose, PadHand
-from app.session.pad.view import PadScene, PadView
+from app.session.pad.view import NeedleLine, PadScene
 from app.session.snapshot import NextStep, StepKind
 from app.views.exercise.depth_bar import DepthBar
 from app.views.exercise.hands.chooser import HandChooser
@@ -222,7 +222,7 @@ class Bullseye(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._scene: PadScene | None = None
-        self._view: PadView | None = None
+        self._view: NeedleLine | None = None
         self._hand: PadHand | None = None
         self._interactive = self._depth_only = self._hides_needle = self._held_at_hub = False
         self.pad = PadCanvas(self)
@@ -421,7 +421,7 @@ class Bullseye(QWidget):
         self._figure.setVisible(self._plain and not hidden)
         self._fit_words()
 
-    def show_view(self, view: PadView) -> None:
+    def show_view(self, view: NeedleLine) -> None:
         """Draw a new moment. Without a hand so far, the first measured one gives it the needle."""
         if self._scene is None or self._hides_needle:
             return
@@ -448,7 +448,7 @@ class Bullseye(QWidget):
         return self._hand.pose if self._hand else None
 
     # --- inside -----------------------------------------------------------------------------------
-    def _show(self, scene: PadScene, view: PadView) -> None:
+    def _show(self, scene: PadScene, view: NeedleLine) -> None:
         hand = self._hand
         # A tool's tip goes against the hand: that is what is learnt, and the dot is the tip.
         hub = scene.handle is None and (self.source.moves_hub or self._held_at_hub)
@@ -457,7 +457,7 @@ class Bullseye(QWidget):
         if not self._plain:  # nobody sees them in an attempt; afterwards they are written anew
             self._write(scene, view)
 
-    def _write(self, scene: PadScene, view: PadView) -> None:
+    def _write(self, scene: PadScene, view: NeedleLine) -> None:
         """Say in words what the pad shows; what is said in short stands in full in the tooltip."""
         frame, short = view.frame(scene), self._brevity >= Brevity.SHORT
         tilts = frame.tilts(view.direction)

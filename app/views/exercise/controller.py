@@ -17,6 +17,7 @@ from app.exercises.parts import ViewName
 from app.planning.placement import PlacedPlan
 from app.session.machine import RUNNING, State
 from app.session.pad.hand import HandPose
+from app.session.pad.readings import hand_pose, needle_line
 from app.session.result import AttemptResult
 from app.session.shown_views import without_needle
 from app.session.snapshot import Snapshot
@@ -28,8 +29,6 @@ from app.views.exercise.felt import force_limit
 from app.views.exercise.panel import ExercisePanel
 from app.views.exercise.readings import (
     figures,
-    hand_pose,
-    pad_view,
     robot_status,
     status_items,
     tracker_figures,
@@ -166,7 +165,7 @@ class ExerciseDisplay:
         if snapshot.touch is not None and snapshot.touch.aim is not self._aimed:
             self._aimed = snapshot.touch.aim
             bullseye.retarget(run.scene(self._aimed))
-        view = pad_view(snapshot)
+        view = needle_line(snapshot)
         if view is not None:
             bullseye.show_view(view)
         if run.shown.shows(ViewName.FORCE_GAUGE):

@@ -29,7 +29,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.core.arrays import FloatArray
-from app.session.pad.view import PadScene, PadView
+from app.session.pad.view import NeedleLine, PadScene
 from app.views.exercise.hands.feed import DEPTH_STEP, FINE_DEPTH_STEP, GONE, SPEED, Feed
 from app.views.kit import theme
 from app.views.kit.text import literal, tr
@@ -295,7 +295,7 @@ class PadCanvas(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._scene: PadScene | None = None
-        self._view: PadView | None = None
+        self._view: NeedleLine | None = None
         self._dots: deque[tuple[float, FloatArray]] = deque()
         self._hub = False
         self._last: QPointF | None = None
@@ -333,7 +333,7 @@ class PadCanvas(QWidget):
         self._hides_needle = hidden
         self.update()
 
-    def show_view(self, view: PadView, hub: bool = False) -> None:
+    def show_view(self, view: NeedleLine, hub: bool = False) -> None:
         """Draw a new moment; `hub`: whether the dot goes where the hub goes, not the tip."""
         if self._scene is None:
             return

@@ -4,13 +4,8 @@ from collections.abc import Sequence
 from math import inf
 from typing import Final
 
-from app.core import state_vector as sv
 from app.device.faults import Fault
-from app.device.state import DeviceState
 from app.session.machine import State
-from app.session.pad.geometry import downward
-from app.session.pad.hand import HandPose
-from app.session.pad.view import PadView
 from app.session.snapshot import Snapshot
 from app.tracking.cameras.watch import CameraState
 from app.tracking.fix import FixStatus
@@ -60,21 +55,6 @@ def figures(snapshot: Snapshot, force_limit: float, hidden: bool = False) -> Liv
         hidden=hidden,
         ready=snapshot.ready,
     )
-
-
-def pad_view(snapshot: Snapshot) -> PadView | None:
-    """Return what the bull's-eye shows; None while there is no valid pose."""
-    pose = snapshot.pose
-    return PadView(pose.axis, snapshot.offset, pose.depth, pose.measured) if pose.valid else None
-
-
-def hand_pose(snapshot: Snapshot) -> HandPose | None:
-    """Return where the loop has the simulated hand now; None where the robot does not tell."""
-    device = snapshot.device
-    if not isinstance(device, DeviceState):
-        return None
-    x, y, depth, holds = device.row[[sv.HAND_X, sv.HAND_Y, sv.HAND_DEPTH, sv.HAND_HOLDS]].tolist()
-    return HandPose(downward(x, y), depth, bool(holds))
 
 
 def status_items(

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from app.core.arrays import FloatArray
 from app.exercises.guidance import GuidancePart
 from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
-from app.session.pad.geometry import PadScale, path_frame
-from app.session.pad.hand import Handle, HandLimits
 from app.session.pad.view import PadScene, depth_tolerance, rings
 from app.session.shown_views import Shown
 
@@ -91,16 +89,6 @@ class ExerciseRun:
 
     def scene(self, aim: PlacedPlan | None = None) -> PadScene:
         """Return the pad of this run; `aim` is the path to the present one of several targets."""
-        placed = aim or self.placed
-        shallowest, deepest = self.profile.depth_range
-        return PadScene(
-            frame=path_frame(placed.axis, placed.T_world_patient.rotation),
-            scale=PadScale(placed.length, self.rings[0]),
-            rings=self.rings,
-            limits=HandLimits(self.profile.tilt_limit, shallowest, deepest),
-            p_entry=placed.p_entry,
-            target_depth=placed.length,
-            depth_tolerance=self.depth_tolerance,
-            stop_depth=min(placed.length + self.rings[-1], deepest) if aim is None else deepest,
-            handle=Handle(self.profile.needle_length) if self.touches else None,
-        )
+        pad = self.rings, self.depth_tolerance, self.touches
+        scene = PadScene.of(aim or self.placed, self.profile, *pad)
+        return scene if aim is None else replace(scene, stop_depth=scene.limits.deepest)

@@ -1,4 +1,4 @@
-"""Unsteadiness of the hand of mouse, keys, pen and gamepad, by the level of an exercise.
+"""Unsteadiness of the hand of mouse, keys, pen tablet and gamepad, by the level of an exercise.
 
 | | level 1 | level 5 and above | published |
 |---|---|---|---|
