@@ -12,6 +12,7 @@ from app.core.errors import ConfigurationError
 from app.exercises.guidance import Purpose
 from app.exercises.library import load_exercise
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
+from app.session.access import Known, Visitor
 from app.session.board import Standing, every_item, progress_board, standings
 from app.session.course import (
     Course,
@@ -220,6 +221,17 @@ def test_an_assessment_of_a_course_is_closed_to_who_does_not_take_it() -> None:
     assert refusals([course], ADA, [used], day) == {"ribs": "the one attempt is used"}
     practice = Course(id="d", title="D", items=(CourseItem(exercise="ribs"),))
     assert refusals([course, practice], BOB, [], day) == {}
+
+
+def test_a_course_examines_only_those_who_take_it_and_only_by_its_assessments() -> None:
+    exam = CourseItem(exercise="ribs", purpose=Purpose.ASSESSMENT)
+    course = Course(id="c", title="Autumn", groups=("A",), items=(exam, CourseItem(exercise="x")))
+    practice = Course(id="d", title="D", items=(CourseItem(exercise="ribs"),))
+    known = Known(courses_here=(practice, course))
+    assert Visitor(known, ADA).examined_by("ribs") == "Autumn"
+    assert Visitor(known, ADA).examined_by("x") == ""
+    assert Visitor(known, BOB).examined_by("ribs") == ""
+    assert Visitor(known).examined_by("ribs") == ""
 
 
 def test_a_pinned_version_that_the_library_does_not_have_is_said() -> None:

@@ -186,10 +186,12 @@ class DebriefController(QObject):
         return None if shown is None or whole is None else drilled(whole, kind, shown.placed)
 
     def _whole(self) -> Exercise | None:
-        """Return the exercise that was attempted, as it is today; None where it is another."""
+        """Return the exercise that was attempted, as it is today; None where it is another, or none
+        that may be practised.
+        """
         shown = self._shown
         under = None if shown is None else shown.conditions
-        if shown is None or under is None or ACCESS.refusal(self.whole):
+        if shown is None or under is None or ACCESS.drill_refusal(self.whole):
             return None
         version = under.version if shown.drill is None else shown.drill.version
         there = (one for one in self._exercises() if one.id == self.whole)
@@ -853,10 +855,12 @@ class DebriefFeature(Feature):
 
     def begin_drill(self, kind: DrillKind) -> None:
         """Begin a drill of the exercise that was attempted, on the same plan."""
-        drill = self._controller.drill(kind)
+        drill, why = self._controller.drill(kind), ACCESS.drill_refusal(self._controller.whole)
         if drill is None:
             self.failed.emit(
-                tr("This exercise is no more what it was: begin it from the start page.")
+                tr("It cannot be begun: {why}.", why=why)
+                if why
+                else tr("This exercise is no more what it was: begin it from the start page.")
             )
         else:
             self.drill_wanted.emit(drill)
