@@ -11,7 +11,7 @@ from test_session_reasons import BACK, HEAD, LEFT, evidence, pushed, recorded
 from test_session_reasons import ENTRY_MM as ENTRY
 
 from app.compose.run_context import conditions_of as metadata_of
-from app.exercises.drill import ROUND_S, THROUGH_S, DrillKind, DrillPart
+from app.exercises.drill import ROUND_S, THROUGH_S, DrillKind, DrillPart, asks
 from app.exercises.drilled import drilled
 from app.exercises.guidance import Purpose
 from app.exercises.library import load_exercise
@@ -86,6 +86,18 @@ def test_a_drill_keeps_patient_and_plan_and_is_read_again_from_its_record(kind):
     )
     again = drilled(drill, kind, placed)
     assert (again.id, again.drill) == (drill.id, drill.drill)
+
+
+@pytest.mark.parametrize("kind", list(DrillKind))
+def test_what_a_drill_says_of_forbidden_tissue_is_so(kind):
+    whole = load_exercise("first-insertion")
+    rules = whole.rules.model_copy(update={"forbidden": ("bone",)})
+    strict = whole.model_copy(update={"rules": rules})
+    forbids = drilled(strict, kind, placed_plan()).rules.forbidden == ("bone",)
+    assert forbids is (kind is not DrillKind.ALIGN)
+    if kind is not DrillKind.REPEAT:  # which is judged as the whole exercise is
+        for aligned in (False, True):
+            assert ("nothing may be met" in asks(kind, aligned)) is forbids
 
 
 @pytest.mark.parametrize("kind", [DrillKind.ALIGN, DrillKind.DEPTH, DrillKind.BREATH])

@@ -10,7 +10,7 @@ from app.exercises.drill import DrillKind, DrillPart
 from app.exercises.drilled import drilled
 from app.exercises.guidance import Purpose
 from app.exercises.library import load_exercise
-from app.scoring.conditions import Conditions
+from app.scoring.conditions import Conditions, DeviceKind
 from app.session.course import Course, CourseItem
 from app.session.next_exercise import Proposal, ProposalReason
 from app.session.people import People
@@ -73,6 +73,17 @@ def test_no_drill_of_another_version_or_of_what_may_not_be_begun(shown, monkeypa
     assert shown(conditions=replace(UNDER, exercise="gone")).card.kind is None
     monkeypatch.setattr(type(ACCESS), "refusal", lambda self, name: "used up")
     assert shown().card.kind is None
+
+
+def test_the_depth_begins_aligned_with_a_pointer_and_not_with_robot_or_pen(shown, settle):
+    simulated = replace(UNDER, kind=DeviceKind.SIMULATED)
+    page = shown(conditions=simulated, practise=DrillKind.DEPTH)
+    assert "you begin aligned" in page.card.practise.text()
+    for hand, kind in (("robot", DeviceKind.REAL), ("pen", DeviceKind.PEN)):
+        held = replace(UNDER, hand=hand, kind=kind)
+        page = shown(conditions=held, practise=DrillKind.DEPTH)
+        assert page.card.kind is DrillKind.DEPTH
+        assert "aligned" not in page.card.practise.text()
 
 
 def test_nobody_drills_what_a_course_of_his_holds_as_an_assessment(window, shown, settle):

@@ -516,6 +516,14 @@ def test_the_card_offers_the_drill_and_begins_exactly_that(page):
     assert not page.card.drill.isVisibleTo(page)
 
 
+def test_that_one_begins_aligned_is_said_only_of_a_simulated_hand(page):
+    page.show_review(review())
+    page.offer_drill(DrillKind.DEPTH, aligned=True)
+    assert "you begin aligned" in page.card.practise.text()
+    page.offer_drill(DrillKind.DEPTH)
+    assert "aligned" not in page.card.practise.text()
+
+
 @pytest.fixture(params=["en", "de", "fr"])
 def language(qt, request):
     yield use_language(qt, request.param)
