@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from app.core.errors import ConfigurationError
+from app.core.messages import Sentence
 from app.exercises.guidance import Purpose
 from app.exercises.library import load_exercise
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
@@ -95,6 +96,7 @@ def test_what_cannot_be_compared_is_counted_apart_with_its_reason(other: Any, wh
     cell = board([*some, attempt("x", "p-a", 99, 3, **other)]).cells["p-a", "lung"]
     assert (cell.attempts, cell.best, cell.others) == (2, 55, 1)
     assert cell.why == ((why, 1),)
+    assert isinstance(cell.why[0][0], Sentence)  # so it comes in the window's language
 
 
 def test_void_attempts_and_those_without_a_score_do_not_count() -> None:
@@ -215,7 +217,9 @@ def test_an_assessment_of_a_course_is_closed_to_who_does_not_take_it() -> None:
     course = Course(id="c", title="Autumn", groups=("A",), items=items)
     assert list(assessed_by([course])) == ["ribs"]
     assert refusals([course], ADA, [], day) == {}
-    assert "Autumn, which you do not take" in refusals([course], BOB, [], day)["ribs"]
+    refused = refusals([course], BOB, [], day)["ribs"]
+    assert "Autumn, which you do not take" in refused
+    assert isinstance(refused, Sentence)
     assert "lung" not in refusals([course], BOB, [], day)
     used = attempt("a1", "p-a", 50, exercise="ribs")
     assert refusals([course], ADA, [used], day) == {"ribs": "the one attempt is used"}
