@@ -16,8 +16,8 @@ from app.scoring.met import Met
 from app.scoring.result import judge
 from app.scoring.risks import RiskMark
 from app.scoring.rows import ScoreRules
-from app.session.snapshot import NextStep, StepKind
 from app.session.course import Course, CourseItem, CourseStanding, why_not
+from app.session.snapshot import NextStep, StepKind
 from app.views.debrief.card import costs
 from app.views.debrief.score_words import (
     assistance_words,
