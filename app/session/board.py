@@ -305,6 +305,8 @@ def _why_not_counted(entry: Indexed, item: CourseItem, answer: Remarks | None) -
         if not known.by_person:
             by_arm = known.hand == "arm"
             return sentence("carried out by the arm") if by_arm else sentence("scripted")
+        if known.drill:
+            return sentence("a drill")
         emulated = known.kind == "emulated"
         return sentence("emulated robot") if emulated else sentence("not scored or void")
     if entry.version != item.version:

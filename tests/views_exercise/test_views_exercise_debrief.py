@@ -15,8 +15,9 @@ from app.core.events import Event
 from app.exercises.drill import DrillKind, DrillPart
 from app.scoring.conditions import Conditions
 from app.scoring.defaults import DEFAULT_TOLERANCES
+from app.scoring.result import judge
 from app.scoring.risks import RiskMark
-from app.scoring.rows import Row
+from app.scoring.rows import Row, ScoreRules
 from app.session.curves import Curves
 from app.session.facts import plan_record
 from app.session.next_exercise import Proposal, ProposalReason
@@ -496,6 +497,20 @@ def test_what_cost_points_is_said_with_the_attempts_own_numbers_and_its_reasons(
     lines = page.card.words.splitlines()
     assert first.loss in lines
     assert "•  You left the line." in lines
+
+
+@pytest.mark.parametrize(("depth_mm", "told"), [(1.0, False), (5.2, False), (8.0, True)])
+def test_that_the_target_was_missed_is_said_where_that_holds_all_else_back(depth_mm, told):
+    bands = DEFAULT_TOLERANCES["depth_error"]  # passes up to 5 mm, worth nothing from 10 mm on
+    rows = (
+        Row("depth_error", "Depth error", "mm", depth_mm, "", bands),
+        Row("total_time", "Total time", "s", 400.0, "", bands),
+    )
+    first, *more = costs(review(score=judge(rows, ScoreRules())))
+    missed = "The target was missed: all else counts only 40 %."  # (10 - 8) of (10 - 5) mm
+    assert (missed in first.reasons) == told
+    texts = [text for cost in (first, *more) for text in cost.reasons if "missed" in text]
+    assert len(texts) == told
 
 
 def test_the_card_offers_the_drill_and_begins_exactly_that(page):
