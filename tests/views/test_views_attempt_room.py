@@ -29,6 +29,7 @@ def test_in_an_attempt_the_ct_has_its_share_of_the_window(window, patient, settl
         begun(window, patient)
         assert judged(window, large=large) == []
     finally:
+        window.conductor.controller.abort()
         theme.apply_theme(QApplication.instance())
 
 
