@@ -288,7 +288,7 @@ def refusals(
     """
     taken = [course for course in known if course.takes(person)]
     mine = {item.exercise for course in taken for item in course.items}
-    found = {
+    found: dict[str, str] = {
         name: sentence(
             "it is an assessment of the course {course}, which you do not take: ask the instructor",
             course=held[0].title,
