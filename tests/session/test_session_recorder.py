@@ -10,6 +10,7 @@ from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import jsonschema
 import numpy as np
@@ -26,8 +27,10 @@ from app.session import blocks
 from app.session.budget import ReadingBudget
 from app.session.errors import BrokenRecordingError, RecordingError, SessionError
 from app.session.header import SessionHeader, new_id, pseudonym
+from app.session.reasons import AttemptEvidence
 from app.session.recorder import Recorder
 from app.session.recording import read_recording
+from app.session.review import review
 from app.session.sample import quaternion
 from app.session.schemas import CHANNELS
 from app.session.scored import seen_from
@@ -321,3 +324,19 @@ def test_a_record_is_scored_by_the_cameras_that_it_holds(record: Path) -> None:
     recording = read_recording(record)
     own = dict(recording.attachments) | {"cameras.json": json.dumps(RIG).encode()}
     assert replace(recording, attachments=own).trajectory().seen_from == pytest.approx(0.030)
+
+
+def test_what_the_cameras_of_a_record_cannot_tell_apart_reaches_the_reasons(
+    record: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    given: list[float] = []
+
+    def evidence(*parts: Any, **facts: Any) -> AttemptEvidence:
+        given.append(facts.get("unsure_mm", 0.0))
+        return AttemptEvidence(*parts, **facts)
+
+    monkeypatch.setattr("app.session.review.AttemptEvidence", evidence)
+    shown = review(read_recording(record))
+    assert shown.tip_radius is not None
+    assert given == [pytest.approx(shown.tip_radius * 1e3)]
+    assert given[0] > 0.0
