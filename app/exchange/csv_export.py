@@ -216,7 +216,9 @@ FIXED: Final = (
     "comparison_group",
     "signature",
 )
-"""Columns before the metrics; each metric then has the column `<name>_<unit>`."""
+"""Columns before the metrics; each metric then has the column `<name>_<unit>`, and one for its
+standard deviation. After them stand `drill`, which part of the exercise alone was practised (its
+`passed` is no pass of the exercise), and `note`."""
 
 TRAJECTORY_COLUMNS: Final = (
     "time_s",
@@ -261,7 +263,7 @@ def score_table(summaries: Iterable[Summary]) -> str:
     groups = _groups(rows)
     metrics = list(dict.fromkeys(name for row in rows for name in _metrics(row)))
     unsure = [f"{name}_sd" for name in metrics]
-    lines: list[list[object]] = [[*FIXED, *metrics, *unsure, "note"]]
+    lines: list[list[object]] = [[*FIXED, *metrics, *unsure, "drill", "note"]]
     for row, group in zip(rows, groups, strict=True):
         values, sds = _metrics(row), _metrics(row, "sd")
         cells = [
@@ -271,6 +273,7 @@ def score_table(summaries: Iterable[Summary]) -> str:
             row.signature,
             *(values.get(name) for name in metrics),
             *(sds.get(name) for name in metrics),
+            None if row.conditions is None else row.conditions.drill,
             DISCLAIMER,
         ]
         lines.append(cells)

@@ -70,16 +70,32 @@ class DrillPart(Strict):
         return self.kind is DrillKind.REPEAT and lasted >= ROUND_S
 
 
-def asks(kind: DrillKind) -> str:
-    """Say what a drill asks for, and when it ends."""
+def asks(kind: DrillKind, aligned: bool = False) -> str:
+    """Say what a drill asks for, and when it ends.
+
+    Args:
+        kind: what is practised.
+        aligned: whether a simulated hand leads the needle, which begins on the path where the drill
+            has it so; whoever holds a needle aligns it himself.
+    """
+    depth = (
+        sentence(
+            "Depth only: you begin aligned; only the depth counts, and nothing may be met that the "
+            "exercise forbids."
+        )
+        if aligned
+        else sentence(
+            "Depth only: only the depth counts, and nothing may be met that the exercise forbids."
+        )
+    )
     return {
         DrillKind.ALIGN: sentence(
             "Align only: it ends as the tip goes through the skin, and only the tilt there counts."
         ),
-        DrillKind.DEPTH: sentence("Depth only: you begin aligned, and only the depth counts."),
+        DrillKind.DEPTH: depth,
         DrillKind.BREATH: sentence(
-            "Breath only: push while the target is in its place, wait while it is not; nothing "
-            "else counts."
+            "Breath only: push while the target is in its place, wait while it is not. Only that "
+            "counts, and nothing may be met that the exercise forbids."
         ),
         DrillKind.REPEAT: sentence(
             "Ten times three minutes: the whole exercise; each round ends by itself after three "

@@ -103,8 +103,9 @@ class Conditions:
     def by_person(self) -> bool:
         """Return whether a person had the needle from begin to end: else the attempt is nobody's.
 
-        This alone decides it, wherever attempts count for somebody: learning curves, boards,
-        attempts that a course allows, assistance that fades, what comes next.
+        Wherever attempts count for somebody (learning curves, boards, attempts that a course
+        allows, assistance that fades, what comes next) this alone says whose they are. A drill is a
+        person's, and counts for none of it: it is another exercise, see `drill`.
         """
         return not self.scripted and self.hand not in PROGRAMS
 

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
-from app.session.course import assessed_by, courses
+from app.session.course import Course, assessed_by, courses
 from app.session.people import People, Person
 
 
@@ -23,12 +23,14 @@ class Known:
         pseudonyms: of students, by the key that records name.
         refused: why the student who is signed in may not begin an exercise, by its id.
         assessed: exercises that a course holds as assessments -> title of the course.
+        courses_here: all courses of this station.
     """
 
     guarded: bool = False
     pseudonyms: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
     refused: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
     assessed: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    courses_here: tuple[Course, ...] = ()
 
     @classmethod
     def of(cls, people: People) -> Known:
@@ -37,8 +39,9 @@ class Known:
         Raises:
             SessionError: if they cannot be read.
         """
-        assessed = {name: held[0].title for name, held in assessed_by(courses()[0]).items()}
-        return cls(people.has_instructor(), people.pseudonyms(), {}, assessed)
+        known = tuple(courses()[0])
+        assessed = {name: held[0].title for name, held in assessed_by(known).items()}
+        return cls(people.has_instructor(), people.pseudonyms(), {}, assessed, known)
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,3 +79,15 @@ class Visitor:
         if self.may_manage or self.student is not None:
             return ""
         return self.known.assessed.get(exercise, "")
+
+    def examined_by(self, exercise: str) -> str:
+        """Return the course in which who is signed in is assessed by an exercise; else ''.
+
+        Nobody rehearses an assessment: no drill of it is his to begin.
+        """
+        student = self.student
+        if student is None:
+            return ""
+        taken = (course for course in self.known.courses_here if course.takes(student))
+        held = assessed_by(taken).get(exercise)
+        return held[0].title if held else ""

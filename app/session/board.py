@@ -140,7 +140,9 @@ def progress_board(
         if item is None or key not in rows:
             continue
         said = remarks.get(one.id)
-        reason = "not released yet" if one.id in held else _why_not_counted(one, item, said)
+        reason = (
+            sentence("not released yet") if one.id in held else _why_not_counted(one, item, said)
+        )
         if reason:
             left[key, one.exercise][reason] += 1
             if said is not None and said.void:
@@ -156,7 +158,7 @@ def progress_board(
             if group == most:
                 counted[key, exercise].append(one)
             else:
-                left[key, exercise]["made under other conditions than most"] += 1
+                left[key, exercise][sentence("made under other conditions than most")] += 1
     cells = {
         (person.key, item.exercise): _cell(
             counted[person.key, item.exercise],
@@ -301,8 +303,12 @@ def _why_not_counted(entry: Indexed, item: CourseItem, answer: Remarks | None) -
     if not entry.counts:
         known = entry.conditions
         if not known.by_person:
-            return sentence("carried out by the arm") if known.hand == "arm" else "scripted"
-        return "emulated robot" if known.kind == "emulated" else sentence("not scored or void")
+            by_arm = known.hand == "arm"
+            return sentence("carried out by the arm") if by_arm else sentence("scripted")
+        if known.drill:
+            return sentence("a drill")
+        emulated = known.kind == "emulated"
+        return sentence("emulated robot") if emulated else sentence("not scored or void")
     if entry.version != item.version:
         return sentence("version {entry_version} of the exercise", entry_version=entry.version)
     if item.content and entry.conditions.content != item.content:

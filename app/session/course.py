@@ -252,7 +252,9 @@ def why_not(
         tries = attempts_used(own, before)
         used = before.attempts is not None and len(tries) >= before.attempts
         if not used and not any(one.passed for one in tries):
-            return f"first pass {titled.get(before.exercise, before.exercise)}"
+            return sentence(
+                "first pass {exercise}", exercise=titled.get(before.exercise, before.exercise)
+            )
     return ""
 
 
@@ -286,9 +288,11 @@ def refusals(
     """
     taken = [course for course in known if course.takes(person)]
     mine = {item.exercise for course in taken for item in course.items}
-    found = {
-        name: f"it is an assessment of the course {held[0].title}, which you do not take: ask the "
-        "instructor"
+    found: dict[str, str] = {
+        name: sentence(
+            "it is an assessment of the course {course}, which you do not take: ask the instructor",
+            course=held[0].title,
+        )
         for name, held in assessed_by(known).items()
         if name not in mine
     }
@@ -346,11 +350,13 @@ def course_standings(
         known = exercises.get(item.exercise)
         refusal = ""
         if known is None:
-            refusal = "this exercise is not in the library here"
+            refusal = sentence("this exercise is not in the library here")
         elif person is not None and known.version != item.version:
-            refusal = (
-                f"the course pins version {item.version}, the library has version {known.version}: "
-                "the instructor changes one of them"
+            refusal = sentence(
+                "the course pins version {pinned}, the library has version {known}: the instructor "
+                "changes one of them",
+                pinned=item.version,
+                known=known.version,
             )
         if person is None:
             named = titles.get(item.exercise, item.exercise)

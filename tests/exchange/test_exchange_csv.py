@@ -2,6 +2,7 @@
 
 import csv
 import io
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -20,6 +21,7 @@ from app.exchange.csv_export import (
 from app.exchange.errors import ExportError
 from app.planning.placement import PlacedPlan, Placement
 from app.planning.plan import Plan
+from app.scoring.conditions import Conditions
 from app.session.facts import PLAN, plan_record
 from app.session.header import SessionHeader
 from app.session.machine import State
@@ -53,7 +55,7 @@ def parse(text: str) -> list[dict[str, str]]:
 def test_one_row_per_attempt_with_units_in_the_column_names() -> None:
     (row,) = parse(score_table([SCORED]))
     metrics = ["lateral_error_mm", "angle_error_deg", "path_ratio_ratio"]
-    assert list(row) == [*FIXED, *metrics, *(f"{name}_sd" for name in metrics), "note"]
+    assert list(row) == [*FIXED, *metrics, *(f"{name}_sd" for name in metrics), "drill", "note"]
     assert row["score_total_percent"] == "86.5"
     assert row["lateral_error_mm"] == "2.125"
     assert row["lateral_error_mm_sd"] == "0.125"
@@ -71,8 +73,19 @@ def test_attempts_with_other_metrics_and_without_a_score_share_the_table() -> No
     assert {r["note"] for r in rows} == {DISCLAIMER}
 
 
+def test_a_passed_drill_is_marked_and_moves_no_other_column() -> None:
+    practised = Conditions("drill-depth-liver-01", scoring_version=7, drill="depth")
+    drill = replace(SCORED, exercise_id="drill-depth-liver-01", conditions=practised)
+    whole = replace(SCORED, conditions=replace(practised, exercise="liver-01", drill=""))
+    rows = parse(score_table([drill, whole, SCORED]))
+    assert [(row["passed"], row["drill"]) for row in rows] == [
+        ("true", "depth"), ("true", ""), ("true", ""),
+    ]  # fmt: skip
+    assert list(rows[0])[-2:] == ["drill", "note"]
+
+
 def test_no_attempts_give_the_column_names_alone() -> None:
-    assert score_table([]) == ",".join([*FIXED, "note"]) + "\r\n"
+    assert score_table([]) == ",".join([*FIXED, "drill", "note"]) + "\r\n"
 
 
 @pytest.mark.parametrize("text", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1", "\n=1"])

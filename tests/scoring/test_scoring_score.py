@@ -11,7 +11,7 @@ from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import ScoreFormatError, ToleranceError, UnknownMetricError
 from app.scoring.metrics import available
 from app.scoring.result import Score, judge
-from app.scoring.rows import ScoreRules
+from app.scoring.rows import Row, ScoreRules, gates
 from app.scoring.score import score
 from app.scoring.tolerance import Band, Tolerance
 
@@ -293,3 +293,12 @@ def test_what_is_no_stored_score_is_refused(text: str) -> None:
 def test_an_unknown_row_is_refused_with_the_rows_there_are() -> None:
     with pytest.raises(UnknownMetricError, match="no row 'nothing'; it has"):
         score(PERFECT.trajectory()).row("nothing")
+
+
+def test_a_row_is_held_back_by_the_others_and_not_by_itself() -> None:
+    rows = tuple(
+        Row(name, name, "mm", 1.0, "", bands(1.0, 2.0, 4.0))
+        for name in ("lateral_error", "depth_error", "total_time")
+    )
+    shares = gates(rows, {"lateral_error": 0.0, "depth_error": 1.0, "total_time": 1.0})
+    assert shares == {"lateral_error": 1.0, "depth_error": 0.0, "total_time": 0.0}

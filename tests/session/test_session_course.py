@@ -9,9 +9,11 @@ from typing import Any
 import pytest
 
 from app.core.errors import ConfigurationError
+from app.core.messages import Sentence
 from app.exercises.guidance import Purpose
 from app.exercises.library import load_exercise
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
+from app.session.access import Known, Visitor
 from app.session.board import Standing, every_item, progress_board, standings
 from app.session.course import (
     Course,
@@ -94,6 +96,7 @@ def test_what_cannot_be_compared_is_counted_apart_with_its_reason(other: Any, wh
     cell = board([*some, attempt("x", "p-a", 99, 3, **other)]).cells["p-a", "lung"]
     assert (cell.attempts, cell.best, cell.others) == (2, 55, 1)
     assert cell.why == ((why, 1),)
+    assert isinstance(cell.why[0][0], Sentence)  # so it comes in the window's language
 
 
 def test_void_attempts_and_those_without_a_score_do_not_count() -> None:
@@ -214,12 +217,25 @@ def test_an_assessment_of_a_course_is_closed_to_who_does_not_take_it() -> None:
     course = Course(id="c", title="Autumn", groups=("A",), items=items)
     assert list(assessed_by([course])) == ["ribs"]
     assert refusals([course], ADA, [], day) == {}
-    assert "Autumn, which you do not take" in refusals([course], BOB, [], day)["ribs"]
+    refused = refusals([course], BOB, [], day)["ribs"]
+    assert "Autumn, which you do not take" in refused
+    assert isinstance(refused, Sentence)
     assert "lung" not in refusals([course], BOB, [], day)
     used = attempt("a1", "p-a", 50, exercise="ribs")
     assert refusals([course], ADA, [used], day) == {"ribs": "the one attempt is used"}
     practice = Course(id="d", title="D", items=(CourseItem(exercise="ribs"),))
     assert refusals([course, practice], BOB, [], day) == {}
+
+
+def test_a_course_examines_only_those_who_take_it_and_only_by_its_assessments() -> None:
+    exam = CourseItem(exercise="ribs", purpose=Purpose.ASSESSMENT)
+    course = Course(id="c", title="Autumn", groups=("A",), items=(exam, CourseItem(exercise="x")))
+    practice = Course(id="d", title="D", items=(CourseItem(exercise="ribs"),))
+    known = Known(courses_here=(practice, course))
+    assert Visitor(known, ADA).examined_by("ribs") == "Autumn"
+    assert Visitor(known, ADA).examined_by("x") == ""
+    assert Visitor(known, BOB).examined_by("ribs") == ""
+    assert Visitor(known).examined_by("ribs") == ""
 
 
 def test_a_pinned_version_that_the_library_does_not_have_is_said() -> None:

@@ -11,9 +11,9 @@ from test_session_reasons import BACK, HEAD, LEFT, evidence, pushed, recorded
 from test_session_reasons import ENTRY_MM as ENTRY
 
 from app.compose.run_context import conditions_of as metadata_of
-from app.exercises.drill import ROUND_S, THROUGH_S, DrillKind, DrillPart
+from app.exercises.drill import ROUND_S, THROUGH_S, DrillKind, DrillPart, asks
 from app.exercises.drilled import drilled
-from app.exercises.guidance import Purpose
+from app.exercises.guidance import FadingKind, FadingPart, Purpose
 from app.exercises.library import load_exercise
 from app.exercises.schema import Exercise
 from app.scoring.conditions import Conditions, comparable
@@ -86,6 +86,18 @@ def test_a_drill_keeps_patient_and_plan_and_is_read_again_from_its_record(kind):
     )
     again = drilled(drill, kind, placed)
     assert (again.id, again.drill) == (drill.id, drill.drill)
+
+
+@pytest.mark.parametrize("kind", list(DrillKind))
+def test_what_a_drill_says_of_forbidden_tissue_is_so(kind):
+    whole = load_exercise("first-insertion")
+    rules = whole.rules.model_copy(update={"forbidden": ("bone",)})
+    strict = whole.model_copy(update={"rules": rules})
+    forbids = drilled(strict, kind, placed_plan()).rules.forbidden == ("bone",)
+    assert forbids is (kind is not DrillKind.ALIGN)
+    if kind is not DrillKind.REPEAT:  # which is judged as the whole exercise is
+        for aligned in (False, True):
+            assert ("nothing may be met" in asks(kind, aligned)) is forbids
 
 
 @pytest.mark.parametrize("kind", [DrillKind.ALIGN, DrillKind.DEPTH, DrillKind.BREATH])
@@ -166,3 +178,32 @@ def test_after_a_drill_comes_the_whole_exercise_if_it_may_be_begun():
     assert (ahead.reason, ahead.exercise, ahead.tries) == (ProposalReason.WHOLE, whole.id, 3)
     assert _whole("first-insertion", [whole], lambda _: "no", 3).exercise == ""
     assert EXERCISE.drill is None
+
+
+def test_a_drill_of_an_assessment_or_of_fading_help_is_plain_practice():
+    fading = FadingPart(kind=FadingKind.PERFORMANCE)
+    changes = {"purpose": Purpose.ASSESSMENT, "fading": fading}
+    whole = load_exercise("first-insertion").model_copy(update=changes)
+    for kind in DrillKind:
+        drill = drilled(whole, kind, placed_plan())
+        assert (drill.purpose, drill.fading) == (Purpose.PRACTICE, None)
+
+
+def test_the_breath_is_judged_by_what_is_expert_across_the_path():
+    bands = Tolerance.model_validate({"expert": 3.0, "good": 4.0, "pass": 8.0})
+    whole = load_exercise("first-insertion").model_copy(
+        update={"tolerances": {"lateral_error": bands}}
+    )
+    judged = drilled(whole, DrillKind.BREATH, placed_plan()).tolerances["breath_offset"]
+    assert (judged.expert, judged.good, judged.pass_) == (1.5, 3.0, 4.5)
+
+
+def test_aligning_alone_keeps_pass_mark_and_pauses_of_the_rules_and_no_other_rule():
+    rules = ScoreRules(
+        pass_mark=71.0, minimum_tracking=90.0, maximum_pause=12.0, forbidden=("bone",)
+    )
+    whole = load_exercise("first-insertion").model_copy(update={"rules": rules})
+    assert drilled(whole, DrillKind.ALIGN, placed_plan()).rules == ScoreRules(
+        pass_mark=71.0, minimum_tracking=0.0, maximum_pause=12.0
+    )
+    assert drilled(whole, DrillKind.DEPTH, placed_plan()).rules == rules

@@ -11,6 +11,7 @@ import stat
 import subprocess
 import sys
 import time
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -20,13 +21,20 @@ from cryptography.hazmat.primitives.ciphers.modes import GCM
 from session_fakes import Bench
 
 from app.core.progress import Cancelled, Progress
+from app.scoring.conditions import Conditions
+from app.session.board import progress_board
+from app.session.course import CourseItem
 from app.session.database import DatabaseError
 from app.session.index import INDEX, Index
+from app.session.people import Person
 from app.session.recording import read_recording
-from app.session.sidecar import read_kept, sidecar
-from app.session.signature import Signed, judge_whole, signature_file
+from app.session.sidecar import file_digest, read_kept, sidecar, write_summary
+from app.session.signature import Signed, judge_whole, signature_file, signed
 from app.session.station import SignatureError, StationKey, key_file, new_recovery_key, this_station
 from app.session.store import delete, list_sessions, restore
+from app.session.summary import Summary
+
+NOON = datetime(2026, 11, 20, 12, tzinfo=UTC)
 
 KILLS = int(os.environ.get("ACUS_KILLS", "20"))
 """So many programs are killed; 200 are for a long run."""
@@ -368,3 +376,26 @@ def test_no_kill_loses_a_finished_attempt_and_the_index_is_rebuilt_equal(tmp_pat
     content = index.content()
     assert index.rebuild().total == len(list(folder.glob("*.mcap")))
     assert index.content() == content
+
+
+def test_a_drill_is_a_persons_and_counts_for_nobody(tmp_path: Path) -> None:
+    key = StationKey.of()
+    for name, drill in (("whole", ""), ("part", "depth")):
+        under = Conditions("first-insertion", 1, hand="mouse", scoring_version=7, drill=drill)
+        score = {"total": 90.0, "passed": True, "void_reason": "", "rows": []}
+        path = tmp_path / f"{name}.mcap"
+        path.write_bytes(b"not opened: the sidecar is enough")
+        summary = Summary(
+            name, "2026-11-20T10:00:00+00:00", "p-a", "first-insertion",
+            state="ended", score=score, conditions=under,
+        )  # fmt: skip
+        write_summary(path, summary)
+        text = signed(path, file_digest(path), summary, {}, key)
+        signature_file(path).write_text(text)
+    index = Index(tmp_path)
+    index.refresh()
+    attempts = index.attempts()
+    assert {one.id: one.counts for one in attempts} == {"whole": True, "part": False}
+    items, ada = [CourseItem(exercise="first-insertion")], Person("p-a", "Ada")
+    cell = progress_board([ada], items, attempts, {}, NOON).cells["p-a", "first-insertion"]
+    assert (cell.attempts, cell.why) == (1, (("a drill", 1),))

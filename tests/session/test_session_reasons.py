@@ -430,3 +430,53 @@ def test_every_depth_and_distance_that_is_told_was_measured_at_some_sample():
             assert np.abs(off - most).min() < 0.06
             for depth in depths:
                 assert np.abs(deep - depth).min() < 1.0
+
+
+# --- stays in the body, and what counts ---------------------------------------------------------
+
+
+def test_only_the_last_stay_in_the_body_is_looked_at():
+    states = ["aligning"] * 5 + ["inserting"] * 20 + ["aligning"] * 5 + ["inserting"] * 30
+    depths = [*[-10.0] * 5, *np.linspace(1.0, 40.0, 20), *[-10.0] * 5, *np.linspace(1.0, 50.0, 30)]
+    samples, placed = straight(depths, states)
+    assert AlongPath.of(samples, placed).stay().tolist() == list(range(30, 60))
+
+
+@pytest.mark.parametrize(("first_mm", "seen"), [(8.0, True), (20.0, False)])
+def test_a_stay_whose_first_depth_is_deep_tells_nothing_of_the_skin(first_mm, seen):
+    depths = [*[-10.0] * 5, *np.linspace(first_mm, 50.0, 30)]
+    way = AlongPath.of(*straight(depths, ["aligning"] * 5 + ["inserting"] * 30))
+    assert (way.at_skin() is not None) == seen
+
+
+def test_of_several_structures_the_one_that_came_nearest_to_its_limit_is_told():
+    near, far = RiskMark("vein", 5.0, 1.0, 20.0, 30.0), RiskMark("aorta", 5.0, 4.0, 30.0, 40.0)
+    past = evidence(*pushed(lambda _: 0.0 * HEAD), risks=(far, near))
+    assert "1.0 mm of vein" in reasons("risk_distance", past)[0]
+
+
+def test_tissue_that_is_too_short_or_unsure_to_count_is_not_told():
+    at = ((0.0, 0.0, 0.0),) * 2
+    short = Met("vessel", "vein", 12.0, 0.01, at, time=20.0)
+    unsure = Met("vessel", "artery", 14.0, 6.0, at, time=21.0, confidence=0.01)
+    sure = Met("vessel", "portal vein", 16.0, 6.0, at, time=22.0)
+    past = evidence(*pushed(lambda _: 0.0 * HEAD), met=(short, unsure, sure))
+    (text,) = reasons("vessels_touched", past)
+    assert "portal vein" in text
+
+
+@pytest.mark.parametrize("state", ["withdrawing", "paused", "ended"])
+def test_a_force_while_the_attempt_does_not_run_is_not_told(state):
+    felt = np.zeros((100, 3))
+    felt[50], felt[80] = [0.0, 0.0, 2.0], [0.0, 0.0, 9.0]
+    states = ["inserting"] * 70 + [state] * 30
+    tips = ENTRY_MM + np.linspace(0.5, 60.0, 100)[:, None] * BACK
+    past = evidence(*recorded(7.0 + 0.1 * np.arange(100), states, tips, felt=felt))
+    assert reasons("peak_force", past)[0].endswith("at 0:05: 2.0 N.")
+
+
+def test_what_the_cameras_cannot_tell_apart_from_the_line_has_not_left_it():
+    needle = pushed(lambda d: 4.0 * LEFT if d > 20.0 else 0.0 * LEFT)  # 2 mm are good
+    assert "off the line" in reasons("lateral_error", evidence(*needle))[0]
+    unsure = reasons("lateral_error", evidence(*needle, unsure_mm=6.0))
+    assert not [text for text in unsure if "off the line" in text]

@@ -6,9 +6,11 @@ import os
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import jsonschema
 import numpy as np
@@ -25,10 +27,13 @@ from app.session import blocks
 from app.session.budget import ReadingBudget
 from app.session.errors import BrokenRecordingError, RecordingError, SessionError
 from app.session.header import SessionHeader, new_id, pseudonym
+from app.session.reasons import AttemptEvidence
 from app.session.recorder import Recorder
 from app.session.recording import read_recording
+from app.session.review import review
 from app.session.sample import quaternion
 from app.session.schemas import CHANNELS
+from app.session.scored import seen_from
 
 
 def budget() -> ReadingBudget:
@@ -288,3 +293,50 @@ def test_quaternions_turn_vectors_as_their_matrices_do() -> None:
             ]
         )
         np.testing.assert_allclose(again, rotation, atol=1e-12)
+
+
+RIG = {
+    "range": {"depth_min_mm": -30.0},
+    "needle": {"marker_offset_mm": 10.0, "hidden_mm": [-200.0, 20.0]},
+}
+"""Cameras that would see a marker from 30 mm above the skin on, which a tube hides until its band
+stands 20 mm below the fulcrum: there the tip is 10 mm deeper."""
+
+
+def test_from_which_depth_on_cameras_see_the_marker_is_the_deeper_of_view_and_tube() -> None:
+    def seen(**needle: object) -> float:
+        rig = RIG | {"needle": {"marker_offset_mm": 10.0} | needle}
+        return seen_from({"cameras.json": json.dumps(rig).encode()})
+
+    assert seen() == pytest.approx(-0.030)
+    assert seen(hidden_mm=None) == pytest.approx(-0.030)
+    assert seen(hidden_mm=[-200.0, 20.0]) == pytest.approx(0.030)
+    assert seen(hidden_mm=[-200.0, -80.0]) == pytest.approx(-0.030)
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{}", '{"range": {"depth_min_mm": NaN}, "needle": {}}'])
+def test_nobody_knows_from_where_on_cameras_see_where_the_record_does_not_say_it(text: str) -> None:
+    assert seen_from({"cameras.json": text.encode()}) == np.inf
+    assert seen_from({}) == np.inf
+
+
+def test_a_record_is_scored_by_the_cameras_that_it_holds(record: Path) -> None:
+    recording = read_recording(record)
+    own = dict(recording.attachments) | {"cameras.json": json.dumps(RIG).encode()}
+    assert replace(recording, attachments=own).trajectory().seen_from == pytest.approx(0.030)
+
+
+def test_what_the_cameras_of_a_record_cannot_tell_apart_reaches_the_reasons(
+    record: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    given: list[float] = []
+
+    def evidence(*parts: Any, **facts: Any) -> AttemptEvidence:
+        given.append(facts.get("unsure_mm", 0.0))
+        return AttemptEvidence(*parts, **facts)
+
+    monkeypatch.setattr("app.session.review.AttemptEvidence", evidence)
+    shown = review(read_recording(record))
+    assert shown.tip_radius is not None
+    assert given == [pytest.approx(shown.tip_radius * 1e3)]
+    assert given[0] > 0.0

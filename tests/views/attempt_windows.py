@@ -8,6 +8,7 @@ import json
 import os
 import sys
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 
 if __name__ == "__main__":
@@ -15,13 +16,26 @@ if __name__ == "__main__":
     sys.path.insert(0, str(Path(__file__).parents[1] / "views_exercise"))
     sys.path.insert(0, str(Path(__file__).parent))
 
+import numpy as np
 from PySide6.QtCore import QPoint, QRect
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QPushButton, QScrollArea
 
 from app.exercises.library import load_exercise
+from app.session.curves import offset
+from app.session.machine import State
+from app.session.snapshot import BreathHold
+from app.views.exercise.feature import ExerciseFeature
 from app.views.kit import theme
+from app.views.kit.parts import FittingButton
 from app.views.slices.viewing import Tool
+
+LEADING = 4
+"""Between the lines of a text, above the first and below the last, nothing is drawn [px]."""
+
+DEEP_M = 0.0888
+DEPTH_TEXT = "88.8 mm"
+LONG_ORDER = "The patient breathes freely (A releases, A asks again): "
 
 SHARES = {"ct": 0.60, "rail": 0.18, "bullseye": 0.20}
 """Of the window: at least of its area; at most of its width; at most of its width."""
@@ -44,9 +58,46 @@ def begun(window, patient, start=True):
         QTest.qWait(20)
     assert window.runs.run is not None
     if start:
-        window.workspace.room.begin()
-        window.conductor.controller.poll()
-        QTest.qWait(60)
+        under_way(window)
+
+
+def under_way(window):
+    """Begin an attempt by its button, and let the needle be deep, aside, pushed against, and the
+    breath not held: every number and the longest order are painted.
+    """
+    trainer, plain = window.runs.run.trainer, window.runs.run.trainer.snapshot
+
+    def deep():
+        made, placed = plain(), trainer.placed
+        away = np.cross(placed.axis, [1.0, 0.0, 0.0])
+        axis = placed.axis + 0.2 * away / np.linalg.norm(away)
+        axis /= np.linalg.norm(axis)
+        tip = placed.p_entry + DEEP_M * axis
+        pose = replace(made.pose, p_tip=tip, axis=axis, depth=DEEP_M)
+        made.device.felt[:] = (0.0, 3.0, 3.8)
+        return replace(
+            made, pose=pose, measured_pose=pose, offset=offset(pose, placed.p_target, placed),
+            elapsed=754.0, scans=12, breath=BreathHold(asked=True, spent=True),
+        )  # fmt: skip
+
+    window.feature(ExerciseFeature).beginning.trust(window.conductor.exercise.id)
+    window.workspace.exercise_panel.buttons.start.click()
+    assert window.conductor.controller.is_running
+    trainer.snapshot, trainer.state = deep, State.INSERTING
+    rail = window.workspace.rail
+    for _ in range(100):
+        if LONG_ORDER in rail.order.text() and DEPTH_TEXT in texts(rail):
+            break
+        QTest.qWait(20)
+    QTest.qWait(60)
+    assert LONG_ORDER in rail.order.text()
+    assert {DEPTH_TEXT, "12:34", "12"} <= set(texts(rail))
+    assert rail.force.accessibleName() or rail.force.isVisible()
+
+
+def texts(rail):
+    """Return what is to be read on labels of the rail."""
+    return [label.text() for label in rail.findChildren(QLabel) if label.isVisible()]
 
 
 def place(window, widget):
@@ -89,8 +140,13 @@ def judged(window, large=False):
                 wrong.append(f"{label.text()!r} in {label.fontInfo().pixelSize()} px")
             if not label.wordWrap() and label.sizeHint().width() > label.width() + 1:
                 wrong.append(f"{label.text()!r} is cut")
+            if label.wordWrap() and label.heightForWidth(label.width()) > label.height() + LEADING:
+                wrong.append(f"{label.text()!r} is cut below")
     for button in workspace.rail.findChildren(QPushButton):
-        if button.isVisible() and button.sizeHint().width() > button.width() + 1:
+        lost = button.sizeHint().width() > button.width() + 1
+        if isinstance(button, FittingButton):  # its key in brackets may go, letters may not
+            lost = "…" in button.text()
+        if button.isVisible() and lost:
             wrong.append(f"{button.text()!r} is cut")
     return wrong
 

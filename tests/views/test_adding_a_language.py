@@ -83,3 +83,13 @@ def test_a_file_that_is_no_translation_leaves_the_window_english(spoken, tmp_pat
 def test_a_text_that_is_marked_within_another_is_not_missed():
     tree = ast.parse("f\"{tr('All')} (*)\"\ntr('seen without help')\nf\"{sentence('x {n}', n=1)}\"")
     assert list(translations._within_texts(tree)) == ["All", "x {n}"]
+
+
+def test_a_text_within_an_f_string_is_collected_for_every_language(tmp_path, monkeypatch):
+    (tmp_path / "app").mkdir()
+    source = "from app.views.kit.text import tr\nLINE = f\"▲ {tr('within a text')}\"\n"
+    (tmp_path / "app" / "words.py").write_text(source, encoding="utf-8")
+    monkeypatch.setattr(translations, "ROOT", tmp_path)
+    file = tmp_path / "acus_xx.ts"
+    translations.update([file])
+    assert "within a text" in translations.messages(file)

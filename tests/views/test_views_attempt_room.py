@@ -37,6 +37,7 @@ def test_in_an_attempt_the_ct_has_its_share_of_the_window(window, patient, settl
         begun(window, patient)
         assert judged(window, large=large) == []
     finally:
+        window.conductor.controller.abort()
         theme.apply_theme(QApplication.instance())
 
 
@@ -293,3 +294,14 @@ def test_what_a_scan_is_ordered_with_fits_the_rail(window, patient, settle):
     workspace.room.end()
     settle(timeout=0.1)
     assert workspace.exercise_panel.isAncestorOf(scan)
+
+
+def test_a_pane_that_had_the_whole_room_has_it_again_after_the_attempt(window, patient, settle):
+    begun(window, patient, start=False)
+    workspace = window.workspace
+    pane = workspace.panes[0]
+    workspace.grid.toggle(pane)
+    workspace.room.begin()
+    assert workspace.grid.maximised is None
+    workspace.room.end()
+    assert workspace.grid.maximised is pane

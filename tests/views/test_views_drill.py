@@ -7,13 +7,19 @@ import pytest
 from test_views_replay import PLAN, attempted
 
 from app.exercises.drill import DrillKind, DrillPart
+from app.exercises.drilled import drilled
+from app.exercises.guidance import Purpose
 from app.exercises.library import load_exercise
-from app.scoring.conditions import Conditions
+from app.scoring.conditions import Conditions, DeviceKind
+from app.session.course import Course, CourseItem
 from app.session.next_exercise import Proposal, ProposalReason
+from app.session.people import People
+from app.session.roster import RosterLine
 from app.views.debrief.card import drill_title
 from app.views.debrief.feature import EXPERT, DebriefFeature
 from app.views.exercise.feature import ExerciseFeature
 from app.views.kit.access import ACCESS
+from app.views.people.feature import PeopleFeature
 
 WHOLE = load_exercise("first-insertion")
 UNDER = Conditions(WHOLE.id, WHOLE.version, hand="mouse")
@@ -70,6 +76,34 @@ def test_no_drill_of_another_version_or_of_what_may_not_be_begun(shown, monkeypa
     assert shown(conditions=replace(UNDER, exercise="gone")).card.kind is None
     monkeypatch.setattr(type(ACCESS), "refusal", lambda self, name: "used up")
     assert shown().card.kind is None
+
+
+def test_the_depth_begins_aligned_with_a_pointer_and_not_with_robot_or_pen(shown, settle):
+    simulated = replace(UNDER, kind=DeviceKind.SIMULATED)
+    page = shown(conditions=simulated, practise=DrillKind.DEPTH)
+    assert "you begin aligned" in page.card.practise.text()
+    for hand, kind in (("robot", DeviceKind.REAL), ("pen", DeviceKind.PEN)):
+        held = replace(UNDER, hand=hand, kind=kind)
+        page = shown(conditions=held, practise=DrillKind.DEPTH)
+        assert page.card.kind is DrillKind.DEPTH
+        assert "aligned" not in page.card.practise.text()
+
+
+def test_nobody_drills_what_a_course_of_his_holds_as_an_assessment(window, shown, settle):
+    ada, _ = People().add(RosterLine("Ada"))
+    item = CourseItem(exercise=WHOLE.id, version=WHOLE.version, purpose=Purpose.ASSESSMENT)
+    Course(id="autumn", title="Autumn", items=(item,)).save()
+    page, conductor = shown(), window.conductor
+    conductor.set_exercise(drilled(WHOLE, DrillKind.ALIGN, page.review.placed))
+    assert page.card.kind is DrillKind.ALIGN
+    assert conductor.controller.refusal() == ""
+    window.feature(PeopleFeature).look()
+    ACCESS.sign_in(ada)
+    assert settle(lambda: "course Autumn: nobody rehearses it" in conductor.controller.refusal())
+    assert ACCESS.refusal(WHOLE.id) == ""  # it is his to do
+    assert shown().card.kind is None
+    page.drill_wanted.emit(DrillKind.ALIGN)
+    assert "course Autumn: nobody rehearses it" in window.message_bar.text
 
 
 def test_the_expert_stands_beside_an_attempt_until_somebody_chooses_otherwise(shown, settle):

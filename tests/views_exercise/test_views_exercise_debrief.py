@@ -15,8 +15,9 @@ from app.core.events import Event
 from app.exercises.drill import DrillKind, DrillPart
 from app.scoring.conditions import Conditions
 from app.scoring.defaults import DEFAULT_TOLERANCES
+from app.scoring.result import judge
 from app.scoring.risks import RiskMark
-from app.scoring.rows import Row
+from app.scoring.rows import Row, ScoreRules
 from app.session.curves import Curves
 from app.session.facts import plan_record
 from app.session.next_exercise import Proposal, ProposalReason
@@ -498,6 +499,20 @@ def test_what_cost_points_is_said_with_the_attempts_own_numbers_and_its_reasons(
     assert "•  You left the line." in lines
 
 
+@pytest.mark.parametrize(("depth_mm", "told"), [(1.0, False), (5.2, False), (8.0, True)])
+def test_that_the_target_was_missed_is_said_where_that_holds_all_else_back(depth_mm, told):
+    bands = DEFAULT_TOLERANCES["depth_error"]  # passes up to 5 mm, worth nothing from 10 mm on
+    rows = (
+        Row("depth_error", "Depth error", "mm", depth_mm, "", bands),
+        Row("total_time", "Total time", "s", 400.0, "", bands),
+    )
+    first, *more = costs(review(score=judge(rows, ScoreRules())))
+    missed = "The target was missed: all else counts only 40 %."  # (10 - 8) of (10 - 5) mm
+    assert (missed in first.reasons) == told
+    texts = [text for cost in (first, *more) for text in cost.reasons if "missed" in text]
+    assert len(texts) == told
+
+
 def test_the_card_offers_the_drill_and_begins_exactly_that(page):
     page.show_review(review())
     assert not page.card.drill.isVisibleTo(page)
@@ -514,6 +529,14 @@ def test_the_card_offers_the_drill_and_begins_exactly_that(page):
     assert "Round 3 of 10 is done" in page.card.practise.text()
     page.offer_drill(None)
     assert not page.card.drill.isVisibleTo(page)
+
+
+def test_that_one_begins_aligned_is_said_only_of_a_simulated_hand(page):
+    page.show_review(review())
+    page.offer_drill(DrillKind.DEPTH, aligned=True)
+    assert "you begin aligned" in page.card.practise.text()
+    page.offer_drill(DrillKind.DEPTH)
+    assert "aligned" not in page.card.practise.text()
 
 
 @pytest.fixture(params=["en", "de", "fr"])

@@ -1,6 +1,7 @@
 """A German window: numbers have a comma, and reasons and titles of the rooms below are German."""
 
 from dataclasses import replace
+from datetime import date
 from types import SimpleNamespace
 
 import numpy as np
@@ -15,6 +16,7 @@ from app.scoring.met import Met
 from app.scoring.result import judge
 from app.scoring.risks import RiskMark
 from app.scoring.rows import ScoreRules
+from app.session.course import Course, CourseItem, CourseStanding, why_not
 from app.session.snapshot import NextStep, StepKind
 from app.views.debrief.card import costs
 from app.views.debrief.score_words import (
@@ -33,6 +35,7 @@ from app.views.exercise.steps import amount, step_words
 from app.views.kit import text, theme
 from app.views.kit.coordinates import lps_words
 from app.views.kit.text import tr, translated
+from app.views.people.pages import standing_words
 from tools.translations import faults
 
 GERMAN = {
@@ -40,6 +43,7 @@ GERMAN = {
     "{trajectory_aborted}",
     "{bone} touched at {depth}": "{bone} bei {depth} berührt",
     "{met}, {force:.1f} N": "{met}, {force:.1f} N Kraft",
+    "first pass {exercise}": "zuerst {exercise} bestehen",
     "First insertion": "Erster Einstich",
     "{a:.1f} of {b}": "{a:.1f} von {c}",
     "{a} mm": "{} mm",
@@ -103,6 +107,14 @@ def test_why_an_attempt_is_void_is_said_in_the_language_of_the_window(german):
     void = judge(score().rows, ScoreRules(), reason)
     assert void.void_reason == "the attempt was aborted: Esc"
     assert verdict(review(score=void))[2].startswith("Der Versuch wurde abgebrochen: Esc. ")
+
+
+def test_why_an_exercise_of_a_course_is_closed_is_said_in_the_language_of_the_window(german):
+    items = (CourseItem(exercise="ribs"), CourseItem(exercise="lung"))
+    course, day = Course(id="c", title="C", ordered=True, items=items), date(2026, 11, 20)
+    why = why_not(course, "lung", [], day, {"ribs": "Rippen"})
+    standing = CourseStanding(items[1], "Lunge", used=0, refusal=why)
+    assert standing_words(standing, comes=False)[-1] == "zuerst Rippen bestehen"
 
 
 def test_what_fails_an_attempt_is_said_in_the_language_of_the_window(german):

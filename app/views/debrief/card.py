@@ -157,9 +157,15 @@ def drill_title(kind: DrillKind) -> str:
     }[kind]
 
 
-def drill_words(kind: DrillKind, rounds: int = 0) -> str:
-    """Say what a drill asks for; of one that is repeated also how many rounds are done."""
-    words = translated(asks(kind))
+def drill_words(kind: DrillKind, rounds: int = 0, aligned: bool = False) -> str:
+    """Say what a drill asks for; of one that is repeated also how many rounds are done.
+
+    Args:
+        kind: which.
+        rounds: how many of it were done today.
+        aligned: see `asks`.
+    """
+    words = translated(asks(kind, aligned))
     if kind is DrillKind.REPEAT and rounds:
         done = min(rounds, ROUNDS)
         rounds_words = tr("Round {n} of {all} is done.", n=done, all=ROUNDS)
@@ -218,20 +224,23 @@ class DebriefCard(QFrame):
         super().resizeEvent(event)
         self._turn()
 
-    def offer(self, kind: DrillKind | None, rounds: int = 0, first: bool = True) -> None:
+    def offer(
+        self, kind: DrillKind | None, rounds: int = 0, first: bool = True, aligned: bool = False
+    ) -> None:
         """Offer a drill; None offers none.
 
         Args:
             kind: which.
             rounds: how many of it were done today.
             first: whether nothing else comes before it: its button stands out.
+            aligned: whether a simulated hand would lead the needle.
         """
         self._kind = kind
         for widget in (self.drill, self.practise):
             widget.setVisible(kind is not None)
         if kind is None:
             return
-        words = drill_words(kind, rounds)
+        words = drill_words(kind, rounds, aligned)
         self.practise.setText(words)
         self.drill.setText(tr("Practise: {drill}", drill=drill_title(kind)))
         self.drill.setToolTip(literal(words))

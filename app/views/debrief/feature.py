@@ -32,6 +32,8 @@ from app.exercises.schema import Exercise
 from app.imaging.volume import Volume
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
+from app.scoring.conditions import DeviceKind
+from app.session.conditions import POINTERS
 from app.session.control_scan import ControlScan
 from app.session.errors import SessionError
 from app.session.expert_beside import expert_beside
@@ -97,13 +99,14 @@ class DebriefController(QObject):
         parent: QObject | None = None,
         exercises: Callable[[], Sequence[Exercise]] = tuple,
         indicator: Indicator | None = None,
+        held_at_hub: Callable[[], bool] = lambda: False,
     ) -> None:
         super().__init__(parent)
         self._page = page
         self._sessions = sessions
         self._folder = folder
         self._ask_path = ask_path or ask_path_in_dialog
-        self._exercises, self._indicator = exercises, indicator
+        self._exercises, self._indicator, self._held_at_hub = exercises, indicator, held_at_hub
         self._reading: BackgroundTask | None = None
         self._shown: Review | None = None
         self._asked = self._asked_ghost = 0
@@ -185,11 +188,20 @@ class DebriefController(QObject):
         shown, whole = self._shown, self._whole()
         return None if shown is None or whole is None else drilled(whole, kind, shown.placed)
 
+    def _is_by_pointer(self) -> bool:
+        """Return whether a simulated hand led the needle, and leads it here now."""
+        under = None if self._shown is None else self._shown.conditions
+        if under is None or under.kind is not DeviceKind.SIMULATED or self._held_at_hub():
+            return False
+        return under.hand in POINTERS
+
     def _whole(self) -> Exercise | None:
-        """Return the exercise that was attempted, as it is today; None where it is another."""
+        """Return the exercise that was attempted, as it is today; None where it is another, or none
+        that may be practised.
+        """
         shown = self._shown
         under = None if shown is None else shown.conditions
-        if shown is None or under is None or ACCESS.refusal(self.whole):
+        if shown is None or under is None or ACCESS.drill_refusal(self.whole):
             return None
         version = under.version if shown.drill is None else shown.drill.version
         there = (one for one in self._exercises() if one.id == self.whole)
@@ -333,7 +345,7 @@ class DebriefController(QObject):
             self._page.show_proposal(result.proposal)
             if not held:
                 rounds = result.proposal.tries if shown.drill is not None else 0
-                self._page.offer_drill(self.wanted_drill(rounds), rounds)
+                self._page.offer_drill(self.wanted_drill(rounds), rounds, self._is_by_pointer())
                 self._page.offer_ghosts(ghost_words(result.rivals, shown), EXPERT)
 
         run_in_background(self, look, take, self._fail)
@@ -775,6 +787,7 @@ class DebriefFeature(Feature):
             parent=self,
             exercises=context.services.exercises,
             indicator=shell.progress,
+            held_at_hub=lambda: (run := context.runs.run) is not None and run.held_at_hub,
         )
         self.ct = AttemptCt(self.page, context, lambda: self._controller.exercise)
         self.scan_pictures = ScanPictures(self.page, context.conductor, shell.progress)
@@ -853,10 +866,12 @@ class DebriefFeature(Feature):
 
     def begin_drill(self, kind: DrillKind) -> None:
         """Begin a drill of the exercise that was attempted, on the same plan."""
-        drill = self._controller.drill(kind)
+        drill, why = self._controller.drill(kind), ACCESS.drill_refusal(self._controller.whole)
         if drill is None:
             self.failed.emit(
-                tr("This exercise is no more what it was: begin it from the start page.")
+                tr("It cannot be begun: {why}.", why=why)
+                if why
+                else tr("This exercise is no more what it was: begin it from the start page.")
             )
         else:
             self.drill_wanted.emit(drill)

@@ -392,14 +392,15 @@ class DebriefPage(QWidget):
             button.style().unpolish(button)
             button.style().polish(button)
 
-    def offer_drill(self, kind: DrillKind | None, rounds: int = 0) -> None:
+    def offer_drill(self, kind: DrillKind | None, rounds: int = 0, aligned: bool = False) -> None:
         """Offer a drill on the card; None offers none.
 
         Args:
             kind: which.
             rounds: how many of it were done today.
+            aligned: whether a simulated hand would lead the needle.
         """
-        self.card.offer(kind, rounds, first=not self._passed)
+        self.card.offer(kind, rounds, first=not self._passed, aligned=aligned)
         self.show_proposal(self._proposal)
 
     @property

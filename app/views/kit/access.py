@@ -120,6 +120,17 @@ class Access(QObject):
             course=course,
         )
 
+    def drill_refusal(self, exercise: str) -> str:
+        """Say why who is here may not begin a drill of an exercise; empty if nothing speaks
+        against it.
+        """
+        course = self._visitor.examined_by(exercise)
+        if course:
+            return tr(
+                "it is an assessment of the course {course}: nobody rehearses it", course=course
+            )
+        return self.refusal(exercise)
+
 
 ACCESS = Access()
 """The one answer of the window."""

@@ -566,7 +566,10 @@ class PeopleFeature(Feature):
 
         def refusal() -> str:
             taken = conductor.exercise
-            why = "" if taken is None else ACCESS.refusal(taken.id)
+            if taken is None:
+                return ""
+            drill = taken.drill
+            why = ACCESS.refusal(taken.id) if drill is None else ACCESS.drill_refusal(drill.of)
             return tr("It cannot be begun: {why}.", why=why) if why else ""
 
         conductor.controller.refusal = refusal

@@ -454,7 +454,8 @@ class CoursesTab(QWidget):
         self.begin.setEnabled(course is not None and bool(course.items))
         title = standing.title if standing is not None else ""
         self.begin.setText(tr("Begin: {title}", title=title) if title else tr("Begin"))
-        why = standing.refusal if standing is not None else tr("nothing is left to be begun")
+        nothing = tr("nothing is left to be begun")
+        why = translated(standing.refusal) if standing is not None else nothing
         self.begin.setToolTip(literal(why or tr("Briefing first, then the attempt (Enter)")))
 
     def _activate(self) -> None:
@@ -499,7 +500,7 @@ def standing_words(standing: CourseStanding, comes: bool) -> list[str]:
     if standing.held:
         now.append(tr("result not released"))
     if standing.refusal:
-        now.append(standing.refusal)
+        now.append(translated(standing.refusal))
     elif comes and standing.used is not None:
         now.append(tr("▶ next"))
     return [standing.title, purpose, attempts, days, " · ".join(now)]

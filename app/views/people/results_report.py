@@ -35,7 +35,7 @@ from app.session.board import BoardCell, CurvePoint
 from app.session.people import Person
 from app.views.debrief.page import date_text
 from app.views.debrief.report import BAND_INKS, DIM, HEIGHT, INK, LINE, MARGIN, RULE, WIDTH, font
-from app.views.kit.text import disclaimer, number, tr
+from app.views.kit.text import disclaimer, number, tr, translated
 
 PASSED, MEDIAN = BAND_INKS[Band.GOOD], "#8a5a00"
 _ROW: Final = 17.0
@@ -313,7 +313,7 @@ def _exercises(sheet: _Sheet, results: Results, person: Person, titles: Mapping[
             sheet.text(MARGIN + left, words, colour=colour, width=180.0 if not place else 60.0)
         sheet.y += _ROW
         if cell.why:
-            why = "; ".join(f"{n} {why}" for why, n in cell.why)
+            why = "; ".join(f"{n} {translated(why)}" for why, n in cell.why)
             sheet.y -= 3.0
             sheet.text(MARGIN + 10.0, tr("not counted: {why}", why=why), 8.0, DIM, width=460.0)
             sheet.y += _ROW - 3.0
