@@ -9,9 +9,16 @@ import pytest
 from scipy.signal import welch
 from virtual_student import Student
 
-from app.compose.trainer import build_rig, loop_table, replay_recording
+from app.compose.trainer import (
+    TrainerSetup,
+    beginnings_of,
+    build_rig,
+    loop_table,
+    replay_recording,
+)
 from app.core import state_vector as sv
 from app.exercises.library import load_exercise
+from app.exercises.scene import device_of, placed_plan_of
 from app.session.beginnings import LEAST_OFF, MOST_OFF, Beginnings
 from app.session.machine import State
 from app.session.recording import read_recording
@@ -251,3 +258,15 @@ def test_orders_fade_with_the_level_and_from_the_third_on_the_ct_leads(
         snapshot = student.trainer.step(20)
     step = NextSteps(student.trainer._placed, 2e-3, 2e-3).of(snapshot, orders=shown.orders)
     assert step.kind is (StepKind.TILT if orders else StepKind.LOOK)
+
+
+def test_each_run_of_the_window_begins_elsewhere_and_one_with_a_seed_alike() -> None:
+    exercise = load_exercise("first-insertion")
+    setup = TrainerSetup(exercise, placed_plan_of(exercise), seed=1)
+    profile = device_of(exercise)
+    first = [
+        beginnings_of(replace(setup, hand_seed=seed), profile).next(setup.placed)
+        for seed in (None, None, 7, 8)
+    ]
+    assert first[0] == first[1]
+    assert len(set(first[1:])) == 3

@@ -12,7 +12,9 @@ from app.compose.skill_scores import Resolved, SkillOutcome, run_trial
 from app.compose.trainer import TrainerSetup, beginnings_of, build_loop, pictures_of
 from app.compose.trial_parts import BEGIN, STEP_TICKS, virtual_trainer
 from app.core.clock import VirtualClock
+from app.core.messages import sentence
 from app.core.progress import Progress
+from app.exercises.errors import ExerciseError
 from app.exercises.scene import device_of
 from app.session.machine import State
 from app.session.pad.geometry import downward
@@ -58,6 +60,14 @@ def pointer_attempt(
     Raises:
         AcusError: if a profile, an effect or the path cannot be used; says which and why.
     """
+    if not Shown.of_exercise(exercise).live:
+        raise ExerciseError(
+            sentence(
+                "the hands at the window steer by the live needle, and {exercise_id} shows none: "
+                "try it with another --script",
+                exercise_id=exercise.id,
+            )
+        )
     profile, clock = device_of(exercise), VirtualClock(BEGIN)
     setup = TrainerSetup(exercise, placed, seed=seed, clock=clock, tissues=tissues)
     loop, rig = build_loop(setup, profile), load_rig(exercise.rig)

@@ -5076,6 +5076,14 @@
             <translation type="unfinished">ein Block mit {rows} Zeilen hat {check_bytes} Byte an Prüfwerten</translation>
         </message>
         <message>
+            <source>not released yet</source>
+            <translation type="unfinished">noch nicht freigegeben</translation>
+        </message>
+        <message>
+            <source>made under other conditions than most</source>
+            <translation type="unfinished">unter anderen Bedingungen als die meisten</translation>
+        </message>
+        <message>
             <source>altered after it was signed</source>
             <translation type="unfinished">nach dem Signieren verändert</translation>
         </message>
@@ -5090,6 +5098,14 @@
         <message>
             <source>carried out by the arm</source>
             <translation type="unfinished">vom Arm ausgeführt</translation>
+        </message>
+        <message>
+            <source>scripted</source>
+            <translation type="unfinished">vom Skript geführt</translation>
+        </message>
+        <message>
+            <source>a drill</source>
+            <translation type="unfinished">eine gezielte Übung</translation>
         </message>
         <message>
             <source>not scored or void</source>
@@ -5334,6 +5350,22 @@
         <message>
             <source>the one attempt is used</source>
             <translation type="unfinished">der eine Versuch ist verbraucht</translation>
+        </message>
+        <message>
+            <source>first pass {exercise}</source>
+            <translation type="unfinished">zuerst {exercise} bestehen</translation>
+        </message>
+        <message>
+            <source>it is an assessment of the course {course}, which you do not take: ask the instructor</source>
+            <translation type="unfinished">sie ist eine Prüfung des Kurses {course}, den Sie nicht belegen: fragen Sie die Lehrperson</translation>
+        </message>
+        <message>
+            <source>this exercise is not in the library here</source>
+            <translation type="unfinished">diese Übung ist hier nicht in der Bibliothek</translation>
+        </message>
+        <message>
+            <source>the course pins version {pinned}, the library has version {known}: the instructor changes one of them</source>
+            <translation type="unfinished">der Kurs legt Version {pinned} fest, die Bibliothek hat Version {known}: die Lehrperson ändert eine der beiden</translation>
         </message>
         <message>
             <source>as its files are</source>
@@ -6404,8 +6436,8 @@
             <translation type="unfinished">die Studie {chosen_name} hat keine Verfahren, deren Zeit zu messen wäre; examine() führt eine Erhebung aus</translation>
         </message>
         <message>
-            <source>{name}: {name_of_all}</source>
-            <translation type="unfinished">{name}: {name_of_all}</translation>
+            <source>{study}: {setting}</source>
+            <translation type="unfinished">{study}: {setting}</translation>
         </message>
         <message>
             <source>study {chosen_name} compares ways by time; run() runs it</source>
@@ -12584,14 +12616,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Scans</translation>
         </message>
         <message>
-            <source>Live pictures (Ctrl+T)</source>
-            <translation type="unfinished">Livebilder (Strg+T)</translation>
-        </message>
-        <message>
-            <source>All panels (Ctrl+B)</source>
-            <translation type="unfinished">Alle Bereiche (Strg+B)</translation>
-        </message>
-        <message>
             <source>Pull out</source>
             <translation type="unfinished">Heraus</translation>
         </message>
@@ -12918,6 +12942,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>it is an assessment of the course {course}. Sign in as a student who takes it (Sessions ▸ Sign in as a student…), or as the instructor (role, at the top right)</source>
             <translation type="unfinished">es ist eine Prüfung des Kurses {course}. Melden Sie sich als Teilnehmer an, der sie ablegt (Sitzungen ▸ Als Teilnehmer anmelden…), oder als Kursleiter (Rolle, oben rechts)</translation>
+        </message>
+        <message>
+            <source>it is an assessment of the course {course}: nobody rehearses it</source>
+            <translation type="unfinished">sie ist eine Prüfung des Kurses {course}: niemand übt sie vorher</translation>
         </message>
         <message>
             <source>{x}   {y}   {z} mm</source>
@@ -17518,16 +17546,20 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Sie halten den Griff eines langen Instruments, das durch einen Trokar geht. Bewegen Sie den Griff nach links, geht die Spitze nach rechts, und zwar umso weiter, je tiefer sie ist. Berühren Sie die nummerierten Ziele eines nach dem anderen: Bringen Sie die Spitze auf das markierte Ziel und halten Sie sie dort, bis das nächste markiert ist. Gehen Sie zu jedem auf geradem Weg; drücken Sie nach dem letzten Eingabe.</translation>
         </message>
         <message>
+            <source>Depth only: you begin aligned; only the depth counts, and nothing may be met that the exercise forbids.</source>
+            <translation type="unfinished">Nur die Tiefe: Sie beginnen ausgerichtet; nur die Tiefe zählt, und nichts darf getroffen werden, was die Übung verbietet.</translation>
+        </message>
+        <message>
+            <source>Depth only: only the depth counts, and nothing may be met that the exercise forbids.</source>
+            <translation type="unfinished">Nur die Tiefe: Nur die Tiefe zählt, und nichts darf getroffen werden, was die Übung verbietet.</translation>
+        </message>
+        <message>
             <source>Align only: it ends as the tip goes through the skin, and only the tilt there counts.</source>
             <translation type="unfinished">Nur Ausrichten: Der Versuch endet, sobald die Spitze durch die Haut geht, und nur die Neigung dort zählt.</translation>
         </message>
         <message>
-            <source>Depth only: you begin aligned, and only the depth counts.</source>
-            <translation type="unfinished">Nur Tiefe: Sie beginnen mit ausgerichteter Nadel, und nur die Tiefe zählt.</translation>
-        </message>
-        <message>
-            <source>Breath only: push while the target is in its place, wait while it is not; nothing else counts.</source>
-            <translation type="unfinished">Nur Atmung: Schieben Sie vor, solange das Ziel an seinem Ort ist, und warten Sie, solange es das nicht ist; sonst zählt nichts.</translation>
+            <source>Breath only: push while the target is in its place, wait while it is not. Only that counts, and nothing may be met that the exercise forbids.</source>
+            <translation type="unfinished">Nur der Atem: vorschieben, solange das Ziel an seinem Platz ist, sonst warten. Nur das zählt, und nichts darf getroffen werden, was die Übung verbietet.</translation>
         </message>
         <message>
             <source>Ten times three minutes: the whole exercise; each round ends by itself after three minutes.</source>
@@ -17586,8 +17618,8 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">✔ in Ruhe: vorschieben</translation>
         </message>
         <message>
-            <source>▲ {mm:.0f} mm away: wait</source>
-            <translation type="unfinished">▲ {mm:.0f} mm entfernt: warten</translation>
+            <source>▲ {mm:.1f} mm away: wait</source>
+            <translation type="unfinished">▲ {mm:.1f} mm entfernt: warten</translation>
         </message>
         <message>
             <source>Click: this slice alone, with all that a slice can do</source>
@@ -17680,6 +17712,14 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>the needle is at rest in the hand: the attempt goes on, forces come back</source>
             <translation type="unfinished">Die Nadel ruht in der Hand: Der Versuch geht weiter, die Kräfte kommen zurück</translation>
+        </message>
+        <message>
+            <source>the hands at the window steer by the live needle, and {exercise_id} shows none: try it with another --script</source>
+            <translation type="unfinished">die Hände am Fenster steuern nach der laufend gezeigten Nadel, und {exercise_id} zeigt keine: mit einem anderen --script ausprobieren</translation>
+        </message>
+        <message>
+            <source>--full and --quick ask for both: leave one of them out</source>
+            <translation type="unfinished">--full und --quick verlangen beides: eines davon weglassen</translation>
         </message>
     </context>
 </TS>

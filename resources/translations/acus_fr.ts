@@ -5076,6 +5076,14 @@
             <translation type="unfinished">un bloc de {rows} lignes a {check_bytes} octets de contrôle</translation>
         </message>
         <message>
+            <source>not released yet</source>
+            <translation type="unfinished">pas encore publié</translation>
+        </message>
+        <message>
+            <source>made under other conditions than most</source>
+            <translation type="unfinished">dans d’autres conditions que la plupart</translation>
+        </message>
+        <message>
             <source>altered after it was signed</source>
             <translation type="unfinished">modifié après sa signature</translation>
         </message>
@@ -5090,6 +5098,14 @@
         <message>
             <source>carried out by the arm</source>
             <translation type="unfinished">exécuté par le bras</translation>
+        </message>
+        <message>
+            <source>scripted</source>
+            <translation type="unfinished">guidé par script</translation>
+        </message>
+        <message>
+            <source>a drill</source>
+            <translation type="unfinished">un exercice ciblé</translation>
         </message>
         <message>
             <source>not scored or void</source>
@@ -5334,6 +5350,22 @@
         <message>
             <source>the one attempt is used</source>
             <translation type="unfinished">l’unique essai est utilisé</translation>
+        </message>
+        <message>
+            <source>first pass {exercise}</source>
+            <translation type="unfinished">réussissez d’abord {exercise}</translation>
+        </message>
+        <message>
+            <source>it is an assessment of the course {course}, which you do not take: ask the instructor</source>
+            <translation type="unfinished">c’est une évaluation du cours {course}, que vous ne suivez pas : demandez au formateur</translation>
+        </message>
+        <message>
+            <source>this exercise is not in the library here</source>
+            <translation type="unfinished">cet exercice n’est pas dans la bibliothèque ici</translation>
+        </message>
+        <message>
+            <source>the course pins version {pinned}, the library has version {known}: the instructor changes one of them</source>
+            <translation type="unfinished">le cours fixe la version {pinned}, la bibliothèque a la version {known} : le formateur change l’une des deux</translation>
         </message>
         <message>
             <source>as its files are</source>
@@ -6404,8 +6436,8 @@
             <translation type="unfinished">l’étude {chosen_name} n’a pas de méthodes à chronométrer ; examine() exécute une enquête</translation>
         </message>
         <message>
-            <source>{name}: {name_of_all}</source>
-            <translation type="unfinished">{name} : {name_of_all}</translation>
+            <source>{study}: {setting}</source>
+            <translation type="unfinished">{study} : {setting}</translation>
         </message>
         <message>
             <source>study {chosen_name} compares ways by time; run() runs it</source>
@@ -12584,14 +12616,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Scans</translation>
         </message>
         <message>
-            <source>Live pictures (Ctrl+T)</source>
-            <translation type="unfinished">Images en direct (Ctrl+T)</translation>
-        </message>
-        <message>
-            <source>All panels (Ctrl+B)</source>
-            <translation type="unfinished">Tous les panneaux (Ctrl+B)</translation>
-        </message>
-        <message>
             <source>Pull out</source>
             <translation type="unfinished">Retirez</translation>
         </message>
@@ -12918,6 +12942,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>it is an assessment of the course {course}. Sign in as a student who takes it (Sessions ▸ Sign in as a student…), or as the instructor (role, at the top right)</source>
             <translation type="unfinished">c’est une évaluation du cours {course}. Connectez-vous comme un étudiant qui la passe (Séances ▸ Se connecter comme étudiant…), ou comme formateur (rôle, en haut à droite)</translation>
+        </message>
+        <message>
+            <source>it is an assessment of the course {course}: nobody rehearses it</source>
+            <translation type="unfinished">c’est une évaluation du cours {course} : personne ne la répète</translation>
         </message>
         <message>
             <source>{x}   {y}   {z} mm</source>
@@ -17518,16 +17546,20 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Vous tenez la poignée d’un long instrument qui passe par un trocart. Déplacez la poignée vers la gauche et la pointe va vers la droite, d’autant plus loin qu’elle est profonde. Touchez les cibles numérotées l’une après l’autre : amenez la pointe sur la cible marquée et maintenez-la là jusqu’à ce que la suivante le soit. Allez tout droit à chacune ; appuyez sur Entrée après la dernière.</translation>
         </message>
         <message>
+            <source>Depth only: you begin aligned; only the depth counts, and nothing may be met that the exercise forbids.</source>
+            <translation type="unfinished">Profondeur seule : vous commencez aligné ; seule la profondeur compte, et rien de ce que l’exercice interdit ne doit être touché.</translation>
+        </message>
+        <message>
+            <source>Depth only: only the depth counts, and nothing may be met that the exercise forbids.</source>
+            <translation type="unfinished">Profondeur seule : seule la profondeur compte, et rien de ce que l’exercice interdit ne doit être touché.</translation>
+        </message>
+        <message>
             <source>Align only: it ends as the tip goes through the skin, and only the tilt there counts.</source>
             <translation type="unfinished">Alignement seul : l’essai se termine quand la pointe traverse la peau, et seule l’inclinaison à cet endroit compte.</translation>
         </message>
         <message>
-            <source>Depth only: you begin aligned, and only the depth counts.</source>
-            <translation type="unfinished">Profondeur seule : vous commencez avec l’aiguille alignée, et seule la profondeur compte.</translation>
-        </message>
-        <message>
-            <source>Breath only: push while the target is in its place, wait while it is not; nothing else counts.</source>
-            <translation type="unfinished">Respiration seule : avancez quand la cible est à sa place, attendez quand elle n’y est pas ; rien d’autre ne compte.</translation>
+            <source>Breath only: push while the target is in its place, wait while it is not. Only that counts, and nothing may be met that the exercise forbids.</source>
+            <translation type="unfinished">Respiration seule : poussez tant que la cible est à sa place, sinon attendez. Cela seul compte, et rien de ce que l’exercice interdit ne doit être touché.</translation>
         </message>
         <message>
             <source>Ten times three minutes: the whole exercise; each round ends by itself after three minutes.</source>
@@ -17586,8 +17618,8 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">✔ au repos : avancer</translation>
         </message>
         <message>
-            <source>▲ {mm:.0f} mm away: wait</source>
-            <translation type="unfinished">▲ à {mm:.0f} mm : attendre</translation>
+            <source>▲ {mm:.1f} mm away: wait</source>
+            <translation type="unfinished">▲ à {mm:.1f} mm : attendre</translation>
         </message>
         <message>
             <source>Click: this slice alone, with all that a slice can do</source>
@@ -17680,6 +17712,14 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>the needle is at rest in the hand: the attempt goes on, forces come back</source>
             <translation type="unfinished">L’aiguille est au repos dans la main : l’essai continue, les forces reviennent</translation>
+        </message>
+        <message>
+            <source>the hands at the window steer by the live needle, and {exercise_id} shows none: try it with another --script</source>
+            <translation type="unfinished">les mains à la fenêtre se guident sur l’aiguille affichée en direct, et {exercise_id} n’en montre pas : essayez avec un autre --script</translation>
+        </message>
+        <message>
+            <source>--full and --quick ask for both: leave one of them out</source>
+            <translation type="unfinished">--full et --quick demandent les deux : retirez l’un d’eux</translation>
         </message>
     </context>
 </TS>
