@@ -272,6 +272,8 @@ def _problem(problem: ErrorDetails, model: type[Strict]) -> FieldProblem:
         return FieldProblem(problem["loc"], "required and missing", missing=True)
     value = problem.get("input")
     said = problem["msg"].removeprefix("Value error, ")  # of the library, about our own words
+    if problem["type"] in ("model_type", "model_attributes_type", "dict_type"):
+        said = "should be names with values, each as `name: value`"
     text = f"{said}, got "
     if isinstance(value, dict | list) and problem["type"] == "value_error":
         text = said  # our own words name what is wrong within

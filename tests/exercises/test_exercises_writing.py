@@ -287,3 +287,8 @@ def test_probes_have_no_assistance_and_count_for_nothing() -> None:
 
 def test_without_fading_the_dial_stays() -> None:
     assert starting_dial(-0.4, None, [10.0, 99.0]).share == -0.4
+
+
+def test_a_text_that_is_no_exercise_is_told_in_words_of_a_file() -> None:
+    with pytest.raises(ConfigurationError, match=r"names with values.*got 'nonsense'"):
+        parse_text("nonsense\n", Exercise, "mine.yaml")

@@ -132,6 +132,8 @@ def main() -> int:
             wish = Wish(language, SIZES[:1], THEMES[:1], wish.only)
         some, reasons = beside(folder, wish)
         looks, broken = looks + some, broken + reasons
+    if not looks and not broken:
+        broken = [f"no state is called {' or '.join(given.only)}: nothing was judged"]
     if given.keep:
         print(f"{keep(looks, folder) / 1e6:.1f} MB are kept in {STORE.relative_to(ROOT)}")
     compare(looks, folder)
