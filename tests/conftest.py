@@ -105,7 +105,6 @@ def pytest_runtest_teardown() -> Iterator[None]:
     window has the same rule (`app.views.shell.collector`), but many tests build a page alone.
     """
     yield
-    gc.disable()  # a window that closed has given the collection back to Python
     if next(_ended) % FULL_EVERY:
         gc.collect(1)
     else:

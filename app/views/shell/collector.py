@@ -4,7 +4,8 @@ A full collection walks every object that Python knows. Compiled kernels leave h
 of them, and the walk then holds the interpreter for most of a second, on whichever thread happens
 to allocate: long enough to miss the window's sign of life to the robot. Here the young objects are
 collected on the window's thread, what stands for good is left out of the walk, and full collections
-wait until no attempt runs. Qt objects that Python lost in a cycle also die on Qt's own thread so.
+wait until no attempt runs. Qt objects that Python lost in a cycle also die on Qt's own thread so:
+Python does not get it back from a window that closes, as threads that still stop would do it.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ _YOUNG, _ALL = 1, 2
 
 
 class Collector(QObject):
-    """Takes over the collection from Python's own count of allocations, between open and close."""
+    """Takes over the collection from Python's own count of allocations, for the rest of the program."""
 
     def __init__(self, busy: Callable[[], bool], parent: QObject | None = None) -> None:
         """Collect for a window.
@@ -44,7 +45,7 @@ class Collector(QObject):
         self._timer.timeout.connect(self.collect)
 
     def open(self) -> None:
-        """Take over; what stands already, such as imported modules, is never walked again."""
+        """Take over; what stands already, such as imported modules, is not walked again."""
         gc.disable()
         gc.freeze()
         self._timer.start()
@@ -68,11 +69,8 @@ class Collector(QObject):
             gc.collect(_YOUNG)
 
     def close(self) -> None:
-        """Give the collection back to Python; idempotent."""
-        if self._timer.isActive():
-            self._timer.stop()
-            gc.unfreeze()
-            gc.enable()
+        """Collect no more: the window goes, and another one or the program's end follows."""
+        self._timer.stop()
 
 
 def collect_for(window: MainWindow) -> Collector:

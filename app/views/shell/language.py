@@ -50,7 +50,7 @@ class Rebuilding(QObject):
         self._attach(make())
 
     def close(self) -> None:
-        """Let Python collect by itself again; idempotent."""
+        """Collect no more garbage for the window: it goes."""
         self._collector.close()
 
     def _attach(self, window: MainWindow) -> None:
