@@ -57,7 +57,8 @@ def own_settings(module: str) -> None:
 
     The window is a technician's, who has all that can be shown, but on the student's way.
     """
-    role = "student" if module == "tools.student_pictures" else "technician"
+    students = ("tools.student_pictures", "tools.film_pictures")
+    role = "student" if module in students else "technician"
     with tempfile.TemporaryDirectory() as folder:
         own = {"ACUS_SETTINGS": f"{folder}/settings", "ACUS_DATA": f"{folder}/data"}
         own["ACUS_ROLE"] = role
@@ -92,6 +93,7 @@ def main() -> None:
     own_settings("tools.holder_pictures")
     own_settings("tools.debrief_pictures")
     own_settings("tools.student_pictures")
+    own_settings("tools.film_pictures")
     studies()
     drop_unshown()
 
