@@ -39,9 +39,9 @@ WORKERS ?= $(shell expr $$(nproc) + 1)
 # once more, and named at the end; what fails twice has failed.
 AGAIN := --reruns 1 --reruns-delay 2 -rR
 # A process of the tests that dies ends the run; with another in its place pytest-xdist would wait
-# for ever for the tests of the dead one's file.
+# for ever for the tests of the dead one's file. All are run once more then, and it is said.
 DEATHS := --max-worker-restart 0
-PYTEST := ./tools/with-display $(BIN)/python -m pytest -q --numprocesses $(WORKERS) --dist loadfile \
+PYTEST := ./tools/twice-if-killed ./tools/with-display $(BIN)/python -m pytest -q --numprocesses $(WORKERS) --dist loadfile \
 	--no-loadscope-reorder --durations 20 --durations-min 0.5 $(AGAIN) $(DEATHS)
 # Every process of the tests, and every program that one starts, reads what is compiled already.
 test test-long test-changed: export PYTHONDONTWRITEBYTECODE =

@@ -1,0 +1,45 @@
+"""What runs the tests once more where one of their processes died."""
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+SCRIPT = Path(__file__).resolve().parents[1] / "tools" / "twice-if-killed"
+DIED = "worker 'gw1' crashed while running 'tests/test_a.py::test_b'"
+
+
+def run(tmp_path: Path, *outcomes: tuple[str, int]) -> tuple[int, str, int]:
+    """Exit code, output and number of runs of tests that end so, one after another."""
+    for number, (text, code) in enumerate(outcomes, 1):
+        (tmp_path / f"text-{number}").write_text(text + "\n")
+        (tmp_path / f"code-{number}").write_text(str(code))
+    tests = tmp_path / "tests.sh"
+    tests.write_text(
+        "cd " + str(tmp_path) + "\n"
+        "echo run >> runs; n=$(wc -l < runs)\ncat text-$n\nexit $(cat code-$n)\n"
+    )
+    done = subprocess.run(
+        [str(SCRIPT), "bash", str(tests)], capture_output=True, text=True, check=False, timeout=60
+    )
+    return done.returncode, done.stdout, len((tmp_path / "runs").read_text().split())
+
+
+@pytest.mark.parametrize(
+    ("outcomes", "code", "runs"),
+    [
+        ([("3 passed", 0)], 0, 1),
+        ([("1 failed, 2 passed", 1)], 1, 1),
+        ([(DIED, 1), ("3 passed", 0)], 0, 2),
+        ([(DIED, 1), (DIED, 1)], 1, 2),
+        ([(DIED, 1), ("1 failed", 1)], 1, 2),
+    ],
+    ids=["passes", "fails", "dies once", "dies twice", "dies, then fails"],
+)
+def test_only_a_death_lets_the_tests_run_once_more(tmp_path, outcomes, code, runs):
+    assert run(tmp_path, *outcomes)[0::2] == (code, runs)
+
+
+def test_a_death_is_named_at_the_end(tmp_path):
+    _, output, _ = run(tmp_path, (DIED, 1), ("3 passed", 0))
+    assert output.splitlines()[-1] == f"Died in the first run: {DIED}"
