@@ -58,7 +58,8 @@ from app.views.shell.services import Services
 from app.views.shell.settings import Recents, open_settings
 from app.views.shell.shell import Shell
 from app.views.shell.shortcuts import ShortcutSheet
-from app.views.shell.start_page import StartFacts, StartPage
+from app.views.shell.start_facts import StartFacts
+from app.views.shell.start_page import StartPage
 from app.views.shell.student_side import StudentSide
 from app.views.shell.tour import Tour
 from app.views.shell.view_menu import ViewMenu
