@@ -26,7 +26,7 @@ from app.views.shell.skill_place import Advance, SkillPlace
 if TYPE_CHECKING:
     from app.session.board import Standing
 
-NARROWEST: Final = 148
+NARROWEST: Final = 132
 """Width of a place at least [px]."""
 
 FACES: Final = (72, 220)
@@ -232,14 +232,22 @@ class SkillMap(QScrollArea):
         made.show()
         return made
 
-    def _packed(self, columns: int, shelf: bool) -> list[list[tuple[_Group, int, int]]]:
-        """Return rows of parts of groups: group, its first place, its first column."""
+    def _packed(
+        self, columns: int, shelf: bool, every: bool = False
+    ) -> list[list[tuple[_Group, int, int]]]:
+        """Return rows of parts of groups: group, its first place, its first column.
+
+        Args:
+            columns: of lessons.
+            shelf: whether research machines stand beside them.
+            every: count places that a search hides as well.
+        """
         rows: list[list[tuple[_Group, int, int]]] = []
         free: list[int] = []
         for group in self._groups:
             if group.skill is Skill.MACHINE and shelf:
                 continue
-            count = len(group.shown)
+            count = len(group.places if every else group.shown)
             for first in range(0, count, columns):
                 part = min(columns, count - first)
                 split = count > columns or group.skill is Skill.MACHINE
@@ -253,10 +261,13 @@ class SkillMap(QScrollArea):
         return rows
 
     def _grid(self, room: int) -> _Grid:
-        """Return the division of a width [px] that has the largest faces, with fewest columns."""
+        """Return the division of a width [px] that has the largest faces, with fewest columns.
+
+        All places count: what a search leaves keeps its size.
+        """
         height = self.height()
         heading, fixed = self._head(), SkillPlace.above() + SkillPlace.below()
-        machines = any(g.shown for g in self._groups if g.skill is Skill.MACHINE)
+        machines = any(g.places for g in self._groups if g.skill is Skill.MACHINE)
         best: tuple[int, _Grid] | None = None
         for columns in range(2, MOST_COLUMNS + 1):
             for beside in (True, False):
@@ -264,7 +275,7 @@ class SkillMap(QScrollArea):
                 width = (room - (3 * GAP if shelf else 0)) // (columns + shelf)
                 if width < theme.px(NARROWEST):
                     continue
-                rows = max(1, len(self._packed(columns, shelf)))
+                rows = max(1, len(self._packed(columns, shelf, every=True)))
                 tall = height // rows - heading - fixed
                 face = min(width - 4 * SkillPlace.above(), tall, FACES[1])
                 if best is None or face > best[0]:
@@ -304,7 +315,7 @@ class SkillMap(QScrollArea):
                 else:
                     lines += pairwise(some)
             top += head + tall
-        if grid.beside:
+        if grid.beside and any(g.shown for g in self._groups if g.skill is Skill.MACHINE):
             shelf = self._shelve(grid, head, tall)
             top = max(top, shelf.bottom() + 1)
         self._field.draw(lines, shelf)

@@ -29,6 +29,7 @@ RING: Final = 5
 """Width of a ring [px]."""
 
 PAD: Final = 6
+EDGE: Final = 3
 NOBODY: Final = 100.0
 """Points of a full ring."""
 
@@ -78,7 +79,7 @@ class Advance:
         if self.is_mastered:
             return "✔"
         if not self.of_one:
-            return str(self.masters) if self.masters else ""
+            return f"✔ {self.masters}" if self.masters else ""
         return "1/2" if self.passes else ""
 
     def short(self) -> str:
@@ -205,7 +206,7 @@ class SkillPlace(QAbstractButton):
     def _fit(self) -> None:
         """Place title and words; a title of more than two lines ends with dots."""
         bold, small = _heights()
-        width = self.width() - 2 * theme.px(PAD)
+        width = self.width() - 2 * EDGE
         if width <= 0 or not self._disc:
             return
         metrics = QFontMetrics(theme.font_of(theme.FONT_PX, True))
@@ -216,8 +217,8 @@ class SkillPlace(QAbstractButton):
         flags = int(Qt.TextFlag.TextWordWrap)
         box = metrics.boundingRect(0, 0, width, 1000, flags, title)
         lines = 2 if box.height() > bold + 4 else 1
-        self.title.setGeometry(theme.px(PAD), top, width, lines * bold)
-        self.words.setGeometry(theme.px(PAD), top + lines * bold, width, small)
+        self.title.setGeometry(EDGE, top, width, lines * bold)
+        self.words.setGeometry(EDGE, top + lines * bold, width, small)
 
     # --- events -------------------------------------------------------------------------------
     def resizeEvent(self, event: QEvent) -> None:

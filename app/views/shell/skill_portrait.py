@@ -85,7 +85,8 @@ def paint_face(
     length = math.hypot(entry[right] - target[right], entry[down] - target[down])
     seen = min(max(PATHS * length, SEEN_MM[0]), SEEN_MM[1])
     scale = min(box.width(), box.height()) / (around * seen)
-    middle = tuple(0.5 * (a + b) for a, b in zip(target, entry, strict=True))
+    share = 0.5 / around  # the wider the section, the more of it is the patient's inside
+    middle = tuple(t + share * (e - t) for t, e in zip(target, entry, strict=True))
     x, y = portrait.place(name, middle)
     whole = QRectF(0.0, 0.0, scale * wide, scale * tall)
     whole.moveTopLeft(box.center() - QPointF(x * whole.width(), y * whole.height()))

@@ -151,7 +151,9 @@ def asker(name: str) -> Asker:
     if student is not None:
         return Asker(ACCESS.may_see, _of(NAMES.shown(student.pseudonym)), True)
     if ACCESS.role is not Role.STUDENT:
-        return Asker(ACCESS.may_see, tr("Rings: the best of everybody at this station."), False)
+        return Asker(
+            ACCESS.may_see, tr("Rings: the best points of everybody at this station."), False
+        )
     recorded = pseudonym(name)
 
     def is_own(one: str) -> bool:
@@ -162,7 +164,7 @@ def asker(name: str) -> Asker:
     if ACCESS.has_students:
         words = tr("Sign in as a student to see what you have done.")
     else:
-        words = tr("Rings: what was done here without a name.")
+        words = tr("Rings: best points without a name. ✔: passed twice in a row.")
     return Asker(is_own, words, True)
 
 

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from PySide6.QtCore import QRectF, QRegularExpression, QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QRectF, QRegularExpression, QSize, Qt, Signal
 from PySide6.QtGui import (
     QColor,
     QFontMetrics,
@@ -25,6 +25,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import (
     QFrame,
+    QGridLayout,
     QHBoxLayout,
     QLineEdit,
     QListWidget,
@@ -50,7 +51,9 @@ from app.views.shell.skill_portrait import paint_face
 if TYPE_CHECKING:
     from app.session.board import Standing
 
-CARD_WIDTH: Final = 320
+CARD: Final = (320, 0.235, 460)
+"""Width of what stands beside the map: least [px], share of the page, most [px]."""
+
 SEARCH_WIDTH: Final = 240
 PICTURE: Final = (110, 360)
 """Least and largest height of the picture of what comes next [px]."""
@@ -176,7 +179,26 @@ class StartPage(QWidget):
         super().showEvent(event)
         self.begin.setFocus()
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Share the width between card and map."""
+        super().resizeEvent(event)
+        self._share()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Share it anew where the text has another size."""
+        super().changeEvent(event)
+        if event.type() is QEvent.Type.StyleChange:
+            self._share()
+
     # --- inside -------------------------------------------------------------------------------
+    def _share(self) -> None:
+        least, share, most = CARD
+        larger = theme.scale() ** 0.5
+        width = min(max(least * larger, share * self.width()), most * larger)
+        if round(width) != self.card.width():
+            self.card.setFixedWidth(round(width))
+        self._write_about()
+
     def _answer(self, wanted: bool) -> None:
         self.offer_tour(False)
         self.tour_wanted.emit(wanted)
@@ -199,7 +221,7 @@ class StartPage(QWidget):
         if place is None:
             return
         metrics = QFontMetrics(theme.font_of(theme.SMALL_PX))
-        width = theme.px(CARD_WIDTH) - 2 * theme.MARGIN - 2
+        width = self.card.width() - 2 * theme.MARGIN - 2
         whole = declared(place.exercise.description)
         text = fitting(whole, metrics, width, ABOUT_LINES)
         self.about.setText(text)
@@ -240,15 +262,14 @@ class StartPage(QWidget):
         head.addStretch(1)
         self.search.setFixedWidth(SEARCH_WIDTH)
         head.addWidget(self.search, 0, Qt.AlignmentFlag.AlignBottom)
-        first = QVBoxLayout(self.offer)
+        self.offer.setProperty("role", "clear")
+        first = QGridLayout(self.offer)
         first.setContentsMargins(0, 0, 0, 0)
         first.setSpacing(theme.SPACING)
-        first.addWidget(PlainLabel(tr("First time here?"), self.offer))
-        answers = QHBoxLayout()
-        answers.setSpacing(theme.SPACING)
-        answers.addWidget(self.tour, 1)
-        answers.addWidget(self.no_tour)
-        first.addLayout(answers)
+        first.addWidget(PlainLabel(tr("First time here?"), self.offer), 0, 0)
+        first.addWidget(self.no_tour, 0, 1)
+        first.addWidget(self.tour, 1, 0, 1, 2)
+        first.setColumnStretch(0, 1)
         lessons = QVBoxLayout()
         lessons.setSpacing(theme.SPACING)
         lessons.addWidget(self.hint)
@@ -267,6 +288,7 @@ class StartPage(QWidget):
     def _card(self) -> QFrame:
         """Return what stands beside the map: picture and button of what comes next, who, CTs."""
         self.own = QWidget(self)
+        self.own.setProperty("role", "clear")
         own = QVBoxLayout(self.own)
         own.setContentsMargins(0, theme.SPACING, 0, 0)
         heading = PlainLabel(tr("Your own CT"))
@@ -275,11 +297,11 @@ class StartPage(QWidget):
         own.addWidget(self.recents, 1)
         self.card = QFrame(self)
         self.card.setProperty("role", "panel")
-        self.card.setFixedWidth(CARD_WIDTH)
         column = QVBoxLayout(self.card)
         column.setContentsMargins(theme.MARGIN, theme.MARGIN, theme.MARGIN, theme.MARGIN)
         column.setSpacing(theme.SPACING)
-        for widget in (self.picture, self.begin, self.about):
+        column.addWidget(self.picture, 2)  # it takes what the others leave
+        for widget in (self.begin, self.about):
             column.addWidget(widget)
         column.addWidget(self.own, 1)
         column.addStretch()
@@ -320,8 +342,9 @@ class BigButton(QPushButton):
 
     def sizeHint(self) -> QSize:
         """Return two lines with air."""
-        tall = self.verb.sizeHint().height() + self.name.sizeHint().height()
-        return QSize(theme.px(160), tall + 2 * theme.MARGIN)
+        verb = QFontMetrics(theme.font_of(theme.TITLE_PX, True)).height()
+        name = QFontMetrics(theme.font_of(theme.FONT_PX, True)).height()
+        return QSize(theme.px(160), verb + name + 2 * theme.MARGIN)
 
     def minimumSizeHint(self) -> QSize:
         """Return the same: a long title gives way."""
@@ -331,6 +354,12 @@ class BigButton(QPushButton):
         """Show more or less of the title."""
         super().resizeEvent(event)
         self._fit()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Take another height where the text has another size."""
+        super().changeEvent(event)
+        if event.type() is QEvent.Type.StyleChange:
+            self.updateGeometry()
 
     def _fit(self) -> None:
         room = max(self.width() - 3 * theme.MARGIN, theme.px(80))
@@ -353,8 +382,8 @@ class NextPicture(QWidget):
         self.setMaximumHeight(PICTURE[1])
 
     def sizeHint(self) -> QSize:
-        """Return what it takes where there is room."""
-        return QSize(CARD_WIDTH, PICTURE[1])
+        """Return the least: its place in the layout gives it more."""
+        return QSize(CARD[0], PICTURE[0])
 
     def show_exercise(self, exercise: Exercise | None, portrait: Portrait | None) -> None:
         """Show the patient of an exercise; nothing without one."""
