@@ -58,8 +58,8 @@ def done(exercise, passed, verdict="unsigned"):
     known = Conditions(exercise, 1, kind=DeviceKind.SIMULATED, scoring_version=2)
     total = 90.0 if passed else 40.0
     return Indexed(
-        f"{exercise}-{passed}", "2026-11-20T10:00:00+00:00", "ada", exercise, version, "ended", 30.0,
-        total, passed, verdict, True, json.dumps(known.document()), "{}",
+        f"{exercise}-{passed}", "2026-11-20T10:00:00+00:00", "ada", exercise, version, "ended",
+        30.0, total, passed, verdict, True, json.dumps(known.document()), "{}",
     )  # fmt: skip
 
 

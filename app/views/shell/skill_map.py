@@ -154,7 +154,7 @@ class SkillMap(QScrollArea):
             group.places.sort(key=lambda one: (one.number == 0, one.number, one.exercise.level))
         self._arrange()
 
-    def find(self, words: Sequence[str]) -> list[str]:
+    def narrow(self, words: Sequence[str]) -> list[str]:
         """Show the exercises alone whose title or description holds every word; return their ids.
 
         Args:
@@ -182,37 +182,20 @@ class SkillMap(QScrollArea):
         self._current = place
 
     def _move(self, right: int, down: int) -> None:
-        """Go to the nearest place in a direction; at the end of a line to the next one."""
+        """Go on or back in the order of skills and levels, or to the nearest place in a column."""
         here = self.sender()
-        if not isinstance(here, SkillPlace):
+        order = [place for group in self._groups for place in group.shown]
+        if not isinstance(here, SkillPlace) or here not in order:
             return
-        at = here.geometry().center()
-        others = [one for one in self.places.values() if not one.isHidden() and one is not here]
-
-        def cost(one: SkillPlace) -> float | None:
-            off = one.geometry().center() - at
-            along = right * off.x() + down * off.y()
-            across = abs(down * off.x()) + abs(right * off.y())
-            reach = 0.5 * (one.height() if right else one.width())
-            if along <= 0 or (right and across > reach):
-                return None
-            return along + 2.0 * across
-
-        costs = [(value, one) for one in others if (value := cost(one)) is not None]
-        if costs:
-            there = min(costs, key=lambda pair: pair[0])[1]
-        elif right:
-            order = [*others, here]
-            order.sort(key=lambda one: (one.y(), one.x()))
-            step = order.index(here) + right
-            if not 0 <= step < len(order):
-                return
-            there = order[step]
+        if right:
+            number = order.index(here) + right
+            there = order[number] if 0 <= number < len(order) else None
         else:
-            return
-        self._enter(there)
-        there.setFocus(Qt.FocusReason.OtherFocusReason)
-        self.ensureWidgetVisible(there, 0, GAP)
+            there = _nearest(here, order, down)
+        if there is not None:
+            self._enter(there)
+            there.setFocus(Qt.FocusReason.OtherFocusReason)
+            self.ensureWidgetVisible(there, 0, GAP)
 
     # --- places -------------------------------------------------------------------------------
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -331,6 +314,18 @@ class SkillMap(QScrollArea):
             place.setGeometry(left, head + n * tall, grid.width, tall)
             place.set_disc(grid.face)
         return QRect(left, 0, grid.width, head + len(group.shown) * tall)
+
+
+def _nearest(here: SkillPlace, others: Sequence[SkillPlace], down: int) -> SkillPlace | None:
+    """Return the nearest place below (1) or above (-1) one; None where there is none."""
+    at = here.geometry().center()
+    offs = [(one.geometry().center() - at, one) for one in others]
+    costs = [
+        (abs(off.y()) + 2 * abs(off.x()), one)
+        for off, one in offs
+        if down * off.y() >= here.height() // 2
+    ]
+    return min(costs, key=lambda pair: pair[0])[1] if costs else None
 
 
 def _write(group: _Group, box: QRect) -> None:

@@ -31,7 +31,7 @@ Place = Callable[[tuple[float, ...]], QPointF]
 
 
 def plane_of(exercise: Exercise) -> str:
-    """Return the slice that shows an exercise's task: motion and gaps from the front or the side."""
+    """Return the slice that shows an exercise's task: motion from the front, gaps from the side."""
     if exercise.guidance_mode is GuidanceMode.CONTROL_CT:
         return "sagittal"
     match skill_of(exercise):

@@ -229,7 +229,7 @@ class StartPage(QWidget):
 
     def _find(self) -> None:
         """Show the exercises whose title or description holds every word that is searched."""
-        found = self.map.find(self.search.text().casefold().split())
+        found = self.map.narrow(self.search.text().casefold().split())
         self.hint.setVisible(not found)
         self.hint.setText(
             tr("No exercise holds these words: clear the search to see all.")
@@ -244,7 +244,7 @@ class StartPage(QWidget):
     def _begin_first(self) -> None:
         """Begin the first exercise that the search shows."""
         words = self.search.text().casefold().split()
-        found = self.map.find(words) if words else []
+        found = self.map.narrow(words) if words else []
         if found:
             self.exercise_chosen.emit(found[0])
 
@@ -301,8 +301,8 @@ class StartPage(QWidget):
         column.setContentsMargins(theme.MARGIN, theme.MARGIN, theme.MARGIN, theme.MARGIN)
         column.setSpacing(theme.SPACING)
         column.addWidget(self.picture, 2)  # it takes what the others leave
-        for widget in (self.begin, self.about):
-            column.addWidget(widget)
+        column.addWidget(self.begin)
+        column.addWidget(self.about)
         column.addWidget(self.own, 1)
         column.addStretch()
         for widget in (self.offer, self.who, self.whose):
@@ -344,7 +344,7 @@ class BigButton(QPushButton):
         """Return two lines with air."""
         verb = QFontMetrics(theme.font_of(theme.TITLE_PX, True)).height()
         name = QFontMetrics(theme.font_of(theme.FONT_PX, True)).height()
-        return QSize(theme.px(160), verb + name + 2 * theme.MARGIN)
+        return QSize(theme.px(160), verb + name + 2 * theme.px(theme.MARGIN))
 
     def minimumSizeHint(self) -> QSize:
         """Return the same: a long title gives way."""

@@ -489,6 +489,7 @@ class MainWindow(QMainWindow):
     def showEvent(self, event: QShowEvent) -> None:
         """Begin to load what an exercise needs, behind the window."""
         super().showEvent(event)
+        self.start_facts.show_kept()  # tens of milliseconds: no place is ever without its face
         QTimer.singleShot(PAINTED_MS, self.runs.prepare)
         QTimer.singleShot(PAINTED_MS, self.start_facts.begin)
         debrief = self.feature(DebriefFeature)
