@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TYPE_CHECKING, Final
 
-from PySide6.QtCore import QPoint, QRect, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QPoint, QRect, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QFrame, QScrollArea, QSizePolicy, QWidget
 
@@ -203,10 +203,10 @@ class SkillMap(QScrollArea):
         super().resizeEvent(event)
         self._arrange()
 
-    def changeEvent(self, event: object) -> None:
+    def changeEvent(self, event: QEvent) -> None:
         """Place everything anew where the size of the text changed."""
-        super().changeEvent(event)  # type: ignore[arg-type]
-        if self._groups:
+        super().changeEvent(event)
+        if event.type() is QEvent.Type.StyleChange:
             self._arrange()
 
     def _heading(self, skill: Skill) -> PlainLabel:

@@ -156,8 +156,8 @@ def asker(name: str) -> Asker:
         )
     recorded = pseudonym(name)
 
-    def is_own(one: str) -> bool:
-        return one == recorded and ACCESS.may_see(one)
+    def is_own(student: str) -> bool:
+        return student == recorded and ACCESS.may_see(student)
 
     if name:
         return Asker(is_own, _of(NAMES.shown(name)), True)
