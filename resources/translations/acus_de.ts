@@ -16026,10 +16026,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">CTs, die Sie öffnen, stehen dann hier: Datei ▸ CT-Ordner öffnen…</translation>
         </message>
         <message>
-            <source>any name: your progress is kept under it</source>
-            <translation type="unfinished">beliebiger Name: Ihr Fortschritt wird darunter gespeichert</translation>
-        </message>
-        <message>
             <source>Your name</source>
             <translation type="unfinished">Ihr Name</translation>
         </message>
@@ -17742,14 +17738,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Ringe: die besten Punkte aller an dieser Station.</translation>
         </message>
         <message>
-            <source>Rings: best points without a name. ✔: passed twice in a row.</source>
-            <translation type="unfinished">Ringe: beste Punkte ohne Namen. ✔: zweimal nacheinander bestanden.</translation>
-        </message>
-        <message>
-            <source>Rings: best points of {name}. ✔: passed twice in a row.</source>
-            <translation type="unfinished">Ringe: beste Punkte von {name}. ✔: zweimal nacheinander bestanden.</translation>
-        </message>
-        <message>
             <source>Every exercise has its patient: a CT and, mostly, a planned path from the entry on the skin to the target. Enter begins: first a briefing, then the attempt. In each skill difficulty rises from left to right; a ring shows how far you have come.</source>
             <translation type="unfinished">Jede Übung hat ihren Patienten: ein CT und meist einen geplanten Pfad vom Einstichpunkt auf der Haut zum Ziel. Eingabe beginnt: zuerst eine Einweisung, dann der Versuch. Bei jeder Fertigkeit nimmt die Schwierigkeit von links nach rechts zu; ein Ring zeigt, wie weit Sie gekommen sind.</translation>
         </message>
@@ -17772,6 +17760,22 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
         <message>
             <source>Research machines</source>
             <translation type="unfinished">Forschungsgeräte</translation>
+        </message>
+        <message>
+            <source>a name of your choice</source>
+            <translation type="unfinished">ein Name Ihrer Wahl</translation>
+        </message>
+        <message>
+            <source>Rings: best points without a name.
+✔: passed twice in a row.</source>
+            <translation type="unfinished">Ringe: beste Punkte ohne Namen.
+✔: zweimal nacheinander bestanden.</translation>
+        </message>
+        <message>
+            <source>Rings: best points of {name}.
+✔: passed twice in a row.</source>
+            <translation type="unfinished">Ringe: beste Punkte von {name}.
+✔: zweimal nacheinander bestanden.</translation>
         </message>
     </context>
 </TS>

@@ -16026,10 +16026,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Les CT que vous ouvrez apparaissent ici : Fichier ▸ Ouvrir un dossier CT…</translation>
         </message>
         <message>
-            <source>any name: your progress is kept under it</source>
-            <translation type="unfinished">n’importe quel nom : vos progrès y sont conservés</translation>
-        </message>
-        <message>
             <source>Your name</source>
             <translation type="unfinished">Votre nom</translation>
         </message>
@@ -17742,14 +17738,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Anneaux : les meilleurs points de tous à ce poste.</translation>
         </message>
         <message>
-            <source>Rings: best points without a name. ✔: passed twice in a row.</source>
-            <translation type="unfinished">Anneaux : meilleurs points sans nom. ✔ : réussi deux fois de suite.</translation>
-        </message>
-        <message>
-            <source>Rings: best points of {name}. ✔: passed twice in a row.</source>
-            <translation type="unfinished">Anneaux : meilleurs points de {name}. ✔ : réussi deux fois de suite.</translation>
-        </message>
-        <message>
             <source>Every exercise has its patient: a CT and, mostly, a planned path from the entry on the skin to the target. Enter begins: first a briefing, then the attempt. In each skill difficulty rises from left to right; a ring shows how far you have come.</source>
             <translation type="unfinished">Chaque exercice a son patient : un CT et, le plus souvent, une trajectoire planifiée du point d’entrée sur la peau à la cible. Entrée commence : d’abord les consignes, puis l’essai. Pour chaque compétence, la difficulté augmente de gauche à droite ; un anneau montre où vous en êtes.</translation>
         </message>
@@ -17772,6 +17760,22 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         <message>
             <source>Research machines</source>
             <translation type="unfinished">Machines de recherche</translation>
+        </message>
+        <message>
+            <source>a name of your choice</source>
+            <translation type="unfinished">un nom de votre choix</translation>
+        </message>
+        <message>
+            <source>Rings: best points without a name.
+✔: passed twice in a row.</source>
+            <translation type="unfinished">Anneaux : meilleurs points sans nom.
+✔ : réussi deux fois de suite.</translation>
+        </message>
+        <message>
+            <source>Rings: best points of {name}.
+✔: passed twice in a row.</source>
+            <translation type="unfinished">Anneaux : meilleurs points de {name}.
+✔ : réussi deux fois de suite.</translation>
         </message>
     </context>
 </TS>

@@ -299,16 +299,16 @@ class SkillMap(QScrollArea):
                     lines += pairwise(some)
             top += head + tall
         if grid.beside and any(g.shown for g in self._groups if g.skill is Skill.MACHINE):
-            shelf = self._shelve(grid, head, tall)
+            shelf = self._shelve(grid, room, head, tall)
             top = max(top, shelf.bottom() + 1)
         self._field.draw(lines, shelf)
         self._field.setFixedSize(room, max(top, 1))
         return top
 
-    def _shelve(self, grid: _Grid, head: int, tall: int) -> QRect:
-        """Stand the research machines one below the other, beside the lessons."""
+    def _shelve(self, grid: _Grid, room: int, head: int, tall: int) -> QRect:
+        """Stand the research machines one below the other, at the right of the lessons."""
         group = next(one for one in self._groups if one.skill is Skill.MACHINE)
-        left = grid.columns * grid.width + 2 * GAP
+        left = room - grid.width
         _write(group, QRect(left + GAP, 0, grid.width - 2 * GAP, head))
         for n, place in enumerate(group.shown):
             place.setGeometry(left, head + n * tall, grid.width, tall)

@@ -126,7 +126,7 @@ class SkillPlace(QAbstractButton):
         self.progress, self.is_next, self.number = Advance(), False, 0
         self.portrait: Portrait | None = None
         self._face: tuple[tuple[object, ...], QPixmap] | None = None
-        self._disc = 0
+        self._disc, self._said = 0, ""
         self.title, self.words = PlainLabel(self), PlainLabel(self)
         centre = Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop
         for label in (self.title, self.words):
@@ -170,7 +170,7 @@ class SkillPlace(QAbstractButton):
         first = (
             tr("No. {n} of the course", n=number) if number else tr("Level {n}", n=exercise.level)
         )
-        self.words.setText("  ·  ".join(filter(None, (first, done.short()))))
+        self._said = "  ·  ".join(filter(None, (first, done.short())))
         said = [declared(exercise.title), level_words(exercise.level), done.whole()]
         if is_next:
             said.insert(1, tr("next"))
@@ -218,6 +218,10 @@ class SkillPlace(QAbstractButton):
         box = metrics.boundingRect(0, 0, width, 1000, flags, title)
         lines = 2 if box.height() > bold + 4 else 1
         self.title.setGeometry(EDGE, top, width, lines * bold)
+        side = Qt.TextElideMode.ElideRight
+        metrics = QFontMetrics(theme.font_of(theme.SMALL_PX))
+        self.words.setText(metrics.elidedText(self._said, side, width))
+        self.words.setToolTip(literal(self._said) if self.words.text() != self._said else "")
         self.words.setGeometry(EDGE, top + lines * bold, width, small)
 
     # --- events -------------------------------------------------------------------------------

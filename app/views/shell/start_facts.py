@@ -164,9 +164,9 @@ def asker(name: str) -> Asker:
     if ACCESS.has_students:
         words = tr("Sign in as a student to see what you have done.")
     else:
-        words = tr("Rings: best points without a name. ✔: passed twice in a row.")
+        words = tr("Rings: best points without a name.\n✔: passed twice in a row.")
     return Asker(is_own, words, True)
 
 
 def _of(name: str) -> str:
-    return tr("Rings: best points of {name}. ✔: passed twice in a row.", name=name)
+    return tr("Rings: best points of {name}.\n✔: passed twice in a row.", name=name)

@@ -412,7 +412,7 @@ class NameLine(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.line = QLineEdit(self)
-        self.line.setPlaceholderText(tr("any name: your progress is kept under it"))
+        self.line.setPlaceholderText(tr("a name of your choice"))
         self.line.setAccessibleName(tr("Your name"))
         self.line.setValidator(
             QRegularExpressionValidator(QRegularExpression(f"^{PSEUDONYM}$"), self.line)
