@@ -17734,10 +17734,6 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
             <translation type="unfinished">Jetzt steht Ihnen keine Übung offen.</translation>
         </message>
         <message>
-            <source>Rings: the best points of everybody at this station.</source>
-            <translation type="unfinished">Ringe: die besten Punkte aller an dieser Station.</translation>
-        </message>
-        <message>
             <source>Every exercise has its patient: a CT and, mostly, a planned path from the entry on the skin to the target. Enter begins: first a briefing, then the attempt. In each skill difficulty rises from left to right; a ring shows how far you have come.</source>
             <translation type="unfinished">Jede Übung hat ihren Patienten: ein CT und meist einen geplanten Pfad vom Einstichpunkt auf der Haut zum Ziel. Eingabe beginnt: zuerst eine Einweisung, dann der Versuch. Bei jeder Fertigkeit nimmt die Schwierigkeit von links nach rechts zu; ein Ring zeigt, wie weit Sie gekommen sind.</translation>
         </message>
@@ -17776,6 +17772,10 @@ Stellen Sie Tisch und Schichten ein und drücken Sie dann das Pedal (S).</transl
 ✔: passed twice in a row.</source>
             <translation type="unfinished">Ringe: beste Punkte von {name}.
 ✔: zweimal nacheinander bestanden.</translation>
+        </message>
+        <message>
+            <source>Rings: everybody's best here.</source>
+            <translation type="unfinished">Ringe: Bestwerte aller hier.</translation>
         </message>
     </context>
 </TS>

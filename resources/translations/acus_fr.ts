@@ -17734,10 +17734,6 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
             <translation type="unfinished">Aucun exercice ne vous est ouvert pour l’instant.</translation>
         </message>
         <message>
-            <source>Rings: the best points of everybody at this station.</source>
-            <translation type="unfinished">Anneaux : les meilleurs points de tous à ce poste.</translation>
-        </message>
-        <message>
             <source>Every exercise has its patient: a CT and, mostly, a planned path from the entry on the skin to the target. Enter begins: first a briefing, then the attempt. In each skill difficulty rises from left to right; a ring shows how far you have come.</source>
             <translation type="unfinished">Chaque exercice a son patient : un CT et, le plus souvent, une trajectoire planifiée du point d’entrée sur la peau à la cible. Entrée commence : d’abord les consignes, puis l’essai. Pour chaque compétence, la difficulté augmente de gauche à droite ; un anneau montre où vous en êtes.</translation>
         </message>
@@ -17751,7 +17747,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Past what must not be met</source>
-            <translation type="unfinished">À l’écart de ce qu'il faut éviter</translation>
+            <translation type="unfinished">À l’écart de ce qu’il faut éviter</translation>
         </message>
         <message>
             <source>Plan and control</source>
@@ -17759,7 +17755,7 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
         </message>
         <message>
             <source>Research machines</source>
-            <translation type="unfinished">Machines de recherche</translation>
+            <translation type="unfinished">Pour la recherche</translation>
         </message>
         <message>
             <source>a name of your choice</source>
@@ -17776,6 +17772,10 @@ Réglez table et coupes, puis appuyez sur la pédale (S).</translation>
 ✔: passed twice in a row.</source>
             <translation type="unfinished">Anneaux : meilleurs points de {name}.
 ✔ : réussi deux fois de suite.</translation>
+        </message>
+        <message>
+            <source>Rings: everybody's best here.</source>
+            <translation type="unfinished">Anneaux : les meilleurs de tous ici.</translation>
         </message>
     </context>
 </TS>

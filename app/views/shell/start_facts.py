@@ -151,9 +151,7 @@ def asker(name: str) -> Asker:
     if student is not None:
         return Asker(ACCESS.may_see, _of(NAMES.shown(student.pseudonym)), True)
     if ACCESS.role is not Role.STUDENT:
-        return Asker(
-            ACCESS.may_see, tr("Rings: the best points of everybody at this station."), False
-        )
+        return Asker(ACCESS.may_see, tr("Rings: everybody's best here."), False)
     recorded = pseudonym(name)
 
     def is_own(student: str) -> bool:
