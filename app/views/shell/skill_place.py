@@ -96,16 +96,16 @@ class Advance:
         """Say all of it."""
         if not self.attempts:
             return tr("not begun")
-        said = [tr("done {n}", n=self.attempts)]
+        parts = [tr("done {n}", n=self.attempts)]
         if self.best is not None:
-            said.append(tr("best {points} of 100", points=f"{self.best:.0f}"))
+            parts.append(tr("best {points} of 100", points=f"{self.best:.0f}"))
         if not self.of_one:
-            said.append(tr("mastered by {n}", n=self.masters))
+            parts.append(tr("mastered by {n}", n=self.masters))
         elif self.is_mastered:
-            said.append(tr("mastered: passed twice in a row"))
+            parts.append(tr("mastered: passed twice in a row"))
         elif self.passes:
-            said.append(tr("passed once: one more pass in a row masters it"))
-        return ", ".join(said)
+            parts.append(tr("passed once: one more pass in a row masters it"))
+        return ", ".join(parts)
 
     def _best(self) -> str:
         return "" if self.best is None else tr("best {points}", points=f"{self.best:.0f}")
@@ -126,7 +126,7 @@ class SkillPlace(QAbstractButton):
         self.progress, self.is_next, self.number = Advance(), False, 0
         self.portrait: Portrait | None = None
         self._face: tuple[tuple[object, ...], QPixmap] | None = None
-        self._disc, self._said = 0, ""
+        self._disc, self._line = 0, ""
         self.title, self.words = PlainLabel(self), PlainLabel(self)
         centre = Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop
         for label in (self.title, self.words):
@@ -170,13 +170,13 @@ class SkillPlace(QAbstractButton):
         first = (
             tr("No. {n} of the course", n=number) if number else tr("Level {n}", n=exercise.level)
         )
-        self._said = "  ·  ".join(filter(None, (first, done.short())))
-        said = [declared(exercise.title), level_words(exercise.level), done.whole()]
+        self._line = "  ·  ".join(filter(None, (first, done.short())))
+        parts = [declared(exercise.title), level_words(exercise.level), done.whole()]
         if is_next:
-            said.insert(1, tr("next"))
-        self.setAccessibleName(", ".join(said))
+            parts.insert(1, tr("next"))
+        self.setAccessibleName(", ".join(parts))
         self.setAccessibleDescription(declared(exercise.description))
-        tip = (declared(exercise.title), ", ".join(said[1:]), declared(exercise.description))
+        tip = (declared(exercise.title), ", ".join(parts[1:]), declared(exercise.description))
         self.setToolTip(literal("\n\n".join(tip)))
         self._fit()
         self.update()
@@ -220,8 +220,8 @@ class SkillPlace(QAbstractButton):
         self.title.setGeometry(EDGE, top, width, lines * bold)
         side = Qt.TextElideMode.ElideRight
         metrics = QFontMetrics(theme.font_of(theme.SMALL_PX))
-        self.words.setText(metrics.elidedText(self._said, side, width))
-        self.words.setToolTip(literal(self._said) if self.words.text() != self._said else "")
+        self.words.setText(metrics.elidedText(self._line, side, width))
+        self.words.setToolTip(literal(self._line) if self.words.text() != self._line else "")
         self.words.setGeometry(EDGE, top + lines * bold, width, small)
 
     # --- events -------------------------------------------------------------------------------
